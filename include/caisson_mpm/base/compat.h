@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Everything that differs between deal.II 9.4 (Debian 12) and 9.6 (Debian 13).
+#ifndef caisson_mpm_base_compat_h
+#define caisson_mpm_base_compat_h
+
+#include <deal.II/base/config.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/index_set.h>
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_tools.h>
+
+namespace CaissonMPM
+{
+  namespace Compat
+  {
+    inline dealii::IndexSet
+    locally_relevant_dofs(const dealii::DoFHandler<2> &dof_handler)
+    {
+#if DEAL_II_VERSION_GTE(9, 5, 0)
+      return dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
+#else
+      dealii::IndexSet result;
+      dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, result);
+      return result;
+#endif
+    }
+
+    /** VTU flags with the fastest compression: the default is the slowest. */
+    inline dealii::DataOutBase::VtkFlags
+    vtk_flags(const double time)
+    {
+      dealii::DataOutBase::VtkFlags flags;
+      flags.time = time;
+#if DEAL_II_VERSION_GTE(9, 5, 0)
+      flags.compression_level =
+        dealii::DataOutBase::CompressionLevel::best_speed;
+#else
+      flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
+#endif
+      return flags;
+    }
+  } // namespace Compat
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the program prints while it runs.
+#ifndef caisson_mpm_base_console_h
+#define caisson_mpm_base_console_h
+
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** One line of progress. SI units; forces on the whole circumference. */
+  struct RecordLine
+  {
+    double time = 0.;
+    /** Whether there is a body, i.e. penetration and forces; otherwise the
+     * time, the kinetic energy and the largest speed are shown. */
+    bool   has_body       = false;
+    double penetration    = 0.;
+    double tip            = 0.;
+    double inner          = 0.;
+    double outer          = 0.;
+    double total          = 0.;
+    double kinetic_energy = 0.;
+    double max_speed      = 0.;
+    /** Of the whole run, from 0 to 1. */
+    double fraction_done          = 0.;
+    double eta_seconds            = 0.;
+    double point_steps_per_second = 0.;
+  };
+
+  /** One row of the table of times. */
+  struct TableRow
+  {
+    std::string name;
+    double      seconds;
+    double      percent;
+  };
+
+  /**
+   * All printing of the program, to one stream that is flushed after each
+   * call. With Verbosity::plain nothing appears that depends on time, path or
+   * version, and numbers have six significant digits, so that the output of
+   * two runs can be compared. In parallel, all ranks but one are silent.
+   */
+  class Console
+  {
+  public:
+    enum class Verbosity
+    {
+      silent,
+      plain,
+      full
+    };
+
+    using Lines = std::vector<std::pair<std::string, std::string>>;
+
+    /** The stream must outlive the console. */
+    explicit Console(const Verbosity verbosity, std::ostream &out = std::cout);
+
+    /** What the run depends on: version, machine, paths. Only full. */
+    void
+    header(const Lines &lines);
+
+    /** What the scene consists of: cells, material points. Full and plain. */
+    void
+    summary(const Lines &lines);
+
+    /** Progress; without remaining time and speed in plain. */
+    void
+    record(const RecordLine &line);
+
+    /** Times at the end. Only full. */
+    void
+    table(const std::string &title, const std::vector<TableRow> &rows);
+
+    void
+    message(const std::string &text);
+
+    void
+    warning(const std::string &text);
+
+    Verbosity
+    get_verbosity() const;
+
+  private:
+    void
+    print(const std::string &text);
+
+    const Verbosity verbosity;
+    std::ostream   &out;
+  };
+} // namespace CaissonMPM
+
+#endif

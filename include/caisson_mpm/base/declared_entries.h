@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The entries that have been declared in a ParameterHandler, as a list that
+// can be searched and printed. The handler itself keeps them private, so they
+// are taken from its XML output.
+#ifndef caisson_mpm_base_declared_entries_h
+#define caisson_mpm_base_declared_entries_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** One entry; its path is "Section/Sub/Entry". */
+  struct DeclaredEntry
+  {
+    std::vector<std::string> subsections;
+    std::string              name;
+    std::string              path;
+    std::string              value;
+    std::string              default_value;
+    std::string              documentation;
+    /** As Patterns::PatternBase::description() writes it. */
+    std::string pattern;
+    /** The path of the entry that this is another name of, else empty. */
+    std::string alias_of;
+    /** Whether this other name is an old one that should be replaced. */
+    bool is_deprecated = false;
+  };
+
+  /**
+   * All declared entries, in the order of declaration, and all subsections.
+   * A snapshot: values that are set later are not seen.
+   *
+   * @code
+   * const DeclaredEntries entries(prm);
+   * if (const DeclaredEntry *entry = entries.find("Soil/Density"))
+   *   std::cout << entry->documentation;
+   * @endcode
+   */
+  class DeclaredEntries
+  {
+  public:
+    explicit DeclaredEntries(const dealii::ParameterHandler &prm);
+
+    /** The entry of this path, or a null pointer. */
+    const DeclaredEntry *
+    find(const std::string &path) const;
+
+    bool
+    has_subsection(const std::string &path) const;
+
+    /** The paths of all entries (without aliases). */
+    std::vector<std::string>
+    entry_paths() const;
+
+    std::vector<std::string>
+    subsection_paths() const;
+
+    const std::vector<DeclaredEntry> &
+    all() const;
+
+  private:
+    std::vector<DeclaredEntry>         entries;
+    std::map<std::string, std::size_t> index;
+    std::set<std::string>              subsections;
+  };
+
+  /**
+   * The values that a pattern accepts, in words: "a number from 0 to 90" for
+   * "[Double 0...90 (inclusive)]".
+   */
+  std::string
+  allowed_values(const std::string &pattern);
+
+  /**
+   * All entries with their documentation, the values allowed, the default
+   * and the value in effect, in the order of declaration. The text can be
+   * read again as a parameter file.
+   */
+  std::string
+  describe_parameters(const dealii::ParameterHandler &prm);
+} // namespace CaissonMPM
+
+#endif

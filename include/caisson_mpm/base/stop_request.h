@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Requests to end a run early but in order, with a checkpoint: signals, a
+// limit on the wall time, and a file that the user creates.
+#ifndef caisson_mpm_base_stop_request_h
+#define caisson_mpm_base_stop_request_h
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <chrono>
+#include <csignal>
+#include <string>
+
+namespace CaissonMPM
+{
+  /**
+   * Tells the time loop when it has been asked to stop.
+   *
+   * From arm() to the destructor SIGINT and SIGTERM are caught; a second
+   * SIGINT ends the program at once. The wall time is counted from the
+   * construction of the object, so construct it early. Only one object may be
+   * armed at a time.
+   *
+   * The answer is local to a rank (a signal or file may be seen by one rank
+   * first): the time loop agrees on it before it acts.
+   *
+   * @code
+   * stop_request.arm(output_directory);
+   * while (time < end_time)
+   *   {
+   *     advance();
+   *     if (!stop_request.reason().empty())
+   *       break;
+   *   }
+   * @endcode
+   */
+  class StopRequest : public dealii::ParameterAcceptor
+  {
+  public:
+    StopRequest();
+
+    StopRequest(const StopRequest &) = delete;
+    StopRequest &
+    operator=(const StopRequest &) = delete;
+
+    /** Restores the signal handlers that were found by arm(). */
+    ~StopRequest() override;
+
+    /**
+     * Catch signals from now on, and look for the stop file in this
+     * directory.
+     */
+    void
+    arm(const std::string &output_directory);
+
+    /**
+     * Why the run must stop, e.g. "SIGTERM received"; empty while it need
+     * not. Once given, the answer stays. Cheap enough for every step: the
+     * stop file (removed when found) is looked for twice a second at most.
+     */
+    std::string
+    reason();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    std::string
+    find_reason();
+
+    /** Whether the stop file was there; it is removed. */
+    bool
+    take_stop_file() const;
+
+    double      wall_time_limit = 0.;
+    std::string stop_file       = "stop";
+
+    const Clock::time_point start_time;
+    Clock::time_point       next_look;
+    std::string             stop_file_path;
+    std::string             found_reason;
+    bool                    is_armed = false;
+    struct sigaction        previous_interrupt_action;
+    struct sigaction        previous_terminate_action;
+  };
+} // namespace CaissonMPM
+
+#endif

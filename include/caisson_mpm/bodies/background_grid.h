@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The background grid: a graded mesh of quadrilaterals that fits the rigid
+// body, moves with it, and compresses below it.
+//
+// Grid lines: rows and columns. Vertical lines stay vertical, so that every
+// cell is a trapezoid; rows bend only around a triangular tip. The height of a
+// node is linear in the travel d of the body:
+//   z = z0 - d                                      in the moving zone,
+//   z = z0 - d (z0 - bottom) / (zone bottom - bottom)    below it,
+//   z = z0 - d, or z0 - d (top - z0) / (top - zone top)  above the body.
+#ifndef caisson_mpm_bodies_background_grid_h
+#define caisson_mpm_bodies_background_grid_h
+
+#include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/materials/soil.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/partitioner.h>
+
+#include <deal.II/distributed/tria.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/mapping_q1.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  using NodalData = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /**
+   * The mesh, its dofs and its motion.
+   *
+   * Cells and nodes are known by local numbers: cells in the order of the
+   * active cells of the triangulation, nodes by the local index of their dof.
+   * deal.II owns the mesh; the geometry that the kernels read is kept here and
+   * is current after advance(), while the triangulation's own vertices follow
+   * only when write_vertices() is called, before deal.II reads them.
+   */
+  class BackgroundGrid : public dealii::ParameterAcceptor
+  {
+  public:
+    static constexpr unsigned int dim = 2;
+    using Triangulation = dealii::parallel::distributed::Triangulation<dim>;
+
+    enum class Zone : unsigned char
+    {
+      moving,
+      compressing,
+      upper
+    };
+
+    /** The four sides of the domain, which are also its boundary ids. */
+    enum Side : unsigned int
+    {
+      axis        = 0,
+      outer       = 1,
+      bottom_side = 2,
+      top_side    = 3
+    };
+
+    explicit BackgroundGrid(const MPI_Comm communicator);
+
+    /** Throws BadInput where the entries contradict each other. */
+    void
+    check_parameters() const;
+
+    /**
+     * Place the grid lines for the body and its whole travel. Throws BadInput,
+     * with the numbers to change, if the mesh cannot hold the travel.
+     */
+    void
+    place_lines(const RigidBody &body, const Soil &soil, const double travel);
+
+    /** Create mesh, dofs and geometry from the lines. Collective. */
+    void
+    create_mesh();
+
+    /** Compute the geometry at @p travel, which next() gives until advance(). */
+    void
+    prepare_motion(const double travel);
+
+    /** Make the geometry of prepare_motion() the current one. */
+    void
+    advance();
+
+    /** Write the current node positions into the triangulation. */
+    void
+    write_vertices();
+
+    /** The height of a node at reference height z0. Units: m. */
+    double
+    height_at(const double z0, const double travel) const;
+
+    /** Kernel views of the current geometry, and of the prepared one. */
+    Kernels::GridView
+    view() const;
+    Kernels::GridView
+    next() const;
+
+    /** A vector of n doubles per node, interleaved; zero. */
+    void
+    reinit(NodalData &vector, const unsigned int components) const;
+
+    unsigned int
+    n_cells() const
+    {
+      return nodes.size();
+    }
+    unsigned int
+    n_nodes() const
+    {
+      return node_r.size();
+    }
+    bool
+    is_rigid(const unsigned int cell) const
+    {
+      return rigid[cell];
+    }
+    Zone
+    zone(const unsigned int cell) const
+    {
+      return zones[cell];
+    }
+    /** The cell beyond face 0 (left), 1, 2 (below), 3, or -1. */
+    int
+    neighbor(const unsigned int cell, const unsigned int face) const
+    {
+      return neighbors[4 * cell + face];
+    }
+    const Kernels::CellGeometry &
+    geometry(const unsigned int cell) const
+    {
+      return geometries[current][cell];
+    }
+    const Kernels::CellNodes &
+    cell_nodes(const unsigned int cell) const
+    {
+      return nodes[cell];
+    }
+    unsigned int
+    column_of(const unsigned int cell) const
+    {
+      return coarse_index[cell] % n_columns();
+    }
+    unsigned int
+    row_of(const unsigned int cell) const
+    {
+      return coarse_index[cell] / n_columns();
+    }
+    unsigned int
+    n_columns() const
+    {
+      return columns.size() - 1;
+    }
+    unsigned int
+    n_rows() const
+    {
+      return rows.size() - 1;
+    }
+    /** The local number of a locally relevant active cell. */
+    unsigned int
+    local_number(const Triangulation::active_cell_iterator &cell) const
+    {
+      return local_numbers[cell->active_cell_index()];
+    }
+    const Triangulation::active_cell_iterator &
+    cell_iterator(const unsigned int cell) const
+    {
+      return iterators[cell];
+    }
+    /** The sides of the domain that a node lies on, as bits 1 << Side. */
+    unsigned int
+    sides_of(const unsigned int node) const
+    {
+      return node_sides[node];
+    }
+    double
+    r_of(const unsigned int node) const
+    {
+      return node_r[node];
+    }
+    double
+    z_of(const unsigned int node) const
+    {
+      return node_z[node];
+    }
+
+    /**
+     * The smallest height that any cell takes of those that contain soil of
+     * cell @p cell at some time of the travel. Units: m. Used for the spacing
+     * of material points.
+     */
+    double
+    smallest_height_met(const unsigned int cell) const;
+
+    bool
+    axisymmetric() const
+    {
+      return geometry_text == "axisymmetric";
+    }
+
+    bool
+    reaches_axis() const
+    {
+      return inner_radius == 0.;
+    }
+
+    double
+    total_travel() const
+    {
+      return travel_to_hold;
+    }
+
+    /** Lines for the header of the terminal output. */
+    std::string
+    description() const;
+
+    Triangulation           triangulation;
+    dealii::FE_Q<dim>       fe;
+    dealii::DoFHandler<dim> dof_handler;
+    dealii::MappingQ1<dim>  mapping;
+
+  private:
+    void
+    place_columns(const RigidBody &body);
+    void
+    place_rows(const RigidBody &body, const Soil &soil);
+    void
+    check_travel() const;
+    void
+    create_triangulation();
+    void
+    number_nodes();
+    void
+    collect_cells();
+    double
+    reference_height(const unsigned int column_line,
+                     const unsigned int row_line) const;
+    bool
+    inside_body(const unsigned int column, const unsigned int row) const;
+
+    std::string geometry_text  = "axisymmetric";
+    double      inner_radius   = 0.;
+    double      outer_radius   = 15.;
+    double      bottom         = -18.;
+    double      top            = 8.;
+    double      cell_width     = 1.;
+    double      cell_height    = 1.;
+    double      growth         = 1.15;
+    double      fine_width     = 0.2;
+    double      fine_height    = 0.2;
+    double      zone_below_tip = 1.5;
+    std::string upper_text     = "free";
+    double      smallest_row   = 0.01;
+
+    // lines at the start; rows before they bend around the tip
+    std::vector<double> columns, rows;
+    double              zone_bottom = 0., zone_top = 0.;
+    double              travel_to_hold = 0.;
+    // the body in line numbers [begin, end), and its lower surface by column
+    unsigned int        body_column_begin = 0, body_column_end = 0;
+    unsigned int        body_row_begin = 0, body_row_end = 0;
+    double              shoulder = 0., decay_length = 1.;
+    std::vector<double> dip; // [columns] depth of the tip below the shoulder
+
+    std::vector<Triangulation::active_cell_iterator> iterators;
+    std::vector<unsigned int>                        coarse_index;
+    std::vector<unsigned int>                        local_numbers;
+    std::vector<Kernels::CellNodes>                  nodes;
+    std::vector<int>                                 neighbors;
+    std::vector<unsigned char>                       rigid, flags;
+    std::vector<Zone>                                zones;
+
+    std::array<std::vector<Kernels::CellGeometry>, 2> geometries;
+    unsigned int                                      current = 0;
+
+    // z = node_z0 + node_rate travel
+    std::vector<double>       node_r, node_z, node_z0, node_rate;
+    std::vector<unsigned int> node_sides;
+    std::vector<std::pair<unsigned int, double *>> vertex_heights;
+
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+    mutable std::map<unsigned int,
+                     std::shared_ptr<const dealii::Utilities::MPI::Partitioner>>
+      partitioners;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Material points of the undisturbed soil: a lattice in every cell.
+#ifndef caisson_mpm_bodies_point_generator_h
+#define caisson_mpm_bodies_point_generator_h
+
+#include <caisson_mpm/bodies/material_points.h>
+#include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/materials/soil.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+namespace CaissonMPM
+{
+  /**
+   * Fills the soil's cells with material points.
+   *
+   * Each cell is cut into n_r x n_z parts; a point takes the exact volume and
+   * the centroid of its part, so that the nodal masses are those of the
+   * continuum. n_r is the number per direction of the cell's zone (path, near,
+   * far). n_z is as many times larger as the cell is higher than the lowest
+   * cell that its soil will meet while the mesh moves: a coarser spacing would
+   * leave cells without points, and the soil would crack there.
+   */
+  class PointGenerator : public dealii::ParameterAcceptor
+  {
+  public:
+    PointGenerator();
+
+    /**
+     * Create all points in the handler of @p points, with the soil's initial
+     * stress, and load them. Collective.
+     */
+    void
+    generate(const BackgroundGrid &grid,
+             const RigidBody      &body,
+             const Soil           &soil,
+             const double          mass_scaling,
+             MaterialPoints       &points) const;
+
+  private:
+    unsigned int
+    points_per_direction(const Kernels::CellGeometry &g,
+                         const RigidBody             &body,
+                         const double                 travel) const;
+
+    unsigned int in_path = 4, near = 3, far = 2;
+    double       path_margin   = 0.1;
+    double       path_below    = 0.5;
+    double       near_distance = 1.;
+    double       region_left = 0., region_right = 1e30;
+    double       region_bottom = -1e30, region_top = 0.;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The rigid body: its shape, its contact properties and its prescribed motion.
+#ifndef caisson_mpm_bodies_rigid_body_h
+#define caisson_mpm_bodies_rigid_body_h
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** The surfaces of a body, for friction and for the split of its forces. */
+  enum Surface : unsigned int
+  {
+    tip        = 0, // faces that look down
+    inner_wall = 1, // vertical faces towards the axis
+    outer_wall = 2, // vertical faces away from the axis
+    top        = 3, // faces that look up
+    n_surfaces = 4
+  };
+
+  /**
+   * A rigid body that moves down along the axis with a prescribed velocity.
+   *
+   * Its shape is exact, and the background grid follows it: the cells inside
+   * the body are rigid, and its surface consists of faces of the grid. A
+   * caisson is a tube with a triangular or flat tip; a box is a rectangle in
+   * (r, z), for tests of contact. Nothing here is collective.
+   */
+  class RigidBody : public dealii::ParameterAcceptor
+  {
+  public:
+    enum class Kind
+    {
+      none,
+      caisson,
+      box
+    };
+
+    /** How a node on an edge of the body, with two normals, is treated. */
+    enum class CornerNormals
+    {
+      average, // the mean of both normals
+      both,    // not into either face
+      wall,    // the normal of the vertical face
+      tip      // the normal of the other face
+    };
+
+    RigidBody();
+
+    /** Throws BadInput where the entries contradict each other. */
+    void
+    check_parameters() const;
+
+    Kind
+    kind() const
+    {
+      return kind_;
+    }
+
+    /** Extent in r, and initial extent in z: of the skirt, or of the box. */
+    double
+    left() const;
+    double
+    right() const;
+    double
+    bottom() const;
+    double
+    top_of_body() const;
+
+    /** Height of the triangular tip, 0 for a flat one. Units: m. */
+    double
+    tip_height() const;
+
+    /**
+     * Initial height of the body's lower surface at radius r between left()
+     * and right(). Units: m.
+     */
+    double
+    lower_surface(const double r) const;
+
+    /** Whether a place is inside the body, by more than round-off, after a
+     * travel. */
+    bool
+    contains(const dealii::Point<2> &p, const double travel) const;
+
+    /** Downward velocity at time t. Units: m/s. */
+    double
+    velocity(const double t) const;
+
+    /** How far the body has moved down at time t. Units: m. */
+    double
+    travel(const double t) const;
+
+    /** The time at which it has moved down by d; infinity if never. */
+    double
+    time_of_travel(const double d) const;
+
+    /** The largest velocity of the whole motion. Units: m/s. */
+    double
+    max_velocity() const;
+
+    double
+    friction_coefficient(const Surface surface) const;
+
+    double initial_penetration = 0.5;
+    double outer_diameter      = 6.;
+    double skirt_length        = 7.;
+    double wall_thickness      = 0.1;
+    double tip_angle           = 45.;
+    double density             = 7850.;
+
+    unsigned int cells_across = 2;
+
+    /** Contact friction angles by surface. Units: degrees. */
+    std::array<double, n_surfaces> friction_angle = {{20., 20., 20., 20.}};
+    /** Contact adhesion by surface. Units: Pa. */
+    std::array<double, n_surfaces> adhesion = {{0., 0., 0., 0.}};
+
+    CornerNormals corner_normals = CornerNormals::average;
+
+  private:
+    void
+    parse_texts();
+
+    Kind        kind_             = Kind::none;
+    std::string kind_text         = "none";
+    std::string tip_text          = "triangular";
+    std::string corner_text       = "average";
+    double      constant_velocity = 0.1;
+    double      ramp_time         = 0.;
+    std::string table_text;
+    double      box_left = 0., box_right = 1., box_bottom = -1., box_top = 0.;
+
+    /** (t, v), linear in between, constant at both ends. */
+    std::vector<std::pair<double, double>> velocity_table;
+  };
+} // namespace CaissonMPM
+
+#endif

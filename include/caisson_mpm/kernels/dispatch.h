@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The choice of the instruction set at start-up.
+#ifndef caisson_mpm_kernels_dispatch_h
+#define caisson_mpm_kernels_dispatch_h
+
+#include <caisson_mpm/kernels/layout.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    /** The kernels for SSE2, AVX2 and AVX-512: one source, three objects. */
+    const KernelTable &
+    kernels_x86_64();
+    const KernelTable &
+    kernels_x86_64_v3();
+    const KernelTable &
+    kernels_x86_64_v4();
+
+    /**
+     * The kernels named @p instruction_set ("SSE2", "AVX2", "AVX-512"), or the
+     * widest that this CPU has for "auto". Null if the CPU lacks it or the
+     * name is unknown.
+     */
+    const KernelTable *
+    select_kernels(const char *instruction_set);
+  } // namespace Kernels
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The memory layout shared by the kernels and the class MaterialPoints, and
+// the plain views that the kernels take. No other file may depend on it.
+//
+// Material points (MPs) lie in blocks of eight per cell (structure of arrays):
+// a block belongs to one cell and one material, and the blocks of a cell form
+// a singly linked list. Lanes beyond the count of a block are padding: they
+// repeat a valid point with mass and volume zero, so that kernels may compute
+// on all lanes.
+//
+// A cell is a trapezoid whose two sides are vertical: r depends on xi only,
+//   r = left + width xi,   z = bottom(xi) + height(xi) eta,
+// with bottom and height linear in xi. Its inverse map is closed form.
+#ifndef caisson_mpm_kernels_layout_h
+#define caisson_mpm_kernels_layout_h
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    constexpr int block_size = 8;
+
+    /** The state of up to eight MPs. SI units; volume and mass per radian. */
+    struct alignas(64) PointBlock
+    {
+      double r[block_size], z[block_size];
+      double velocity_r[block_size], velocity_z[block_size];
+      // effective stress, tension positive, in the order rr, zz, tt, rz
+      double stress[4][block_size];
+      double mass[block_size], volume[block_size];
+      double plastic_deviatoric[block_size], plastic_volumetric[block_size];
+      // read only during a step
+      double initial_r[block_size], initial_z[block_size];
+      double initial_volume[block_size];
+      double id[block_size];
+    };
+
+    /** What is known of a block without touching it. */
+    struct BlockHeader
+    {
+      int   next; // the next block of the cell, -1 at the end
+      short count;
+      short material;
+    };
+
+    /** A trapezoid with vertical sides; heights of its left and right side. */
+    struct CellGeometry
+    {
+      double left, width;
+      double bottom_left, bottom_right;
+      double height_left, height_right;
+    };
+
+    /** The dofs of a cell's corners (0,0), (1,0), (0,1), (1,1). */
+    struct CellNodes
+    {
+      unsigned int node[4];
+    };
+
+    /** Per-cell options of the kernels. */
+    enum CellFlags : unsigned char
+    {
+      next_to_body = 1
+    };
+
+    /**
+     * A soil material as the kernels see it. Which law reads the parameters
+     * is chosen once per block.
+     */
+    struct Material
+    {
+      int    law;
+      double body_force[2];  // acceleration of the scaled mass (m/s2)
+      double p_wave_modulus; // lambda + 2 mu (Pa)
+      alignas(16) unsigned char parameters[256];
+    };
+
+    /** The nodal sums of points_to_grid, interleaved per node. */
+    struct NodalSums
+    {
+      double mass;        // kg per radian
+      double momentum[2]; // kg m/s per radian
+      double force[2];    // internal + body force, N per radian
+      double stiffness;   // bound of sum_J |K_IJ|, N/m per radian
+      double padding[2];
+    };
+
+    /** A nodal vector field (r, z), interleaved per node. */
+    struct NodalVector
+    {
+      double value[2];
+    };
+
+    /** What points_to_grid leaves of each cell for the rest of the step. */
+    struct CellMoments
+    {
+      // integrals of 1, xi, eta, xi eta, xi2, eta2, xi2 eta, xi eta2, xi2 eta2
+      // over the mass: the consistent mass matrix in nine numbers
+      double mass[9];
+      // the fit of a full cell: per component value, slope in x, slope in y
+      double fit[12];
+      bool   full;
+    };
+
+    struct PointsView
+    {
+      PointBlock         *blocks;
+      const BlockHeader  *headers;
+      const int          *first_block;  // [n_cells]
+      const unsigned int *active_cells; // [n_active_cells] cells with MPs
+      unsigned int        n_active_cells;
+    };
+
+    struct GridView
+    {
+      const CellGeometry  *geometry;     // [n_cells]
+      const CellNodes     *nodes;        // [n_cells]
+      const unsigned char *flags;        // [n_cells]
+      double               axisymmetric; // 1, or 0 in plane strain
+    };
+
+    /** How the internal force is integrated. */
+    struct IntegrationSettings
+    {
+      double full_cell_fraction; // filled volume from which Gauss is used
+      bool   floor_mass;         // sum the stiffness bound
+      bool   mean_pressure;      // cell mean instead of the affine pressure
+    };
+
+    /** What grid_to_points needs besides the nodal fields. */
+    struct UpdateSettings
+    {
+      double time_step;
+      double keep_velocity;      // share of the MP's own velocity (FLIP 1)
+      bool   mean_volume_change; // B-bar
+      double limiter;            // k of |v| <= k H / dt; 0: off
+      double stress_filter;      // share of the misfit removed; 0: off
+    };
+
+    struct NodalFields
+    {
+      const NodalVector *advection; // moves the MPs
+      const NodalVector *transfer;  // added to keep_velocity * velocity
+      const NodalVector *strain;    // its gradient strains the MPs
+    };
+
+    /** MPs that left their cell: written by grid_to_points. */
+    struct LeavingPoint
+    {
+      unsigned int cell;
+      int          block;
+      int          lane;
+    };
+
+    struct LeavingPoints
+    {
+      LeavingPoint *points; // [capacity]
+      unsigned int  capacity;
+      unsigned int  n; // may exceed the capacity: then call again is an error
+      unsigned int  n_limited;
+    };
+
+    /** The kernels, compiled for one instruction set. */
+    struct KernelTable
+    {
+      const char *name;
+      int         width;
+
+      /**
+       * Sum mass, momentum, internal and body force of all MPs to the nodes.
+       * @p sums [n_nodes] must be zero on entry; @p moments [n_active_cells].
+       */
+      void (*points_to_grid)(const PointsView &,
+                             const GridView &,
+                             const Material *,
+                             const IntegrationSettings &,
+                             NodalSums *,
+                             CellMoments *);
+
+      /**
+       * out += M x with the consistent mass matrix of the MPs, out and x
+       * [n_nodes].
+       */
+      void (*apply_mass)(const PointsView &,
+                         const GridView &,
+                         const CellMoments *,
+                         const NodalVector *x,
+                         NodalVector       *out);
+
+      /**
+       * Update velocity, stress, volume and position of all MPs, and list
+       * those outside their cell as @p moved grid has it.
+       */
+      void (*grid_to_points)(const PointsView &,
+                             const GridView &,
+                             const GridView &moved,
+                             const Material *,
+                             const CellMoments *,
+                             const UpdateSettings &,
+                             const NodalFields &,
+                             LeavingPoints &);
+    };
+  } // namespace Kernels
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,421 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A thin wrapper around the vector extensions of GCC and clang: the number
+// types on which every kernel is templated.
+//
+// Lanes<n> holds n doubles (n = 2, 4, 8); Lanes<1> is a plain double with the
+// same interface, for tests and for work on one material point. A kernel is
+// compiled once per instruction set. To keep these objects apart (the same
+// template, compiled with other flags, must not be merged by the linker), all
+// kernel code lives in a namespace named by CAISSON_KERNEL_ISA.
+//
+// No deal.II and no std containers may be included from here.
+#ifndef caisson_mpm_kernels_simd_h
+#define caisson_mpm_kernels_simd_h
+
+#include <immintrin.h>
+
+#ifndef CAISSON_KERNEL_ISA
+#  define CAISSON_KERNEL_ISA isa_default
+#endif
+
+#define CAISSON_INLINE inline __attribute__((always_inline))
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    inline namespace CAISSON_KERNEL_ISA
+    {
+      /** The compiler's vector types of n doubles and of their masks. */
+      template <int n>
+      struct VectorExtension
+      {
+        typedef double values __attribute__((vector_size(n * sizeof(double))));
+        typedef long long bits __attribute__((vector_size(n * sizeof(double))));
+      };
+
+      /**
+       * n doubles that are computed with at once. Comparisons give a Mask, and
+       * select(mask, a, b) takes a where the mask is set, b elsewhere.
+       */
+      template <int n>
+      class Lanes
+      {
+      public:
+        static constexpr int width = n;
+        using Values               = typename VectorExtension<n>::values;
+        using Bits                 = typename VectorExtension<n>::bits;
+
+        struct Mask
+        {
+          Bits bits;
+
+          friend CAISSON_INLINE Mask
+          operator&(const Mask a, const Mask b)
+          {
+            return {a.bits & b.bits};
+          }
+          friend CAISSON_INLINE Mask
+          operator|(const Mask a, const Mask b)
+          {
+            return {a.bits | b.bits};
+          }
+          friend CAISSON_INLINE Mask
+          operator!(const Mask a)
+          {
+            return {~a.bits};
+          }
+          /** Whether any lane is set. */
+          friend CAISSON_INLINE bool
+          any(const Mask a)
+          {
+            return to_integer(a) != 0;
+          }
+          /** Lane i as bit i of an integer. */
+          friend CAISSON_INLINE unsigned int
+          to_integer(const Mask a)
+          {
+#ifdef __AVX512DQ__
+            if constexpr (n == 8)
+              return _mm512_movepi64_mask(reinterpret_cast<__m512i>(a.bits));
+#endif
+#ifdef __AVX__
+            if constexpr (n == 4)
+              return _mm256_movemask_pd(reinterpret_cast<__m256d>(a.bits));
+#endif
+            if constexpr (n == 2)
+              return _mm_movemask_pd(reinterpret_cast<__m128d>(a.bits));
+            unsigned int result = 0;
+            for (int i = 0; i < n; ++i)
+              {
+                const long long lane = a.bits[i];
+                result |= (lane != 0 ? 1u : 0u) << i;
+              }
+            return result;
+          }
+        };
+
+        Lanes() = default;
+        CAISSON_INLINE
+        Lanes(const Values v)
+          : values(v)
+        {}
+        CAISSON_INLINE
+        Lanes(const double x)
+          : values(x - Values{})
+        {}
+
+        static CAISSON_INLINE Lanes
+        load(const double *p)
+        {
+          Lanes result;
+          __builtin_memcpy(&result.values, p, sizeof(Values));
+          return result;
+        }
+        CAISSON_INLINE void
+        store(double *p) const
+        {
+          __builtin_memcpy(p, &values, sizeof(Values));
+        }
+        CAISSON_INLINE double
+        operator[](const int i) const
+        {
+          return values[i];
+        }
+        CAISSON_INLINE Values
+        get() const
+        {
+          return values;
+        }
+
+        friend CAISSON_INLINE Lanes
+        operator+(const Lanes a, const Lanes b)
+        {
+          return Lanes(a.values + b.values);
+        }
+        friend CAISSON_INLINE Lanes
+        operator-(const Lanes a, const Lanes b)
+        {
+          return Lanes(a.values - b.values);
+        }
+        friend CAISSON_INLINE Lanes
+        operator*(const Lanes a, const Lanes b)
+        {
+          return Lanes(a.values * b.values);
+        }
+        friend CAISSON_INLINE Lanes
+        operator/(const Lanes a, const Lanes b)
+        {
+          return Lanes(a.values / b.values);
+        }
+        friend CAISSON_INLINE Lanes
+        operator-(const Lanes a)
+        {
+          return Lanes(-a.values);
+        }
+        CAISSON_INLINE Lanes &
+        operator+=(const Lanes b)
+        {
+          values += b.values;
+          return *this;
+        }
+        CAISSON_INLINE Lanes &
+        operator-=(const Lanes b)
+        {
+          values -= b.values;
+          return *this;
+        }
+        CAISSON_INLINE Lanes &
+        operator*=(const Lanes b)
+        {
+          values *= b.values;
+          return *this;
+        }
+        friend CAISSON_INLINE Mask
+        operator<(const Lanes a, const Lanes b)
+        {
+          return {a.values < b.values};
+        }
+        friend CAISSON_INLINE Mask
+        operator>(const Lanes a, const Lanes b)
+        {
+          return {a.values > b.values};
+        }
+        friend CAISSON_INLINE Mask
+        operator<=(const Lanes a, const Lanes b)
+        {
+          return {a.values <= b.values};
+        }
+        friend CAISSON_INLINE Mask
+        operator>=(const Lanes a, const Lanes b)
+        {
+          return {a.values >= b.values};
+        }
+        friend CAISSON_INLINE Lanes
+        select(const Mask m, const Lanes a, const Lanes b)
+        {
+          return Lanes(m.bits ? a.values : b.values);
+        }
+        friend CAISSON_INLINE Lanes
+        max(const Lanes a, const Lanes b)
+        {
+          return select(a > b, a, b);
+        }
+        friend CAISSON_INLINE Lanes
+        min(const Lanes a, const Lanes b)
+        {
+          return select(a < b, a, b);
+        }
+        friend CAISSON_INLINE Lanes
+        abs(const Lanes a)
+        {
+          return max(a, -a);
+        }
+        friend CAISSON_INLINE Lanes
+        sqrt(const Lanes a)
+        {
+#ifdef __AVX512F__
+          if constexpr (n == 8)
+            return Lanes(Values(_mm512_sqrt_pd(__m512d(a.values))));
+#endif
+#ifdef __AVX__
+          if constexpr (n == 4)
+            return Lanes(Values(_mm256_sqrt_pd(__m256d(a.values))));
+#endif
+          if constexpr (n == 2)
+            return Lanes(Values(_mm_sqrt_pd(__m128d(a.values))));
+          Lanes result;
+          for (int i = 0; i < n; ++i)
+            result.values[i] = __builtin_sqrt(a.values[i]);
+          return result;
+        }
+        /** The sum over all lanes. */
+        friend CAISSON_INLINE double
+        sum(const Lanes a)
+        {
+#ifdef __AVX512F__
+          if constexpr (n == 8)
+            return _mm512_reduce_add_pd(__m512d(a.values));
+#endif
+          double result = a.values[0];
+          for (int i = 1; i < n; ++i)
+            result += a.values[i];
+          return result;
+        }
+
+      private:
+        Values values;
+      };
+
+      /** One double with the interface of Lanes<n>. */
+      template <>
+      class Lanes<1>
+      {
+      public:
+        static constexpr int width = 1;
+
+        struct Mask
+        {
+          bool set;
+
+          friend CAISSON_INLINE Mask
+          operator&(const Mask a, const Mask b)
+          {
+            return {a.set && b.set};
+          }
+          friend CAISSON_INLINE Mask
+          operator|(const Mask a, const Mask b)
+          {
+            return {a.set || b.set};
+          }
+          friend CAISSON_INLINE Mask
+          operator!(const Mask a)
+          {
+            return {!a.set};
+          }
+          friend CAISSON_INLINE bool
+          any(const Mask a)
+          {
+            return a.set;
+          }
+          friend CAISSON_INLINE unsigned int
+          to_integer(const Mask a)
+          {
+            return a.set ? 1u : 0u;
+          }
+        };
+
+        Lanes() = default;
+        CAISSON_INLINE
+        Lanes(const double x)
+          : value(x)
+        {}
+
+        static CAISSON_INLINE Lanes
+        load(const double *p)
+        {
+          return Lanes(*p);
+        }
+        CAISSON_INLINE void
+        store(double *p) const
+        {
+          *p = value;
+        }
+        CAISSON_INLINE double
+        operator[](const int) const
+        {
+          return value;
+        }
+
+        friend CAISSON_INLINE Lanes
+        operator+(const Lanes a, const Lanes b)
+        {
+          return Lanes(a.value + b.value);
+        }
+        friend CAISSON_INLINE Lanes
+        operator-(const Lanes a, const Lanes b)
+        {
+          return Lanes(a.value - b.value);
+        }
+        friend CAISSON_INLINE Lanes
+        operator*(const Lanes a, const Lanes b)
+        {
+          return Lanes(a.value * b.value);
+        }
+        friend CAISSON_INLINE Lanes
+        operator/(const Lanes a, const Lanes b)
+        {
+          return Lanes(a.value / b.value);
+        }
+        friend CAISSON_INLINE Lanes
+        operator-(const Lanes a)
+        {
+          return Lanes(-a.value);
+        }
+        CAISSON_INLINE Lanes &
+        operator+=(const Lanes b)
+        {
+          value += b.value;
+          return *this;
+        }
+        CAISSON_INLINE Lanes &
+        operator-=(const Lanes b)
+        {
+          value -= b.value;
+          return *this;
+        }
+        CAISSON_INLINE Lanes &
+        operator*=(const Lanes b)
+        {
+          value *= b.value;
+          return *this;
+        }
+        friend CAISSON_INLINE Mask
+        operator<(const Lanes a, const Lanes b)
+        {
+          return {a.value < b.value};
+        }
+        friend CAISSON_INLINE Mask
+        operator>(const Lanes a, const Lanes b)
+        {
+          return {a.value > b.value};
+        }
+        friend CAISSON_INLINE Mask
+        operator<=(const Lanes a, const Lanes b)
+        {
+          return {a.value <= b.value};
+        }
+        friend CAISSON_INLINE Mask
+        operator>=(const Lanes a, const Lanes b)
+        {
+          return {a.value >= b.value};
+        }
+        friend CAISSON_INLINE Lanes
+        select(const Mask m, const Lanes a, const Lanes b)
+        {
+          return m.set ? a : b;
+        }
+        friend CAISSON_INLINE Lanes
+        max(const Lanes a, const Lanes b)
+        {
+          return a.value > b.value ? a : b;
+        }
+        friend CAISSON_INLINE Lanes
+        min(const Lanes a, const Lanes b)
+        {
+          return a.value < b.value ? a : b;
+        }
+        friend CAISSON_INLINE Lanes
+        abs(const Lanes a)
+        {
+          return Lanes(__builtin_fabs(a.value));
+        }
+        friend CAISSON_INLINE Lanes
+        sqrt(const Lanes a)
+        {
+          return Lanes(__builtin_sqrt(a.value));
+        }
+        friend CAISSON_INLINE double
+        sum(const Lanes a)
+        {
+          return a.value;
+        }
+
+      private:
+        double value;
+      };
+
+      /** The widest number type of the instruction set being compiled for. */
+#if defined(__AVX512F__)
+      using NativeLanes = Lanes<8>;
+#elif defined(__AVX__)
+      using NativeLanes = Lanes<4>;
+#else
+      using NativeLanes = Lanes<2>;
+#endif
+    } // namespace CAISSON_KERNEL_ISA
+  }   // namespace Kernels
+} // namespace CaissonMPM
+
+#endif

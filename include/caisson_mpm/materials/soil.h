@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The soil profile: horizontal layers, their materials and the stress in them
+// at the start.
+#ifndef caisson_mpm_materials_soil_h
+#define caisson_mpm_materials_soil_h
+
+#include <caisson_mpm/base/conventions.h>
+#include <caisson_mpm/kernels/layout.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /**
+   * One layer of soil: what the user says of it, and what follows. The section
+   * of layer k is "Soil/Layer k".
+   */
+  class SoilLayer : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit SoilLayer(const unsigned int index);
+
+    /** Throws BadInput where the entries contradict each other. */
+    void
+    check_parameters() const;
+
+    /** Mass of solids per volume of soil. Units: kg/m3. */
+    double
+    dry_density() const;
+
+    /** The ratio of horizontal to vertical effective stress at the start. */
+    double
+    earth_pressure_at_rest() const;
+
+    /** lambda + 2 mu. Units: Pa. */
+    double
+    p_wave_modulus() const;
+
+    /** Write the law and its parameters for the kernels. */
+    void
+    set_law(Kernels::Material &material) const;
+
+    double      top_depth       = 0.;
+    std::string law             = "Mohr-Coulomb";
+    double      youngs_modulus  = 5e6;
+    double      poisson_ratio   = 0.3;
+    double      friction_angle  = 30.;
+    double      dilatancy_angle = 0.;
+    double      cohesion        = 0.;
+    double      tension_cutoff  = 0.;
+    double      porosity        = 0.4;
+    double      solid_density   = 2500.;
+    double      k0              = -1.;
+  };
+
+  /**
+   * The soil profile below z = 0. Owns the layers; layer i is the material i of
+   * the kernels. Nothing here is collective.
+   */
+  class Soil : public dealii::ParameterAcceptor
+  {
+  public:
+    static constexpr unsigned int max_layers = 5;
+
+    Soil();
+
+    /** Throws BadInput where the entries contradict each other. */
+    void
+    check_parameters() const;
+
+    unsigned int
+    n_layers() const
+    {
+      return n_layers_;
+    }
+
+    const SoilLayer &
+    layer(const unsigned int i) const
+    {
+      return *layers[i];
+    }
+
+    /** The layer at depth -z. */
+    unsigned int
+    layer_at(const double z) const;
+
+    /** The z of the boundaries between layers, from above. Units: m. */
+    std::vector<double>
+    interfaces() const;
+
+    /** The mass that accelerates per volume, unscaled. Units: kg/m3. */
+    double
+    inertial_density(const unsigned int layer) const;
+
+    /** The effective unit weight (submerged or dry). Units: N/m3. */
+    double
+    unit_weight(const unsigned int layer) const;
+
+    /** Effective stress at height z before anything happens. Units: Pa. */
+    Stress
+    initial_stress(const double z) const;
+
+    /**
+     * The kernels' materials, one per layer, for inertia scaled by
+     * @p mass_scaling: the weight stays as it is.
+     */
+    std::vector<Kernels::Material>
+    kernel_materials(const double mass_scaling) const;
+
+    std::array<double, 2> gravity = {{0., -9.81}};
+
+  private:
+    unsigned int                            n_layers_     = 1;
+    bool                                    submerged     = true;
+    double                                  fluid_density = 1000.;
+    std::string                             initial_state = "K0";
+    std::string                             gravity_text  = "0, -9.81";
+    std::vector<std::unique_ptr<SoilLayer>> layers;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The equation of motion at the nodes, and the nodal fields from which the
+// material points are updated.
+//
+// With v = p / m the velocity that the points bring, v+ the new one, and
+// A = S+ S the round trip from nodes to points and back (S interpolates, S+ is
+// the mass-weighted average; A = M / m with the consistent mass matrix M):
+//   FLIP       V_p <- V_p + S (v+ - v)
+//   PIC        V_p <- S v+
+//   blend      V_p <- a FLIP + (1 - a) PIC
+//   XPIC(n)    V_p <- S (v+ + sum_{k=1}^{n-1} (I - A)^k v)
+// (Sulsky et al. 1994; Hammerquist & Nairn 2017, doi:10.1016/j.cma.2017.01.035).
+// MUSL strains the points with the velocity that they bring back to the nodes,
+// S+ V_p; as A is known per cell, no second pass over the points is needed.
+// USL strains them with v+.
+//
+// Every velocity of these sums is held to the boundary conditions and to the
+// contact found for v+: the transfer must not undo them.
+#ifndef caisson_mpm_operators_nodal_motion_h
+#define caisson_mpm_operators_nodal_motion_h
+
+#include <caisson_mpm/bodies/background_grid.h>
+#include <caisson_mpm/bodies/material_points.h>
+#include <caisson_mpm/kernels/dispatch.h>
+#include <caisson_mpm/operators/boundary_conditions.h>
+#include <caisson_mpm/operators/contact.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /**
+   * Nodal sums and velocities of one step. The functions are called in the
+   * order in which they stand here. Collective over MPI.
+   */
+  class NodalMotion : public dealii::ParameterAcceptor
+  {
+  public:
+    NodalMotion();
+
+    void
+    check_parameters() const;
+
+    void
+    initialize(const BackgroundGrid &grid);
+
+    /** Sum mass, momentum and force of the points. */
+    void
+    collect(const Kernels::KernelTable           &kernels,
+            const Kernels::PointsView            &points,
+            const Kernels::GridView              &grid,
+            const std::vector<Kernels::Material> &materials);
+
+    /** v = p / m, and v+ = v + dt f / m. Small masses are raised first. */
+    void
+    accelerate(const double dt, const Contact &contact);
+
+    /** Contact on v+, then the boundary conditions. Returns the work that the
+     * body does on the soil in this step, whole circumference. Units: J. */
+    double
+    constrain(const double              dt,
+              const Vector2            &body_velocity,
+              const BoundaryConditions &boundary_conditions,
+              Contact                  &contact);
+
+    /** The fields that update the points. */
+    void
+    prepare_transfer(const Kernels::KernelTable &kernels,
+                     const Kernels::PointsView  &points,
+                     const Kernels::GridView    &grid,
+                     const BoundaryConditions   &boundary_conditions,
+                     const Contact              &contact);
+
+    Kernels::NodalFields
+    fields() const;
+
+    /** What collect() found in each active cell. */
+    const Kernels::CellMoments *
+    cell_moments() const
+    {
+      return moments.data();
+    }
+
+    Kernels::UpdateSettings
+    update_settings(const double dt) const;
+
+    /** Mass that the floor added in the last step, of all nodes, in the units
+     * of the scaled mass. Units: kg per radian. */
+    double added_mass = 0.;
+
+    /** Whether all nodal velocities of the last step are finite. */
+    bool is_finite = true;
+
+    bool
+    uses_limiter() const
+    {
+      return limiter_on;
+    }
+
+    const NodalData &
+    velocity() const
+    {
+      return new_velocity;
+    }
+
+    std::string
+    description() const;
+
+  private:
+    template <typename Constrain>
+    void
+    round_trip(const Kernels::KernelTable &kernels,
+               const Kernels::PointsView  &points,
+               const Kernels::GridView    &grid,
+               const NodalData            &from,
+               NodalData                  &to,
+               const Constrain            &constrain);
+
+    std::string  transfer_scheme = "XPIC";
+    std::string  stress_scheme   = "MUSL";
+    std::string  integration     = "Gauss in full cells";
+    std::string  pressure        = "affine";
+    unsigned int xpic_order      = 2;
+    double       flip_fraction   = 0.99;
+    double       full_fraction   = 0.9;
+    bool         mean_volume     = true;
+    double       stress_filter   = 0.01;
+    bool         floor_on        = true;
+    double       damping         = 0.;
+    bool         limiter_on      = true;
+    double       limiter_factor  = 0.75;
+
+    std::vector<double>               mass; // that accelerates
+    std::vector<Kernels::CellMoments> moments;
+    NodalData sums, old_velocity, new_velocity, transfer_velocity,
+      strain_velocity, work[2];
+  };
+} // namespace CaissonMPM
+
+#endif

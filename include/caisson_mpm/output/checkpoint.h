@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The state of a run on disk, from which it can go on.
+//
+// Files in the output directory: the mesh and the particles as deal.II saves
+// them, under the names checkpoint-a or checkpoint-b in turn, and the text
+// checkpoint.info, which says which of the two is valid. It is replaced last
+// and at once, so that a run that is killed at any time leaves one complete
+// checkpoint.
+#ifndef caisson_mpm_output_checkpoint_h
+#define caisson_mpm_output_checkpoint_h
+
+#include <caisson_mpm/bodies/background_grid.h>
+#include <caisson_mpm/bodies/material_points.h>
+
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** What the run must know besides the material points. SI units. */
+  struct CheckpointState
+  {
+    double        time          = 0.;
+    double        travel        = 0.;
+    unsigned long step          = 0;
+    unsigned long limiter_count = 0;
+    unsigned long held_back     = 0;
+    double        external_work = 0.;
+    /** Whatever else the caller wants to have back. */
+    std::vector<double> more;
+  };
+
+  /**
+   * Write the points and the state. @p fingerprint is the text of all
+   * parameters that must be the same when the run goes on, one per line.
+   * Throws RunFailure where there is no room; the previous checkpoint is valid
+   * until then. Uses the handler of @p points; their blocks stay as they are.
+   * Collective.
+   */
+  void
+  write_checkpoint(const std::string     &directory,
+                   BackgroundGrid        &grid,
+                   MaterialPoints        &points,
+                   const CheckpointState &state,
+                   const std::string     &fingerprint);
+
+  /**
+   * Bring the points and the grid to the state of the checkpoint, and return
+   * it. The mesh of the same scene must have been created, and @p points must
+   * be empty or are replaced. Throws BadInput where there is no checkpoint, it
+   * is damaged, or @p fingerprint differs from the one it was written with,
+   * naming the first line that differs. Collective.
+   */
+  CheckpointState
+  read_checkpoint(const std::string &directory,
+                  BackgroundGrid    &grid,
+                  MaterialPoints    &points,
+                  const std::string &fingerprint);
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The simulation: owns everything, and advances it in time.
+#ifndef caisson_mpm_simulation_simulation_h
+#define caisson_mpm_simulation_simulation_h
+
+#include <caisson_mpm/base/console.h>
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/output_directory.h>
+#include <caisson_mpm/base/stop_request.h>
+#include <caisson_mpm/base/timing.h>
+#include <caisson_mpm/bodies/background_grid.h>
+#include <caisson_mpm/bodies/body_points.h>
+#include <caisson_mpm/bodies/material_points.h>
+#include <caisson_mpm/bodies/point_generator.h>
+#include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/kernels/dispatch.h>
+#include <caisson_mpm/materials/soil.h>
+#include <caisson_mpm/operators/boundary_conditions.h>
+#include <caisson_mpm/operators/contact.h>
+#include <caisson_mpm/operators/nodal_motion.h>
+#include <caisson_mpm/output/checkpoint.h>
+#include <caisson_mpm/output/history.h>
+#include <caisson_mpm/output/verification.h>
+#include <caisson_mpm/output/visualization.h>
+#include <caisson_mpm/time/time_step.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /**
+   * One scene from its parameters to its last file.
+   *
+   * Construct it, fill the parameters (ParameterAcceptor::initialize or
+   * parse_all_parameters), and call run(). advance() is one time step and reads
+   * in the order of the method. Collective over MPI; one rank so far.
+   */
+  class Simulation : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit Simulation(const MPI_Comm communicator);
+
+    /**
+     * Run the scene. @p scene_file is for messages; a non-empty
+     * @p output_directory replaces the parameter. Throws BadInput and
+     * RunFailure; returns success, failure (a verification that fails), or
+     * stopped (on request, with a checkpoint).
+     */
+    ExitStatus
+    run(const std::string &scene_file,
+        const std::string &output_directory,
+        const bool         restart);
+
+    /** Check all parameters and the mesh, without running. Throws BadInput. */
+    void
+    validate();
+
+  private:
+    void
+    set_up(const std::string &output_directory, const bool restart);
+    void
+    start();
+    void
+    resume();
+    void
+    print_header(const std::string &scene_file);
+
+    double
+    choose_step();
+    void
+    advance();
+    void
+    update_points(const Kernels::GridView &view);
+    void
+    report_not_finite() const;
+
+    void
+    output();
+    void
+    record();
+    void
+    write_frame();
+    void
+    save_checkpoint();
+    void
+    write_summary(const std::string &status);
+    void
+    print_times();
+    std::string
+    fingerprint() const;
+    double
+    end_time() const;
+    double
+    seconds_running() const;
+
+    // in the order of their sections in a .prm file
+    BackgroundGrid     grid;
+    Soil               soil;
+    RigidBody          body;
+    PointGenerator     generator;
+    BoundaryConditions boundary_conditions;
+    NodalMotion        nodal_motion;
+    TimeStep           time_step;
+    Verification       verification;
+    StopRequest        stop_request;
+
+    MaterialPoints                 points;
+    std::vector<BodyPoint>         body_points;
+    Contact                        contact;
+    std::vector<Kernels::Material> materials;
+    const Kernels::KernelTable    *kernels = nullptr;
+
+    // parameters
+    std::string         title            = "a scene";
+    std::string         instruction_set  = "auto";
+    double              last_time        = 0.;
+    double              last_penetration = 0.;
+    std::string         directory        = "results";
+    std::string         terminal         = "full";
+    double              record_interval  = 0.1;
+    double              frame_interval   = 0.;
+    std::vector<double> frame_penetrations;
+    double              checkpoint_interval = 600.;
+
+    // state
+    double        time = 0., dt = 0.;
+    unsigned long step = 0, n_limited = 0;
+    double        external_work = 0.;
+
+    // output
+    std::unique_ptr<Console>       console;
+    std::unique_ptr<HistoryFile>   history;
+    std::unique_ptr<Visualization> visualization;
+    SectionTimer                   timer;
+    std::vector<double>            frame_times;
+    std::string                    scene;
+    double        next_record = 0., last_record = 0., next_checkpoint = 0.;
+    unsigned int  next_frame  = 0;
+    unsigned long first_step  = 0;
+    unsigned int  max_in_body = 0;
+    double        point_steps = 0.;
+    std::chrono::steady_clock::time_point start_time;
+  };
+} // namespace CaissonMPM
+
+#endif

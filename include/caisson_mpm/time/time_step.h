@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The stable time step, and the mass scaling that lengthens it.
+//
+//   dt = C min over cells with points of 1 / (c sqrt(1/dr^2 + 1/dz^2)),
+//   c = sqrt((lambda + 2 mu) / (s rho)),
+// C the Courant number, s the mass scaling. Mass scaling enters inertia only:
+// weight and friction are those of the real soil.
+#ifndef caisson_mpm_time_time_step_h
+#define caisson_mpm_time_time_step_h
+
+#include <caisson_mpm/bodies/background_grid.h>
+#include <caisson_mpm/bodies/material_points.h>
+#include <caisson_mpm/materials/soil.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <string>
+
+namespace CaissonMPM
+{
+  class TimeStep : public dealii::ParameterAcceptor
+  {
+  public:
+    TimeStep();
+
+    void
+    check_parameters() const;
+
+    /**
+     * The step of the current geometry. The limit is found anew every few
+     * steps only: the mesh moves slowly.
+     */
+    double
+    choose(const BackgroundGrid &grid,
+           MaterialPoints       &points,
+           const Soil           &soil);
+
+    /** The cell that limits the step, in words. */
+    const std::string &
+    reason() const
+    {
+      return limiting_cell;
+    }
+
+    double mass_scaling = 1.;
+
+  private:
+    void
+    find_limit(const BackgroundGrid &grid,
+               MaterialPoints       &points,
+               const Soil           &soil);
+
+    double       courant    = 0.5;
+    double       fixed_step = 0.;
+    double       limit      = 0.;
+    unsigned int age        = 0; // steps since the limit was found
+    std::string  limiting_cell;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <caisson_mpm/base/command_line.h>
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/nearest_names.h>
+
+#include <boost/program_options.hpp>
+
+#include <sstream>
+
+namespace CaissonMPM
+{
+  namespace
+  {
+    namespace po = boost::program_options;
+
+    po::options_description
+    visible_options()
+    {
+      po::options_description options("Options");
+      auto                    add = options.add_options();
+      add("set",
+          po::value<std::vector<std::string>>()->value_name(
+            "\"Section/Entry=value\""),
+          "set one entry, overriding the file; may be repeated");
+      add("output-directory",
+          po::value<std::string>()->value_name("DIR"),
+          "write all results into DIR");
+      add("print-parameters",
+          "print all entries with their meaning and the values in effect, and "
+          "stop; the output is itself a parameter file");
+      add("validate", "check the input without running it, and stop");
+      add("restart", "continue from the checkpoint in the output directory");
+      add("version", "print the version and stop");
+      add("help", "print this text and stop");
+      return options;
+    }
+
+    std::string
+    unknown_option_message(const std::string &option)
+    {
+      std::vector<std::string>      names;
+      const po::options_description options = visible_options();
+      for (const auto &known : options.options())
+        names.push_back("--" + known->long_name());
+      return "Unknown option \"" + option + "\"." +
+             did_you_mean(
+               nearest_names(option.substr(0, option.find('=')), names)) +
+             "\n  \"caisson_mpm --help\" lists the options.";
+    }
+
+    po::variables_map
+    parse_options(const int argc, const char *const *argv)
+    {
+      po::options_description all = visible_options();
+      all.add_options()("file", po::value<std::vector<std::string>>());
+      po::positional_options_description positional;
+      positional.add("file", -1);
+
+      // No abbreviations: scripts must not depend on which options exist.
+      const int style = po::command_line_style::default_style &
+                        ~po::command_line_style::allow_guessing;
+      po::variables_map result;
+      po::store(po::command_line_parser(argc, argv)
+                  .options(all)
+                  .positional(positional)
+                  .style(style)
+                  .run(),
+                result);
+      return result;
+    }
+
+    template <typename T>
+    T
+    value_or_default(const po::variables_map &options, const std::string &name)
+    {
+      return options.count(name) > 0 ? options[name].as<T>() : T();
+    }
+
+    std::string
+    single_parameter_file(const std::vector<std::string> &files,
+                          const bool                      may_be_missing)
+    {
+      if (files.empty() && !may_be_missing)
+        throw BadInput("No parameter file was given.\n"
+                       "  Write, for example, \"caisson_mpm prm/jack.prm\"; "
+                       "\"caisson_mpm --help\" says more.");
+      if (files.size() > 1)
+        throw BadInput(
+          "More than one parameter file was given: \"" + files[0] +
+          "\" and \"" + files[1] +
+          "\".\n  Give one file; single entries are changed with --set "
+          "\"Section/Entry=value\" (mind the quotes).");
+      return files.empty() ? "" : files.front();
+    }
+
+    CommandLine
+    to_command_line(const po::variables_map &options)
+    {
+      CommandLine result;
+      result.overrides =
+        value_or_default<std::vector<std::string>>(options, "set");
+      result.output_directory =
+        value_or_default<std::string>(options, "output-directory");
+      result.print_parameters = options.count("print-parameters") > 0;
+      result.validate         = options.count("validate") > 0;
+      result.restart          = options.count("restart") > 0;
+      result.version          = options.count("version") > 0;
+      result.help             = options.count("help") > 0;
+      if (!result.help && !result.version)
+        result.parameter_file = single_parameter_file(
+          value_or_default<std::vector<std::string>>(options, "file"),
+          result.print_parameters);
+      return result;
+    }
+  } // namespace
+
+
+
+  CommandLine
+  parse_command_line(const int argc, const char *const *argv)
+  {
+    try
+      {
+        return to_command_line(parse_options(argc, argv));
+      }
+    catch (const po::unknown_option &error)
+      {
+        throw BadInput(unknown_option_message(error.get_option_name()));
+      }
+    catch (const po::error &error)
+      {
+        throw BadInput(
+          "The command line cannot be read: " + std::string(error.what()) +
+          ".\n  \"caisson_mpm --help\" lists the options.");
+      }
+  }
+
+
+
+  std::string
+  usage()
+  {
+    std::ostringstream text;
+    text << "caisson_mpm: suction caissons pushed into sand, by an "
+            "axisymmetric material point method.\n\n"
+            "Usage: caisson_mpm FILE.prm [options]\n\n"
+         << visible_options()
+         << "\nExit status: 0 success, 1 bad input, 2 failure while running, "
+            "3 stopped on request\nwith a checkpoint.\n";
+    return text.str();
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <caisson_mpm/base/console.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+namespace CaissonMPM
+{
+  namespace
+  {
+    /** As std::sprintf, into a string. */
+    std::string
+    format(const char *const pattern, ...)
+      __attribute__((format(printf, 1, 2)));
+
+    std::string
+    format(const char *const pattern, ...)
+    {
+      char         buffer[256];
+      std::va_list arguments;
+      va_start(arguments, pattern);
+      std::vsnprintf(buffer, sizeof(buffer), pattern, arguments);
+      va_end(arguments);
+      return buffer;
+    }
+
+    /** Round-off of a zero must not differ between two machines. */
+    double
+    without_noise(const double x)
+    {
+      return std::abs(x) < 1e-12 ? 0. : x;
+    }
+
+    std::string
+    clock_time(const double seconds)
+    {
+      if (!(seconds >= 0. && seconds < 1e7))
+        return "--:--:--";
+      const long int s = std::lround(seconds);
+      return format("%02ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
+    }
+
+    std::string
+    plain_record(const RecordLine &line)
+    {
+      const std::string done =
+        format(" | %.6g %%\n", 100. * line.fraction_done);
+      if (!line.has_body)
+        return format("time %.6g s | kinetic energy %.6g J | "
+                      "max speed %.6g m/s",
+                      line.time,
+                      without_noise(line.kinetic_energy),
+                      without_noise(line.max_speed)) +
+               done;
+      const double kN = 1e-3;
+      return format("pen %.6g m | tip %.6g inner %.6g outer %.6g "
+                    "total %.6g kN",
+                    line.penetration,
+                    without_noise(kN * line.tip),
+                    without_noise(kN * line.inner),
+                    without_noise(kN * line.outer),
+                    without_noise(kN * line.total)) +
+             done;
+    }
+
+    std::string
+    full_record(const RecordLine &line)
+    {
+      const std::string rest =
+        format(" | %5.1f %% | ETA %s | %.1f M point-steps/s\n",
+               100. * line.fraction_done,
+               clock_time(line.eta_seconds).c_str(),
+               1e-6 * line.point_steps_per_second);
+      if (!line.has_body)
+        return format("time %8.4f s | kinetic energy %9.3e J | "
+                      "max speed %9.3e m/s",
+                      line.time,
+                      line.kinetic_energy,
+                      line.max_speed) +
+               rest;
+      const double kN = 1e-3;
+      return format("pen %6.3f m | tip %7.1f inner %7.1f outer %7.1f "
+                    "total %7.1f kN",
+                    line.penetration,
+                    kN * line.tip,
+                    kN * line.inner,
+                    kN * line.outer,
+                    kN * line.total) +
+             rest;
+    }
+
+    std::string
+    aligned(const Console::Lines &lines)
+    {
+      std::size_t width = 0;
+      for (const auto &line : lines)
+        width = std::max(width, line.first.size());
+      std::string result;
+      for (const auto &[key, value] : lines)
+        result +=
+          key + std::string(width - key.size(), ' ') + "  " + value + "\n";
+      return result;
+    }
+  } // namespace
+
+
+
+  Console::Console(const Verbosity verbosity, std::ostream &out)
+    : verbosity(verbosity)
+    , out(out)
+  {}
+
+
+
+  void
+  Console::header(const Lines &lines)
+  {
+    if (verbosity == Verbosity::full)
+      print(aligned(lines));
+  }
+
+
+
+  void
+  Console::summary(const Lines &lines)
+  {
+    print(aligned(lines));
+  }
+
+
+
+  void
+  Console::record(const RecordLine &line)
+  {
+    print(verbosity == Verbosity::full ? full_record(line) :
+                                         plain_record(line));
+  }
+
+
+
+  void
+  Console::table(const std::string &title, const std::vector<TableRow> &rows)
+  {
+    if (verbosity != Verbosity::full)
+      return;
+    std::size_t width = 0;
+    for (const TableRow &row : rows)
+      width = std::max(width, row.name.size());
+    std::string text = title + "\n";
+    for (const TableRow &row : rows)
+      text += "  " + row.name + std::string(width - row.name.size(), ' ') +
+              format("  %10.3f s  %5.1f %%\n", row.seconds, row.percent);
+    print(text);
+  }
+
+
+
+  void
+  Console::message(const std::string &text)
+  {
+    print(text + "\n");
+  }
+
+
+
+  void
+  Console::warning(const std::string &text)
+  {
+    print("warning: " + text + "\n");
+  }
+
+
+
+  Console::Verbosity
+  Console::get_verbosity() const
+  {
+    return verbosity;
+  }
+
+
+
+  void
+  Console::print(const std::string &text)
+  {
+    if (verbosity != Verbosity::silent)
+      out << text << std::flush;
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,543 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/compat.h>
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/bodies/background_grid.h>
+#include <caisson_mpm/bodies/graded_lines.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  BackgroundGrid::BackgroundGrid(const MPI_Comm communicator)
+    : ParameterAcceptor("/Grid")
+    , triangulation(communicator)
+    , fe(1)
+    , dof_handler(triangulation)
+  {
+    const Patterns::Double positive(1e-9), not_negative(0.);
+    add_parameter("Geometry",
+                  geometry_text,
+                  "axisymmetric about r = 0, or plane strain. Units: none.",
+                  prm,
+                  Patterns::Selection("axisymmetric|plane strain"));
+    add_parameter("Inner radius",
+                  inner_radius,
+                  "Smallest r of the domain. Units: m.",
+                  prm,
+                  not_negative);
+    add_parameter("Outer radius",
+                  outer_radius,
+                  "Largest r of the domain. Units: m.",
+                  prm,
+                  positive);
+    add_parameter("Bottom", bottom, "Lowest z of the domain. Units: m.");
+    add_parameter("Top",
+                  top,
+                  "Highest z of the domain at the start. Units: m.");
+    add_parameter("Cell width",
+                  cell_width,
+                  "Width of the cells far from a caisson; of all cells where "
+                  "there is none. Units: m.",
+                  prm,
+                  positive);
+    add_parameter("Cell height",
+                  cell_height,
+                  "Height of the cells far from a caisson's tip; of all cells "
+                  "where there is none. Units: m.",
+                  prm,
+                  positive);
+    add_parameter("Growth ratio",
+                  growth,
+                  "Ratio of the sizes of neighboring cells away from the fine "
+                  "cells. Units: none.",
+                  prm,
+                  Patterns::Double(1.001, 2.));
+    add_parameter("Fine width",
+                  fine_width,
+                  "Distance from the wall, on both sides, with cells as wide "
+                  "as those of the wall. Units: m.",
+                  prm,
+                  not_negative);
+    add_parameter("Fine height",
+                  fine_height,
+                  "Distance from the tip, above and below, with cells as high "
+                  "as those of the wall are wide. Units: m.",
+                  prm,
+                  not_negative);
+    add_parameter("Moving zone below tip",
+                  zone_below_tip,
+                  "How far the zone that moves with the body reaches below its "
+                  "tip. Units: m.",
+                  prm,
+                  not_negative);
+    add_parameter("Upper zone",
+                  upper_text,
+                  "Above the body, the mesh moves with it (free), or extends "
+                  "to a fixed top (extending). Units: none.",
+                  prm,
+                  Patterns::Selection("free|extending"));
+    add_parameter("Smallest row height",
+                  smallest_row,
+                  "Rows of the compressing zone must stay at least this high. "
+                  "Units: m.",
+                  prm,
+                  positive);
+  }
+
+  void
+  BackgroundGrid::check_parameters() const
+  {
+    const auto text = [](const double x) {
+      std::ostringstream s;
+      s << x;
+      return s.str();
+    };
+    if (inner_radius >= outer_radius)
+      throw BadInput("Grid/Inner radius = " + text(inner_radius) +
+                     " m must be smaller than Grid/Outer radius = " +
+                     text(outer_radius) + " m.");
+    if (bottom >= 0. || top < 0.)
+      throw BadInput("Grid/Bottom = " + text(bottom) +
+                     " m and Grid/Top = " + text(top) +
+                     " m must lie below and above the soil surface, z = 0.");
+  }
+
+  // ------------------------------------------------------------ grid lines
+
+  void
+  BackgroundGrid::place_lines(const RigidBody &body,
+                              const Soil      &soil,
+                              const double     travel)
+  {
+    travel_to_hold = travel;
+    place_columns(body);
+    place_rows(body, soil);
+    check_travel();
+  }
+
+  namespace
+  {
+    unsigned int
+    line_at(const std::vector<double> &lines, const double x)
+    {
+      const auto it =
+        std::min_element(lines.begin(),
+                         lines.end(),
+                         [x](const double a, const double b) {
+                           return std::abs(a - x) < std::abs(b - x);
+                         });
+      return it - lines.begin();
+    }
+
+    std::string
+    meters(const double x)
+    {
+      std::ostringstream s;
+      s << x << " m";
+      return s.str();
+    }
+  } // namespace
+
+  void
+  BackgroundGrid::place_columns(const RigidBody &body)
+  {
+    if (body.kind() == RigidBody::Kind::none)
+      {
+        columns = graded_lines({inner_radius, outer_radius},
+                               [this](const double) { return cell_width; });
+        return;
+      }
+    const double left = body.left(), right = body.right();
+    if (left < inner_radius || right > outer_radius)
+      throw BadInput("The body, from r = " + meters(left) + " to " +
+                     meters(right) + ", does not fit in the mesh, from r = " +
+                     meters(inner_radius) + " to " + meters(outer_radius) +
+                     ". Change Grid/Outer radius or the body.");
+    const bool   is_caisson = body.kind() == RigidBody::Kind::caisson;
+    const double fine =
+      is_caisson ? body.wall_thickness / body.cells_across : cell_width;
+    columns           = graded_lines({inner_radius, left, right, outer_radius},
+                           [=](const double r) {
+                             const double distance =
+                               std::max({left - r, r - right, 0.}) - fine_width;
+                             return std::min(std::max(cell_width, fine),
+                                             fine + (growth - 1.) *
+                                                      std::max(0., distance));
+                           });
+    body_column_begin = line_at(columns, left);
+    body_column_end   = line_at(columns, right);
+    shoulder          = body.bottom() + body.tip_height();
+    dip.assign(columns.size(), 0.);
+    for (unsigned int i = body_column_begin; i <= body_column_end; ++i)
+      dip[i] = shoulder - body.lower_surface(columns[i]);
+  }
+
+  void
+  BackgroundGrid::place_rows(const RigidBody &body, const Soil &soil)
+  {
+    std::vector<double> fixed = {bottom, 0., top};
+    for (const double z : soil.interfaces())
+      fixed.push_back(z);
+    zone_bottom = bottom;
+    zone_top    = top;
+    if (body.kind() == RigidBody::Kind::none)
+      {
+        rows = graded_lines(fixed, [this](double) { return cell_height; });
+        return;
+      }
+    if (body.bottom() < bottom || body.top_of_body() > top)
+      throw BadInput("The body, from z = " + meters(body.bottom()) + " to " +
+                     meters(body.top_of_body()) +
+                     ", does not fit in the mesh, from z = " + meters(bottom) +
+                     " to " + meters(top) +
+                     ". Change Grid/Bottom, Grid/Top or the body.");
+    const bool   is_caisson = body.kind() == RigidBody::Kind::caisson;
+    const double fine =
+      is_caisson ? body.wall_thickness / body.cells_across : cell_height;
+    zone_bottom  = std::max(bottom, body.bottom() - zone_below_tip);
+    zone_top     = body.top_of_body();
+    decay_length = 4. * body.tip_height();
+    if (travel_to_hold > 0.)
+      fixed.push_back(zone_bottom);
+    fixed.push_back(shoulder);
+    fixed.push_back(zone_top);
+    rows           = graded_lines(fixed, [=](const double z) {
+      const double distance = std::abs(z - shoulder) - fine_height;
+      return std::min(std::max(cell_height, fine),
+                      fine + (growth - 1.) * std::max(0., distance));
+    });
+    body_row_begin = line_at(rows, shoulder);
+    body_row_end   = line_at(rows, zone_top);
+  }
+
+  void
+  BackgroundGrid::check_travel() const
+  {
+    if (travel_to_hold <= 0.)
+      return;
+    const double available = zone_bottom - bottom;
+    if (travel_to_hold >= available)
+      throw BadInput("The compressing zone, " + meters(available) +
+                     " high, cannot hold a travel of " +
+                     meters(travel_to_hold) + ". Lower Grid/Bottom below " +
+                     meters(zone_bottom - travel_to_hold) +
+                     ", reduce Grid/Moving zone below tip, or push less far.");
+    if (shoulder - decay_length < zone_bottom)
+      throw BadInput("Grid/Moving zone below tip = " + meters(zone_below_tip) +
+                     " must be at least " + meters(decay_length) +
+                     " for this tip: the rows need that depth to straighten.");
+    double smallest = 1e300;
+    for (unsigned int j = 0; j + 1 < rows.size(); ++j)
+      if (rows[j] < zone_bottom - 1e-9)
+        smallest = std::min(smallest,
+                            height_at(rows[j + 1], travel_to_hold) -
+                              height_at(rows[j], travel_to_hold));
+    if (smallest < smallest_row)
+      {
+        const double factor = 1. - travel_to_hold / available;
+        const double needed =
+          travel_to_hold / (1. - smallest_row * factor / smallest);
+        throw BadInput(
+          "The travel of " + meters(travel_to_hold) +
+          " compresses the lowest row to " + meters(smallest) +
+          ", below Grid/Smallest row height = " + meters(smallest_row) + ". " +
+          (smallest_row * factor < smallest ?
+             "Lower Grid/Bottom to about " + meters(zone_bottom - needed) +
+               ", or reduce" :
+             "Reduce") +
+          " Grid/Smallest row height.");
+      }
+    if (upper_text == "free" && height_at(top, travel_to_hold) <= 0.)
+      throw BadInput("After a travel of " + meters(travel_to_hold) +
+                     " the top of the mesh lies at z = " +
+                     meters(height_at(top, travel_to_hold)) +
+                     ", below the soil surface. Raise Grid/Top to more than " +
+                     meters(travel_to_hold) +
+                     " plus the expected heave, or set Grid/Upper zone = "
+                     "extending.");
+    if (upper_text == "extending" && top <= zone_top)
+      throw BadInput("Grid/Upper zone = extending needs cells above the body: "
+                     "raise Grid/Top above " +
+                     meters(zone_top) + ".");
+  }
+
+  double
+  BackgroundGrid::height_at(const double z0, const double travel) const
+  {
+    double rate = -1.;
+    if (z0 < zone_bottom)
+      rate = -(z0 - bottom) / (zone_bottom - bottom);
+    else if (z0 > zone_top && upper_text == "extending")
+      rate = -(top - z0) / (top - zone_top);
+    return z0 + rate * travel;
+  }
+
+  double
+  BackgroundGrid::reference_height(const unsigned int i,
+                                   const unsigned int j) const
+  {
+    if (dip.empty() || dip[i] == 0.)
+      return rows[j];
+    const double distance = std::abs(rows[j] - shoulder) / decay_length;
+    return rows[j] - dip[i] * std::max(0., 1. - distance);
+  }
+
+  bool
+  BackgroundGrid::inside_body(const unsigned int column,
+                              const unsigned int row) const
+  {
+    return column >= body_column_begin && column < body_column_end &&
+           row >= body_row_begin && row < body_row_end;
+  }
+
+  // ------------------------------------------------------------ mesh
+
+  void
+  BackgroundGrid::create_mesh()
+  {
+    create_triangulation();
+    dof_handler.distribute_dofs(fe);
+    partitioner = std::make_shared<const Utilities::MPI::Partitioner>(
+      dof_handler.locally_owned_dofs(),
+      Compat::locally_relevant_dofs(dof_handler),
+      triangulation.get_communicator());
+    collect_cells();
+    number_nodes();
+    prepare_motion(0.);
+    advance();
+  }
+
+  void
+  BackgroundGrid::create_triangulation()
+  {
+    const unsigned int      n = columns.size();
+    std::vector<Point<dim>> vertices;
+    for (unsigned int j = 0; j < rows.size(); ++j)
+      for (unsigned int i = 0; i < n; ++i)
+        vertices.emplace_back(columns[i], reference_height(i, j));
+    std::vector<CellData<dim>> cells;
+    for (unsigned int j = 0; j < n_rows(); ++j)
+      for (unsigned int i = 0; i < n_columns(); ++i)
+        {
+          CellData<dim> cell;
+          cell.vertices    = {j * n + i,
+                              j * n + i + 1,
+                              (j + 1) * n + i,
+                              (j + 1) * n + i + 1};
+          cell.material_id = inside_body(i, j) ? 1 : 0;
+          cells.push_back(cell);
+        }
+    triangulation.create_triangulation(vertices, cells, SubCellData());
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const unsigned int face : cell->face_indices())
+          if (cell->face(face)->at_boundary())
+            cell->face(face)->set_boundary_id(face);
+  }
+
+  void
+  BackgroundGrid::collect_cells()
+  {
+    local_numbers.assign(triangulation.n_active_cells(),
+                         numbers::invalid_unsigned_int);
+    iterators.clear();
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          local_numbers[cell->active_cell_index()] = iterators.size();
+          iterators.push_back(cell);
+        }
+    const unsigned int n = iterators.size();
+    nodes.resize(n);
+    neighbors.assign(4 * n, -1);
+    rigid.assign(n, 0);
+    flags.assign(n, 0);
+    zones.assign(n, Zone::moving);
+    coarse_index.resize(n);
+    for (auto &g : geometries)
+      g.resize(n);
+    std::vector<types::global_dof_index> dofs(4);
+    for (unsigned int c = 0; c < n; ++c)
+      {
+        const auto &cell = iterators[c];
+        coarse_index[c]  = cell->index(); // a CellId numbers the trees of p4est
+        DoFHandler<dim>::active_cell_iterator(&triangulation,
+                                              cell->level(),
+                                              cell->index(),
+                                              &dof_handler)
+          ->get_dof_indices(dofs);
+        for (unsigned int k = 0; k < 4; ++k)
+          nodes[c].node[k] = partitioner->global_to_local(dofs[k]);
+        rigid[c] = cell->material_id() == 1;
+        if (rows[row_of(c)] < zone_bottom - 1e-9)
+          zones[c] = Zone::compressing;
+        else if (rows[row_of(c)] >= zone_top - 1e-9 &&
+                 upper_text == "extending")
+          zones[c] = Zone::upper;
+        for (unsigned int face = 0; face < 4; ++face)
+          if (!cell->at_boundary(face) &&
+              !cell->neighbor(face)->is_artificial())
+            neighbors[4 * c + face] =
+              local_numbers[cell->neighbor(face)->active_cell_index()];
+      }
+    // the cells that share a node with the body
+    std::vector<bool> at_body(partitioner->locally_owned_size() +
+                                partitioner->n_ghost_indices(),
+                              false);
+    for (unsigned int c = 0; c < n; ++c)
+      if (rigid[c])
+        for (const unsigned int node : nodes[c].node)
+          at_body[node] = true;
+    for (unsigned int c = 0; c < n; ++c)
+      for (const unsigned int node : nodes[c].node)
+        if (!rigid[c] && at_body[node])
+          flags[c] |= Kernels::next_to_body;
+  }
+
+  void
+  BackgroundGrid::number_nodes()
+  {
+    const unsigned int n =
+      partitioner->locally_owned_size() + partitioner->n_ghost_indices();
+    node_r.assign(n, 0.);
+    node_z0.assign(n, 0.);
+    node_rate.assign(n, 0.);
+    node_sides.assign(n, 0);
+    vertex_heights.clear();
+    std::vector<bool> seen(n, false);
+    for (unsigned int c = 0; c < n_cells(); ++c)
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          const unsigned int i = column_of(c) + k % 2, j = row_of(c) + k / 2;
+          const unsigned int node = nodes[c].node[k];
+          if (seen[node])
+            continue;
+          seen[node]       = true;
+          node_r[node]     = columns[i];
+          node_z0[node]    = reference_height(i, j);
+          node_rate[node]  = height_at(rows[j], 1.) - rows[j];
+          node_sides[node] = (i == 0 ? 1 << axis : 0) |
+                             (i == n_columns() ? 1 << outer : 0) |
+                             (j == 0 ? 1 << bottom_side : 0) |
+                             (j == n_rows() ? 1 << top_side : 0);
+          vertex_heights.emplace_back(node, &iterators[c]->vertex(k)[vertical]);
+        }
+    node_z = node_z0;
+  }
+
+  void
+  BackgroundGrid::reinit(NodalData &vector, const unsigned int components) const
+  {
+    auto &scaled = partitioners[components];
+    if (!scaled)
+      {
+        const auto scale = [&](const IndexSet &set) {
+          IndexSet result(set.size() * components);
+          for (const auto index : set)
+            result.add_range(index * components, (index + 1) * components);
+          result.compress();
+          return result;
+        };
+        scaled = std::make_shared<const Utilities::MPI::Partitioner>(
+          scale(partitioner->locally_owned_range()),
+          scale(partitioner->ghost_indices()),
+          triangulation.get_communicator());
+      }
+    vector.reinit(scaled);
+  }
+
+  // ------------------------------------------------------------ motion
+
+  void
+  BackgroundGrid::prepare_motion(const double travel)
+  {
+    for (unsigned int n = 0; n < n_nodes(); ++n)
+      node_z[n] = node_z0[n] + node_rate[n] * travel;
+    auto &next = geometries[1 - current];
+    for (unsigned int c = 0; c < n_cells(); ++c)
+      {
+        const auto  &n    = nodes[c].node;
+        const double left = node_z[n[0]], right = node_z[n[1]];
+        next[c] = {node_r[n[0]],
+                   node_r[n[1]] - node_r[n[0]],
+                   left,
+                   right,
+                   node_z[n[2]] - left,
+                   node_z[n[3]] - right};
+      }
+  }
+
+  void
+  BackgroundGrid::advance()
+  {
+    current = 1 - current;
+  }
+
+  void
+  BackgroundGrid::write_vertices()
+  {
+    for (const auto &vertex : vertex_heights)
+      *vertex.second = node_z[vertex.first];
+  }
+
+  Kernels::GridView
+  BackgroundGrid::view() const
+  {
+    return {geometries[current].data(),
+            nodes.data(),
+            flags.data(),
+            axisymmetric() ? 1. : 0.};
+  }
+
+  Kernels::GridView
+  BackgroundGrid::next() const
+  {
+    Kernels::GridView result = view();
+    result.geometry          = geometries[1 - current].data();
+    return result;
+  }
+
+  double
+  BackgroundGrid::smallest_height_met(const unsigned int cell) const
+  {
+    const unsigned int i = column_of(cell), j = row_of(cell);
+    const auto         line = [&](const unsigned int row, const double travel) {
+      // the side of the column with the deeper dip has the lower cells
+      const unsigned int side = !dip.empty() && dip[i] > dip[i + 1] ? i : i + 1;
+      return reference_height(side, row) + height_at(rows[row], travel) -
+             rows[row];
+    };
+    const double       low = line(j, 0.), high = line(j + 1, 0.);
+    double             smallest  = high - low;
+    const unsigned int n_samples = 100;
+    for (unsigned int s = 1; s <= n_samples && travel_to_hold > 0.; ++s)
+      {
+        const double travel = travel_to_hold * s / n_samples;
+        // rows sink: soil of this cell meets only cells that began above it
+        for (unsigned int k = j; k < n_rows(); ++k)
+          {
+            const double z0 = line(k, travel), z1 = line(k + 1, travel);
+            if (z0 > high)
+              break;
+            if (z1 > low && !inside_body(i, k))
+              smallest = std::min(smallest, z1 - z0);
+          }
+      }
+    return smallest;
+  }
+
+  std::string
+  BackgroundGrid::description() const
+  {
+    std::ostringstream s;
+    s << n_columns() << " x " << n_rows() << " cells, "
+      << (axisymmetric() ? "axisymmetric" : "plane strain");
+    return s.str();
+  }
+} // namespace CaissonMPM

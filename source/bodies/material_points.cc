@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/bodies/material_points.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+  using namespace Kernels;
+
+  MaterialPoints::MaterialPoints(BackgroundGrid &grid)
+    : grid(grid)
+  {}
+
+  // ------------------------------------------------------------ one point
+
+  MaterialPoint
+  MaterialPoints::get(const int block, const int lane) const
+  {
+    const PointBlock &b = blocks[block];
+    MaterialPoint     p;
+    p.position    = Point<2>(b.r[lane], b.z[lane]);
+    p.velocity[0] = b.velocity_r[lane];
+    p.velocity[1] = b.velocity_z[lane];
+    for (unsigned int c = 0; c < 4; ++c)
+      p.stress[c] = b.stress[c][lane];
+    p.mass               = b.mass[lane];
+    p.volume             = b.volume[lane];
+    p.plastic_deviatoric = b.plastic_deviatoric[lane];
+    p.plastic_volumetric = b.plastic_volumetric[lane];
+    p.initial_position   = Point<2>(b.initial_r[lane], b.initial_z[lane]);
+    p.initial_volume     = b.initial_volume[lane];
+    p.id                 = b.id[lane];
+    p.material           = headers[block].material;
+    return p;
+  }
+
+  void
+  MaterialPoints::set(const int block, const int lane, const MaterialPoint &p)
+  {
+    PointBlock &b      = blocks[block];
+    b.r[lane]          = p.position[0];
+    b.z[lane]          = p.position[1];
+    b.velocity_r[lane] = p.velocity[0];
+    b.velocity_z[lane] = p.velocity[1];
+    for (unsigned int c = 0; c < 4; ++c)
+      b.stress[c][lane] = p.stress[c];
+    b.mass[lane]               = p.mass;
+    b.volume[lane]             = p.volume;
+    b.plastic_deviatoric[lane] = p.plastic_deviatoric;
+    b.plastic_volumetric[lane] = p.plastic_volumetric;
+    b.initial_r[lane]          = p.initial_position[0];
+    b.initial_z[lane]          = p.initial_position[1];
+    b.initial_volume[lane]     = p.initial_volume;
+    b.id[lane]                 = p.id;
+  }
+
+  // ------------------------------------------------------------ blocks
+
+  namespace
+  {
+    constexpr unsigned int n_fields = sizeof(PointBlock) / sizeof(double[8]);
+
+    double *
+    field(PointBlock &block, const unsigned int i)
+    {
+      return reinterpret_cast<double *>(&block) + i * block_size;
+    }
+  } // namespace
+
+  void
+  MaterialPoints::copy_lane(const int from,
+                            const int from_lane,
+                            const int to,
+                            const int lane)
+  {
+    for (unsigned int i = 0; i < n_fields; ++i)
+      field(blocks[to], i)[lane] = field(blocks[from], i)[from_lane];
+  }
+
+  void
+  MaterialPoints::pad(const int block)
+  {
+    for (int lane = headers[block].count; lane < block_size; ++lane)
+      {
+        copy_lane(block, 0, block, lane);
+        blocks[block].mass[lane]   = 0.;
+        blocks[block].volume[lane] = 0.;
+      }
+  }
+
+  int
+  MaterialPoints::new_block(const unsigned int cell,
+                            const int          after,
+                            const short        material)
+  {
+    if (free_blocks.empty())
+      {
+        free_blocks.push_back(blocks.size());
+        blocks.emplace_back();
+        headers.push_back({-1, 0, 0});
+      }
+    const int block = free_blocks.back();
+    free_blocks.pop_back();
+    int &link      = after >= 0 ? headers[after].next : first_block[cell];
+    headers[block] = {link, 0, material};
+    link           = block;
+    return block;
+  }
+
+  void
+  MaterialPoints::add(const unsigned int cell, const MaterialPoint &point)
+  {
+    if (first_block.size() != grid.n_cells())
+      first_block.resize(grid.n_cells(), -1);
+    const short material = point.material;
+    // the last block of this material, or the last block of the cell
+    int block = -1, last = -1;
+    for (int b = first_block[cell]; b >= 0; b = headers[b].next)
+      {
+        last = b;
+        if (headers[b].material == material)
+          block = b;
+      }
+    active_cells_changed |= last < 0;
+    if (block < 0 || headers[block].count == block_size)
+      block = new_block(cell, block >= 0 ? block : last, material);
+    set(block, headers[block].count++, point);
+    pad(block);
+    ++n_points_;
+  }
+
+  void
+  MaterialPoints::remove(const unsigned int cell,
+                         const int          block,
+                         const int          lane)
+  {
+    // fill the gap with the last point of this material
+    int last = block, before = -1;
+    for (int b = first_block[cell], previous = -1; b >= 0;
+         previous = b, b = headers[b].next)
+      if (headers[b].material == headers[block].material)
+        {
+          last   = b;
+          before = previous;
+        }
+    const int last_lane = --headers[last].count;
+    if (last != block || last_lane != lane)
+      {
+        copy_lane(last, last_lane, block, lane);
+        pad(block);
+      }
+    if (headers[last].count == 0)
+      {
+        (before >= 0 ? headers[before].next : first_block[cell]) =
+          headers[last].next;
+        free_blocks.push_back(last);
+        active_cells_changed |= first_block[cell] < 0;
+      }
+    else
+      pad(last);
+    --n_points_;
+  }
+
+  void
+  MaterialPoints::collect_active_cells()
+  {
+    active_cells.clear();
+    for (unsigned int c = 0; c < first_block.size(); ++c)
+      if (first_block[c] >= 0)
+        active_cells.push_back(c);
+    active_cells_changed = false;
+  }
+
+  PointsView
+  MaterialPoints::view()
+  {
+    if (active_cells_changed)
+      collect_active_cells();
+    return {blocks.data(),
+            headers.data(),
+            first_block.data(),
+            active_cells.data(),
+            static_cast<unsigned int>(active_cells.size())};
+  }
+
+  double
+  MaterialPoints::memory_consumption() const
+  {
+    return blocks.capacity() * sizeof(PointBlock) +
+           headers.capacity() * sizeof(BlockHeader) +
+           leaving_storage.capacity() * sizeof(LeavingPoint);
+  }
+
+  // ------------------------------------------------------------ relocation
+
+  LeavingPoints &
+  MaterialPoints::leaving()
+  {
+    if (leaving_storage.size() < n_points_)
+      leaving_storage.resize(n_points_);
+    leaving_view.points   = leaving_storage.data();
+    leaving_view.capacity = leaving_storage.size();
+    return leaving_view;
+  }
+
+  void
+  MaterialPoints::relocate()
+  {
+    // The kernel lists points in the order of their blocks: going backward, the
+    // point that fills a gap is never one that is still to be taken out.
+    std::vector<std::pair<unsigned int, MaterialPoint>> moving;
+    moving.reserve(leaving_view.n);
+    for (unsigned int i = leaving_view.n; i-- > 0;)
+      {
+        const LeavingPoint &l = leaving_view.points[i];
+        moving.emplace_back(l.cell, get(l.block, l.lane));
+        remove(l.cell, l.block, l.lane);
+      }
+    for (auto &entry : moving)
+      add(find_cell(entry.first, entry.second), entry.second);
+  }
+
+  namespace
+  {
+    struct Reference
+    {
+      double xi, eta;
+    };
+
+    Reference
+    to_reference(const CellGeometry &g, const Point<2> &p)
+    {
+      const double xi = (p[0] - g.left) / g.width;
+      const double bottom =
+        g.bottom_left + (g.bottom_right - g.bottom_left) * xi;
+      const double height =
+        g.height_left + (g.height_right - g.height_left) * xi;
+      return {xi, (p[1] - bottom) / height};
+    }
+
+    Point<2>
+    to_position(const CellGeometry &g, const Reference &x)
+    {
+      const double bottom =
+        g.bottom_left + (g.bottom_right - g.bottom_left) * x.xi;
+      const double height =
+        g.height_left + (g.height_right - g.height_left) * x.xi;
+      return Point<2>(g.left + g.width * x.xi, bottom + height * x.eta);
+    }
+
+    /** The face to cross in one direction, or -1 if none. */
+    int
+    face_to_cross(const double x, const unsigned int direction)
+    {
+      return x < 0. ? 2 * direction : x > 1. ? 2 * direction + 1 : -1;
+    }
+  } // namespace
+
+  unsigned int
+  MaterialPoints::find_cell(unsigned int cell, MaterialPoint &point)
+  {
+    // points may leave a side of the domain by round-off only
+    constexpr double margin = 1e-10, tolerance = 1e-2;
+    for (unsigned int n_crossed = 0; n_crossed < 100; ++n_crossed)
+      {
+        Reference x = to_reference(grid.geometry(cell), point.position);
+        if (!std::isfinite(x.xi) || !std::isfinite(x.eta))
+          report_lost(point);
+        const int faces[2] = {face_to_cross(x.xi, 0), face_to_cross(x.eta, 1)};
+        int       next     = -1;
+        for (const int face : faces)
+          if (face >= 0 && next < 0)
+            {
+              const int neighbor = grid.neighbor(cell, face);
+              if (neighbor >= 0 && !grid.is_rigid(neighbor))
+                next = neighbor;
+            }
+        if (next >= 0)
+          {
+            cell = next;
+            continue;
+          }
+        if (faces[0] < 0 && faces[1] < 0)
+          return cell;
+        for (const int face : faces)
+          if (face >= 0)
+            {
+              double &coordinate = face < 2 ? x.xi : x.eta;
+              if (grid.neighbor(cell, face) >= 0)
+                ++n_held_back_;
+              else if (coordinate < -tolerance || coordinate > 1. + tolerance)
+                report_lost(point);
+              coordinate = std::clamp(coordinate, margin, 1. - margin);
+            }
+        point.position = to_position(grid.geometry(cell), x);
+        return cell;
+      }
+    report_lost(point);
+  }
+
+  void
+  MaterialPoints::report_lost(const MaterialPoint &p) const
+  {
+    std::ostringstream s;
+    const bool         finite =
+      std::isfinite(p.position[0]) && std::isfinite(p.position[1]);
+    s << "material point " << static_cast<long>(p.id)
+      << (finite ? " left the mesh" : " is no longer finite")
+      << ": it began at r = " << p.initial_position[0]
+      << " m, z = " << p.initial_position[1] << " m, and is at ("
+      << p.position[0] << ", " << p.position[1] << ") m with velocity ("
+      << p.velocity[0] << ", " << p.velocity[1] << ") m/s and mean stress "
+      << (p.stress[0] + p.stress[1] + p.stress[2]) / 3.
+      << " Pa. Likely causes: a time step too large (reduce Time/Courant "
+         "number), a mesh that ends where soil flows (raise Grid/Top, or make "
+         "the side a roller), or soil without strength at a free surface (add "
+         "some cohesion).";
+    throw RunFailure(s.str());
+  }
+
+  // ------------------------------------------------------------ deal.II
+
+  void
+  MaterialPoints::clear_handler()
+  {
+    handler.initialize(grid.triangulation, grid.mapping, n_properties);
+    handler.clear_particles();
+  }
+
+  void
+  MaterialPoints::insert(const unsigned int cell, const MaterialPoint &p)
+  {
+    const double    data[n_properties] = {p.velocity[0],
+                                          p.velocity[1],
+                                          p.stress[rr],
+                                          p.stress[zz],
+                                          p.stress[tt],
+                                          p.stress[rz],
+                                          p.mass,
+                                          p.volume,
+                                          p.plastic_deviatoric,
+                                          p.plastic_volumetric,
+                                          p.initial_position[0],
+                                          p.initial_position[1],
+                                          p.initial_volume,
+                                          p.id,
+                                          static_cast<double>(p.material)};
+    const Reference x = to_reference(grid.geometry(cell), p.position);
+    handler.insert_particle(p.position,
+                            Point<2>(x.xi, x.eta),
+                            static_cast<types::particle_index>(p.id),
+                            grid.cell_iterator(cell),
+                            ArrayView<const double>(data, n_properties));
+  }
+
+  void
+  MaterialPoints::store()
+  {
+    clear_handler();
+    for_each([this](const MaterialPoint &p, const unsigned int cell) {
+      insert(cell, p);
+    });
+    handler.update_cached_numbers();
+  }
+
+  void
+  MaterialPoints::load()
+  {
+    blocks.clear();
+    headers.clear();
+    free_blocks.clear();
+    first_block.assign(grid.n_cells(), -1);
+    n_points_            = 0;
+    active_cells_changed = true;
+    for (const auto &particle : handler)
+      {
+        const auto    d = particle.get_properties();
+        MaterialPoint p;
+        p.position           = particle.get_location();
+        p.velocity[0]        = d[0];
+        p.velocity[1]        = d[1];
+        p.stress             = {{d[2], d[3], d[4], d[5]}};
+        p.mass               = d[6];
+        p.volume             = d[7];
+        p.plastic_deviatoric = d[8];
+        p.plastic_volumetric = d[9];
+        p.initial_position   = Point<2>(d[10], d[11]);
+        p.initial_volume     = d[12];
+        p.id                 = d[13];
+        p.material           = static_cast<unsigned int>(d[14]);
+        add(grid.local_number(
+              typename BackgroundGrid::Triangulation::active_cell_iterator(
+                particle.get_surrounding_cell())),
+            p);
+      }
+    handler.clear_particles();
+    collect_active_cells();
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/bodies/point_generator.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  PointGenerator::PointGenerator()
+    : ParameterAcceptor("/Material points")
+  {
+    const Patterns::Integer per_direction(1, 16);
+    const Patterns::Double  not_negative(0.);
+    add_parameter("Per direction in path",
+                  in_path,
+                  "Material points per cell and direction in the path of the "
+                  "wall. Units: none.",
+                  prm,
+                  per_direction);
+    add_parameter("Per direction near",
+                  near,
+                  "Material points per cell and direction near the wall. "
+                  "Units: none.",
+                  prm,
+                  per_direction);
+    add_parameter("Per direction far",
+                  far,
+                  "Material points per cell and direction elsewhere. Units: "
+                  "none.",
+                  prm,
+                  per_direction);
+    add_parameter("Path margin",
+                  path_margin,
+                  "The path reaches this far beyond both faces of the wall. "
+                  "Units: m.",
+                  prm,
+                  not_negative);
+    add_parameter("Path below final depth",
+                  path_below,
+                  "The path ends this far below the deepest position of the "
+                  "tip. Units: m.",
+                  prm,
+                  not_negative);
+    add_parameter("Near distance",
+                  near_distance,
+                  "Cells within this distance of the wall's faces count as "
+                  "near. Units: m.",
+                  prm,
+                  not_negative);
+    add_parameter("Region left",
+                  region_left,
+                  "Smallest r with soil. Units: m.",
+                  prm,
+                  not_negative);
+    add_parameter("Region right",
+                  region_right,
+                  "Largest r with soil. Units: m.");
+    add_parameter("Region bottom",
+                  region_bottom,
+                  "Lowest z with soil. Units: m.");
+    add_parameter("Region top", region_top, "Highest z with soil. Units: m.");
+  }
+
+  unsigned int
+  PointGenerator::points_per_direction(const Kernels::CellGeometry &g,
+                                       const RigidBody             &body,
+                                       const double travel) const
+  {
+    if (body.kind() == RigidBody::Kind::none)
+      return far;
+    const double middle = g.left + .5 * g.width;
+    const double distance =
+      std::max({body.left() - middle, middle - body.right(), 0.});
+    if (distance < path_margin &&
+        g.bottom_left + g.height_left > body.bottom() - travel - path_below)
+      return in_path;
+    return distance < near_distance ? near : far;
+  }
+
+  namespace
+  {
+    /** Integrals of r^k height(r) dr over a part of a cell, k = 0, 1, 2. */
+    std::array<double, 3>
+    radial_moments(const Kernels::CellGeometry &g,
+                   const double                 a,
+                   const double                 b)
+    {
+      // three Gauss points are exact up to degree 5
+      constexpr double      offset  = 0.7745966692414834; // sqrt(3/5)
+      const double          x[3]    = {-offset, 0., offset};
+      const double          w[3]    = {5. / 18., 8. / 18., 5. / 18.};
+      std::array<double, 3> moments = {{0., 0., 0.}};
+      for (unsigned int q = 0; q < 3; ++q)
+        {
+          const double r = .5 * (a + b) + .5 * (b - a) * x[q];
+          const double height =
+            g.height_left +
+            (g.height_right - g.height_left) * (r - g.left) / g.width;
+          const double weight = w[q] * (b - a) * height;
+          moments[0] += weight;
+          moments[1] += weight * r;
+          moments[2] += weight * r * r;
+        }
+      return moments;
+    }
+  } // namespace
+
+  void
+  PointGenerator::generate(const BackgroundGrid &grid,
+                           const RigidBody      &body,
+                           const Soil           &soil,
+                           const double          mass_scaling,
+                           MaterialPoints       &points) const
+  {
+    points.clear_handler();
+    const unsigned int k  = grid.axisymmetric() ? 1 : 0;
+    unsigned int       id = 0;
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      {
+        const auto  &g        = grid.geometry(cell);
+        const double center_z = g.bottom_left + .5 * g.height_left;
+        if (grid.is_rigid(cell) || center_z > region_top ||
+            center_z < region_bottom)
+          continue;
+        const unsigned int n_r =
+          points_per_direction(g, body, grid.total_travel());
+        const double       height = std::max(g.height_left, g.height_right);
+        const unsigned int n_z =
+          std::ceil(n_r * height / grid.smallest_height_met(cell) - 1e-6);
+        for (unsigned int i = 0; i < n_r; ++i)
+          {
+            const auto moments =
+              radial_moments(g,
+                             g.left + g.width * i / n_r,
+                             g.left + g.width * (i + 1) / n_r);
+            const double r  = moments[k + 1] / moments[k];
+            const double xi = (r - g.left) / g.width;
+            const double bottom =
+              g.bottom_left + (g.bottom_right - g.bottom_left) * xi;
+            const double local_height =
+              g.height_left + (g.height_right - g.height_left) * xi;
+            for (unsigned int j = 0; j < n_z; ++j)
+              {
+                const double z = bottom + local_height * (j + .5) / n_z;
+                if (r < region_left || r > region_right)
+                  continue;
+                MaterialPoint p;
+                p.position = p.initial_position = Point<2>(r, z);
+                p.material                      = soil.layer_at(z);
+                p.stress                        = soil.initial_stress(z);
+                p.volume = p.initial_volume = moments[k] / n_z;
+                p.mass =
+                  mass_scaling * soil.inertial_density(p.material) * p.volume;
+                p.id = id++;
+                points.insert(cell, p);
+              }
+          }
+      }
+    if (id == 0)
+      throw BadInput("No material point lies in the region of the soil: check "
+                     "Material points/Region left, right, bottom and top "
+                     "against the mesh.");
+    points.handler.update_cached_numbers();
+    points.load();
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Compiled once per instruction set, with CAISSON_KERNEL_ISA naming it.
+#include <caisson_mpm/kernels/dispatch.h>
+#include <caisson_mpm/kernels/transfer.h>
+
+#define CAISSON_CONCATENATE(a, b) a##b
+#define CAISSON_TABLE(isa) CAISSON_CONCATENATE(kernels_, isa)
+#define CAISSON_QUOTE_(text) #text
+#define CAISSON_QUOTE(text) CAISSON_QUOTE_(text)
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    const KernelTable &
+    CAISSON_TABLE(CAISSON_KERNEL_ISA)()
+    {
+      static constexpr KernelTable table = {CAISSON_QUOTE(CAISSON_KERNEL_ISA),
+                                            NativeLanes::width,
+                                            &points_to_grid<NativeLanes>,
+                                            &apply_mass,
+                                            &grid_to_points<NativeLanes>};
+      return table;
+    }
+  } // namespace Kernels
+} // namespace CaissonMPM

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/kernels/laws.h>
+#include <caisson_mpm/materials/soil.h>
+
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  SoilLayer::SoilLayer(const unsigned int index)
+    : ParameterAcceptor("/Soil/Layer " + std::to_string(index))
+  {
+    const Patterns::Double positive(1e-12), not_negative(0.);
+    add_parameter("Top depth",
+                  top_depth,
+                  "Depth of the layer's upper boundary below the soil surface; "
+                  "0 for layer 1. Units: m.",
+                  prm,
+                  not_negative);
+    add_parameter("Law",
+                  law,
+                  "The constitutive law. Units: none.",
+                  prm,
+                  Patterns::Selection("linear elastic|Mohr-Coulomb"));
+    add_parameter("Youngs modulus",
+                  youngs_modulus,
+                  "Young's modulus of the skeleton. Units: Pa.",
+                  prm,
+                  positive);
+    add_parameter("Poisson ratio",
+                  poisson_ratio,
+                  "Poisson's ratio of the skeleton. Units: none.",
+                  prm,
+                  Patterns::Double(0., 0.4999));
+    add_parameter("Friction angle",
+                  friction_angle,
+                  "Effective friction angle phi. Units: degrees.",
+                  prm,
+                  Patterns::Double(0., 60.));
+    add_parameter("Dilatancy angle",
+                  dilatancy_angle,
+                  "Dilatancy angle psi, at most phi. Units: degrees.",
+                  prm,
+                  Patterns::Double(0., 60.));
+    add_parameter("Cohesion",
+                  cohesion,
+                  "Effective cohesion c. Units: Pa.",
+                  prm,
+                  not_negative);
+    add_parameter("Tension cut-off",
+                  tension_cutoff,
+                  "Largest tensile principal stress. Units: Pa.",
+                  prm,
+                  not_negative);
+    add_parameter("Porosity",
+                  porosity,
+                  "Initial porosity n. Units: none.",
+                  prm,
+                  Patterns::Double(0., 0.95));
+    add_parameter("Solid density",
+                  solid_density,
+                  "Density of the grains. Units: kg/m3.",
+                  prm,
+                  positive);
+    add_parameter("K0",
+                  k0,
+                  "Horizontal over vertical effective stress at the start; -1 "
+                  "for 1 - sin(phi) (Mohr-Coulomb) or nu / (1 - nu) (linear "
+                  "elastic). Units: none.",
+                  prm,
+                  Patterns::Double(-1., 10.));
+  }
+
+  void
+  SoilLayer::check_parameters() const
+  {
+    const std::string where = get_section_name().substr(1) + "/";
+    if (dilatancy_angle > friction_angle)
+      throw BadInput(
+        where + "Dilatancy angle = " + std::to_string(dilatancy_angle) +
+        " exceeds Friction angle = " + std::to_string(friction_angle) +
+        " degrees: plastic flow would create energy. Lower the "
+        "dilatancy angle.");
+    if (k0 < 0. && k0 != -1.)
+      throw BadInput(where + "K0 = " + std::to_string(k0) +
+                     " is negative. Set a value of 0 or more, or -1 for the "
+                     "law's own value.");
+    const double phi = radians(friction_angle), k = earth_pressure_at_rest();
+    const double passive =
+      (1. + std::sin(phi)) / (1. - std::sin(phi)); // largest stress ratio
+    if (law == "Mohr-Coulomb" && cohesion == 0. &&
+        (k > passive * (1. + 1e-9) || k < (1. - 1e-9) / passive))
+      throw BadInput(where + "K0 = " + std::to_string(k) +
+                     " lies outside what Friction angle = " +
+                     std::to_string(friction_angle) +
+                     " degrees without cohesion can carry (" +
+                     std::to_string(1. / passive) + " to " +
+                     std::to_string(passive) + "). Change one of them.");
+  }
+
+  double
+  SoilLayer::dry_density() const
+  {
+    return (1. - porosity) * solid_density;
+  }
+
+  double
+  SoilLayer::earth_pressure_at_rest() const
+  {
+    if (k0 >= 0.)
+      return k0;
+    return law == "Mohr-Coulomb" ? 1. - std::sin(radians(friction_angle)) :
+                                   poisson_ratio / (1. - poisson_ratio);
+  }
+
+  double
+  SoilLayer::p_wave_modulus() const
+  {
+    return youngs_modulus * (1. - poisson_ratio) /
+           ((1. + poisson_ratio) * (1. - 2. * poisson_ratio));
+  }
+
+  void
+  SoilLayer::set_law(Kernels::Material &material) const
+  {
+    using namespace Kernels;
+    if (law == "Mohr-Coulomb")
+      Kernels::set_law<MohrCoulomb>(
+        material,
+        MohrCoulomb::Parameters::make(youngs_modulus,
+                                      poisson_ratio,
+                                      radians(friction_angle),
+                                      radians(dilatancy_angle),
+                                      cohesion,
+                                      tension_cutoff));
+    else
+      Kernels::set_law<LinearElastic>(
+        material,
+        LinearElastic::Parameters::make(youngs_modulus, poisson_ratio));
+  }
+
+  Soil::Soil()
+    : ParameterAcceptor("/Soil")
+  {
+    add_parameter("Number of layers",
+                  n_layers_,
+                  "Number of soil layers; layer k is described in section "
+                  "Layer k. Units: none.",
+                  prm,
+                  Patterns::Integer(1, max_layers));
+    add_parameter("Submerged",
+                  submerged,
+                  "Whether the soil is saturated and below water: its weight "
+                  "is then the buoyant one, and its mass contains the water. "
+                  "Units: none.");
+    add_parameter("Fluid density",
+                  fluid_density,
+                  "Density of the pore water. Units: kg/m3.",
+                  prm,
+                  Patterns::Double(0.));
+    add_parameter("Gravity",
+                  gravity_text,
+                  "Acceleration of gravity, its r and z components. Units: "
+                  "m/s2.",
+                  prm,
+                  Patterns::List(Patterns::Double(), 2, 2));
+    add_parameter("Initial stress",
+                  initial_state,
+                  "K0: geostatic effective stress under the soil's own weight; "
+                  "none: no stress at the start. Units: none.",
+                  prm,
+                  Patterns::Selection("K0|none"));
+    parse_parameters_call_back.connect([this]() {
+      const auto components = Utilities::split_string_list(gravity_text);
+      gravity               = {{Utilities::string_to_double(components[0]),
+                                Utilities::string_to_double(components[1])}};
+    });
+    for (unsigned int i = 0; i < max_layers; ++i)
+      layers.push_back(std::make_unique<SoilLayer>(i + 1));
+  }
+
+  void
+  Soil::check_parameters() const
+  {
+    for (unsigned int i = 0; i < n_layers_; ++i)
+      {
+        layers[i]->check_parameters();
+        if (i == 0 ? layers[0]->top_depth != 0. :
+                     layers[i]->top_depth <= layers[i - 1]->top_depth)
+          throw BadInput(
+            "Soil/Layer " + std::to_string(i + 1) +
+            "/Top depth = " + std::to_string(layers[i]->top_depth) +
+            " m: layers must be listed from the surface (Top "
+            "depth = 0) downward, each deeper than the one above.");
+        if (submerged && layers[i]->solid_density <= fluid_density)
+          throw BadInput(
+            "Soil/Layer " + std::to_string(i + 1) +
+            "/Solid density = " + std::to_string(layers[i]->solid_density) +
+            " kg/m3 does not exceed Soil/Fluid density = " +
+            std::to_string(fluid_density) +
+            " kg/m3: the soil would float. Correct one of them, "
+            "or set Soil/Submerged = false.");
+      }
+    if (initial_state == "K0" && gravity[radial] != 0.)
+      throw BadInput(
+        "Soil/Gravity has a horizontal component, and Soil/Initial "
+        "stress = K0 needs it vertical. Set Initial stress = none.");
+  }
+
+  unsigned int
+  Soil::layer_at(const double z) const
+  {
+    unsigned int i = n_layers_ - 1;
+    while (i > 0 && -z < layers[i]->top_depth)
+      --i;
+    return i;
+  }
+
+  std::vector<double>
+  Soil::interfaces() const
+  {
+    std::vector<double> result;
+    for (unsigned int i = 1; i < n_layers_; ++i)
+      result.push_back(-layers[i]->top_depth);
+    return result;
+  }
+
+  double
+  Soil::inertial_density(const unsigned int i) const
+  {
+    return layers[i]->dry_density() +
+           (submerged ? layers[i]->porosity * fluid_density : 0.);
+  }
+
+  double
+  Soil::unit_weight(const unsigned int i) const
+  {
+    const SoilLayer &l = *layers[i];
+    return -gravity[vertical] * (1. - l.porosity) *
+           (l.solid_density - (submerged ? fluid_density : 0.));
+  }
+
+  Stress
+  Soil::initial_stress(const double z) const
+  {
+    if (initial_state == "none" || z >= 0.)
+      return {{0., 0., 0., 0.}};
+    double sigma_zz = 0.;
+    for (unsigned int i = 0; i < n_layers_ && -z > layers[i]->top_depth; ++i)
+      {
+        const double bottom =
+          i + 1 < n_layers_ ? std::min(-z, layers[i + 1]->top_depth) : -z;
+        sigma_zz -= unit_weight(i) * (bottom - layers[i]->top_depth);
+      }
+    const double sigma_rr =
+      layers[layer_at(z)]->earth_pressure_at_rest() * sigma_zz;
+    return {{sigma_rr, sigma_zz, sigma_rr, 0.}};
+  }
+
+  std::vector<Kernels::Material>
+  Soil::kernel_materials(const double mass_scaling) const
+  {
+    std::vector<Kernels::Material> result(n_layers_);
+    for (unsigned int i = 0; i < n_layers_; ++i)
+      {
+        layers[i]->set_law(result[i]);
+        result[i].p_wave_modulus = layers[i]->p_wave_modulus();
+        // weight and mass ratio: buoyancy and mass scaling leave the force
+        const double buoyancy =
+          (1. - layers[i]->porosity) *
+          (layers[i]->solid_density - (submerged ? fluid_density : 0.)) /
+          inertial_density(i);
+        for (unsigned int d = 0; d < 2; ++d)
+          result[i].body_force[d] = gravity[d] * buoyancy / mass_scaling;
+      }
+    return result;
+  }
+} // namespace CaissonMPM

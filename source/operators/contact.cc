@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/operators/contact.h>
+
+#include <cmath>
+#include <map>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A face of the body that soil may touch. */
+    struct Face
+    {
+      std::array<unsigned int, 2> nodes;
+      Vector2                     normal; // unit, out of the body
+      std::array<double, 2>       areas;  // int N_I r ds
+      Surface                     surface;
+    };
+
+    /** Face @p f of rigid cell @p cell, seen from inside. */
+    Face
+    make_face(const BackgroundGrid &grid,
+              const unsigned int    cell,
+              const unsigned int    f)
+    {
+      constexpr unsigned int corners[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
+      constexpr Surface      surfaces[4]   = {inner_wall, outer_wall, tip, top};
+      Face                   face;
+      Vector2                x[2];
+      for (unsigned int i = 0; i < 2; ++i)
+        {
+          face.nodes[i] = grid.cell_nodes(cell).node[corners[f][i]];
+          x[i][0]       = grid.r_of(face.nodes[i]);
+          x[i][1]       = grid.z_of(face.nodes[i]);
+        }
+      const Vector2 along  = x[1] - x[0];
+      const double  length = along.norm();
+      face.surface         = surfaces[f];
+      face.normal[0]       = along[1] / length;
+      face.normal[1]       = -along[0] / length;
+      if (f == 0 || f == 3) // the other side
+        face.normal *= -1.;
+      const double r0 = grid.axisymmetric() ? x[0][0] : 1.,
+                   r1 = grid.axisymmetric() ? x[1][0] : 1.;
+      face.areas      = {
+             {length * (2. * r0 + r1) / 6., length * (r0 + 2. * r1) / 6.}};
+      return face;
+    }
+
+    /** Of the surfaces that meet at a node, the one that it counts to. */
+    Surface
+    dominant(const Surface a, const Surface b)
+    {
+      for (const Surface s : {tip, top, outer_wall})
+        if (a == s || b == s)
+          return s;
+      return a;
+    }
+  } // namespace
+
+  void
+  Contact::initialize(const BackgroundGrid &grid, const RigidBody &body)
+  {
+    corner_normals = body.corner_normals;
+    circumference  = grid.axisymmetric() ? 2. * pi : 1.;
+    on_body.assign(grid.n_nodes(), false);
+    std::map<unsigned int, Node> found;
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      for (unsigned int f = 0; grid.is_rigid(cell) && f < 4; ++f)
+        {
+          const int neighbor = grid.neighbor(cell, f);
+          if (neighbor < 0 || grid.is_rigid(neighbor))
+            continue;
+          const Face face = make_face(grid, cell, f);
+          for (unsigned int i = 0; i < 2; ++i)
+            {
+              const bool is_new = found.count(face.nodes[i]) == 0;
+              Node      &node   = found[face.nodes[i]];
+              if (is_new)
+                node = {face.nodes[i], face.surface, 0, {}, Vector2(), 0., 0.};
+              node.surface = dominant(node.surface, face.surface);
+              if (node.n_normals == 0 ||
+                  (node.n_normals == 1 &&
+                   node.normal[0] * face.normal < 1. - 1e-9))
+                node.normal[node.n_normals++] = face.normal;
+              node.adhesion += body.adhesion[face.surface] * face.areas[i];
+            }
+        }
+    nodes.clear();
+    inner_nodes.clear();
+    for (auto &entry : found)
+      {
+        Node &node    = entry.second;
+        node.friction = body.friction_coefficient(node.surface);
+        for (unsigned int i = 0; i < node.n_normals; ++i)
+          node.mean_normal += node.normal[i];
+        node.mean_normal /= node.mean_normal.norm();
+        nodes.push_back(node);
+        on_body[entry.first] = true;
+      }
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (grid.is_rigid(cell))
+        for (const unsigned int node : grid.cell_nodes(cell).node)
+          if (!on_body[node])
+            {
+              on_body[node] = true;
+              inner_nodes.push_back(node);
+            }
+    results.assign(nodes.size(), Result());
+  }
+
+  Contact::Result
+  Contact::find_contact(const Node &node, const Vector2 &w) const
+  {
+    using Corner       = RigidBody::CornerNormals;
+    const auto against = [&w](const Vector2 &normal) {
+      return w * normal < 0. ? Result{State::sliding, normal} :
+                               Result{State::apart, normal};
+    };
+    if (node.n_normals == 1)
+      return against(node.normal[0]);
+
+    // At rest a corner bears on both of its faces, whatever it does in motion.
+    const bool at_rest = velocity.norm_square() == 0.;
+    if (!at_rest && corner_normals != Corner::both)
+      {
+        const bool first_is_wall  = std::abs(node.normal[0][1]) < 1e-9,
+                   second_is_wall = std::abs(node.normal[1][1]) < 1e-9;
+        if (corner_normals == Corner::average ||
+            first_is_wall == second_is_wall)
+          return against(node.mean_normal);
+        const bool take_first =
+          (corner_normals == Corner::wall) == first_is_wall;
+        return against(node.normal[take_first ? 0 : 1]);
+      }
+    // into neither face: slide on one if that leads away from the other
+    bool apart = true;
+    for (unsigned int i = 0; i < 2; ++i)
+      {
+        const Vector2 &n = node.normal[i], &other = node.normal[1 - i];
+        const double   speed = w * n;
+        if (speed >= 0.)
+          continue;
+        apart = false;
+        if ((w - speed * n) * other >= 0.)
+          return {State::sliding, n};
+      }
+    return apart ? Result() : Result{State::sticking, node.mean_normal};
+  }
+
+  double
+  Contact::apply(const Vector2             &body_velocity,
+                 const double               dt,
+                 const std::vector<double> &mass,
+                 Kernels::NodalVector      *v)
+  {
+    velocity   = body_velocity;
+    n_touching = n_sticking = 0;
+    Vector2 total;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      {
+        const Node  &node = nodes[i];
+        const double m    = mass[node.node];
+        results[i]        = Result();
+        if (m <= 0.)
+          continue;
+        double *const u = v[node.node].value;
+        Vector2       w;
+        for (unsigned int d = 0; d < 2; ++d)
+          w[d] = u[d] - velocity[d];
+        Result &result = results[i];
+        result         = find_contact(node, w);
+        if (result.state == State::apart)
+          continue;
+        ++n_touching;
+        const double  into    = std::min(0., w * result.normal);
+        const Vector2 tangent = w - into * result.normal;
+        const double  speed   = tangent.norm();
+        const double  limit   = -node.friction * into + node.adhesion * dt / m;
+        if (speed <= limit)
+          result.state = State::sticking;
+        Vector2 left; // of the relative velocity
+        if (result.state == State::sliding)
+          left = tangent * (1. - limit / speed);
+        else
+          ++n_sticking;
+        const Vector2 impulse = circumference * m * (w - left);
+        impulses[node.surface] += impulse;
+        total += impulse;
+        for (unsigned int d = 0; d < 2; ++d)
+          u[d] = velocity[d] + left[d];
+      }
+    for (const unsigned int node : inner_nodes)
+      for (unsigned int d = 0; d < 2; ++d)
+        v[node].value[d] = velocity[d];
+    return -(total * velocity);
+  }
+
+  void
+  Contact::constrain(const Vector2        &body_velocity,
+                     Kernels::NodalVector *v) const
+  {
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      {
+        if (results[i].state == State::apart)
+          continue;
+        double *const u = v[nodes[i].node].value;
+        Vector2       w;
+        for (unsigned int d = 0; d < 2; ++d)
+          w[d] = u[d] - body_velocity[d];
+        const Vector2 left = results[i].state == State::sliding ?
+                               w - (w * results[i].normal) * results[i].normal :
+                               Vector2();
+        for (unsigned int d = 0; d < 2; ++d)
+          u[d] = body_velocity[d] + left[d];
+      }
+    for (const unsigned int node : inner_nodes)
+      for (unsigned int d = 0; d < 2; ++d)
+        v[node].value[d] = body_velocity[d];
+  }
+
+  void
+  Contact::reset_impulse()
+  {
+    impulses = SurfaceForces();
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/operators/nodal_motion.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+  using Kernels::NodalVector;
+
+  NodalMotion::NodalMotion()
+    : ParameterAcceptor("/Method")
+  {
+    add_parameter("Velocity transfer",
+                  transfer_scheme,
+                  "How points take their velocity from the nodes. Units: none.",
+                  prm,
+                  Patterns::Selection("XPIC|PIC|FLIP|blend"));
+    add_parameter("XPIC order",
+                  xpic_order,
+                  "Order of XPIC; 1 is PIC. Units: none.",
+                  prm,
+                  Patterns::Integer(1, 10));
+    add_parameter("FLIP fraction",
+                  flip_fraction,
+                  "Share of FLIP in the blend. Units: none.",
+                  prm,
+                  Patterns::Double(0., 1.));
+    add_parameter("Stress update",
+                  stress_scheme,
+                  "MUSL: strain from the velocities that the updated points "
+                  "bring back to the nodes; USL: from the new nodal "
+                  "velocities. Units: none.",
+                  prm,
+                  Patterns::Selection("MUSL|USL"));
+    add_parameter("Integration",
+                  integration,
+                  "Of the internal force: at Gauss points in full cells and at "
+                  "material points in the others, or at material points in all "
+                  "cells. Units: none.",
+                  prm,
+                  Patterns::Selection("Gauss in full cells|material points"));
+    add_parameter("Full cell fraction",
+                  full_fraction,
+                  "A cell is full if its points fill this share of its volume. "
+                  "Units: none.",
+                  prm,
+                  Patterns::Double(0.1, 2.));
+    add_parameter("Pressure in full cells",
+                  pressure,
+                  "Fit the mean stress of a full cell's points by an affine "
+                  "function, as the deviator, or by its mean. Units: none.",
+                  prm,
+                  Patterns::Selection("affine|mean"));
+    add_parameter("Mean volume change",
+                  mean_volume,
+                  "Strain the points of a cell with its mean volume change "
+                  "(B-bar), against locking. Units: none.");
+    add_parameter("Stress filter",
+                  stress_filter,
+                  "Share of the misfit between a point's stress and the affine "
+                  "fit of its cell that a step removes, in full cells. It "
+                  "changes no nodal force. Units: none.",
+                  prm,
+                  Patterns::Double(0., 1.));
+    add_parameter("Mass floor",
+                  floor_on,
+                  "Raise the mass that accelerates at nodes with little mass "
+                  "to what the time step needs. Units: none.");
+    add_parameter("Local damping",
+                  damping,
+                  "Share of the out-of-balance force that is taken against the "
+                  "velocity, except at the body. Units: none.",
+                  prm,
+                  Patterns::Double(0., 0.95));
+    add_parameter("Velocity limiter",
+                  limiter_on,
+                  "Cut the velocity of points in cells next to the body to k H "
+                  "/ dt, H the cell's shortest side. Units: none.");
+    add_parameter("Limiter factor",
+                  limiter_factor,
+                  "k of the velocity limiter. Units: none.",
+                  prm,
+                  Patterns::Double(0.01, 1.));
+  }
+
+  void
+  NodalMotion::check_parameters() const
+  {
+    if (stress_scheme == "USL" && transfer_scheme == "FLIP" && damping == 0. &&
+        !floor_on)
+      throw BadInput("Method/Stress update = USL with Velocity transfer = FLIP "
+                     "needs Mass floor = true or Local damping: it is unstable "
+                     "at nodes with little mass.");
+  }
+
+  void
+  NodalMotion::initialize(const BackgroundGrid &grid)
+  {
+    grid.reinit(sums, sizeof(Kernels::NodalSums) / sizeof(double));
+    for (NodalData *v : {&old_velocity,
+                         &new_velocity,
+                         &transfer_velocity,
+                         &strain_velocity,
+                         &work[0],
+                         &work[1]})
+      grid.reinit(*v, 2);
+    mass.assign(grid.n_nodes(), 0.);
+  }
+
+  namespace
+  {
+    NodalVector *
+    data(NodalData &v)
+    {
+      return reinterpret_cast<NodalVector *>(v.begin());
+    }
+
+    const NodalVector *
+    data(const NodalData &v)
+    {
+      return reinterpret_cast<const NodalVector *>(v.begin());
+    }
+  } // namespace
+
+  void
+  NodalMotion::collect(const Kernels::KernelTable           &kernels,
+                       const Kernels::PointsView            &points,
+                       const Kernels::GridView              &grid,
+                       const std::vector<Kernels::Material> &materials)
+  {
+    sums = 0.;
+    sums.zero_out_ghost_values();
+    moments.resize(points.n_active_cells);
+    const Kernels::IntegrationSettings settings = {
+      integration == "material points" ? 1e300 : full_fraction,
+      floor_on,
+      pressure == "mean"};
+    kernels.points_to_grid(points,
+                           grid,
+                           materials.data(),
+                           settings,
+                           reinterpret_cast<Kernels::NodalSums *>(sums.begin()),
+                           moments.data());
+    sums.compress(VectorOperation::add);
+    sums.update_ghost_values();
+  }
+
+  void
+  NodalMotion::accelerate(const double dt, const Contact &contact)
+  {
+    const auto *node     = reinterpret_cast<Kernels::NodalSums *>(sums.begin());
+    NodalVector *const v = data(old_velocity), *const u = data(new_velocity);
+    added_mass        = 0.;
+    double     sum    = 0.;
+    const bool damped = damping > 0.;
+    for (unsigned int i = 0; i < mass.size(); ++i, ++node)
+      {
+        if (node->mass <= 0.)
+          {
+            mass[i] = 0.;
+            v[i] = u[i] = NodalVector();
+            continue;
+          }
+        mass[i] = std::max(node->mass, .25 * dt * dt * node->stiffness);
+        added_mass += mass[i] - node->mass;
+        const double share =
+          damped && !contact.is_contact_node(i) ? damping : 0.;
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            v[i].value[d] = node->momentum[d] / node->mass;
+            const double force =
+              node->force[d] -
+              share * std::copysign(std::abs(node->force[d]), v[i].value[d]);
+            u[i].value[d] = v[i].value[d] + dt * force / mass[i];
+            sum += u[i].value[d];
+          }
+      }
+    is_finite = std::isfinite(sum);
+  }
+
+  double
+  NodalMotion::constrain(const double              dt,
+                         const Vector2            &body_velocity,
+                         const BoundaryConditions &boundary_conditions,
+                         Contact                  &contact)
+  {
+    double work = 0.;
+    if (!contact.empty())
+      work = contact.apply(body_velocity, dt, mass, data(new_velocity));
+    boundary_conditions.apply(data(new_velocity));
+    return work;
+  }
+
+  template <typename Constrain>
+  void
+  NodalMotion::round_trip(const Kernels::KernelTable &kernels,
+                          const Kernels::PointsView  &points,
+                          const Kernels::GridView    &grid,
+                          const NodalData            &from,
+                          NodalData                  &to,
+                          const Constrain            &constrain)
+  {
+    to = 0.;
+    to.zero_out_ghost_values();
+    kernels.apply_mass(points, grid, moments.data(), data(from), data(to));
+    to.compress(VectorOperation::add);
+    to.update_ghost_values();
+    const auto *node     = reinterpret_cast<Kernels::NodalSums *>(sums.begin());
+    NodalVector *const v = data(to);
+    for (unsigned int i = 0; i < mass.size(); ++i)
+      if (node[i].mass > 0.)
+        for (unsigned int d = 0; d < 2; ++d)
+          v[i].value[d] /= node[i].mass;
+    constrain(v);
+  }
+
+  void
+  NodalMotion::prepare_transfer(const Kernels::KernelTable &kernels,
+                                const Kernels::PointsView  &points,
+                                const Kernels::GridView    &grid,
+                                const BoundaryConditions   &boundary_conditions,
+                                const Contact              &contact)
+  {
+    const auto hold_to = [&](const Vector2 &body_velocity, NodalVector *v) {
+      if (!contact.empty())
+        contact.constrain(body_velocity, v);
+      boundary_conditions.apply(v);
+    };
+    const auto hold = [&](NodalVector *v) {
+      hold_to(contact.body_velocity(), v);
+    };
+    const std::size_t n   = 2 * mass.size();
+    const double     *old = old_velocity.begin(), *v = new_velocity.begin();
+    double *const     transfer = transfer_velocity.begin();
+    const double      keep     = update_settings(1.).keep_velocity;
+
+    // the part that is added to keep * V_p
+    for (std::size_t i = 0; i < n; ++i)
+      transfer[i] = v[i] - keep * old[i];
+    if (transfer_scheme == "XPIC" && xpic_order > 1)
+      {
+        work[0] = old_velocity;
+        hold(data(work[0]));
+        for (unsigned int k = 1; k < xpic_order; ++k)
+          {
+            // from the second round on the field is a difference
+            round_trip(
+              kernels, points, grid, work[0], work[1], [&](NodalVector *u) {
+                hold_to(k == 1 ? contact.body_velocity() : Vector2(), u);
+              });
+            for (std::size_t i = 0; i < n; ++i)
+              {
+                // (I - A)^k v; differences of held fields stay held
+                work[0].begin()[i] -= work[1].begin()[i];
+                transfer[i] += work[0].begin()[i];
+              }
+          }
+      }
+    if (stress_scheme == "USL")
+      return;
+    round_trip(kernels,
+               points,
+               grid,
+               transfer_velocity,
+               strain_velocity,
+               [](NodalVector *) {});
+    double *const strain = strain_velocity.begin();
+    for (std::size_t i = 0; i < n; ++i)
+      strain[i] += keep * old[i];
+    hold(data(strain_velocity));
+  }
+
+  Kernels::NodalFields
+  NodalMotion::fields() const
+  {
+    return {data(new_velocity),
+            data(transfer_velocity),
+            data(stress_scheme == "USL" ? new_velocity : strain_velocity)};
+  }
+
+  Kernels::UpdateSettings
+  NodalMotion::update_settings(const double dt) const
+  {
+    const double keep = transfer_scheme == "FLIP"  ? 1. :
+                        transfer_scheme == "blend" ? flip_fraction :
+                                                     0.;
+    return {
+      dt, keep, mean_volume, limiter_on ? limiter_factor : 0., stress_filter};
+  }
+
+  std::string
+  NodalMotion::description() const
+  {
+    return stress_scheme + ", " + transfer_scheme +
+           (transfer_scheme == "XPIC" ? "(" + std::to_string(xpic_order) + ")" :
+                                        "") +
+           ", " + integration;
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/compat.h>
+#include <caisson_mpm/base/conventions.h>
+#include <caisson_mpm/output/text_file.h>
+#include <caisson_mpm/output/visualization.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/numerics/data_out.h>
+
+#include <deal.II/particles/data_out.h>
+#include <deal.II/particles/particle_handler.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** The properties of a written particle, in the order of the names. */
+    enum Property : unsigned int
+    {
+      velocity_r,
+      velocity_z,
+      displacement_r,
+      displacement_z,
+      effective_stress_rr,
+      effective_stress_zz,
+      effective_stress_tt,
+      effective_stress_rz,
+      mean_effective_stress,
+      deviatoric_stress,
+      plastic_strain,
+      plastic_volumetric_strain,
+      void_ratio,
+      pore_pressure,
+      volume,
+      material,
+      n_written
+    };
+
+    const std::vector<std::string> property_names = {
+      "velocity",
+      "velocity",
+      "displacement",
+      "displacement",
+      "effective_stress_rr",
+      "effective_stress_zz",
+      "effective_stress_tt",
+      "effective_stress_rz",
+      "mean_effective_stress",
+      "deviatoric_stress",
+      "plastic_strain",
+      "plastic_volumetric_strain",
+      "void_ratio",
+      "pore_pressure",
+      "volume",
+      "material"};
+
+    using Properties = std::array<double, n_written>;
+
+    double
+    mean(const Stress &s)
+    {
+      return (s[rr] + s[zz] + s[tt]) / 3.;
+    }
+
+    /** sqrt(3 J2): the difference of axial and radial stress in a triaxial
+     * test. */
+    double
+    deviator(const Stress &s)
+    {
+      const double m  = mean(s);
+      const double J2 = .5 * (std::pow(s[rr] - m, 2) + std::pow(s[zz] - m, 2) +
+                              std::pow(s[tt] - m, 2)) +
+                        std::pow(s[rz], 2);
+      return std::sqrt(3. * J2);
+    }
+
+    Properties
+    properties_of(const MaterialPoint &p,
+                  const Soil          &soil,
+                  const double         circumference)
+    {
+      const double porosity        = soil.layer(p.material).porosity;
+      const double e0              = porosity / (1. - porosity);
+      Properties   v               = {};
+      v[velocity_r]                = p.velocity[0];
+      v[velocity_z]                = p.velocity[1];
+      v[displacement_r]            = p.position[0] - p.initial_position[0];
+      v[displacement_z]            = p.position[1] - p.initial_position[1];
+      v[effective_stress_rr]       = p.stress[rr];
+      v[effective_stress_zz]       = p.stress[zz];
+      v[effective_stress_tt]       = p.stress[tt];
+      v[effective_stress_rz]       = p.stress[rz];
+      v[mean_effective_stress]     = -mean(p.stress);
+      v[deviatoric_stress]         = deviator(p.stress);
+      v[plastic_strain]            = p.plastic_deviatoric;
+      v[plastic_volumetric_strain] = p.plastic_volumetric;
+      v[void_ratio] = (1. + e0) * p.volume / p.initial_volume - 1.;
+      v[volume]     = circumference * p.volume;
+      v[material]   = p.material;
+      return v;
+    }
+
+    /** A particle handler with everything that is to be written. */
+    class PointCloud
+    {
+    public:
+      explicit PointCloud(const BackgroundGrid &grid)
+        : grid(grid)
+        , handler(grid.triangulation, grid.mapping, n_written)
+      {}
+
+      void
+      add_soil(const MaterialPoints &points, const Soil &soil)
+      {
+        const double circumference = grid.axisymmetric() ? 2. * pi : 1.;
+        points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
+          add(p.position, properties_of(p, soil, circumference), cell);
+        });
+      }
+
+      void
+      add_body(const std::vector<BodyPoint> &points,
+               const double                  speed,
+               const double                  travel)
+      {
+        for (const BodyPoint &p : points)
+          {
+            Properties v      = {};
+            v[velocity_z]     = -speed;
+            v[displacement_z] = -travel;
+            v[volume]         = p.volume;
+            v[material]       = -1.;
+            add(p.position - Point<2>(0., travel), v, p.cell);
+          }
+      }
+
+      Particles::DataOut<2>
+      build()
+      {
+        using namespace DataComponentInterpretation;
+        handler.update_cached_numbers();
+        std::vector<DataComponentInterpretation::DataComponentInterpretation>
+          interpretation(n_written, component_is_scalar);
+        for (unsigned int i = velocity_r; i <= displacement_z; ++i)
+          interpretation[i] = component_is_part_of_vector;
+        Particles::DataOut<2> data_out;
+        data_out.build_patches(handler, property_names, interpretation);
+        return data_out;
+      }
+
+    private:
+      void
+      add(const Tensor<1, 2> &position,
+          const Properties   &values,
+          const unsigned int  cell)
+      {
+        // the place in the reference cell is not written
+        handler.insert_particle(Point<2>(position),
+                                Point<2>(),
+                                n_points++,
+                                grid.cell_iterator(cell),
+                                ArrayView<const double>(values.data(),
+                                                        values.size()));
+      }
+
+      const BackgroundGrid         &grid;
+      Particles::ParticleHandler<2> handler;
+      types::particle_index         n_points = 0;
+    };
+
+    /** The cells with their data; the vertices must have been written. */
+    class CellFields
+    {
+    public:
+      CellFields(const BackgroundGrid &grid, const MaterialPoints &points)
+        : material_id(grid.triangulation.n_active_cells())
+        , zone(material_id.size())
+        , material_points(material_id.size())
+      {
+        for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+          {
+            const auto i   = index(grid, cell);
+            material_id[i] = grid.is_rigid(cell) ? 1. : 0.;
+            zone[i]        = static_cast<unsigned int>(grid.zone(cell));
+          }
+        points.for_each([&](const MaterialPoint &, const unsigned int cell) {
+          material_points[index(grid, cell)] += 1.;
+        });
+      }
+
+      void
+      build_patches(const BackgroundGrid &grid, DataOut<2> &data_out) const
+      {
+        const auto cells = DataOut<2>::DataVectorType::type_cell_data;
+        data_out.attach_triangulation(grid.triangulation);
+        data_out.add_data_vector(material_id, "material_id", cells);
+        data_out.add_data_vector(zone, "zone", cells);
+        data_out.add_data_vector(material_points, "material_points", cells);
+        data_out.build_patches(grid.mapping);
+      }
+
+    private:
+      static unsigned int
+      index(const BackgroundGrid &grid, const unsigned int cell)
+      {
+        return grid.cell_iterator(cell)->active_cell_index();
+      }
+
+      Vector<double> material_id, zone, material_points;
+    };
+
+    /**
+     * Write "<name>.vtu", or with several ranks one piece each and
+     * "<name>.pvtu", and return the name of what the series shall list. All
+     * ranks throw if one cannot write.
+     */
+    template <int dim>
+    std::string
+    write_vtu(DataOutInterface<dim, 2> &data_out,
+              const std::string        &directory,
+              const std::string        &name,
+              const double              time,
+              const MPI_Comm            communicator)
+    {
+      const unsigned int rank  = Utilities::MPI::this_mpi_process(communicator);
+      const unsigned int size  = Utilities::MPI::n_mpi_processes(communicator);
+      const auto         piece = [&](const unsigned int i) {
+        return name + (size > 1 ? "." + std::to_string(i) : "") + ".vtu";
+      };
+      std::ostringstream text;
+      data_out.set_flags(Compat::vtk_flags(time));
+      data_out.write_vtu(text);
+      int error = try_to_write(directory + "/" + piece(rank), text.str());
+      if (size > 1 && rank == 0 && error == 0)
+        {
+          std::vector<std::string> pieces;
+          for (unsigned int i = 0; i < size; ++i)
+            pieces.push_back(piece(i));
+          std::ostringstream record;
+          data_out.write_pvtu_record(record, pieces);
+          error = try_to_write(directory + "/" + name + ".pvtu", record.str());
+        }
+      error = Utilities::MPI::max(error, communicator);
+      if (error != 0)
+        report_unwritable(directory + "/" + piece(rank),
+                          error,
+                          "the frames so far are kept");
+      return size > 1 ? name + ".pvtu" : piece(0);
+    }
+
+
+
+    std::string
+    numbered(const std::string &name, const unsigned int number)
+    {
+      char buffer[16];
+      std::snprintf(buffer, sizeof(buffer), "_%04u", number);
+      return name + buffer;
+    }
+
+
+
+    /** The value of name="..." in an element, or nothing. */
+    std::string
+    attribute(const std::string &element, const std::string &name)
+    {
+      const std::string begin = " " + name + "=\"";
+      const auto        start = element.find(begin);
+      if (start == std::string::npos)
+        return "";
+      const auto value = start + begin.size();
+      return element.substr(value, element.find('"', value) - value);
+    }
+
+
+
+    /** Times differ by rounding where they come from a file. */
+    bool
+    before(const double a, const double b)
+    {
+      return a < b - 1e-9 * std::abs(b);
+    }
+
+
+
+    /** The frames that a .pvd file lists. */
+    std::vector<std::pair<double, std::string>>
+    read_series(const std::string &path)
+    {
+      std::vector<std::pair<double, std::string>> frames;
+      std::istringstream                          lines(read_text(path));
+      for (std::string line; std::getline(lines, line);)
+        {
+          const std::string file = attribute(line, "file");
+          const std::string time = attribute(line, "timestep");
+          if (!file.empty() && !time.empty())
+            frames.emplace_back(std::strtod(time.c_str(), nullptr), file);
+        }
+      return frames;
+    }
+  } // namespace
+
+
+
+  Visualization::Visualization(const std::string &directory)
+    : directory(directory)
+  {}
+
+
+
+  void
+  Visualization::resume(const double time)
+  {
+    point_frames = read_series(directory + "/points.pvd");
+    grid_frames  = read_series(directory + "/grid.pvd");
+    for (Frames *frames : {&point_frames, &grid_frames})
+      while (!frames->empty() && before(time, frames->back().first))
+        frames->pop_back();
+  }
+
+
+
+  void
+  Visualization::write_frame(BackgroundGrid               &grid,
+                             const MaterialPoints         &points,
+                             const RigidBody              &body,
+                             const Soil                   &soil,
+                             const std::vector<BodyPoint> &body_points,
+                             const double                  travel,
+                             const double                  time)
+  {
+    grid.write_vertices();
+    // after a restart the frame of this time may be there already
+    drop_frames_from(time);
+    const unsigned int number       = next_number();
+    const MPI_Comm     communicator = grid.triangulation.get_communicator();
+
+    PointCloud cloud(grid);
+    cloud.add_soil(points, soil);
+    cloud.add_body(body_points, body.velocity(time), travel);
+    Particles::DataOut<2> point_output = cloud.build();
+    const std::string     point_file   = write_vtu(
+      point_output, directory, numbered("points", number), time, communicator);
+
+    const CellFields cells(grid, points);
+    DataOut<2>       grid_output;
+    cells.build_patches(grid, grid_output);
+    const std::string grid_file = write_vtu(
+      grid_output, directory, numbered("grid", number), time, communicator);
+
+    point_frames.emplace_back(time, point_file);
+    grid_frames.emplace_back(time, grid_file);
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      {
+        write_series("points.pvd", point_frames);
+        write_series("grid.pvd", grid_frames);
+      }
+  }
+
+
+
+  void
+  Visualization::drop_frames_from(const double time)
+  {
+    for (Frames *frames : {&point_frames, &grid_frames})
+      while (!frames->empty() && !before(frames->back().first, time))
+        frames->pop_back();
+  }
+
+
+
+  unsigned int
+  Visualization::next_number() const
+  {
+    unsigned int next = 0;
+    for (const Frames *frames : {&point_frames, &grid_frames})
+      for (const auto &frame : *frames)
+        {
+          const auto digits = frame.second.find('_') + 1;
+          const auto number = std::strtoul(&frame.second[digits], nullptr, 10);
+          next              = std::max<unsigned int>(next, number + 1);
+        }
+    return next;
+  }
+
+
+
+  void
+  Visualization::write_series(const std::string &name,
+                              const Frames      &frames) const
+  {
+    std::ostringstream text;
+    DataOutBase::write_pvd_record(text, frames);
+    write_atomically(directory + "/" + name, text.str());
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,551 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/output/run_summary.h>
+#include <caisson_mpm/simulation/simulation.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/revision.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  Simulation::Simulation(const MPI_Comm communicator)
+    : ParameterAcceptor("/")
+    , grid(communicator)
+    , points(grid)
+  {
+    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+      throw BadInput("this version runs on one rank; start it without mpirun.");
+    const Patterns::Double not_negative(0.);
+    add_parameter("Title", title, "What the scene is. Units: none.");
+    enter_subsection("Method");
+    add_parameter("Instruction set",
+                  instruction_set,
+                  "Of the kernels; auto: the widest of this CPU. Units: none.",
+                  prm,
+                  Patterns::Selection("auto|SSE2|AVX2|AVX-512"));
+    leave_subsection();
+    enter_subsection("Time");
+    add_parameter("End time",
+                  last_time,
+                  "The run ends at this time; 0: see End penetration. Units: "
+                  "s.",
+                  prm,
+                  not_negative);
+    add_parameter("End penetration",
+                  last_penetration,
+                  "The run ends when the body's tip has come this deep; 0: see "
+                  "End time. Units: m.",
+                  prm,
+                  not_negative);
+    leave_subsection();
+    enter_subsection("Output");
+    add_parameter(
+      "Directory",
+      directory,
+      "Where all files of the run go; made if missing. Units: none.");
+    add_parameter("Terminal",
+                  terminal,
+                  "full; plain: nothing that differs from run to run; silent. "
+                  "Units: none.",
+                  prm,
+                  Patterns::Selection("full|plain|silent"));
+    add_parameter("Record interval",
+                  record_interval,
+                  "Time between rows of history.csv; forces are means over it. "
+                  "Units: s.",
+                  prm,
+                  Patterns::Double(1e-12));
+    add_parameter("Frame interval",
+                  frame_interval,
+                  "Time between frames (VTU); 0: first and last only. Units: "
+                  "s.",
+                  prm,
+                  not_negative);
+    add_parameter("Frame penetrations",
+                  frame_penetrations,
+                  "Penetrations at which further frames are written. Units: "
+                  "m.",
+                  prm,
+                  Patterns::List(Patterns::Double(0.), 0, 1000));
+    add_parameter("Checkpoint interval",
+                  checkpoint_interval,
+                  "Wall time between checkpoints; 0: only when stopped. Units: "
+                  "s.",
+                  prm,
+                  not_negative);
+    leave_subsection();
+  }
+
+  // ------------------------------------------------------------ set-up
+
+  double
+  Simulation::end_time() const
+  {
+    double end =
+      last_time > 0. ? last_time : std::numeric_limits<double>::infinity();
+    if (last_penetration > 0.)
+      end = std::min(end,
+                     body.time_of_travel(last_penetration -
+                                         body.initial_penetration));
+    return end;
+  }
+
+  void
+  Simulation::validate()
+  {
+    soil.check_parameters();
+    body.check_parameters();
+    grid.check_parameters();
+    boundary_conditions.check_parameters(grid);
+    nodal_motion.check_parameters();
+    time_step.check_parameters();
+    verification.check_parameters();
+    if (last_penetration > 0. && last_penetration < body.initial_penetration)
+      throw BadInput(
+        "Time/End penetration = " + std::to_string(last_penetration) +
+        " m is less than Rigid body/Initial penetration = " +
+        std::to_string(body.initial_penetration) +
+        " m. Push deeper, or start higher.");
+    if (!std::isfinite(end_time()))
+      throw BadInput(
+        "the run has no end: set Time/End time, or Time/End penetration to a "
+        "depth that the body reaches with its velocity.");
+    if (body.max_velocity() > 0. && body.travel(end_time()) < 0.)
+      throw BadInput("Rigid body/Velocity moves the body up: the mesh holds "
+                     "downward travel only. Use a positive velocity.");
+    if (Kernels::select_kernels(instruction_set.c_str()) == nullptr)
+      throw BadInput("Method/Instruction set = " + instruction_set +
+                     ": this CPU does not have it. Set auto.");
+    grid.place_lines(body, soil, body.travel(end_time()));
+  }
+
+  void
+  Simulation::set_up(const std::string &output_directory, const bool restart)
+  {
+    validate();
+    if (!output_directory.empty())
+      directory = output_directory;
+    prepare_output_directory(directory);
+    console = std::make_unique<Console>(
+      terminal == "full"  ? Console::Verbosity::full :
+      terminal == "plain" ? Console::Verbosity::plain :
+                            Console::Verbosity::silent);
+    history       = std::make_unique<HistoryFile>(directory + "/history.csv");
+    visualization = std::make_unique<Visualization>(directory);
+    stop_request.arm(directory);
+    kernels = Kernels::select_kernels(instruction_set.c_str());
+
+    grid.create_mesh();
+    body_points = generate_body_points(grid, body);
+    contact.initialize(grid, body);
+    boundary_conditions.initialize(grid);
+    nodal_motion.initialize(grid);
+    materials = soil.kernel_materials(time_step.mass_scaling);
+
+    for (const double depth : frame_penetrations)
+      frame_times.push_back(
+        body.time_of_travel(depth - body.initial_penetration));
+    for (unsigned int i = 1;
+         frame_interval > 0. && i * frame_interval < end_time() - 1e-9;
+         ++i)
+      frame_times.push_back(i * frame_interval);
+    frame_times.push_back(end_time());
+    std::sort(frame_times.begin(), frame_times.end());
+    frame_times.erase(std::unique(frame_times.begin(),
+                                  frame_times.end(),
+                                  [](const double a, const double b) {
+                                    return b - a < 1e-9;
+                                  }),
+                      frame_times.end());
+    if (restart)
+      resume();
+    else
+      start();
+    while (next_frame < frame_times.size() &&
+           frame_times[next_frame] <= time + 1e-9)
+      ++next_frame;
+    next_record = time + record_interval;
+    last_record = time;
+    first_step  = step;
+  }
+
+  void
+  Simulation::start()
+  {
+    generator.generate(grid, body, soil, time_step.mass_scaling, points);
+    history->create();
+  }
+
+  void
+  Simulation::resume()
+  {
+    const CheckpointState state =
+      read_checkpoint(directory, grid, points, fingerprint());
+    time          = state.time;
+    step          = state.step;
+    n_limited     = state.limiter_count;
+    external_work = state.external_work;
+    points.set_n_held_back(state.held_back);
+    history->resume(time);
+    visualization->resume(time);
+  }
+
+  void
+  Simulation::print_header(const std::string &scene_file)
+  {
+    double mass = 0.;
+    for (const BodyPoint &p : body_points)
+      mass += p.mass;
+    const auto text = [](const auto &value) {
+      std::ostringstream s;
+      s << value;
+      return s.str();
+    };
+    choose_step();
+    console->header(
+      {{"caisson_mpm",
+        CAISSON_MPM_VERSION ", deal.II " DEAL_II_PACKAGE_VERSION},
+       {"scene", scene_file},
+       {"output", directory},
+       {"kernels",
+        std::string(kernels->name) + ", " + text(kernels->width) + " lanes"},
+       {"limit of the step", time_step.reason()}});
+    console->summary(
+      {{"title", title},
+       {"grid", grid.description()},
+       {"material points",
+        text(points.n_points()) + ", and " + text(body_points.size()) +
+          " of the body (" + text(mass / 1000.) + " t)"},
+       {"method", nodal_motion.description()},
+       {"time step",
+        text(dt) + " s, mass scaling " + text(time_step.mass_scaling)},
+       {"end", text(end_time()) + " s"}});
+    if (time_step.mass_scaling > 25.)
+      console->warning("Time/Mass scaling above 25 has been seen to raise the "
+                       "tip force by more than 10 %");
+  }
+
+  // ------------------------------------------------------------ one step
+
+  double
+  Simulation::choose_step()
+  {
+    dt = time_step.choose(grid, points, soil);
+    // do not step over the next event; share what is left evenly
+    double event = std::min(next_record, end_time());
+    if (next_frame < frame_times.size())
+      event = std::min(event, frame_times[next_frame]);
+    const double left = event - time;
+    if (left > 0.)
+      dt = left / std::ceil(left / dt * (1. - 1e-9));
+    return dt;
+  }
+
+  void
+  Simulation::advance()
+  {
+    using Scope                          = SectionTimer::Scope;
+    static const unsigned int sections[] = {timer.section("points to grid"),
+                                            timer.section("nodal motion"),
+                                            timer.section("contact"),
+                                            timer.section("transfer"),
+                                            timer.section("grid to points"),
+                                            timer.section("relocate")};
+    const auto                view       = grid.view();
+    choose_step();
+    {
+      Scope scope(timer, sections[0]);
+      nodal_motion.collect(*kernels, points.view(), view, materials);
+    }
+    {
+      Scope scope(timer, sections[1]);
+      nodal_motion.accelerate(dt, contact);
+    }
+    {
+      Scope         scope(timer, sections[2]);
+      const Vector2 velocity({0., -body.velocity(time + dt)});
+      external_work +=
+        nodal_motion.constrain(dt, velocity, boundary_conditions, contact);
+    }
+    {
+      Scope scope(timer, sections[3]);
+      nodal_motion.prepare_transfer(
+        *kernels, points.view(), view, boundary_conditions, contact);
+    }
+    {
+      Scope scope(timer, sections[4]);
+      grid.prepare_motion(body.travel(time + dt));
+      update_points(view);
+    }
+    {
+      Scope scope(timer, sections[5]);
+      grid.advance();
+      points.relocate();
+    }
+    time += dt;
+    ++step;
+  }
+
+  void
+  Simulation::update_points(const Kernels::GridView &view)
+  {
+    if (!nodal_motion.is_finite)
+      report_not_finite();
+    auto &leaving = points.leaving();
+    kernels->grid_to_points(points.view(),
+                            view,
+                            grid.next(),
+                            materials.data(),
+                            nodal_motion.cell_moments(),
+                            nodal_motion.update_settings(dt),
+                            nodal_motion.fields(),
+                            leaving);
+    n_limited += leaving.n_limited;
+    point_steps += points.n_points();
+  }
+
+  void
+  Simulation::report_not_finite() const
+  {
+    std::ostringstream s;
+    s << "the state is not finite in step " << step << " at t = " << time
+      << " s";
+    bool found = false;
+    points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      double sum = p.position[0] + p.position[1] + p.velocity[0] +
+                   p.velocity[1] + p.mass + p.volume;
+      for (const double component : p.stress)
+        sum += component;
+      if (!found && !std::isfinite(sum))
+        {
+          found = true;
+          s << ": the first is material point " << static_cast<long>(p.id)
+            << ", which began at r = " << p.initial_position[0]
+            << " m, z = " << p.initial_position[1] << " m";
+        }
+    });
+    s << ". Likely causes: a time step too large for the deformed mesh (reduce "
+         "Time/Courant number), an unstable choice in section Method (the "
+         "defaults are MUSL, XPIC and Mass floor = true), or a parameter of "
+         "the soil that is out of any range. The files written so far are "
+         "kept.";
+    throw RunFailure(s.str());
+  }
+
+  // ------------------------------------------------------------ the run
+
+  ExitStatus
+  Simulation::run(const std::string &scene_file,
+                  const std::string &output_directory,
+                  const bool         restart)
+  {
+    start_time = std::chrono::steady_clock::now();
+    scene      = scene_file;
+    set_up(output_directory, restart);
+    print_header(scene_file);
+    if (!restart)
+      {
+        write_frame();
+        record();
+      }
+    const double end = end_time();
+    while (time < end - 1e-9 * std::max(1., end))
+      {
+        advance();
+        output();
+        const std::string reason = stop_request.reason();
+        if (!reason.empty())
+          {
+            save_checkpoint();
+            write_summary("stopped");
+            console->message("stopped: " + reason + "; go on with --restart");
+            return ExitStatus::stopped;
+          }
+      }
+    const bool passed = verification.empty() ||
+                        verification.run(points, time, directory, *console);
+    write_summary(passed ? "finished" : "verification failed");
+    print_times();
+    return passed ? ExitStatus::success : ExitStatus::failure;
+  }
+
+  void
+  Simulation::output()
+  {
+    SectionTimer::Scope scope(timer, timer.section("output"));
+    if (time >= next_record - 1e-9 || time >= end_time() - 1e-9)
+      {
+        record();
+        next_record += record_interval;
+      }
+    if (next_frame < frame_times.size() &&
+        time >= frame_times[next_frame] - 1e-9)
+      {
+        write_frame();
+        ++next_frame;
+      }
+    if (checkpoint_interval > 0. &&
+        seconds_running() - next_checkpoint > checkpoint_interval)
+      {
+        save_checkpoint();
+        next_checkpoint = seconds_running();
+      }
+  }
+
+  void
+  Simulation::record()
+  {
+    HistoryRow row;
+    row.time              = time;
+    row.penetration       = body.initial_penetration + body.travel(time);
+    row.step              = step;
+    row.time_step         = dt;
+    const double interval = time - last_record;
+    double      *forces[] = {&row.tip, &row.inner, &row.outer, &row.top};
+    for (unsigned int s = 0; s < n_surfaces && interval > 0.; ++s)
+      {
+        *forces[s] = contact.impulse()[s][vertical] / interval;
+        row.total += *forces[s];
+      }
+    contact.reset_impulse();
+    last_record = time;
+
+    const double around = grid.axisymmetric() ? 2. * pi : 1.;
+    points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      const double speed2 =
+        p.velocity[0] * p.velocity[0] + p.velocity[1] * p.velocity[1];
+      row.kinetic_energy += .5 * around * p.mass * speed2;
+      row.max_speed = std::max(row.max_speed, std::sqrt(speed2));
+      row.points_in_body += body.contains(p.position, body.travel(time));
+    });
+    max_in_body        = std::max(max_in_body, row.points_in_body);
+    row.external_work  = external_work;
+    row.added_mass     = around * nodal_motion.added_mass;
+    row.limiter_count  = n_limited;
+    row.held_back      = points.n_held_back();
+    row.contact_nodes  = contact.n_touching;
+    row.sticking_nodes = contact.n_sticking;
+    history->append(row);
+
+    RecordLine line;
+    line.time                   = time;
+    line.has_body               = body.kind() != RigidBody::Kind::none;
+    line.penetration            = row.penetration;
+    line.tip                    = row.tip;
+    line.inner                  = row.inner;
+    line.outer                  = row.outer;
+    line.total                  = row.total;
+    line.kinetic_energy         = row.kinetic_energy;
+    line.max_speed              = row.max_speed;
+    line.fraction_done          = time / end_time();
+    line.point_steps_per_second = point_steps / seconds_running();
+    line.eta_seconds =
+      time > 0. ? seconds_running() * (end_time() - time) / time : 0.;
+    console->record(line);
+  }
+
+  void
+  Simulation::write_frame()
+  {
+    visualization->write_frame(
+      grid, points, body, soil, body_points, body.travel(time), time);
+  }
+
+  double
+  Simulation::seconds_running() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() -
+                                         start_time)
+      .count();
+  }
+
+  std::string
+  Simulation::fingerprint() const
+  {
+    std::ostringstream all;
+    ParameterAcceptor::prm.print_parameters(all,
+                                            ParameterHandler::PRM |
+                                              ParameterHandler::Short);
+    return all.str();
+  }
+
+  void
+  Simulation::save_checkpoint()
+  {
+    write_checkpoint(directory,
+                     grid,
+                     points,
+                     {time,
+                      body.travel(time),
+                      step,
+                      n_limited,
+                      points.n_held_back(),
+                      external_work,
+                      {}},
+                     fingerprint());
+  }
+
+  void
+  Simulation::write_summary(const std::string &status)
+  {
+    RunSummary s;
+    s.version                = CAISSON_MPM_VERSION;
+    s.dealii_version         = DEAL_II_PACKAGE_VERSION;
+    s.scene_file             = scene;
+    s.instruction_set        = kernels->name;
+    s.status                 = status;
+    s.ranks                  = 1;
+    s.material_points        = points.n_points();
+    s.cells                  = grid.n_cells();
+    s.body_points            = body_points.size();
+    s.steps                  = step - first_step;
+    s.limiter_count          = n_limited;
+    s.held_back              = points.n_held_back();
+    s.points_lost            = 0; // a lost point ends the run
+    s.max_points_in_body     = max_in_body;
+    s.wall_time_s            = seconds_running();
+    s.point_steps_per_second = point_steps / seconds_running();
+    s.peak_memory_bytes      = peak_memory_bytes();
+    s.body_mass_kg           = 0.;
+    for (const BodyPoint &p : body_points)
+      s.body_mass_kg += p.mass;
+    s.time_step_s     = dt;
+    s.time_step_limit = time_step.reason();
+    s.sections        = timer.seconds();
+    if (body.kind() == RigidBody::Kind::caisson)
+      s.scene = {{"diameter_m", body.outer_diameter},
+                 {"wall_thickness_m", body.wall_thickness},
+                 {"skirt_length_m", body.skirt_length},
+                 {"initial_penetration_m", body.initial_penetration},
+                 {"submerged_unit_weight_N_m3", soil.unit_weight(0)},
+                 {"friction_angle_deg", soil.layer(0).friction_angle},
+                 {"wall_friction_angle_deg", body.friction_angle[outer_wall]},
+                 {"K0", soil.layer(0).earth_pressure_at_rest()}};
+    write_run_summary(directory + "/run.json", s);
+  }
+
+  void
+  Simulation::print_times()
+  {
+    std::vector<TableRow> rows;
+    const double          total = seconds_running();
+    double                sum   = 0.;
+    for (const auto &section : timer.seconds())
+      {
+        rows.push_back(
+          {section.first, section.second, 100. * section.second / total});
+        sum += section.second;
+      }
+    rows.push_back({"set-up and rest", total - sum, 100. * (1. - sum / total)});
+    rows.push_back({"total", total, 100.});
+    console->table("wall time", rows);
+  }
+} // namespace CaissonMPM

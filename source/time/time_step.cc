@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/time/time_step.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  TimeStep::TimeStep()
+    : ParameterAcceptor("/Time")
+  {
+    add_parameter("Courant number",
+                  courant,
+                  "Time step over the stability limit of linear cells. Units: "
+                  "none.",
+                  prm,
+                  Patterns::Double(1e-6, 1.));
+    add_parameter("Mass scaling",
+                  mass_scaling,
+                  "Factor on the inertia of the soil, not on its weight; the "
+                  "step grows with its square root. Units: none.",
+                  prm,
+                  Patterns::Double(1., 1e6));
+    add_parameter("Time step",
+                  fixed_step,
+                  "A time step to use instead; 0 for the stable one. Units: s.",
+                  prm,
+                  Patterns::Double(0.));
+  }
+
+  void
+  TimeStep::check_parameters() const
+  {}
+
+  double
+  TimeStep::choose(const BackgroundGrid &grid,
+                   MaterialPoints       &points,
+                   const Soil           &soil)
+  {
+    constexpr unsigned int interval = 20;
+    if (limit == 0. || ++age == interval)
+      find_limit(grid, points, soil);
+    if (fixed_step == 0.)
+      return courant * limit;
+    if (fixed_step > limit)
+      throw RunFailure("Time/Time step = " + std::to_string(fixed_step) +
+                       " s exceeds the stability limit " +
+                       std::to_string(limit) + " s, set by " + limiting_cell +
+                       ". Reduce it, or set it to 0 for the stable one.");
+    return fixed_step;
+  }
+
+  void
+  TimeStep::find_limit(const BackgroundGrid &grid,
+                       MaterialPoints       &points,
+                       const Soil           &soil)
+  {
+    double speed = 0.;
+    for (unsigned int i = 0; i < soil.n_layers(); ++i)
+      speed = std::max(speed,
+                       std::sqrt(soil.layer(i).p_wave_modulus() /
+                                 (mass_scaling * soil.inertial_density(i))));
+    const auto   view     = points.view();
+    unsigned int limiting = 0;
+    double       worst    = 0.; // largest 1/dr^2 + 1/dz^2
+    for (unsigned int i = 0; i < view.n_active_cells; ++i)
+      {
+        const auto  &g       = grid.geometry(view.active_cells[i]);
+        const double h       = std::min(g.height_left, g.height_right);
+        const double inverse = 1. / (g.width * g.width) + 1. / (h * h);
+        if (inverse > worst)
+          {
+            worst    = inverse;
+            limiting = view.active_cells[i];
+          }
+      }
+    limit = 1. / (speed * std::sqrt(worst));
+    age   = 0;
+
+    const char *const  names[] = {"moving", "compressing", "upper"};
+    const auto        &g       = grid.geometry(limiting);
+    std::ostringstream s;
+    s << "the cell at r = " << g.left << " m, z = " << g.bottom_left
+      << " m of the " << names[static_cast<int>(grid.zone(limiting))]
+      << " zone, " << g.width << " m x "
+      << std::min(g.height_left, g.height_right) << " m, wave speed " << speed
+      << " m/s";
+    limiting_cell = s.str();
+  }
+} // namespace CaissonMPM
