@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Fields on the material points about the caisson, mirrored on the axis."""
+"""Fields in the soil about the caisson, mirrored on the axis."""
 import numpy as np
 from matplotlib.collections import EllipseCollection, PolyCollection
 from matplotlib.figure import Figure
 
 import plot_forces
-from raster import raster, sizes
-from read_vtu import read_points, read_rigid_cells, read_series
+from cell_means import CellMeans
+from read_vtu import read_cells, read_points, read_series
 
 PENETRATIONS = [None, 2.5, 5.0, 6.5]  # frames of stress.png; None: the first
 RIGID = "#8c8c8c"
@@ -17,15 +17,14 @@ class Frame:
 
     def __init__(self, time, files, grid_series, history):
         points = read_points(files)
-        material = points.get("material")
-        rigid = (np.zeros(len(points["position"]), bool) if material is None
-                 else material < 0)
-        self.soil = {name: values[~rigid] for name, values in points.items()}
-        self.rigid = {name: values[rigid] for name, values in points.items()}
-        self.cells = np.empty((0, 4, 2))
-        if grid_series:
-            nearest = min(grid_series, key=lambda entry: abs(entry[0] - time))
-            self.cells = read_rigid_cells(nearest[1])
+        material = points.get("material", np.zeros(len(points["position"])))
+        self.soil = {name: values[material >= 0]
+                     for name, values in points.items()}
+        nearest = min(grid_series, key=lambda entry: abs(entry[0] - time))
+        corners, material = read_cells(nearest[1])
+        self.body = corners[material == 1]
+        self.means = CellMeans(self.soil["position"], self.soil["volume"],
+                               corners, material == 1)
         self.label = f"t = {time:.3g} s"
         if plot_forces.penetration(history) is not None:
             self.label = f"penetration {depth_at(time, history):.2f} m"
@@ -49,47 +48,59 @@ def chosen(series, history):
 
 def window_of(first, last, scene):
     """(radius, bottom, top) of the picture about the caisson."""
-    position = first.soil["position"]
-    surface = position[:, 1].max()
-    body = np.concatenate([last.cells.reshape(-1, 2),
-                           last.rigid["position"]])
-    radius, bottom = position[:, 0].max(), position[:, 1].min()
-    if "diameter_m" in scene or len(body):
-        diameter = scene.get("diameter_m") or 2 * body[:, 0].max()
-        depth = surface - body[:, 1].min() if len(body) else diameter
+    cells = np.concatenate([first.means.polygons, last.means.polygons])
+    radius, bottom = cells[..., 0].max(), cells[..., 1].min()
+    surface = cells[..., 1].max()
+    if len(last.body):
+        diameter = scene.get("diameter_m") or 2 * last.body[..., 0].max()
+        depth = surface - last.body[..., 1].min()
         radius = min(radius, diameter)
         bottom = max(bottom, surface - max(1.6 * depth, diameter))
     top = surface + 0.08 * (surface - bottom)
     return radius, bottom, top
 
 
+def inside(frame, window):
+    """Which painted cells lie at least partly in the window."""
+    radius, bottom, top = window
+    lower, upper = [f(frame.means.polygons, axis=1) for f in (np.min, np.max)]
+    return ((lower[:, 0] < radius) & (upper[:, 1] > bottom) &
+            (lower[:, 1] < top))
+
+
+def paint_cells(axes, polygons, values, style, sides=(1, -1)):
+    """Cells in the colour of their values, on both sides of the axis."""
+    painted = PolyCollection(
+        np.concatenate([polygons * [side, 1] for side in sides]),
+        array=np.tile(values, len(sides)), cmap=style["cmap"],
+        edgecolors="face", linewidths=0.4)
+    painted.set_clim(style["vmin"], style["vmax"])
+    axes.add_collection(painted)
+    return painted
+
+
 def draw_body(axes, frame):
-    """The rigid body: its cells, or where there are none its points."""
-    cells = frame.cells
-    if len(cells) == 0 and len(frame.rigid["position"]):
-        half = sizes(frame.rigid)[:, np.newaxis, np.newaxis] / 2
-        square = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
-        cells = frame.rigid["position"][:, np.newaxis, :] + half * square
+    """The rigid body, exactly: its cells."""
     for side in (1, -1):
         axes.add_collection(PolyCollection(
-            cells * [side, 1], facecolors=RIGID, edgecolors=RIGID,
-            linewidths=0.8, zorder=3))
+            frame.body * [side, 1], facecolors=RIGID, edgecolors=RIGID,
+            linewidths=0.5, zorder=3))
 
 
-def draw_mirrored(axes, frame, picture, extent, window, style):
-    """A raster on both sides of the axis, and the body."""
+def draw_mirrored(axes, frame, values, window, style):
+    """Cell means on both sides of the axis, and the body."""
     radius, bottom, top = window
-    image = axes.imshow(picture, origin="lower", interpolation="nearest",
-                        extent=extent, **style)
+    painted = paint_cells(axes, frame.means.polygons, values, style)
     draw_body(axes, frame)
     axes.axvline(0, color="0.4", linewidth=0.5, dashes=(8, 4, 2, 4))
+    axes.set_aspect("equal")
     axes.set_xlim(-radius, radius)
     axes.set_ylim(bottom, top)
     if 3 * radius < top - bottom:  # no room for more labels
         axes.set_xticks([0, radius])
     axes.set_xlabel("r (m)")
     axes.set_title(frame.label, fontsize=10)
-    return image
+    return painted
 
 
 def nice_above(value):
@@ -106,7 +117,8 @@ def panels(n, window):
     """A figure of n panels with the shape of the window, in pairs."""
     columns = min(n, 2)
     rows = -(-n // columns)
-    height = min(4.4 * (window[2] - window[1]) / (2 * window[0]), 7)
+    height = 4.4 * (window[2] - window[1]) / (2 * window[0])
+    height = min(max(height, 2.6 / rows), 7)
     figure = Figure(figsize=(4.7 * columns + 1.2, (height + 0.4) * rows + 0.3),
                     constrained_layout=True)
     axes = figure.subplots(rows, columns, squeeze=False, sharex=True,
@@ -118,81 +130,86 @@ def panels(n, window):
 
 def draw_stress(path, frames, window):
     """The vertical effective stress at each frame, on one colour scale."""
-    rasters = [raster(frame.soil, -frame.soil["effective_stress_zz"] / 1e3,
-                      window) for frame in frames]
-    highest = np.nanpercentile([picture for picture, _ in rasters], 99.5)
+    fields = [frame.means.of(-frame.soil["effective_stress_zz"] / 1e3)
+              for frame in frames]
+    highest = np.percentile(np.concatenate(
+        [field[inside(frame, window)]
+         for frame, field in zip(frames, fields)]), 99)
     style = {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
     figure, axes = panels(len(frames), window)
-    for panel, frame, (picture, extent) in zip(axes.flat, frames, rasters):
-        image = draw_mirrored(panel, frame, picture, extent, window, style)
+    for panel, frame, field in zip(axes.flat, frames, fields):
+        painted = draw_mirrored(panel, frame, field, window, style)
         panel.label_outer()
     for panel in axes[:, 0]:
         panel.set_ylabel("z (m)")
-    figure.colorbar(image, ax=axes, extend="max", shrink=0.7, pad=0.02,
-                    label="vertical effective stress (kPa), "
-                          "compression positive")
+    figure.colorbar(painted, ax=axes, extend="max", shrink=0.7, pad=0.02,
+                    label="vertical effective stress (kPa),\n"
+                          "compression positive, mean of each cell")
     figure.savefig(path, dpi=150)
     return path
 
 
 def draw_tip(axes, frame, values, box, style):
-    """A field as discs, one per material point, on a small part."""
+    """A field on a small part: a disc of its own area for every material
+    point, on the means of the cells."""
     left, right, bottom, top = box
-    position, size = frame.soil["position"], sizes(frame.soil)
-    inside = ((position[:, 0] > left - size) & (position[:, 0] < right + size) &
-              (position[:, 1] > bottom - size) & (position[:, 1] < top + size))
-    diameter = 0.95 * size[inside]
-    discs = EllipseCollection(diameter, diameter, np.zeros(len(diameter)),
-                              units="x", offsets=position[inside],
+    position, size = frame.soil["position"], np.sqrt(frame.means.area)
+    shown = ((position[:, 0] > left - size) & (position[:, 0] < right + size) &
+             (position[:, 1] > bottom - size) & (position[:, 1] < top + size))
+    style = dict(style, vmin=0, vmax=nice_above(
+        np.percentile(values[shown], 99.5)) if shown.any() else 1)
+    paint_cells(axes, frame.means.polygons, frame.means.of(values), style, [1])
+    discs = EllipseCollection(size[shown], size[shown], np.zeros(shown.sum()),
+                              units="x", offsets=position[shown],
                               transOffset=axes.transData, linewidths=0,
                               cmap=style["cmap"])
-    discs.set_array(values[inside])
-    visible = values[inside]
-    discs.set_clim(0, nice_above(np.percentile(visible, 99.5))
-                   if len(visible) else 1)
+    discs.set_array(values[shown])
+    discs.set_clim(style["vmin"], style["vmax"])
     axes.add_collection(discs)
     draw_body(axes, frame)
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)
     axes.set_aspect("equal")
     axes.set_xlabel("r (m)")
+    axes.set_title("at the tip", fontsize=10)
     return discs
 
 
-def tip_box(frame, window):
-    """A square about the tip of the wall: (left, right, bottom, top)."""
-    body = np.concatenate([frame.cells.reshape(-1, 2),
-                           frame.rigid["position"]])
-    if len(body) == 0:
+def tip_box(frame, window, scene):
+    """A square about the tip: (left, right, bottom, top); None: no body."""
+    if len(frame.body) == 0:
         return None
-    tip = body[np.argmin(body[:, 1])]
-    side = 0.16 * window[0]
-    return (max(tip[0] - side, 0), max(tip[0] - side, 0) + 2 * side,
-            tip[1] - 1.1 * side, tip[1] + 0.9 * side)
+    corners = frame.body.reshape(-1, 2)
+    tip = corners[np.argmin(corners[:, 1])]
+    side = min(0.16 * window[0],
+               5 * scene.get("wall_thickness_m", window[0]))
+    left = max(tip[0] - side, 0)
+    return left, left + 2 * side, tip[1] - 1.1 * side, tip[1] + 0.9 * side
 
 
-def draw_displacement(path, frame, window):
+def draw_displacement(path, frame, window, scene):
     """Displacement of the soil, and displacement and plastic strain at the
     tip."""
     moved = np.linalg.norm(frame.soil["displacement"][:, :2], axis=1)
-    box = tip_box(frame, window)
-    fields = [("displacement (m)", moved, {"cmap": "viridis"})]
+    box = tip_box(frame, window, scene)
+    fields = []
+    if box:
+        fields.append(("displacement (m)", moved, {"cmap": "viridis"}))
     if box and "plastic_strain" in frame.soil:
         fields.append(("plastic deviatoric strain (-)",
                        frame.soil["plastic_strain"], {"cmap": "magma_r"}))
-    n = 1 + len(fields) if box else 1
+    n = 1 + len(fields)
     figure = Figure(figsize=(5.3 * n, 4.5), constrained_layout=True)
     axes = figure.subplots(1, n, squeeze=False)[0]
-    picture, extent = raster(frame.soil, moved, window)
-    style = {"cmap": "viridis", "vmin": 0,
-             "vmax": nice_above(np.nanpercentile(picture, 99.5))}
-    image = draw_mirrored(axes[0], frame, picture, extent, window, style)
+    means = frame.means.of(moved)
+    style = {"cmap": "viridis", "vmin": 0, "vmax": nice_above(
+        np.percentile(means[inside(frame, window)], 99))}
+    painted = draw_mirrored(axes[0], frame, means, window, style)
     axes[0].set_ylabel("z (m)")
-    figure.colorbar(image, ax=axes[0], extend="max", shrink=0.8,
-                    label="displacement (m)")
+    figure.colorbar(painted, ax=axes[0], extend="max", shrink=0.8,
+                    label="displacement (m), mean of each cell")
     for panel, (label, values, style) in zip(axes[1:], fields):
         discs = draw_tip(panel, frame, values, box, style)
-        panel.set_title("at the tip", fontsize=10)
         figure.colorbar(discs, ax=panel, extend="max", shrink=0.8, label=label)
     figure.savefig(path, dpi=150)
     return path
@@ -201,17 +218,14 @@ def draw_displacement(path, frame, window):
 def draw(directory, history, scene):
     """Writes stress.png and displacement.png; returns their paths."""
     series = read_series(directory / "points.pvd")
-    if not series:
-        print(f"plot: {directory}/points.pvd names no file that is there")
-        return []
     grids = read_series(directory / "grid.pvd")
+    if not series or not grids:
+        print(f"plot: points.pvd or grid.pvd of {directory} names no file that "
+              "is there, so forces only")
+        return []
     frames = [Frame(time, files, grids, history)
               for time, files in chosen(series, history)]
     window = window_of(frames[0], frames[-1], scene)
-    pictures = []
-    if all("effective_stress_zz" in frame.soil for frame in frames):
-        pictures.append(draw_stress(directory / "stress.png", frames, window))
-    if "displacement" in frames[-1].soil:
-        pictures.append(draw_displacement(directory / "displacement.png",
-                                          frames[-1], window))
-    return pictures
+    return [draw_stress(directory / "stress.png", frames, window),
+            draw_displacement(directory / "displacement.png", frames[-1],
+                              window, scene)]

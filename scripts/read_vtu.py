@@ -52,18 +52,31 @@ def read_points(files):
             for name in names}
 
 
-def read_rigid_cells(files):
-    """The corners [n_cells, 4, 2] of the cells with material_id 1."""
-    found = [np.empty((0, 4, 2))]
+def read_cells(files):
+    """The cells of the background grid: corners [n_cells, 4, 2] in the order
+    lower left, lower right, upper right, upper left, and material [n_cells],
+    1 in the rigid body. deal.II gives every cell corners of its own and writes
+    cell data there, as point data."""
+    corners, material = [np.empty((0, 4, 2))], [np.empty(0)]
     for grid in map(read_grid, files):
-        material = arrays_of(grid.GetCellData()).get("material_id")
-        if material is None or not np.any(material == 1):
-            continue
-        position = vtk_to_numpy(grid.GetPoints().GetData())[:, :2]
         start = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
-        corner = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
-        for cell in np.flatnonzero(material == 1):
-            if start[cell + 1] - start[cell] == 4:
-                corners = corner[start[cell]:start[cell + 1]]
-                found.append(position[corners][np.newaxis])
-    return np.concatenate(found)
+        quads = np.flatnonzero(np.diff(start) == 4)
+        corner = vtk_to_numpy(grid.GetCells().GetConnectivityArray())[
+            start[quads][:, np.newaxis] + np.arange(4)]
+        position = vtk_to_numpy(grid.GetPoints().GetData())[:, :2]
+        corners.append(sorted_corners(position[corner].astype(float)))
+        values = arrays_of(grid.GetCellData()).get("material_id")
+        at_corners = arrays_of(grid.GetPointData()).get("material_id")
+        if values is not None:
+            material.append(values[quads])
+        elif at_corners is not None:
+            material.append(at_corners[corner[:, 0]])
+        else:
+            material.append(np.zeros(len(quads)))
+    return np.concatenate(corners), np.concatenate(material)
+
+
+def sorted_corners(corners):
+    """The corners of cells with vertical sides in the order of read_cells."""
+    order = np.lexsort((corners[..., 1], corners[..., 0]))
+    return np.take_along_axis(corners, order[:, [0, 2, 3, 1], np.newaxis], 1)

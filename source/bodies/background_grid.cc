@@ -202,7 +202,7 @@ namespace CaissonMPM
       is_caisson ? body.wall_thickness / body.cells_across : cell_height;
     zone_bottom  = std::max(bottom, body.bottom() - zone_below_tip);
     zone_top     = body.top_of_body();
-    decay_length = 4. * body.tip_height();
+    decay_length = 8. * body.tip_height();
     if (travel_to_hold > 0.)
       fixed.push_back(zone_bottom);
     fixed.push_back(shoulder);
@@ -386,6 +386,10 @@ namespace CaissonMPM
             neighbors[4 * c + face] =
               local_numbers[cell->neighbor(face)->active_cell_index()];
       }
+    soil_neighbors = neighbors;
+    for (int &neighbor : soil_neighbors)
+      if (neighbor >= 0 && rigid[neighbor])
+        neighbor = -1;
     // the cells that share a node with the body
     std::vector<bool> at_body(partitioner->locally_owned_size() +
                                 partitioner->n_ghost_indices(),
@@ -492,6 +496,7 @@ namespace CaissonMPM
     return {geometries[current].data(),
             nodes.data(),
             flags.data(),
+            soil_neighbors.data(),
             axisymmetric() ? 1. : 0.};
   }
 

@@ -222,8 +222,8 @@ namespace CaissonMPM
   }
 
   void
-  Contact::reset_impulse()
+  Contact::reset_impulse(const SurfaceForces &start)
   {
-    impulses = SurfaceForces();
+    impulses = start;
   }
 } // namespace CaissonMPM

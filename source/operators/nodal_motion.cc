@@ -46,10 +46,17 @@ namespace CaissonMPM
                   Patterns::Selection("Gauss in full cells|material points"));
     add_parameter("Full cell fraction",
                   full_fraction,
-                  "A cell is full if its points fill this share of its volume. "
-                  "Units: none.",
+                  "A cell at a free surface is full if its points fill this "
+                  "share of its volume. Units: none.",
                   prm,
                   Patterns::Double(0.1, 2.));
+    add_parameter(
+      "Full cell fraction inside",
+      full_fraction_inside,
+      "A cell whose neighbors all have points is full if its points "
+      "fill this share of its volume. Units: none.",
+      prm,
+      Patterns::Double(0.1, 2.));
     add_parameter("Pressure in full cells",
                   pressure,
                   "Fit the mean stress of a full cell's points by an affine "
@@ -91,6 +98,11 @@ namespace CaissonMPM
   void
   NodalMotion::check_parameters() const
   {
+    if (full_fraction_inside > full_fraction)
+      throw BadInput("Method/Full cell fraction inside = " +
+                     std::to_string(full_fraction_inside) +
+                     " exceeds Method/Full cell fraction = " +
+                     std::to_string(full_fraction) + ". Reduce it.");
     if (stress_scheme == "USL" && transfer_scheme == "FLIP" && damping == 0. &&
         !floor_on)
       throw BadInput("Method/Stress update = USL with Velocity transfer = FLIP "
@@ -136,8 +148,10 @@ namespace CaissonMPM
     sums = 0.;
     sums.zero_out_ghost_values();
     moments.resize(points.n_active_cells);
+    const bool point_quadrature = integration == "material points";
     const Kernels::IntegrationSettings settings = {
-      integration == "material points" ? 1e300 : full_fraction,
+      point_quadrature ? 1e300 : full_fraction,
+      point_quadrature ? 1e300 : full_fraction_inside,
       floor_on,
       pressure == "mean"};
     kernels.points_to_grid(points,
@@ -149,6 +163,15 @@ namespace CaissonMPM
     sums.compress(VectorOperation::add);
     sums.update_ghost_values();
   }
+
+  namespace
+  {
+    double
+    sign(const double x)
+    {
+      return x > 0. ? 1. : x < 0. ? -1. : 0.;
+    }
+  } // namespace
 
   void
   NodalMotion::accelerate(const double dt, const Contact &contact)
@@ -172,10 +195,10 @@ namespace CaissonMPM
           damped && !contact.is_contact_node(i) ? damping : 0.;
         for (unsigned int d = 0; d < 2; ++d)
           {
-            v[i].value[d] = node->momentum[d] / node->mass;
-            const double force =
-              node->force[d] -
-              share * std::copysign(std::abs(node->force[d]), v[i].value[d]);
+            v[i].value[d]      = node->momentum[d] / node->mass;
+            const double force = node->force[d] - share *
+                                                    std::abs(node->force[d]) *
+                                                    sign(v[i].value[d]);
             u[i].value[d] = v[i].value[d] + dt * force / mass[i];
             sum += u[i].value[d];
           }
@@ -237,7 +260,7 @@ namespace CaissonMPM
     const std::size_t n   = 2 * mass.size();
     const double     *old = old_velocity.begin(), *v = new_velocity.begin();
     double *const     transfer = transfer_velocity.begin();
-    const double      keep     = update_settings(1.).keep_velocity;
+    const double      keep     = keep_velocity();
 
     // the part that is added to keep * V_p
     for (std::size_t i = 0; i < n; ++i)
@@ -281,6 +304,14 @@ namespace CaissonMPM
     return {data(new_velocity),
             data(transfer_velocity),
             data(stress_scheme == "USL" ? new_velocity : strain_velocity)};
+  }
+
+  double
+  NodalMotion::keep_velocity() const
+  {
+    return transfer_scheme == "FLIP"  ? 1. :
+           transfer_scheme == "blend" ? flip_fraction :
+                                        0.;
   }
 
   Kernels::UpdateSettings

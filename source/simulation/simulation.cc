@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/output/run_summary.h>
 #include <caisson_mpm/simulation/simulation.h>
 
@@ -172,9 +173,8 @@ namespace CaissonMPM
     while (next_frame < frame_times.size() &&
            frame_times[next_frame] <= time + 1e-9)
       ++next_frame;
-    next_record = time + record_interval;
-    last_record = time;
-    first_step  = step;
+    first_step   = step;
+    start_of_run = time;
   }
 
   void
@@ -182,6 +182,7 @@ namespace CaissonMPM
   {
     generator.generate(grid, body, soil, time_step.mass_scaling, points);
     history->create();
+    next_record = record_interval;
   }
 
   void
@@ -194,6 +195,7 @@ namespace CaissonMPM
     n_limited     = state.limiter_count;
     external_work = state.external_work;
     points.set_n_held_back(state.held_back);
+    resume_record(state.more);
     history->resume(time);
     visualization->resume(time);
   }
@@ -252,46 +254,45 @@ namespace CaissonMPM
   void
   Simulation::advance()
   {
-    using Scope                          = SectionTimer::Scope;
-    static const unsigned int sections[] = {timer.section("points to grid"),
-                                            timer.section("nodal motion"),
-                                            timer.section("contact"),
-                                            timer.section("transfer"),
-                                            timer.section("grid to points"),
-                                            timer.section("relocate")};
-    const auto                view       = grid.view();
+    const auto view = grid.view();
     choose_step();
-    {
-      Scope scope(timer, sections[0]);
+    timed("points to grid", [&]() {
       nodal_motion.collect(*kernels, points.view(), view, materials);
-    }
-    {
-      Scope scope(timer, sections[1]);
-      nodal_motion.accelerate(dt, contact);
-    }
-    {
-      Scope         scope(timer, sections[2]);
-      const Vector2 velocity({0., -body.velocity(time + dt)});
-      external_work +=
-        nodal_motion.constrain(dt, velocity, boundary_conditions, contact);
-    }
-    {
-      Scope scope(timer, sections[3]);
+    });
+    timed("nodal motion", [&]() { nodal_motion.accelerate(dt, contact); });
+    timed("contact", [&]() {
+      external_work += nodal_motion.constrain(dt,
+                                              body_velocity(),
+                                              boundary_conditions,
+                                              contact);
+    });
+    timed("transfer", [&]() {
       nodal_motion.prepare_transfer(
         *kernels, points.view(), view, boundary_conditions, contact);
-    }
-    {
-      Scope scope(timer, sections[4]);
-      grid.prepare_motion(body.travel(time + dt));
-      update_points(view);
-    }
-    {
-      Scope scope(timer, sections[5]);
+    });
+    timed("move mesh", [&]() { grid.prepare_motion(body.travel(time + dt)); });
+    timed("grid to points", [&]() { update_points(view); });
+    timed("relocate", [&]() {
       grid.advance();
       points.relocate();
-    }
+    });
     time += dt;
     ++step;
+  }
+
+  template <typename Action>
+  void
+  Simulation::timed(const char *section, const Action &action)
+  {
+    SectionTimer::Scope scope(timer, timer.section(section));
+    action();
+  }
+
+  Vector2
+  Simulation::body_velocity() const
+  {
+    // of the whole step, so that body and mesh move alike
+    return Vector2({0., -(body.travel(time + dt) - body.travel(time)) / dt});
   }
 
   void
@@ -404,10 +405,24 @@ namespace CaissonMPM
   Simulation::record()
   {
     HistoryRow row;
-    row.time              = time;
-    row.penetration       = body.initial_penetration + body.travel(time);
-    row.step              = step;
-    row.time_step         = dt;
+    row.time           = time;
+    row.penetration    = body.initial_penetration + body.travel(time);
+    row.step           = step;
+    row.time_step      = dt;
+    row.external_work  = external_work;
+    row.limiter_count  = n_limited;
+    row.held_back      = points.n_held_back();
+    row.contact_nodes  = contact.n_touching;
+    row.sticking_nodes = contact.n_sticking;
+    add_forces(row);
+    add_sums_over_points(row);
+    history->append(row);
+    print_record(row);
+  }
+
+  void
+  Simulation::add_forces(HistoryRow &row)
+  {
     const double interval = time - last_record;
     double      *forces[] = {&row.tip, &row.inner, &row.outer, &row.top};
     for (unsigned int s = 0; s < n_surfaces && interval > 0.; ++s)
@@ -417,24 +432,27 @@ namespace CaissonMPM
       }
     contact.reset_impulse();
     last_record = time;
+  }
 
+  void
+  Simulation::add_sums_over_points(HistoryRow &row)
+  {
     const double around = grid.axisymmetric() ? 2. * pi : 1.;
+    const double travel = body.travel(time);
     points.for_each([&](const MaterialPoint &p, const unsigned int) {
       const double speed2 =
         p.velocity[0] * p.velocity[0] + p.velocity[1] * p.velocity[1];
       row.kinetic_energy += .5 * around * p.mass * speed2;
       row.max_speed = std::max(row.max_speed, std::sqrt(speed2));
-      row.points_in_body += body.contains(p.position, body.travel(time));
+      row.points_in_body += body.contains(p.position, travel);
     });
-    max_in_body        = std::max(max_in_body, row.points_in_body);
-    row.external_work  = external_work;
-    row.added_mass     = around * nodal_motion.added_mass;
-    row.limiter_count  = n_limited;
-    row.held_back      = points.n_held_back();
-    row.contact_nodes  = contact.n_touching;
-    row.sticking_nodes = contact.n_sticking;
-    history->append(row);
+    row.added_mass = around * nodal_motion.added_mass;
+    max_in_body    = std::max(max_in_body, row.points_in_body);
+  }
 
+  void
+  Simulation::print_record(const HistoryRow &row)
+  {
     RecordLine line;
     line.time                   = time;
     line.has_body               = body.kind() != RigidBody::Kind::none;
@@ -448,7 +466,9 @@ namespace CaissonMPM
     line.fraction_done          = time / end_time();
     line.point_steps_per_second = point_steps / seconds_running();
     line.eta_seconds =
-      time > 0. ? seconds_running() * (end_time() - time) / time : 0.;
+      time > start_of_run ?
+        seconds_running() * (end_time() - time) / (time - start_of_run) :
+        0.;
     console->record(line);
   }
 
@@ -470,27 +490,46 @@ namespace CaissonMPM
   std::string
   Simulation::fingerprint() const
   {
-    std::ostringstream all;
-    ParameterAcceptor::prm.print_parameters(all,
-                                            ParameterHandler::PRM |
-                                              ParameterHandler::Short);
-    return all.str();
+    // without what may change between a run and its continuation
+    std::string result;
+    for (const DeclaredEntry &entry : DeclaredEntries(prm).all())
+      {
+        bool may_change = false;
+        for (const std::string free :
+             {"Output/", "Run control/", "Verification/", "Time/End"})
+          may_change |= entry.path.compare(0, free.size(), free) == 0;
+        if (!may_change)
+          result += entry.path + " = " + entry.value + "\n";
+      }
+    return result;
   }
 
   void
   Simulation::save_checkpoint()
   {
-    write_checkpoint(directory,
-                     grid,
-                     points,
-                     {time,
-                      body.travel(time),
-                      step,
-                      n_limited,
-                      points.n_held_back(),
-                      external_work,
-                      {}},
-                     fingerprint());
+    CheckpointState state;
+    state.time          = time;
+    state.travel        = body.travel(time);
+    state.step          = step;
+    state.limiter_count = n_limited;
+    state.held_back     = points.n_held_back();
+    state.external_work = external_work;
+    state.more          = {next_record, last_record};
+    for (const Vector2 &impulse : contact.impulse())
+      for (unsigned int d = 0; d < 2; ++d)
+        state.more.push_back(impulse[d]);
+    write_checkpoint(directory, grid, points, state, fingerprint());
+  }
+
+  void
+  Simulation::resume_record(const std::vector<double> &numbers)
+  {
+    next_record = numbers.at(0);
+    last_record = numbers.at(1);
+    SurfaceForces impulse;
+    for (unsigned int i = 0; i < 2 * n_surfaces; ++i)
+      impulse[i / 2][i % 2] = numbers.at(2 + i);
+    contact.reset_impulse(impulse);
   }
 
   void

@@ -44,15 +44,22 @@ namespace CaissonMPM
                    const Soil           &soil)
   {
     constexpr unsigned int interval = 20;
-    if (limit == 0. || ++age == interval)
+    const bool             is_first = limit == 0.;
+    if (is_first || ++age == interval)
       find_limit(grid, points, soil);
     if (fixed_step == 0.)
       return courant * limit;
     if (fixed_step > limit)
-      throw RunFailure("Time/Time step = " + std::to_string(fixed_step) +
-                       " s exceeds the stability limit " +
-                       std::to_string(limit) + " s, set by " + limiting_cell +
-                       ". Reduce it, or set it to 0 for the stable one.");
+      {
+        const std::string text =
+          "Time/Time step = " + std::to_string(fixed_step) +
+          " s exceeds the stability limit " + std::to_string(limit) +
+          " s, set by " + limiting_cell +
+          ". Reduce it, or set it to 0 for the stable one.";
+        if (is_first)
+          throw BadInput(text);
+        throw RunFailure(text);
+      }
     return fixed_step;
   }
 

@@ -279,6 +279,7 @@ namespace CaissonMPM
     std::vector<unsigned int>                        local_numbers;
     std::vector<Kernels::CellNodes>                  nodes;
     std::vector<int>                                 neighbors;
+    std::vector<int>                                 soil_neighbors;
     std::vector<unsigned char>                       rigid, flags;
     std::vector<Zone>                                zones;
 

@@ -82,7 +82,8 @@ namespace CaissonMPM
       double mass;        // kg per radian
       double momentum[2]; // kg m/s per radian
       double force[2];    // internal + body force, N per radian
-      double stiffness;   // bound of sum_J |K_IJ|, N/m per radian
+      double stiffness;   // bound of sum_J |K_IJ| over partly
+                          // filled cells, N/m per radian
       double padding[2];
     };
 
@@ -114,18 +115,21 @@ namespace CaissonMPM
 
     struct GridView
     {
-      const CellGeometry  *geometry;     // [n_cells]
-      const CellNodes     *nodes;        // [n_cells]
-      const unsigned char *flags;        // [n_cells]
-      double               axisymmetric; // 1, or 0 in plane strain
+      const CellGeometry  *geometry; // [n_cells]
+      const CellNodes     *nodes;    // [n_cells]
+      const unsigned char *flags;    // [n_cells]
+      const int *neighbors; // [n_cells][4] soil cells left, right, below,
+                            // above; -1: none
+      double axisymmetric;  // 1, or 0 in plane strain
     };
 
     /** How the internal force is integrated. */
     struct IntegrationSettings
     {
-      double full_cell_fraction; // filled volume from which Gauss is used
-      bool   floor_mass;         // sum the stiffness bound
-      bool   mean_pressure;      // cell mean instead of the affine pressure
+      double full_at_surface; // filled volume from which a cell is full
+      double full_inside;     // the same where all neighbors have points
+      bool   floor_mass;      // sum the stiffness bound
+      bool   mean_pressure;   // cell mean instead of the affine pressure
     };
 
     /** What grid_to_points needs besides the nodal fields. */

@@ -9,7 +9,8 @@
 // The integral runs over the MPs in partly filled cells, and over 2 x 2 Gauss
 // points in full ones, with the stress reconstructed from the MPs by an affine
 // least-squares fit in (r, z), which is exact for a K0 state. A cell is full
-// when its MPs fill at least a given share of its volume.
+// when its MPs fill at least a given share of its volume, which is smaller
+// inside the soil than at its surface.
 //
 // Stress rate: Jaumann with the in-plane spin, strain increment with the mean
 // volume change of the cell (B-bar).
@@ -454,6 +455,31 @@ namespace CaissonMPM
         return sum(volume);
       }
 
+      /**
+       * Whether a cell takes Gauss points. Inside the soil the number of points
+       * in a cell scatters while the mesh moves, and a cell with fewer of them
+       * is no less full; at a free surface it is.
+       */
+      CAISSON_INLINE bool
+      is_full(const PointsView          &points,
+              const GridView            &grid,
+              const IntegrationSettings &settings,
+              const unsigned int         cell,
+              const double               filled_fraction)
+      {
+        if (filled_fraction >= settings.full_at_surface)
+          return true;
+        if (filled_fraction < settings.full_inside)
+          return false;
+        for (int face = 0; face < 4; ++face)
+          {
+            const int neighbor = grid.neighbors[4 * cell + face];
+            if (neighbor >= 0 && points.first_block[neighbor] < 0)
+              return false;
+          }
+        return true;
+      }
+
       template <typename Number>
       void
       points_to_grid(const PointsView          &points,
@@ -470,8 +496,12 @@ namespace CaissonMPM
             const CellMap      map(grid.geometry[cell]);
             CellContribution   contribution;
             const bool         full = moments[i].full =
-              volume_of_points<Number>(points, first) >=
-              settings.full_cell_fraction * map.volume(grid.axisymmetric);
+              is_full(points,
+                      grid,
+                      settings,
+                      cell,
+                      volume_of_points<Number>(points, first) /
+                        map.volume(grid.axisymmetric));
             if (full)
               {
                 double fit[24] = {};

@@ -86,7 +86,7 @@ namespace CaissonMPM
       return impulses;
     }
     void
-    reset_impulse();
+    reset_impulse(const SurfaceForces &start = SurfaceForces());
 
     /** Nodes in contact, and of them those that stick, in the last step. */
     unsigned int n_touching = 0, n_sticking = 0;

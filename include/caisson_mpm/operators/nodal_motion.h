@@ -15,8 +15,8 @@
 // S+ V_p; as A is known per cell, no second pass over the points is needed.
 // USL strains them with v+.
 //
-// Every velocity of these sums is held to the boundary conditions and to the
-// contact found for v+: the transfer must not undo them.
+// The velocities of the sums of XPIC and MUSL are held to the boundary
+// conditions and to the contact found for v+: the transfer must not undo them.
 #ifndef caisson_mpm_operators_nodal_motion_h
 #define caisson_mpm_operators_nodal_motion_h
 
@@ -111,6 +111,9 @@ namespace CaissonMPM
     description() const;
 
   private:
+    double
+    keep_velocity() const;
+
     template <typename Constrain>
     void
     round_trip(const Kernels::KernelTable &kernels,
@@ -120,19 +123,20 @@ namespace CaissonMPM
                NodalData                  &to,
                const Constrain            &constrain);
 
-    std::string  transfer_scheme = "XPIC";
-    std::string  stress_scheme   = "MUSL";
-    std::string  integration     = "Gauss in full cells";
-    std::string  pressure        = "affine";
-    unsigned int xpic_order      = 2;
-    double       flip_fraction   = 0.99;
-    double       full_fraction   = 0.9;
-    bool         mean_volume     = true;
-    double       stress_filter   = 0.01;
-    bool         floor_on        = true;
-    double       damping         = 0.;
-    bool         limiter_on      = true;
-    double       limiter_factor  = 0.75;
+    std::string  transfer_scheme      = "XPIC";
+    std::string  stress_scheme        = "MUSL";
+    std::string  integration          = "Gauss in full cells";
+    std::string  pressure             = "affine";
+    unsigned int xpic_order           = 2;
+    double       flip_fraction        = 0.99;
+    double       full_fraction        = 0.9;
+    double       full_fraction_inside = 0.5;
+    bool         mean_volume          = true;
+    double       stress_filter        = 0.01;
+    bool         floor_on             = true;
+    double       damping              = 0.;
+    bool         limiter_on           = true;
+    double       limiter_factor       = 0.75;
 
     std::vector<double>               mass; // that accelerates
     std::vector<Kernels::CellMoments> moments;

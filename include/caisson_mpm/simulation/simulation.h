@@ -75,6 +75,11 @@ namespace CaissonMPM
     choose_step();
     void
     advance();
+    template <typename Action>
+    void
+    timed(const char *section, const Action &action);
+    Vector2
+    body_velocity() const;
     void
     update_points(const Kernels::GridView &view);
     void
@@ -85,9 +90,17 @@ namespace CaissonMPM
     void
     record();
     void
+    add_forces(HistoryRow &row);
+    void
+    add_sums_over_points(HistoryRow &row);
+    void
+    print_record(const HistoryRow &row);
+    void
     write_frame();
     void
     save_checkpoint();
+    void
+    resume_record(const std::vector<double> &numbers);
     void
     write_summary(const std::string &status);
     void
@@ -141,10 +154,11 @@ namespace CaissonMPM
     std::vector<double>            frame_times;
     std::string                    scene;
     double        next_record = 0., last_record = 0., next_checkpoint = 0.;
-    unsigned int  next_frame  = 0;
-    unsigned long first_step  = 0;
-    unsigned int  max_in_body = 0;
-    double        point_steps = 0.;
+    unsigned int  next_frame   = 0;
+    unsigned long first_step   = 0; // of this run
+    double        start_of_run = 0.;
+    unsigned int  max_in_body  = 0;
+    double        point_steps  = 0.;
     std::chrono::steady_clock::time_point start_time;
   };
 } // namespace CaissonMPM

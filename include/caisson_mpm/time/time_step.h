@@ -3,7 +3,7 @@
 // The stable time step, and the mass scaling that lengthens it.
 //
 //   dt = C min over cells with points of 1 / (c sqrt(1/dr^2 + 1/dz^2)),
-//   c = sqrt((lambda + 2 mu) / (s rho)),
+//   c = sqrt((lambda + 2 mu) / (s rho)) of the layer where it is largest,
 // C the Courant number, s the mass scaling. Mass scaling enters inertia only:
 // weight and friction are those of the real soil.
 #ifndef caisson_mpm_time_time_step_h

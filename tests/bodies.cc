@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The floor of the bodies: graded lines, the rigid body's motion and shape, the
+// mesh that moves with it, the generated points, and the boundary conditions.
+#include <caisson_mpm/bodies/graded_lines.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "scene.h"
+
+const std::string caisson = R"(
+  subsection Rigid body
+    set Kind                  = caisson
+    set Outer diameter        = 6
+    set Skirt length          = 3
+    set Wall thickness        = 0.2
+    set Cells across the wall = 2
+    set Tip angle             = 60
+    set Initial penetration   = 0.5
+  end
+  subsection Grid
+    set Outer radius          = 8
+    set Bottom                = -7
+    set Top                   = 4
+    set Cell width            = 1
+    set Cell height           = 0.5
+    set Moving zone below tip = 1
+  end
+  )";
+
+// ------------------------------------------------------------ lines
+
+void
+check_lines()
+{
+  const auto uniform = graded_lines({0., 1., 2.5}, [](double) { return .3; });
+  bool       through = std::count(uniform.begin(), uniform.end(), 1.) == 1;
+  double     largest = 0.;
+  for (unsigned int i = 1; i < uniform.size(); ++i)
+    largest = std::max(largest, uniform[i] - uniform[i - 1]);
+  std::printf("lines: %d through 1: %d, largest %.4f\n",
+              int(uniform.size()),
+              through,
+              largest);
+  const auto graded =
+    graded_lines({0., 10.}, [](const double x) { return .1 + .2 * x; });
+  double smallest_ratio = 1e9, largest_ratio = 0.;
+  for (unsigned int i = 2; i < graded.size(); ++i)
+    {
+      const double ratio =
+        (graded[i] - graded[i - 1]) / (graded[i - 1] - graded[i - 2]);
+      smallest_ratio = std::min(smallest_ratio, ratio);
+      largest_ratio  = std::max(largest_ratio, ratio);
+    }
+  verdict("graded lines: spread of the ratio",
+          largest_ratio - smallest_ratio,
+          1e-2);
+  std::printf("ratio %.2f\n", largest_ratio);
+}
+
+// ------------------------------------------------------------ rigid body
+
+void
+check_motion()
+{
+  Scene        s(caisson + "subsection Rigid body\n"
+                           "set Velocity table = 0:0, 2:0.1, 4:0.1, 6:0.3\nend\n");
+  double       distance = 0., speed = 0., time = 0.;
+  const double exact[][3] = {{1., .025, .05},
+                             {2., .1, .1},
+                             {3., .2, .1},
+                             {5., .45, .2},
+                             {6., .7, .3},
+                             {8., 1.3, .3}};
+  for (const auto &e : exact)
+    {
+      distance = std::max(distance, std::abs(s.body.travel(e[0]) - e[1]));
+      speed    = std::max(speed, std::abs(s.body.velocity(e[0]) - e[2]));
+      time     = std::max(time, std::abs(s.body.time_of_travel(e[1]) - e[0]));
+    }
+  verdict("velocity table: travel error", distance, 1e-14);
+  verdict("velocity table: velocity error", speed, 1e-14);
+  verdict("velocity table: time of travel error", time, 1e-12);
+  verdict("largest velocity error", std::abs(s.body.max_velocity() - .3), 0.);
+
+  Scene ramp(caisson + "subsection Rigid body\nset Velocity = 0.1\n"
+                       "set Ramp time = 0.5\nend\n");
+  verdict("ramp: travel error",
+          std::abs(ramp.body.travel(.25) - .00625) +
+            std::abs(ramp.body.travel(2.) - .175),
+          1e-14);
+  Scene stops(caisson + "subsection Rigid body\n"
+                        "set Velocity table = 0:0.1, 1:0\nend\n");
+  std::printf("a depth never reached: %s\n",
+              std::isinf(stops.body.time_of_travel(.051)) ? "infinite" :
+                                                            "finite");
+}
+
+void
+check_shape()
+{
+  Scene        s(caisson);
+  const double h = .1 * std::tan(pi / 3.);
+  verdict("tip height error", std::abs(s.body.tip_height() - h), 1e-14);
+  verdict("tip surface error",
+          std::abs(s.body.lower_surface(2.9) + .5) +
+            std::abs(s.body.lower_surface(2.8) + .5 - h) +
+            std::abs(s.body.lower_surface(2.95) + .5 - .5 * h),
+          1e-14);
+  const auto inside = [&s](const double r, const double z) {
+    return s.body.contains(dealii::Point<2>(r, z), 1.);
+  };
+  std::printf("inside: %d%d%d%d%d%d\n",
+              inside(2.9, 0.),
+              inside(2.9, -1.49),
+              inside(2.81, -1.45),
+              inside(2.79, 0.),
+              inside(2.9, 1.6),
+              inside(3.01, 0.));
+
+  // one point per cell, with the mass of the steel
+  const auto   points = generate_body_points(s.grid, s.body);
+  double       mass = 0., volume = 0.;
+  unsigned int n = 0;
+  for (const auto &p : points)
+    {
+      mass += p.mass;
+      volume += p.volume;
+      n += s.grid.is_rigid(p.cell) && s.body.contains(p.position, 0.);
+    }
+  const double exact =
+    pi * (9. - 2.8 * 2.8) * (3. - h) + .5 * h * pi * (9. - 2.8 * 2.8);
+  verdict("body points outside", points.size() - double(n), 0.);
+  verdict("body volume error", std::abs(volume / exact - 1.), 1e-3);
+  verdict("body density error", std::abs(mass / volume / 7850. - 1.), 1e-12);
+}
+
+// ------------------------------------------------------------ mesh
+
+void
+check_mesh(const std::string &upper, const bool fixed_top)
+{
+  const double travel = 3., d = 1.7;
+  Scene s(caisson + "subsection Grid\nset Upper zone = " + upper + "\nend\n",
+          travel);
+  std::vector<double> z0;
+  for (unsigned int n = 0; n < s.grid.n_nodes(); ++n)
+    z0.push_back(s.grid.z_of(n));
+  double rigid = 0., total = 0.;
+  for (unsigned int c = 0; c < s.grid.n_cells(); ++c)
+    {
+      const auto  &g = s.grid.geometry(c);
+      const double r = g.left + .5 * g.width,
+                   V = 2. * pi * g.width *
+                       (r * .5 * (g.height_left + g.height_right) +
+                        g.width * (g.height_right - g.height_left) / 12.);
+      total += V;
+      if (s.grid.is_rigid(c))
+        rigid += V;
+    }
+  const double h = s.body.tip_height();
+  verdict("rigid cells: volume error",
+          std::abs(rigid / (pi * (9. - 2.8 * 2.8) * (3. - .5 * h)) - 1.),
+          1e-12);
+  verdict("all cells: volume error",
+          std::abs(total / (pi * 64. * 11.) - 1.),
+          1e-12);
+
+  s.grid.prepare_motion(d);
+  s.grid.advance();
+  s.grid.write_vertices();
+  double        motion = 0., vertices = 0., smallest = 1e9;
+  std::set<int> zones;
+  const double  zone_bottom = -1.5;
+  for (unsigned int c = 0; c < s.grid.n_cells(); ++c)
+    {
+      const auto &g    = s.grid.geometry(c);
+      const auto &cell = s.grid.cell_iterator(c);
+      zones.insert(static_cast<int>(s.grid.zone(c)));
+      const double z[4] = {g.bottom_left,
+                           g.bottom_right,
+                           g.bottom_left + g.height_left,
+                           g.bottom_right + g.height_right};
+      smallest          = std::min({smallest, g.height_left, g.height_right});
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          const unsigned int node = s.grid.cell_nodes(c).node[k];
+          vertices                = std::max({vertices,
+                                              std::abs(cell->vertex(k)[1] - z[k]),
+                                              std::abs(cell->vertex(k)[0] - s.grid.r_of(node)),
+                                              std::abs(s.grid.z_of(node) - z[k])});
+          double exact            = z0[node] - d;
+          if (z0[node] < zone_bottom - 1e-9)
+            exact = -7. + (z0[node] + 7.) * (1. - d / (zone_bottom + 7.));
+          else if (fixed_top && z0[node] > 2.5)
+            exact = 4. - (4. - z0[node]) * (1. + d / 1.5);
+          motion = std::max(motion, std::abs(z[k] - exact));
+        }
+    }
+  std::printf("upper zone %s: %d zones\n", upper.c_str(), int(zones.size()));
+  verdict("motion error", motion, 1e-12);
+  verdict("vertices of deal.II: error", vertices, 1e-12);
+  std::printf("all cells have height: %s\n", smallest > 0. ? "yes" : "no");
+}
+
+// ------------------------------------------------------------ points
+
+void
+check_points()
+{
+  Scene s(caisson + R"(
+    subsection Soil
+      set Number of layers = 2
+      subsection Layer 2
+        set Top depth     = 2
+        set Solid density = 2700
+        set Porosity      = 0.3
+      end
+    end)");
+  s.generator.generate(s.grid, s.body, s.soil, 4., s.points);
+  double volume = 0., mass = 0., mr = 0., mz = 0., stress = 0., wrong = 0.;
+  std::set<double> ids;
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    volume += p.volume;
+    mass += p.mass;
+    mr += p.mass * p.position[0];
+    mz += p.mass * p.position[1];
+    ids.insert(p.id);
+    wrong += s.body.contains(p.position, 0.) || p.position[1] > 0. ||
+             p.material != (p.position[1] < -2. ? 1u : 0u);
+    const double z = p.position[1];
+    const double zz =
+      8829. * std::max(z, -2.) + .7 * 1700. * 9.81 * std::min(z + 2., 0.);
+    stress = std::max({stress,
+                       std::abs(p.stress[1] / zz - 1.),
+                       std::abs(p.stress[0] / zz - .5),
+                       std::abs(p.stress[2] / zz - .5)});
+  });
+  // the soil: a cylinder without the wall, per radian and with inertia times 4
+  const double h = s.body.tip_height(), wall = .5 * (9. - 2.8 * 2.8),
+               rho[2] = {.6 * 2500. + .4 * 1000., .7 * 2700. + .3 * 1000.};
+  const double V      = 32. * 7. - wall * (.5 - .5 * h);
+  const double M      = 4. * (rho[0] * (V - 32. * 5.) + rho[1] * 32. * 5.);
+  const double r2     = (27. - 2.8 * 2.8 * 2.8) / 3.;
+  const double Mr     = 4. * (rho[0] * (512. / 3. * 2. - r2 * (.5 - .5 * h)) +
+                          rho[1] * 512. / 3. * 5.);
+  const double wedge =
+    -.5 + h + (h - 2. * h) / 3.; // of its volume, near enough
+  const double Mz =
+    4. *
+    (rho[0] * (-32. * 2. + wall * ((.5 - h) * (.5 - h) / 2. - .5 * h * wedge)) -
+     rho[1] * 32. * 5. * 4.5);
+  verdict("points: volume error", std::abs(volume / V - 1.), 1e-12);
+  verdict("points: mass error", std::abs(mass / M - 1.), 1e-12);
+  verdict("points: first moment in r, error", std::abs(mr / Mr - 1.), 1e-5);
+  verdict("points: first moment in z, error", std::abs(mz / Mz - 1.), 1e-4);
+  verdict("points: initial stress error", stress, 1e-12);
+  verdict("points in the body, above ground, or in the wrong layer", wrong, 0.);
+  verdict("points: ids used twice",
+          s.points.n_points() - double(ids.size()),
+          0.);
+}
+
+/** The spacing rule: soil at rest, and the mesh swept through it. In a column
+ * beside the body no cell that is full of soil may be without points. */
+void
+check_spacing()
+{
+  const double travel = 3.5;
+  Scene        s(caisson, travel);
+  s.generator.generate(s.grid, s.body, s.soil, 1., s.points);
+  std::vector<dealii::Point<2>> x;
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    x.push_back(p.position);
+  });
+  std::sort(x.begin(), x.end(), [](const auto &a, const auto &b) {
+    return a[0] < b[0];
+  });
+  unsigned int empty = 0, few = 0, n_cells = 0;
+  for (unsigned int k = 0; k <= 40; ++k)
+    {
+      s.grid.prepare_motion(travel * k / 40.);
+      s.grid.advance();
+      for (unsigned int c = 0; c < s.grid.n_cells(); ++c)
+        {
+          const auto &g = s.grid.geometry(c);
+          // whole cells below the surface, outside the path of the wall
+          if (s.grid.is_rigid(c) ||
+              std::max(g.bottom_left + g.height_left,
+                       g.bottom_right + g.height_right) > 0. ||
+              (g.left > 2.7 && g.left < 2.99))
+            continue;
+          unsigned int n     = 0;
+          const auto   first = std::lower_bound(
+            x.begin(), x.end(), g.left, [](const auto &p, const double r) {
+              return p[0] < r;
+            });
+          for (auto p = first; p != x.end() && (*p)[0] < g.left + g.width; ++p)
+            {
+              const double xi     = ((*p)[0] - g.left) / g.width,
+                           bottom = g.bottom_left +
+                                    xi * (g.bottom_right - g.bottom_left),
+                           height = g.height_left +
+                                    xi * (g.height_right - g.height_left);
+              n += (*p)[1] >= bottom && (*p)[1] < bottom + height;
+            }
+          ++n_cells;
+          empty += n == 0;
+          few += n < 2;
+        }
+    }
+  std::printf("cells swept: %s\n", n_cells > 1000 ? "many" : "few");
+  verdict("cells that ran empty", empty, 0.);
+  verdict("cells with less than two points", few, 0.);
+}
+
+/** The points come back from the handler as they went in. */
+void
+check_handler()
+{
+  Scene s(caisson);
+  s.generator.generate(s.grid, s.body, s.soil, 1., s.points);
+  const auto sum = [&s]() {
+    std::array<double, 4> result = {{0., 0., 0., 0.}};
+    s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
+      result[0] += p.id * p.position[0];
+      result[1] += p.id * p.stress[0];
+      result[2] += p.id * p.mass;
+      result[3] += p.id * cell;
+    });
+    return result;
+  };
+  const auto before = sum();
+  const auto n      = s.points.n_points();
+  s.points.store();
+  std::printf("in the handler: %s\n",
+              s.points.handler.n_global_particles() == n ? "all" : "not all");
+  s.points.load();
+  double error = 0.;
+  for (unsigned int i = 0; i < 4; ++i)
+    error = std::max(error, std::abs(sum()[i] / before[i] - 1.));
+  verdict("store and load: error", error, 1e-12);
+}
+
+// ------------------------------------------------------------ boundaries
+
+void
+check_boundary_conditions()
+{
+  for (const std::string kind : {"roller", "fixed", "free"})
+    {
+      Scene s("subsection Grid\nset Inner radius = 1\nset Outer radius = 3\n"
+              "set Bottom = -2\nset Top = 0\nend\n"
+              "subsection Boundary conditions\nset Axis = " +
+              kind + "\nset Side = " + kind + "\nset Bottom = " + kind +
+              "\nset Top = " + kind + "\nend\n");
+      s.boundary_conditions.initialize(s.grid);
+      std::vector<Kernels::NodalVector> v(s.grid.n_nodes(), {{1., 1.}});
+      s.boundary_conditions.apply(v.data());
+      // 3 x 3 nodes, from the lower left one
+      std::printf("%s:", kind.c_str());
+      for (const double z : {-2., -1., 0.})
+        for (const double r : {1., 2., 3.})
+          for (unsigned int n = 0; n < v.size(); ++n)
+            if (std::abs(s.grid.r_of(n) - r) + std::abs(s.grid.z_of(n) - z) <
+                1e-9)
+              std::printf(" %g%g", v[n].value[0], v[n].value[1]);
+      std::printf("\n");
+    }
+}
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check_lines();
+  check_motion();
+  check_shape();
+  check_mesh("free", false);
+  check_mesh("extending", true);
+  check_points();
+  check_spacing();
+  check_handler();
+  check_boundary_conditions();
+}

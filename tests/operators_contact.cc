@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Contact at single nodes of a box and of a caisson's tip: separation, sliding,
+// sticking, adhesion, the treatment of corners, the impulses by surface.
+#include <deal.II/base/mpi.h>
+
+#include <vector>
+
+#include "scene.h"
+
+const std::string mesh = R"(
+  subsection Grid
+    set Geometry     = plane strain
+    set Outer radius = 4
+    set Bottom       = -3
+    set Top          = 1
+  end
+  subsection Rigid body
+    set Friction angle of the tip        = 26.565051177078
+    set Friction angle of the outer wall = 0
+    set Friction angle of the inner wall = 45
+    set Friction angle of the top        = 16.699244233994
+  )";
+const std::string box  = mesh + R"(
+    set Kind       = box
+    set Box left   = 1
+    set Box right  = 3
+    set Box bottom = -2
+    set Box top    = 0
+  )";
+const std::string tube = R"(
+  subsection Grid
+    set Outer radius = 6
+    set Bottom       = -3
+    set Top          = 1
+  end
+  subsection Rigid body
+    set Kind                  = caisson
+    set Outer diameter        = 6
+    set Skirt length          = 1
+    set Wall thickness        = 0.2
+    set Initial penetration   = 0.5
+    set Tip angle             = 60
+    set Friction angle of the tip        = 0
+    set Friction angle of the outer wall = 0
+    set Friction angle of the inner wall = 0
+  )";
+
+unsigned int
+node_at(const BackgroundGrid &grid, const double r, const double z)
+{
+  for (unsigned int n = 0; n < grid.n_nodes(); ++n)
+    if (std::abs(grid.r_of(n) - r) + std::abs(grid.z_of(n) - z) < 1e-9)
+      return n;
+  std::printf("there is no node at %g, %g\n", r, z);
+  return 0;
+}
+
+constexpr double m = 5., dt = .1;
+
+/** What became of a node with mass m and velocity (vr, vz), while the body
+ * moves with (0, vb); then of another velocity held to this contact. */
+void
+try_node(const std::string &parameters,
+         const char        *what,
+         const double       r,
+         const double       z,
+         const double       vr,
+         const double       vz,
+         const double       vb = 0.)
+{
+  Scene   s(parameters + "end\n");
+  Contact contact;
+  contact.initialize(s.grid, s.body);
+  const unsigned int                n = node_at(s.grid, r, z);
+  std::vector<double>               mass(s.grid.n_nodes(), 0.);
+  std::vector<Kernels::NodalVector> v(s.grid.n_nodes(), {{0., 0.}}), other = v;
+  mass[n]           = m;
+  v[n].value[0]     = vr;
+  v[n].value[1]     = vz;
+  other[n]          = {{.25, -.5 + vb}};
+  const double work = contact.apply(Vector2({0., vb}), dt, mass, v.data());
+  contact.constrain(Vector2({0., vb}), other.data());
+  std::printf("%s: v %.6f %.6f, held %.4f %.4f, touching %d sticking %d, "
+              "work %.4f",
+              what,
+              v[n].value[0] + 0.,
+              v[n].value[1] + 0.,
+              other[n].value[0] + 0.,
+              other[n].value[1] + 0.,
+              contact.n_touching,
+              contact.n_sticking,
+              work + 0.);
+  const char *names[] = {"tip", "inner", "outer", "top"};
+  for (unsigned int i = 0; i < n_surfaces; ++i)
+    if (contact.impulse()[i].norm() > 0.)
+      std::printf(", %s %.6f %.6f",
+                  names[i],
+                  contact.impulse()[i][0],
+                  contact.impulse()[i][1]);
+  std::printf("\n");
+}
+
+void
+check_flat_faces()
+{
+  std::printf("top face, tan(delta) = 0.3, plane strain\n");
+  try_node(box, "apart", 2., 0., 1., .5);
+  try_node(box, "slides", 2., 0., 1., -1.);
+  try_node(box, "slides back", 2., 0., -1., -1.);
+  try_node(box, "sticks", 2., 0., .2, -1.);
+  try_node(box, "body moves down", 2., 0., 1., -1., -.5);
+  try_node(box, "body is faster", 2., 0., 1., -.4, -.5);
+  std::printf("adhesion 20 Pa\n");
+  try_node(box + "set Adhesion of the top = 20\n", "slides", 2., 0., 1., -1.);
+  std::printf("other faces: 45 degrees, 0, tan(delta) = 0.5\n");
+  try_node(box, "inner wall", 1., -1., .5, .75);
+  try_node(box, "outer wall", 3., -1., -.5, .75);
+  try_node(box, "lower face", 2., -2., .75, .5);
+  std::printf("inside\n");
+  try_node(box, "node of the body", 2., -1., 1., 1., -.25);
+}
+
+void
+check_corners()
+{
+  for (const std::string kind : {"average", "both", "wall", "tip"})
+    {
+      std::printf("corner of wall and tip, moving: %s\n", kind.c_str());
+      const std::string text = tube + "set Corner normals = " + kind + "\n";
+      // the outer shoulder: normals (1, 0) and (sin 60, -cos 60)
+      const double z = -.5 + .1 * std::sqrt(3.);
+      try_node(text, "pushed", 3., z, 0., 0., -.1);
+      try_node(text, "passes down", 3., z, .02, -.2, -.1);
+      try_node(text, "inward", 3., z, -.1, -.1, -.1);
+      // the edge: normals (+-sin 60, -cos 60)
+      try_node(text, "edge", 2.9, -.5, 0., 0., -.1);
+    }
+  std::printf("corner at rest\n");
+  try_node(tube + "set Corner normals = average\n",
+           "inward",
+           3.,
+           -.5 + .1 * std::sqrt(3.),
+           -.1,
+           0.);
+  std::printf("face of the tip: normal (sin 60, -cos 60)\n");
+  try_node(tube + "set Cells across the wall = 4\n",
+           "pushed",
+           2.95,
+           -.5 + .05 * std::sqrt(3.),
+           0.,
+           0.,
+           -.1);
+}
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check_flat_faces();
+  check_corners();
+}

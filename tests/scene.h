@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the tests of the bodies and operators share: a scene without a
+// simulation, set up from a text of parameters.
+#ifndef caisson_mpm_tests_scene_h
+#define caisson_mpm_tests_scene_h
+
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/bodies/background_grid.h>
+#include <caisson_mpm/bodies/body_points.h>
+#include <caisson_mpm/bodies/material_points.h>
+#include <caisson_mpm/bodies/point_generator.h>
+#include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/materials/soil.h>
+#include <caisson_mpm/operators/boundary_conditions.h>
+#include <caisson_mpm/operators/contact.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+using namespace CaissonMPM;
+
+/** Forgets the parameters of an earlier scene when it is made. */
+struct EmptyParameters
+{
+  EmptyParameters()
+  {
+    dealii::ParameterAcceptor::clear();
+  }
+};
+
+struct Scene : EmptyParameters
+{
+  /** @p travel is how far the mesh is made to hold. */
+  explicit Scene(const std::string &parameters, const double travel = 0.)
+    : grid(MPI_COMM_SELF)
+    , points(grid)
+  {
+    auto &prm = dealii::ParameterAcceptor::prm;
+    prm.parse_input_from_string(parameters);
+    dealii::ParameterAcceptor::parse_all_parameters(prm);
+    body.check_parameters();
+    soil.check_parameters();
+    grid.check_parameters();
+    grid.place_lines(body, soil, travel);
+    grid.create_mesh();
+  }
+
+  BackgroundGrid     grid;
+  Soil               soil;
+  RigidBody          body;
+  PointGenerator     generator;
+  BoundaryConditions boundary_conditions;
+  MaterialPoints     points;
+};
+
+inline void
+verdict(const char *what, const double error, const double tolerance)
+{
+  std::printf("%s <= %g: %s\n",
+              what,
+              tolerance,
+              error <= tolerance ? "yes" : "no");
+  if (!(error <= tolerance))
+    std::printf("  found %.3e\n", error);
+}
+
+#endif
