@@ -9,7 +9,6 @@ status is 0 where all pass.
 import argparse
 import csv
 import json
-import math
 import os
 import re
 import shutil
@@ -55,7 +54,8 @@ def command(*options, **entries):
 def run(status, *options, **entries):
     """Run the program, expect the status, and return its output."""
     done = subprocess.run(command(*options, **entries), text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                          timeout=200, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT)
     expect(done.returncode == status, 'status', done.returncode, 'instead of',
            status, '\n', done.stdout)
     return done.stdout
@@ -262,20 +262,11 @@ def test_input_files():
 
 
 def test_input_no_soil():
-    refused(['No material point'], name='block_slides', status=BAD_INPUT,
-            **{'Material points/Region left': 1.6,
-               'Material points/Region right': 1.61}) \
-        if False else None
     path = directory('no_soil')
     text = run(BAD_INPUT, scene('block_slides'), '--output-directory', path,
                **{'Material points/Region left': 1.9,
                   'Material points/Region right': 1.9})
     expect('No material point' in text, text)
-
-
-def test_input_unsupported_instruction_set():
-    run(SUCCESS, scene('jack'), '--validate',
-        **{'Method/Instruction set': 'SSE2'})
 
 
 # ---------------------------------------------------------------- the state
@@ -293,9 +284,11 @@ def test_state_point_leaves_the_mesh():
 def test_state_not_finite():
     path = directory('nan')
     text = run(FAILURE, scene('jack'), '--output-directory', path,
-               **{'Soil/Layer 1/Youngs modulus': 1e306,
-                  'Output/Record interval': 1e-9})
-    expect(re.search('not finite|no longer finite|left the mesh', text), text)
+               **{'Soil/Layer 1/Solid density': 1e308})
+    for word in ('not finite', 'step', 'material point', 'began at',
+                 'Likely cause'):
+        expect(word in text, word, 'is not in', text)
+    expect(len(history(path)) == 1, 'the first row is lost')
 
 
 def test_state_step_too_large():
@@ -329,25 +322,17 @@ def test_state_limiter():
 
 
 def test_state_mass_floor():
-    """A column is stretched slowly into empty cells. The floor adds mass where
-    there is little, and keeps the motion smooth at a large time step."""
-    speeds = {}
-    for floor in ('true', 'false'):
-        path = directory('floor_' + floor)
-        subprocess.run(
-            command(scene('block_slides'), '--output-directory', path,
-                    **{'Method/Mass floor': floor, 'Time/Courant number': 0.95,
-                       'Method/Velocity transfer': 'FLIP',
-                       'Output/Record interval': 0.01,
-                       'Verification/Checks': ''}),
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        rows = history(path)
-        # the fastest point against the block's own motion
-        speeds[floor] = max(r['max_speed_m_s'] - 2.402 * r['time_s']
-                            for r in rows)
-        added = max(r['added_mass_kg'] for r in rows)
-        expect((added > 0.) == (floor == 'true'), 'added mass', added)
-    print('    speeds with and without floor:', speeds)
+    """A block slides into empty cells, where its nodes have little mass. With
+    USL that is unstable, unless the mass floor is on (block_mass_floor.prm)."""
+    path = directory('floor')
+    text = run(FAILURE, scene('block_mass_floor'), '--output-directory', path,
+               **{'Method/Mass floor': 'false'})
+    expect('left the mesh' in text or 'finite' in text, text)
+    path = directory('floor')
+    run(SUCCESS, scene('block_mass_floor'), '--output-directory', path,
+        **{'Output/Record interval': 0.02})
+    expect(max(row['added_mass_kg'] for row in history(path)) > 0.,
+           'no mass was added')
 
 
 def test_state_instruction_sets_agree():
@@ -378,7 +363,7 @@ def test_state_energy():
     path = directory('energy')
     jack(path, **{'Output/Record interval': 0.05})
     rows = history(path)
-    work = sum(.5 * (a['total_force_N'] + 0.) * 0. for a in rows)
+    work = 0.
     for a, b in zip(rows, rows[1:]):
         work += b['total_force_N'] * (b['penetration_m'] - a['penetration_m'])
     last = rows[-1]

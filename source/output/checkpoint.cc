@@ -25,7 +25,8 @@ namespace CaissonMPM
 
     // a particle in the file: its id, location, reference location, properties
     constexpr unsigned long bytes_per_point =
-      8 * (1 + 2 + 2 + MaterialPoints::n_properties);
+      sizeof(types::particle_index) +
+      sizeof(double) * (2 + 2 + MaterialPoints::n_properties);
 
     std::string
     info_file(const std::string &directory)

@@ -491,8 +491,9 @@ namespace CaissonMPM
   Simulation::fingerprint() const
   {
     // without what may change between a run and its continuation
-    std::string result;
-    for (const DeclaredEntry &entry : DeclaredEntries(prm).all())
+    const DeclaredEntries entries(prm);
+    std::string           result;
+    for (const DeclaredEntry &entry : entries.all())
       {
         bool may_change = false;
         for (const std::string free :
