@@ -29,7 +29,7 @@ const std::string caisson = R"(
     set Top                   = 4
     set Cell width            = 1
     set Cell height           = 0.5
-    set Moving zone below tip = 1
+    set Moving zone below tip = 2
   end
   )";
 

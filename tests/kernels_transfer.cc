@@ -10,7 +10,8 @@
 //   volume mean of the divergence, the limiter;
 // - each other: the same kernels for all instruction sets of this CPU.
 #include <caisson_mpm/kernels/dispatch.h>
-#include <caisson_mpm/kernels/transfer.h>
+#include <caisson_mpm/kernels/grid_to_points.h>
+#include <caisson_mpm/kernels/points_to_grid.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

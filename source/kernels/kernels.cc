@@ -2,7 +2,8 @@
 //
 // Compiled once per instruction set, with CAISSON_KERNEL_ISA naming it.
 #include <caisson_mpm/kernels/dispatch.h>
-#include <caisson_mpm/kernels/transfer.h>
+#include <caisson_mpm/kernels/grid_to_points.h>
+#include <caisson_mpm/kernels/points_to_grid.h>
 
 #define CAISSON_CONCATENATE(a, b) a##b
 #define CAISSON_TABLE(isa) CAISSON_CONCATENATE(kernels_, isa)

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// From the nodes of each cell to its points: velocity, stress, position.
+//
+// Stress rate: Jaumann with the in-plane spin, strain increment with the mean
+// volume change of the cell (B-bar).
+#ifndef caisson_mpm_kernels_grid_to_points_h
+#define caisson_mpm_kernels_grid_to_points_h
+
+#include <caisson_mpm/kernels/laws.h>
+#include <caisson_mpm/kernels/moments.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    inline namespace CAISSON_KERNEL_ISA
+    {
+      /** Coefficients of both components of a nodal field in one cell. */
+      struct CellField
+      {
+        double r[4], z[4];
+
+        CAISSON_INLINE
+        CellField(const NodalVector *field, const CellNodes &cell)
+        {
+          double vr[4], vz[4];
+          for (int i = 0; i < 4; ++i)
+            {
+              vr[i] = field[cell.node[i]].value[0];
+              vz[i] = field[cell.node[i]].value[1];
+            }
+          coefficients(vr, r);
+          coefficients(vz, z);
+        }
+      };
+
+      /** The velocity gradient at a point, L_tt included. */
+      template <typename Number>
+      struct VelocityGradient
+      {
+        Number rr, rz, zr, zz, tt;
+
+        CAISSON_INLINE
+        VelocityGradient(const CellField          &v,
+                         const LocalPoint<Number> &p,
+                         const double              inverse_width,
+                         const Number              inverse_r)
+        {
+          gradient(v.r, p, inverse_width, rr, rz);
+          gradient(v.z, p, inverse_width, zr, zz);
+          tt = evaluate(v.r, p) * inverse_r;
+        }
+
+        CAISSON_INLINE Number
+        trace() const
+        {
+          return rr + zz + tt;
+        }
+      };
+
+      /** The mean of div v over the cell's volume, by Gauss integration. */
+      template <typename Number>
+      CAISSON_INLINE double
+      mean_divergence(const CellMap   &map,
+                      const double     axisymmetric,
+                      const CellField &v)
+      {
+        Number change(0.), volume(0.);
+        for (int lane = 0; lane < GaussPoints::n; lane += Number::width)
+          {
+            const GaussLanes<Number>       gauss(map, axisymmetric, lane);
+            const VelocityGradient<Number> L(v,
+                                             gauss.point,
+                                             map.inverse_width,
+                                             gauss.inverse_r);
+            change += gauss.volume * L.trace();
+            volume += gauss.volume;
+          }
+        return sum(change) / sum(volume);
+      }
+
+      /** What all points of a cell share. */
+      struct CellUpdate
+      {
+        CellMap       map, moved;
+        CellField     advection, transfer, strain;
+        double        axisymmetric;
+        double        mean_divergence; // used where B-bar is on
+        double        speed_limit;     // 0: none
+        const double *fit;             // of the stress filter; null: no filter
+        double        inverse_mean_height;
+      };
+
+      /** Reduce a velocity above the limit to it; returns the lanes cut. */
+      template <typename Number>
+      CAISSON_INLINE unsigned int
+      limit_speed(const double limit, Number &r, Number &z)
+      {
+        const Number speed = sqrt(r * r + z * z);
+        const auto   fast  = speed > Number(limit);
+        const Number scale = select(fast, Number(limit) / speed, Number(1.));
+        r *= scale;
+        z *= scale;
+        return to_integer(fast);
+      }
+
+      /** New stress and volume of the points in the given lanes. */
+      template <typename Law, typename Number>
+      CAISSON_INLINE void
+      update_stress(PointBlock                     &b,
+                    const int                       lane,
+                    const LocalPoint<Number>       &p,
+                    const CellUpdate               &cell,
+                    const UpdateSettings           &settings,
+                    const typename Law::Parameters &parameters)
+      {
+        const auto load = [lane](const double *field) {
+          return Number::load(field + lane);
+        };
+        const Number dt(settings.time_step);
+        const Number inverse_r = Number(cell.axisymmetric) / load(b.r);
+        const VelocityGradient<Number> L(cell.strain,
+                                         p,
+                                         cell.map.inverse_width,
+                                         inverse_r);
+        StrainIncrement<Number>        strain{dt * L.rr,
+                                       dt * L.zz,
+                                       dt * L.tt,
+                                       dt * Number(.5) * (L.rz + L.zr)};
+        Number                         volume_change = dt * L.trace();
+        if (settings.mean_volume_change)
+          {
+            const Number mean(settings.time_step * cell.mean_divergence);
+            const Number third =
+              (mean - volume_change) * Number(1. / (2. + cell.axisymmetric));
+            strain.rr += third;
+            strain.zz += third;
+            strain.tt += third * Number(cell.axisymmetric);
+            volume_change = mean;
+          }
+        const Number spin = dt * Number(.5) * (L.rz - L.zr);
+        Number       rr = load(b.stress[0]), zz = load(b.stress[1]),
+               tt = load(b.stress[2]), rz = load(b.stress[3]);
+        if (cell.fit != nullptr)
+          {
+            const Number share(settings.stress_filter);
+            const Number x = p.xi - Number(.5),
+                         y = (load(b.z) - Number(cell.map.center_z())) *
+                             Number(cell.inverse_mean_height);
+            rr += share * (evaluate_fit(cell.fit, x, y) - rr);
+            zz += share * (evaluate_fit(cell.fit + 3, x, y) - zz);
+            tt += share * (evaluate_fit(cell.fit + 6, x, y) - tt);
+            rz += share * (evaluate_fit(cell.fit + 9, x, y) - rz);
+          }
+        const Number        turn = Number(2.) * spin * rz;
+        StressState<Number> stress{rr + turn,
+                                   zz - turn,
+                                   tt,
+                                   rz + spin * (zz - rr)};
+        Number              deviatoric = load(b.plastic_deviatoric),
+               volumetric              = load(b.plastic_volumetric);
+        Law::update(stress, strain, deviatoric, volumetric, parameters);
+        stress.rr.store(b.stress[0] + lane);
+        stress.zz.store(b.stress[1] + lane);
+        stress.tt.store(b.stress[2] + lane);
+        stress.rz.store(b.stress[3] + lane);
+        deviatoric.store(b.plastic_deviatoric + lane);
+        volumetric.store(b.plastic_volumetric + lane);
+        (load(b.volume) * (Number(1.) + volume_change)).store(b.volume + lane);
+      }
+
+      /** Update one block; returns its lanes outside the moved cell. */
+      template <typename Law, typename Number>
+      CAISSON_INLINE unsigned int
+      update_block(PointBlock                     &b,
+                   const CellUpdate               &cell,
+                   const UpdateSettings           &settings,
+                   const typename Law::Parameters &parameters,
+                   unsigned int                   &limited)
+      {
+        unsigned int outside = 0;
+        limited              = 0;
+        const Number dt(settings.time_step), zero(0.), one(1.);
+        for (int lane = 0; lane < block_size; lane += Number::width)
+          {
+            Number r = Number::load(b.r + lane), z = Number::load(b.z + lane);
+            const LocalPoint<Number> p = cell.map.at_position(r, z);
+            update_stress<Law>(b, lane, p, cell, settings, parameters);
+
+            const Number keep(settings.keep_velocity);
+            Number       velocity_r = keep * Number::load(b.velocity_r + lane) +
+                                evaluate(cell.transfer.r, p);
+            Number velocity_z = keep * Number::load(b.velocity_z + lane) +
+                                evaluate(cell.transfer.z, p);
+            Number move_r = evaluate(cell.advection.r, p),
+                   move_z = evaluate(cell.advection.z, p);
+            if (cell.speed_limit > 0.)
+              {
+                limited |= limit_speed(cell.speed_limit, velocity_r, velocity_z)
+                           << lane;
+                limited |= limit_speed(cell.speed_limit, move_r, move_z)
+                           << lane;
+              }
+            velocity_r.store(b.velocity_r + lane);
+            velocity_z.store(b.velocity_z + lane);
+            r += dt * move_r;
+            z += dt * move_z;
+            r.store(b.r + lane);
+            z.store(b.z + lane);
+            const LocalPoint<Number> q = cell.moved.at_position(r, z);
+            // written so that a NaN counts as outside
+            outside |= to_integer(!((q.xi >= zero) & (q.xi <= one) &
+                                    (q.eta >= zero) & (q.eta <= one)))
+                       << lane;
+          }
+        return outside;
+      }
+
+      template <typename Number>
+      CAISSON_INLINE CellUpdate
+      prepare_cell(const unsigned int    cell,
+                   const CellMoments    &moments,
+                   const GridView       &grid,
+                   const GridView       &moved,
+                   const UpdateSettings &settings,
+                   const NodalFields    &fields)
+      {
+        const CellNodes &nodes = grid.nodes[cell];
+        CellUpdate       update{CellMap(grid.geometry[cell]),
+                          CellMap(moved.geometry[cell]),
+                          CellField(fields.advection, nodes),
+                          CellField(fields.transfer, nodes),
+                          CellField(fields.strain, nodes),
+                          grid.axisymmetric,
+                          0.,
+                          0.,
+                          nullptr,
+                          0.};
+        if (settings.mean_volume_change)
+          update.mean_divergence = mean_divergence<Number>(update.map,
+                                                           grid.axisymmetric,
+                                                           update.strain);
+        if (settings.stress_filter > 0. && moments.full)
+          {
+            update.fit                 = moments.fit;
+            update.inverse_mean_height = 1. / update.map.mean_height();
+          }
+        if (settings.limiter > 0. && (grid.flags[cell] & next_to_body))
+          {
+            const CellGeometry &g = grid.geometry[cell];
+            double              h = g.width;
+            h                     = g.height_left < h ? g.height_left : h;
+            h                     = g.height_right < h ? g.height_right : h;
+            update.speed_limit    = settings.limiter * h / settings.time_step;
+          }
+        return update;
+      }
+
+      template <typename Number>
+      void
+      grid_to_points(const PointsView     &points,
+                     const GridView       &grid,
+                     const GridView       &moved,
+                     const Material       *materials,
+                     const CellMoments    *moments,
+                     const UpdateSettings &settings,
+                     const NodalFields    &fields,
+                     LeavingPoints        &leaving)
+      {
+        leaving.n = leaving.n_limited = 0;
+        for (unsigned int i = 0; i < points.n_active_cells; ++i)
+          {
+            const unsigned int cell   = points.active_cells[i];
+            const CellUpdate   update = prepare_cell<Number>(
+              cell, moments[i], grid, moved, settings, fields);
+            for (int block = points.first_block[cell]; block >= 0;
+                 block     = points.headers[block].next)
+              {
+                    const BlockHeader header  = points.headers[block];
+                    unsigned int      outside = 0, limited = 0;
+                    with_law(materials[header.material],
+                         [&](auto law, const auto &parameters) CAISSON_LAMBDA {
+                           outside = update_block<decltype(law), Number>(
+                             points.blocks[block],
+                             update,
+                             settings,
+                             parameters,
+                             limited);
+                         });
+                    const unsigned int real = (1u << header.count) - 1u;
+                    leaving.n_limited += __builtin_popcount(limited & real);
+                    for (outside &= real; outside != 0; outside &= outside - 1)
+                  {
+                        if (leaving.n < leaving.capacity)
+                      leaving.points[leaving.n] = {cell,
+                                                       block,
+                                                       __builtin_ctz(outside)};
+                    ++leaving.n;
+                  }
+              }
+          }
+      }
+    } // namespace CAISSON_KERNEL_ISA
+  }   // namespace Kernels
+} // namespace CaissonMPM
+
+#endif
