@@ -176,7 +176,7 @@ check_mesh(const std::string &upper, const bool fixed_top)
   s.grid.write_vertices();
   double        motion = 0., vertices = 0., smallest = 1e9;
   std::set<int> zones;
-  const double  zone_bottom = -1.5;
+  const double  zone_bottom = -2.5;
   for (unsigned int c = 0; c < s.grid.n_cells(); ++c)
     {
       const auto &g    = s.grid.geometry(c);
