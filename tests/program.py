@@ -424,7 +424,9 @@ def test_stop_file():
     os.makedirs(path)
     process = subprocess.Popen(
         command(scene('jack'), '--output-directory', path,
-                **{'Output/Record interval': 0.05}),
+                **{'Output/Record interval': 0.05,
+                   # many seconds: the file is looked for twice a second
+                   'Time/Courant number': 0.02}),
         text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     for line in process.stdout:
         if line.startswith('pen'):

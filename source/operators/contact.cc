@@ -122,8 +122,9 @@ namespace CaissonMPM
     if (node.n_normals == 1)
       return against(node.normal[0]);
 
-    // At rest a corner bears on both of its faces, whatever it does in motion.
-    const bool at_rest = velocity.norm_square() == 0.;
+    // At rest a tip bears on both faces of a corner, whatever it does in
+    // motion.
+    const bool at_rest = node.surface == tip && velocity.norm_square() == 0.;
     if (!at_rest && corner_normals != Corner::both)
       {
         const bool first_is_wall  = std::abs(node.normal[0][1]) < 1e-9,

@@ -93,9 +93,9 @@ namespace CaissonMPM
     double end =
       last_time > 0. ? last_time : std::numeric_limits<double>::infinity();
     if (last_penetration > 0.)
-      end = std::min(end,
-                     body.time_of_travel(last_penetration -
-                                         body.initial_penetration));
+      end =
+        std::min(end,
+                 body.time_of_travel(last_penetration - body.initial_depth()));
     return end;
   }
 
@@ -109,11 +109,11 @@ namespace CaissonMPM
     nodal_motion.check_parameters();
     time_step.check_parameters();
     verification.check_parameters();
-    if (last_penetration > 0. && last_penetration < body.initial_penetration)
+    if (last_penetration > 0. && last_penetration < body.initial_depth())
       throw BadInput(
         "Time/End penetration = " + std::to_string(last_penetration) +
         " m is less than Rigid body/Initial penetration = " +
-        std::to_string(body.initial_penetration) +
+        std::to_string(body.initial_depth()) +
         " m. Push deeper, or start higher.");
     if (!std::isfinite(end_time()))
       throw BadInput(
@@ -152,8 +152,7 @@ namespace CaissonMPM
     materials = soil.kernel_materials(time_step.mass_scaling);
 
     for (const double depth : frame_penetrations)
-      frame_times.push_back(
-        body.time_of_travel(depth - body.initial_penetration));
+      frame_times.push_back(body.time_of_travel(depth - body.initial_depth()));
     for (unsigned int i = 1;
          frame_interval > 0. && i * frame_interval < end_time() - 1e-9;
          ++i)
@@ -181,6 +180,7 @@ namespace CaissonMPM
   Simulation::start()
   {
     generator.generate(grid, body, soil, time_step.mass_scaling, points);
+    choose_step(); // refuses a fixed step that is too large
     history->create();
     next_record = record_interval;
   }
@@ -406,7 +406,7 @@ namespace CaissonMPM
   {
     HistoryRow row;
     row.time           = time;
-    row.penetration    = body.initial_penetration + body.travel(time);
+    row.penetration    = body.initial_depth() + body.travel(time);
     row.step           = step;
     row.time_step      = dt;
     row.external_work  = external_work;
@@ -564,7 +564,7 @@ namespace CaissonMPM
       s.scene = {{"diameter_m", body.outer_diameter},
                  {"wall_thickness_m", body.wall_thickness},
                  {"skirt_length_m", body.skirt_length},
-                 {"initial_penetration_m", body.initial_penetration},
+                 {"initial_penetration_m", body.initial_depth()},
                  {"submerged_unit_weight_N_m3", soil.unit_weight(0)},
                  {"friction_angle_deg", soil.layer(0).friction_angle},
                  {"wall_friction_angle_deg", body.friction_angle[outer_wall]},

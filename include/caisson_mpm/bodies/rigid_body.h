@@ -73,6 +73,14 @@ namespace CaissonMPM
     double
     top_of_body() const;
 
+    /** Depth of the body's lowest point at the start, 0 without a body. Units:
+     * m. */
+    double
+    initial_depth() const
+    {
+      return kind_ == Kind::none ? 0. : -bottom();
+    }
+
     /** Height of the triangular tip, 0 for a flat one. Units: m. */
     double
     tip_height() const;
