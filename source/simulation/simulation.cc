@@ -107,7 +107,6 @@ namespace CaissonMPM
     grid.check_parameters();
     boundary_conditions.check_parameters(grid);
     nodal_motion.check_parameters();
-    time_step.check_parameters();
     verification.check_parameters();
     if (last_penetration > 0. && last_penetration < body.initial_depth())
       throw BadInput(
@@ -151,6 +150,21 @@ namespace CaissonMPM
     nodal_motion.initialize(grid);
     materials = soil.kernel_materials(time_step.mass_scaling);
 
+    schedule_frames();
+    if (restart)
+      resume();
+    else
+      start();
+    while (next_frame < frame_times.size() &&
+           frame_times[next_frame] <= time + 1e-9)
+      ++next_frame;
+    first_step   = step;
+    start_of_run = time;
+  }
+
+  void
+  Simulation::schedule_frames()
+  {
     for (const double depth : frame_penetrations)
       frame_times.push_back(body.time_of_travel(depth - body.initial_depth()));
     for (unsigned int i = 1;
@@ -165,15 +179,6 @@ namespace CaissonMPM
                                     return b - a < 1e-9;
                                   }),
                       frame_times.end());
-    if (restart)
-      resume();
-    else
-      start();
-    while (next_frame < frame_times.size() &&
-           frame_times[next_frame] <= time + 1e-9)
-      ++next_frame;
-    first_step   = step;
-    start_of_run = time;
   }
 
   void
@@ -374,6 +379,7 @@ namespace CaissonMPM
     const bool passed = verification.empty() ||
                         verification.run(points, time, directory, *console);
     write_summary(passed ? "finished" : "verification failed");
+    print_counts();
     print_times();
     return passed ? ExitStatus::success : ExitStatus::failure;
   }
@@ -570,6 +576,17 @@ namespace CaissonMPM
                  {"wall_friction_angle_deg", body.friction_angle[outer_wall]},
                  {"K0", soil.layer(0).earth_pressure_at_rest()}};
     write_run_summary(directory + "/run.json", s);
+  }
+
+  void
+  Simulation::print_counts()
+  {
+    console->header(
+      {{"points lost", "0"}, // one ends the run
+       {"points in the body", std::to_string(max_in_body) + " at any record"},
+       {"held back",
+        std::to_string(points.n_held_back()) + " times at the body's surface"},
+       {"limiter fired", std::to_string(n_limited) + " times"}});
   }
 
   void

@@ -34,10 +34,6 @@ namespace CaissonMPM
                   Patterns::Double(0.));
   }
 
-  void
-  TimeStep::check_parameters() const
-  {}
-
   double
   TimeStep::choose(const BackgroundGrid &grid,
                    MaterialPoints       &points,

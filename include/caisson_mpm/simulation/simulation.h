@@ -65,6 +65,8 @@ namespace CaissonMPM
     void
     set_up(const std::string &output_directory, const bool restart);
     void
+    schedule_frames();
+    void
     start();
     void
     resume();
@@ -103,6 +105,8 @@ namespace CaissonMPM
     resume_record(const std::vector<double> &numbers);
     void
     write_summary(const std::string &status);
+    void
+    print_counts();
     void
     print_times();
     std::string

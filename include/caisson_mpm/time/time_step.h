@@ -24,9 +24,6 @@ namespace CaissonMPM
   public:
     TimeStep();
 
-    void
-    check_parameters() const;
-
     /**
      * The step of the current geometry. The limit is found anew every few
      * steps only: the mesh moves slowly.
