@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/base/nearest_names.h>
 #include <caisson_mpm/output/json.h>
 #include <caisson_mpm/output/text_file.h>
 #include <caisson_mpm/output/verification.h>
 
-#include <deal.II/base/exceptions.h>
-#include <deal.II/base/function_parser.h>
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
@@ -15,7 +14,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <memory>
 #include <sstream>
 #include <vector>
 
@@ -168,37 +166,13 @@ namespace CaissonMPM
                did_you_mean(nearest_names(name, names)));
     }
 
-    /** An exact solution as a function of (r, z) and time. */
-    std::unique_ptr<FunctionParser<2>>
-    parse_expression(const std::string &expression)
+    /** The exact solution of the check @p text. */
+    Expression
+    parse_expression(const std::string &text, const std::string &expression)
     {
-      auto function = std::make_unique<FunctionParser<2>>(1);
-      function->initialize("r,z,t", expression, {{"pi", pi}}, true);
-      // the parser looks at the expression when it is used first
-      function->value(Point<2>(1., -1.));
-      return function;
-    }
-
-    void
-    check_expression(const std::string &text, const std::string &expression)
-    {
-      std::ostringstream reason;
-      try
-        {
-          parse_expression(expression);
-          return;
-        }
-      catch (const ExceptionBase &e)
-        {
-          e.print_info(reason);
-        }
-      std::string        words;
-      std::istringstream in(reason.str());
-      for (std::string word; in >> word;)
-        words += " " + word;
-      refuse(text,
-             "the exact solution must be an expression in r, z, t and pi:" +
-               words);
+      return Expression(expression,
+                        "Verification/Checks: \"" + text +
+                          "\": the exact solution");
     }
 
     double
@@ -234,7 +208,7 @@ namespace CaissonMPM
       check_name(text, "quantity", check.quantity, quantities);
       check.expression =
         Utilities::trim(text.substr(first + 1, last - first - 1));
-      check_expression(text, check.expression);
+      parse_expression(text, check.expression);
       check.tolerance =
         parse_tolerance(text, Utilities::trim(text.substr(last + 1)));
       return check;
@@ -257,13 +231,12 @@ namespace CaissonMPM
     Samples
     sample(const Check &check, const MaterialPoints &points, const double time)
     {
-      const auto     exact = parse_expression(check.expression);
-      const Quantity value = quantities.at(check.quantity);
-      exact->set_time(time);
-      Samples samples;
+      const Expression exact(check.expression, "the exact solution");
+      const Quantity   value = quantities.at(check.quantity);
+      Samples          samples;
       points.for_each([&](const MaterialPoint &p, const unsigned int) {
         samples.computed.push_back(value(p));
-        samples.exact.push_back(exact->value(p.initial_position));
+        samples.exact.push_back(exact(p.initial_position, time));
         samples.volume.push_back(p.volume);
       });
       return samples;
