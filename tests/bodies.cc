@@ -347,6 +347,124 @@ check_handler()
   verdict("store and load: error", error, 1e-12);
 }
 
+/** Refinement and distortion: sides, surface and layers stay where they are. */
+void
+check_distortion()
+{
+  const std::string mesh = R"(
+    subsection Grid
+      set Outer radius = 4
+      set Bottom       = -4
+      set Top          = 1
+      set Refinement   = 2
+    end
+    subsection Soil
+      set Number of layers = 2
+      subsection Layer 2
+        set Top depth = 2
+      end
+    end
+    )";
+  Scene             regular(mesh);
+  Scene             s(mesh + "subsection Grid\nset Distortion = 0.3\nend\n");
+  double            width = 0., straight = 0., shift_r = 0., shift_z = 0.;
+  for (unsigned int c = 0; c < regular.grid.n_cells(); ++c)
+    width = std::max(width,
+                     std::abs(regular.grid.geometry(c).width - .5) +
+                       std::abs(regular.grid.geometry(c).height_left - .5));
+  std::set<double> heights;
+  for (unsigned int n = 0; n < s.grid.n_nodes(); ++n)
+    {
+      const double r = regular.grid.r_of(n), z = regular.grid.z_of(n);
+      const double dr = std::abs(s.grid.r_of(n) - r),
+                   dz = std::abs(s.grid.z_of(n) - z);
+      shift_r         = std::max(shift_r, dr);
+      shift_z         = std::max(shift_z, dz);
+      if (r == 0. || r == 4.)
+        straight = std::max({straight, dr, dz});
+      if (z == -4. || std::abs(z + 2.) < 1e-9 || std::abs(z) < 1e-9 || z == 1.)
+        straight = std::max(straight, dz);
+      if (std::abs(z + 3.) < 1e-9)
+        heights.insert(dz);
+    }
+  std::printf("refined: %d x %d cells\n",
+              int(s.grid.n_columns()),
+              int(s.grid.n_rows()));
+  verdict("refined cells: size error", width, 1e-12);
+  verdict("distorted: shift of sides, surface and layers", straight, 0.);
+  verdict("distorted: largest shift over its limit",
+          std::max(shift_r, shift_z) / .15,
+          1.);
+  std::printf("distorted: rows bend: %s, shifts reach the limit: %s\n",
+              heights.size() == 8 ? "yes" : "no",
+              std::min(shift_r, shift_z) > .08 ? "yes" : "no");
+  s.generator.generate(s.grid, s.body, s.soil, 1., s.points);
+  double volume = 0.;
+  s.points.for_each(
+    [&](const MaterialPoint &p, const unsigned int) { volume += p.volume; });
+  std::printf("distorted: %d points\n", int(s.points.n_points()));
+  verdict("distorted: volume error", std::abs(volume / 32. - 1.), 1e-12);
+}
+
+/** A region, random positions, uniform stress, initial velocity. */
+void
+check_point_options()
+{
+  const std::string mesh = R"(
+    subsection Grid
+      set Geometry     = plane strain
+      set Outer radius = 4
+      set Bottom       = -4
+      set Top          = 1
+      set Cell width   = 0.25
+      set Cell height  = 0.25
+    end
+    subsection Soil
+      set Initial stress   = uniform
+      set Uniform stress   = -1, -2, -3, 4
+      set Initial velocity = r - 2*z ; 0.5*z*pi
+    end
+    )";
+  double            sums[3];
+  for (const unsigned int seed : {1, 1, 2})
+    {
+      static unsigned int run = 0;
+      Scene               s(mesh + R"(subsection Material points
+        set Region           = 1 - (r - 2)^2 - (z + 2)^2
+        set Random positions = 0.5
+        set Random seed      = )" +
+              std::to_string(seed) + "\nend\n");
+      s.generator.generate(s.grid, s.body, s.soil, 1., s.points);
+      double outside = 0., volume = 0., state = 0., farthest = 0., sum = 0.;
+      s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+        const double r = p.position[0], z = p.position[1];
+        outside += (r - 2.) * (r - 2.) + (z + 2.) * (z + 2.) >= 1.;
+        volume += p.volume;
+        state = std::max({state,
+                          std::abs(p.stress[0] + 1.),
+                          std::abs(p.stress[1] + 2.),
+                          std::abs(p.stress[2] + 3.),
+                          std::abs(p.stress[3] - 4.),
+                          std::abs(p.velocity[0] - (r - 2. * z)),
+                          std::abs(p.velocity[1] - .5 * z * pi)});
+        for (const double x : {r, z}) // parts are 0.125 wide
+          farthest =
+            std::max(farthest, std::abs(x / .125 - std::floor(x / .125) - .5));
+        sum += r * r + z;
+      });
+      sums[run++] = sum;
+      verdict("points outside the region", outside, 0.);
+      verdict("region: volume error", std::abs(volume / pi - 1.), 0.02);
+      verdict("uniform stress and initial velocity: error", state, 1e-14);
+      verdict("random positions: farthest from the lattice", farthest, .25);
+      std::printf("random positions reach the limit: %s\n",
+                  farthest > .24 ? "yes" : "no");
+    }
+  std::printf("equal seeds, equal points: %s; other seed: %s\n",
+              sums[0] == sums[1] ? "yes" : "no",
+              sums[0] == sums[2] ? "equal" : "others");
+}
+
 // ------------------------------------------------------------ boundaries
 
 void
@@ -386,5 +504,7 @@ main(int argc, char *argv[])
   check_points();
   check_spacing();
   check_handler();
+  check_distortion();
+  check_point_options();
   check_boundary_conditions();
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 
 namespace CaissonMPM
@@ -88,6 +89,20 @@ namespace CaissonMPM
                   "Units: m.",
                   prm,
                   positive);
+    add_parameter("Distortion",
+                  distortion,
+                  "Displace columns and the heights of nodes irregularly by up "
+                  "to this share of the cell size, except at the domain's "
+                  "sides, the soil surface and the boundaries of layers; for "
+                  "tests of the method, without a body. Units: none.",
+                  prm,
+                  Patterns::Double(0., 0.4));
+    add_parameter("Refinement",
+                  refinement,
+                  "All cell sizes are divided by this number; for studies of "
+                  "convergence. Units: none.",
+                  prm,
+                  Patterns::Integer(1, 256));
   }
 
   void
@@ -115,6 +130,9 @@ namespace CaissonMPM
                               const Soil      &soil,
                               const double     travel)
   {
+    if (distortion > 0. && body.kind() != RigidBody::Kind::none)
+      throw BadInput("Grid/Distortion is for scenes without a rigid body: the "
+                     "mesh must fit the body. Set Distortion = 0.");
     travel_to_hold = travel;
     place_columns(body);
     place_rows(body, soil);
@@ -149,8 +167,10 @@ namespace CaissonMPM
   {
     if (body.kind() == RigidBody::Kind::none)
       {
-        columns = graded_lines({inner_radius, outer_radius},
-                               [this](const double) { return cell_width; });
+        columns =
+          graded_lines({inner_radius, outer_radius}, [this](const double) {
+            return cell_width / refinement;
+          });
         return;
       }
     const double left = body.left(), right = body.right();
@@ -168,7 +188,8 @@ namespace CaissonMPM
                                std::max({left - r, r - right, 0.}) - fine_width;
                              return std::min(std::max(cell_width, fine),
                                              fine + (growth - 1.) *
-                                                      std::max(0., distance));
+                                                      std::max(0., distance)) /
+                                    refinement;
                            });
     body_column_begin = line_at(columns, left);
     body_column_end   = line_at(columns, right);
@@ -188,7 +209,11 @@ namespace CaissonMPM
     zone_top    = top;
     if (body.kind() == RigidBody::Kind::none)
       {
-        rows = graded_lines(fixed, [this](double) { return cell_height; });
+        rows = graded_lines(fixed, [this](double) {
+          return cell_height / refinement;
+        });
+        if (distortion > 0.)
+          distort(fixed);
         return;
       }
     if (body.bottom() < bottom || body.top_of_body() > top)
@@ -210,10 +235,53 @@ namespace CaissonMPM
     rows           = graded_lines(fixed, [=](const double z) {
       const double distance = std::abs(z - shoulder) - fine_height;
       return std::min(std::max(cell_height, fine),
-                      fine + (growth - 1.) * std::max(0., distance));
+                      fine + (growth - 1.) * std::max(0., distance)) /
+             refinement;
     });
     body_row_begin = line_at(rows, shoulder);
     body_row_end   = line_at(rows, zone_top);
+  }
+
+  namespace
+  {
+    /** A number from -1 to 1 that looks random, the same on all machines. */
+    double
+    scatter(const unsigned int i, const unsigned int j)
+    {
+      // the finalizer of MurmurHash3 on both numbers
+      std::uint64_t h = 0x9e3779b97f4a7c15u * (i + 1) + j;
+      h               = (h ^ (h >> 33)) * 0xff51afd7ed558ccdu;
+      h               = (h ^ (h >> 33)) * 0xc4ceb9fe1a85ec53u;
+      return ((h ^ (h >> 33)) >> 11) * 0x1p-52 - 1.;
+    }
+
+    /** The shorter distance of an inner line to its neighbors. */
+    double
+    distance_to_next(const std::vector<double> &lines, const unsigned int i)
+    {
+      return std::min(lines[i + 1] - lines[i], lines[i] - lines[i - 1]);
+    }
+  } // namespace
+
+  void
+  BackgroundGrid::distort(const std::vector<double> &straight_rows)
+  {
+    const std::vector<double> regular = columns;
+    for (unsigned int i = 1; i + 1 < columns.size(); ++i)
+      columns[i] += distortion * scatter(i, 0) * distance_to_next(regular, i);
+    node_shift.assign(rows.size(), std::vector<double>(columns.size(), 0.));
+    for (unsigned int j = 1; j + 1 < rows.size(); ++j)
+      {
+        const bool is_straight =
+          std::any_of(straight_rows.begin(),
+                      straight_rows.end(),
+                      [&](const double z) {
+                        return std::abs(z - rows[j]) < 1e-9;
+                      });
+        for (unsigned int i = 1; i + 1 < columns.size() && !is_straight; ++i)
+          node_shift[j][i] =
+            distortion * scatter(i, j) * distance_to_next(rows, j);
+      }
   }
 
   void
@@ -282,6 +350,8 @@ namespace CaissonMPM
   BackgroundGrid::reference_height(const unsigned int i,
                                    const unsigned int j) const
   {
+    if (!node_shift.empty())
+      return rows[j] + node_shift[j][i];
     if (dip.empty() || dip[i] == 0.)
       return rows[j];
     const double distance = std::abs(rows[j] - shoulder) / decay_length;
@@ -512,7 +582,9 @@ namespace CaissonMPM
   BackgroundGrid::smallest_height_met(const unsigned int cell) const
   {
     const unsigned int i = column_of(cell), j = row_of(cell);
-    const auto         line = [&](const unsigned int row, const double travel) {
+    if (!node_shift.empty()) // nothing moves
+      return std::max(geometry(cell).height_left, geometry(cell).height_right);
+    const auto line = [&](const unsigned int row, const double travel) {
       // the side of the column with the deeper dip has the lower cells
       const unsigned int side = !dip.empty() && dip[i] > dip[i + 1] ? i : i + 1;
       return reference_height(side, row) + height_at(rows[row], travel) -

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace CaissonMPM
 {
@@ -64,6 +65,35 @@ namespace CaissonMPM
                   region_bottom,
                   "Lowest z with soil. Units: m.");
     add_parameter("Region top", region_top, "Highest z with soil. Units: m.");
+    add_parameter("Region",
+                  region,
+                  "Further limit of the soil: an expression in r, z and pi; "
+                  "points lie where it is positive. Empty: no further limit. "
+                  "Units: none.");
+    add_parameter("Random positions",
+                  randomness,
+                  "How far points lie from the regular lattice, at random: 0 "
+                  "on it, 1 anywhere in their part of the cell. Units: none.",
+                  prm,
+                  Patterns::Double(0., 1.));
+    add_parameter("Random seed",
+                  seed,
+                  "Equal seeds give equal random positions. Units: none.",
+                  prm,
+                  Patterns::Integer(0));
+  }
+
+  Expression
+  PointGenerator::parse_region() const
+  {
+    return region.empty() ? Expression() :
+                            Expression(region, "Material points/Region");
+  }
+
+  void
+  PointGenerator::check_parameters() const
+  {
+    parse_region();
   }
 
   unsigned int
@@ -108,6 +138,24 @@ namespace CaissonMPM
         }
       return moments;
     }
+
+    /** Numbers from 0 to 1 that are the same on all machines. */
+    class RandomNumbers
+    {
+    public:
+      RandomNumbers(const unsigned int seed)
+        : engine(seed)
+      {}
+
+      double
+      operator()()
+      {
+        return (engine() >> 11) * 0x1p-53; // the upper 53 of 64 bits
+      }
+
+    private:
+      std::mt19937_64 engine;
+    };
   } // namespace
 
   void
@@ -118,8 +166,11 @@ namespace CaissonMPM
                            MaterialPoints       &points) const
   {
     points.clear_handler();
-    const unsigned int k  = grid.axisymmetric() ? 1 : 0;
-    unsigned int       id = 0;
+    const Expression       in_region = parse_region();
+    const VectorExpression velocity  = soil.initial_velocity();
+    RandomNumbers          random(seed);
+    const unsigned int     k  = grid.axisymmetric() ? 1 : 0;
+    unsigned int           id = 0;
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       {
         const auto  &g        = grid.geometry(cell);
@@ -138,21 +189,31 @@ namespace CaissonMPM
               radial_moments(g,
                              g.left + g.width * i / n_r,
                              g.left + g.width * (i + 1) / n_r);
-            const double r  = moments[k + 1] / moments[k];
-            const double xi = (r - g.left) / g.width;
-            const double bottom =
-              g.bottom_left + (g.bottom_right - g.bottom_left) * xi;
-            const double local_height =
-              g.height_left + (g.height_right - g.height_left) * xi;
+            const double center =
+              (moments[k + 1] / moments[k] - g.left) / g.width;
             for (unsigned int j = 0; j < n_z; ++j)
               {
-                const double z = bottom + local_height * (j + .5) / n_z;
-                if (r < region_left || r > region_right)
+                double xi = center, eta = (j + .5) / n_z;
+                if (randomness > 0.)
+                  {
+                    xi += randomness * ((i + random()) / n_r - xi);
+                    eta += randomness * ((j + random()) / n_z - eta);
+                  }
+                const double r = g.left + g.width * xi;
+                const double z =
+                  g.bottom_left + (g.bottom_right - g.bottom_left) * xi +
+                  (g.height_left + (g.height_right - g.height_left) * xi) * eta;
+                if (r < region_left || r > region_right ||
+                    (!in_region.empty() &&
+                     !(in_region(Point<2>(r, z), 0.) > 0.)))
                   continue;
                 MaterialPoint p;
                 p.position = p.initial_position = Point<2>(r, z);
                 p.material                      = soil.layer_at(z);
                 p.stress                        = soil.initial_stress(z);
+                for (unsigned int d = 0; d < 2; ++d)
+                  if (!velocity[d].is_zero())
+                    p.velocity[d] = velocity[d](p.position, 0.);
                 p.volume = p.initial_volume = moments[k] / n_z;
                 p.mass =
                   mass_scaling * soil.inertial_density(p.material) * p.volume;
@@ -163,8 +224,8 @@ namespace CaissonMPM
       }
     if (id == 0)
       throw BadInput("No material point lies in the region of the soil: check "
-                     "Material points/Region left, right, bottom and top "
-                     "against the mesh.");
+                     "Material points/Region left, right, bottom and top, and "
+                     "Region, against the mesh.");
     points.handler.update_cached_numbers();
     points.load();
   }

@@ -173,13 +173,29 @@ namespace CaissonMPM
     add_parameter("Initial stress",
                   initial_state,
                   "K0: geostatic effective stress under the soil's own weight; "
-                  "none: no stress at the start. Units: none.",
+                  "none: no stress at the start; uniform: see Uniform stress. "
+                  "Units: none.",
                   prm,
-                  Patterns::Selection("K0|none"));
+                  Patterns::Selection("K0|none|uniform"));
+    add_parameter("Uniform stress",
+                  uniform_text,
+                  "Effective stress everywhere at the start where Initial "
+                  "stress = uniform: rr, zz, tt (hoop), rz, tension positive. "
+                  "Units: Pa.",
+                  prm,
+                  Patterns::List(Patterns::Double(), 4, 4));
+    add_parameter("Initial velocity",
+                  velocity_text,
+                  "Velocity at the start: two expressions in r, z and pi, for "
+                  "its r and z components, with a semicolon between them. "
+                  "Units: m/s.");
     parse_parameters_call_back.connect([this]() {
       const auto components = Utilities::split_string_list(gravity_text);
       gravity               = {{Utilities::string_to_double(components[0]),
                                 Utilities::string_to_double(components[1])}};
+      const auto stresses   = Utilities::split_string_list(uniform_text);
+      for (unsigned int c = 0; c < 4; ++c)
+        uniform_stress[c] = Utilities::string_to_double(stresses[c]);
     });
     for (unsigned int i = 0; i < max_layers; ++i)
       layers.push_back(std::make_unique<SoilLayer>(i + 1));
@@ -211,6 +227,7 @@ namespace CaissonMPM
       throw BadInput(
         "Soil/Gravity has a horizontal component, and Soil/Initial "
         "stress = K0 needs it vertical. Set Initial stress = none.");
+    initial_velocity();
   }
 
   unsigned int
@@ -249,6 +266,8 @@ namespace CaissonMPM
   Stress
   Soil::initial_stress(const double z) const
   {
+    if (initial_state == "uniform")
+      return uniform_stress;
     if (initial_state == "none" || z >= 0.)
       return {{0., 0., 0., 0.}};
     double sigma_zz = 0.;
@@ -261,6 +280,12 @@ namespace CaissonMPM
     const double sigma_rr =
       layers[layer_at(z)]->earth_pressure_at_rest() * sigma_zz;
     return {{sigma_rr, sigma_zz, sigma_rr, 0.}};
+  }
+
+  VectorExpression
+  Soil::initial_velocity() const
+  {
+    return parse_vector(velocity_text, "Soil/Initial velocity");
   }
 
   std::vector<Kernels::Material>

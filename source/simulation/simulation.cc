@@ -105,6 +105,7 @@ namespace CaissonMPM
     soil.check_parameters();
     body.check_parameters();
     grid.check_parameters();
+    generator.check_parameters();
     boundary_conditions.check_parameters(grid);
     nodal_motion.check_parameters();
     verification.check_parameters();

@@ -9,6 +9,8 @@
 //   z = z0 - d                                      in the moving zone,
 //   z = z0 - d (z0 - bottom) / (zone bottom - bottom)    below it,
 //   z = z0 - d, or z0 - d (top - z0) / (top - zone top)  above the body.
+// For tests of the method without a body, the cells can be distorted: columns
+// and the heights of nodes displaced irregularly.
 #ifndef caisson_mpm_bodies_background_grid_h
 #define caisson_mpm_bodies_background_grid_h
 
@@ -249,25 +251,31 @@ namespace CaissonMPM
                      const unsigned int row_line) const;
     bool
     inside_body(const unsigned int column, const unsigned int row) const;
+    void
+    distort(const std::vector<double> &straight_rows);
 
-    std::string geometry_text  = "axisymmetric";
-    double      inner_radius   = 0.;
-    double      outer_radius   = 15.;
-    double      bottom         = -18.;
-    double      top            = 8.;
-    double      cell_width     = 1.;
-    double      cell_height    = 1.;
-    double      growth         = 1.15;
-    double      fine_width     = 0.2;
-    double      fine_height    = 0.2;
-    double      zone_below_tip = 1.5;
-    std::string upper_text     = "free";
-    double      smallest_row   = 0.01;
+    std::string  geometry_text  = "axisymmetric";
+    double       inner_radius   = 0.;
+    double       outer_radius   = 15.;
+    double       bottom         = -18.;
+    double       top            = 8.;
+    double       cell_width     = 1.;
+    double       cell_height    = 1.;
+    double       growth         = 1.15;
+    double       fine_width     = 0.2;
+    double       fine_height    = 0.2;
+    double       zone_below_tip = 1.5;
+    std::string  upper_text     = "free";
+    double       smallest_row   = 0.01;
+    double       distortion     = 0.;
+    unsigned int refinement     = 1;
 
     // lines at the start; rows before they bend around the tip
     std::vector<double> columns, rows;
-    double              zone_bottom = 0., zone_top = 0.;
-    double              travel_to_hold = 0.;
+    // displacement of the nodes by the distortion, [row][column]; or empty
+    std::vector<std::vector<double>> node_shift;
+    double                           zone_bottom = 0., zone_top = 0.;
+    double                           travel_to_hold = 0.;
     // the body in line numbers [begin, end), and its lower surface by column
     unsigned int        body_column_begin = 0, body_column_end = 0;
     unsigned int        body_row_begin = 0, body_row_end = 0;

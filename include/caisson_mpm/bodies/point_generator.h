@@ -20,12 +20,18 @@ namespace CaissonMPM
    * continuum. n_r is the number per direction of the cell's zone (path, near,
    * far). n_z is as many times larger as the cell is higher than the lowest
    * cell that its soil will meet while the mesh moves: a coarser spacing would
-   * leave cells without points, and the soil would crack there.
+   * leave cells without points, and the soil would crack there. With Random
+   * positions a point lies elsewhere in its part, always at the same place for
+   * the same seed.
    */
   class PointGenerator : public dealii::ParameterAcceptor
   {
   public:
     PointGenerator();
+
+    /** Throws BadInput where the entries contradict each other. */
+    void
+    check_parameters() const;
 
     /**
      * Create all points in the handler of @p points, with the soil's initial
@@ -43,6 +49,8 @@ namespace CaissonMPM
     points_per_direction(const Kernels::CellGeometry &g,
                          const RigidBody             &body,
                          const double                 travel) const;
+    Expression
+    parse_region() const;
 
     unsigned int in_path = 4, near = 3, far = 2;
     double       path_margin   = 0.1;
@@ -50,6 +58,9 @@ namespace CaissonMPM
     double       near_distance = 1.;
     double       region_left = 0., region_right = 1e30;
     double       region_bottom = -1e30, region_top = 0.;
+    std::string  region;
+    double       randomness = 0.;
+    unsigned int seed       = 1;
   };
 } // namespace CaissonMPM
 

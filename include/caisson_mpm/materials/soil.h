@@ -6,6 +6,7 @@
 #define caisson_mpm_materials_soil_h
 
 #include <caisson_mpm/base/conventions.h>
+#include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/kernels/layout.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -105,6 +106,11 @@ namespace CaissonMPM
     Stress
     initial_stress(const double z) const;
 
+    /** The velocity before anything happens, of the initial place. Units: m/s.
+     * Throws BadInput where its text cannot be parsed. */
+    VectorExpression
+    initial_velocity() const;
+
     /**
      * The kernels' materials, one per layer, for inertia scaled by
      * @p mass_scaling: the weight stays as it is.
@@ -115,11 +121,14 @@ namespace CaissonMPM
     std::array<double, 2> gravity = {{0., -9.81}};
 
   private:
-    unsigned int                            n_layers_     = 1;
-    bool                                    submerged     = true;
-    double                                  fluid_density = 1000.;
-    std::string                             initial_state = "K0";
-    std::string                             gravity_text  = "0, -9.81";
+    unsigned int                            n_layers_      = 1;
+    bool                                    submerged      = true;
+    double                                  fluid_density  = 1000.;
+    std::string                             initial_state  = "K0";
+    std::string                             uniform_text   = "0, 0, 0, 0";
+    std::string                             velocity_text  = "0 ; 0";
+    std::string                             gravity_text   = "0, -9.81";
+    Stress                                  uniform_stress = {{0., 0., 0., 0.}};
     std::vector<std::unique_ptr<SoilLayer>> layers;
   };
 } // namespace CaissonMPM
