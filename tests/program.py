@@ -61,8 +61,8 @@ def run(status, *options, **entries):
     return done.stdout
 
 
-def history(path):
-    with open(os.path.join(path, 'history.csv'), encoding='utf-8') as file:
+def history(path, name='history'):
+    with open(os.path.join(path, name + '.csv'), encoding='utf-8') as file:
         return [{k: float(v) for k, v in row.items()}
                 for row in csv.DictReader(file)]
 
@@ -103,9 +103,10 @@ def test_usage_parameters_can_be_read_again():
 
 
 def test_usage_every_user_scene_is_valid():
-    for name in sorted(os.listdir(arguments.scenes)):
-        if name.endswith('.prm'):
-            run(SUCCESS, os.path.join(arguments.scenes, name), '--validate')
+    for folder, _, names in os.walk(arguments.scenes):
+        for name in sorted(names):
+            if name.endswith('.prm'):
+                run(SUCCESS, os.path.join(folder, name), '--validate')
 
 
 def test_usage_set_overrides():
@@ -168,6 +169,85 @@ def test_usage_verification():
         expect(key in checks[0], key)
 
 
+def test_usage_observations():
+    """Of every step; and each kind of check can fail."""
+    path = directory('observations')
+    run(SUCCESS, scene('wave_series'), '--output-directory', path)
+    rows = history(path, 'observations')
+    expect(list(rows[0]) == ['time_s', 'top', 'mode', 'half', 'side'],
+           list(rows[0]))
+    expect(len(rows) == summary(path)['steps'] + 1 == len(history(path)),
+           len(rows), 'rows')
+    expect(min(row['top'] for row in rows) < 1.9 * rows[-1]['half'] * 1.31e-5,
+           'the wave')
+    with open(os.path.join(path, 'verification.json'), encoding='utf-8') as f:
+        n_checks = len(json.load(f))
+    failing = ('frequency mode : 1 : 0.01', 'amplitude mode : 0.5 : 0.1',
+               'final half : 5 : 0.1', 'trace top : 0 : 1e-6',
+               'average top : 0 : 1e-6', 'below half : -6', 'above half : -4',
+               'between half : -4 : -3', 'drift top : 0.1',
+               'spread stress_zz : 0.1', 'rms displacement_z : 1 : 0.5')
+    text = run(FAILURE, scene('wave_series'), '--output-directory', path,
+               **{'Verification/Checks': ';'.join(failing)})
+    expect(text.count(': no\n') == len(failing) > n_checks, text)
+    text = run(FAILURE, scene('wave_series'), '--output-directory', path,
+               **{'Verification/Checks': 'max speed where r > 9 : 0 : 1'})
+    expect('no material point' in text, text)
+
+
+def test_usage_ladder():
+    """scripts/verify: rows that pass, fall short as known, fail, and a run that
+    is refused; orders over two runs."""
+    path = directory('ladder')
+    os.makedirs(path)
+    ladder = os.path.join(path, 'ladder.toml')
+    with open(ladder, 'w', encoding='utf-8') as file:
+        file.write(f"""
+[[problem]]
+id = "wave"
+title = "wave"
+scene = "{scene('wave_xpic')[:-4]}"
+runs = [{{set = {{"Verification/Checks" =
+         "rms stress_rz : 1 : 0.5; spread density : 1"}}, h = 1.0}},
+        {{set = {{"Verification/Checks" =
+         "rms stress_rz : 0 : 0.5; spread density : 1"}}, h = 0.5}}]
+rows = [{{check = "spread density"}},
+        {{check = "spread density", error = 1e-9}},
+        {{check = "spread density", error = 1e-9, known_error = 0.1, why = "a file"}},
+        {{check = "spread speed"}},
+        {{check = "rms stress_rz", run = 0}},
+        {{check = "rms stress_rz", run = 0, error = 0.3, known_error = 1.0}},
+        {{check = "rms stress_rz", run = 1, error = 1e-9, known_error = 1e-9}},
+        {{check = "spread density", order = 99.0}},
+        {{check = "spread density", order = 99.0, known_order = -9.0}}]
+[[problem]]
+id = "refused"
+title = "refused"
+scene = "{scene('wave_xpic')[:-4]}"
+runs = [{{set = {{"Time/Courant number" = 7}}}}]
+rows = [{{check = "max displacement_r"}}]
+""".replace('=\n         ', '= '))
+    script = os.path.join(arguments.scenes, '..', 'scripts', 'verify')
+    line = [sys.executable, '-B', script, '--ladder', ladder, '--program',
+            arguments.program, '--results', os.path.join(path, 'results')]
+    done = subprocess.run(line, text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT)
+    with open(os.path.join(path, 'results', 'table.csv'),
+              encoding='utf-8') as file:
+        rows = list(csv.DictReader(file))
+    verdicts = [row['verdict'].split(' ')[0].strip(',') for row in rows]
+    expect(verdicts == ['pass', 'FAIL', 'short', 'FAIL', 'FAIL', 'short',
+                        'pass', 'FAIL', 'short', 'FAIL'],
+           verdicts, done.stdout)
+    expect(done.returncode == 1 and '10 rows: 2 pass, 3 fall' in done.stdout,
+           done.stdout)
+    expect('a file' in rows[2]['verdict'] and 'spread speed' in
+           rows[3]['computed'] and 'status 1' in rows[-1]['computed'], rows)
+    done = subprocess.run(line + ['--only', 'refused', '--list'], text=True,
+                          stdout=subprocess.PIPE)
+    expect(done.returncode == 0 and 'wave:' not in done.stdout, done.stdout)
+
+
 # ---------------------------------------------------------------- bad input
 
 def refused(words, name='jack', status=BAD_INPUT, **entries):
@@ -221,6 +301,14 @@ def test_input_contradictions():
             (['Axis', 'roller'], {'Boundary conditions/Axis': 'free'}),
             (['Gravity', 'none'], {'Soil/Gravity': '1, -9'})):
         refused(words, **entries)
+
+
+def test_input_checks_and_observations():
+    """All messages: output_checks.cc."""
+    refused(['Verification/Checks', 'no observation', 'total_force_N'],
+            **{'Verification/Checks': 'final force : 0 : 1'})
+    refused(['Verification/Observations', 'no quantity', 'speed'],
+            **{'Verification/Observations': 'a = mean sped'})
 
 
 def test_input_mesh_cannot_hold_the_travel():
@@ -387,7 +475,11 @@ def same_history(a, b, tolerance):
 
 def test_stop_and_restart():
     """Stopped by a signal and continued, twice: the history of one run."""
-    entries = {'Output/Record interval': 0.25, 'Time/End penetration': 0.7}
+    entries = {'Output/Record interval': 0.25, 'Time/End penetration': 0.7,
+               'Verification/Observations':
+               'a = max position_z; b = point stress_zz at 3 -1',
+               'Verification/Checks': 'average a to 1 : 0 : 0.2;'
+               'drift b : 1; drift penetration_m from 0.3 : 0.3'}
     whole = directory('whole')
     jack(whole, **entries)
     path = directory('pieces')
@@ -413,6 +505,14 @@ def test_stop_and_restart():
             options = ['--restart']
     expect(n_stops == 2, 'stopped', n_stops, 'times')
     same_history(history(whole), history(path), 1e-6)
+    same_history(history(whole, 'observations'), history(path, 'observations'),
+                 1e-6)
+    results = []
+    for of in (whole, path):
+        with open(os.path.join(of, 'verification.json'), encoding='utf-8') as f:
+            results.append([c['computed'] for c in json.load(f)])
+    expect(all(abs(a - b) <= 1e-6 * max(1., abs(a))
+               for a, b in zip(*results)), 'checks', results)
     for name in ('points.pvd', 'grid.pvd'):
         expect(open(os.path.join(path, name)).read().count('<DataSet') ==
                open(os.path.join(whole, name)).read().count('<DataSet'),

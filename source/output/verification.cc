@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/expression.h>
-#include <caisson_mpm/base/nearest_names.h>
+#include <caisson_mpm/output/check_text.h>
+#include <caisson_mpm/output/comparisons.h>
 #include <caisson_mpm/output/json.h>
+#include <caisson_mpm/output/point_quantities.h>
 #include <caisson_mpm/output/text_file.h>
 #include <caisson_mpm/output/verification.h>
 
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <map>
+#include <limits>
 #include <sstream>
 #include <vector>
 
@@ -23,204 +21,157 @@ namespace CaissonMPM
 
   namespace
   {
-    using Quantity = double (*)(const MaterialPoint &);
-
-    const std::map<std::string, Quantity> quantities = {
-      {"displacement_r",
-       [](const MaterialPoint &p) {
-         return p.position[0] - p.initial_position[0];
-       }},
-      {"displacement_z",
-       [](const MaterialPoint &p) {
-         return p.position[1] - p.initial_position[1];
-       }},
-      {"velocity_r", [](const MaterialPoint &p) { return p.velocity[0]; }},
-      {"velocity_z", [](const MaterialPoint &p) { return p.velocity[1]; }},
-      {"speed",
-       [](const MaterialPoint &p) {
-         return std::hypot(p.velocity[0], p.velocity[1]);
-       }},
-      {"stress_rr", [](const MaterialPoint &p) { return p.stress[rr]; }},
-      {"stress_zz", [](const MaterialPoint &p) { return p.stress[zz]; }},
-      {"stress_tt", [](const MaterialPoint &p) { return p.stress[tt]; }},
-      {"stress_rz", [](const MaterialPoint &p) { return p.stress[rz]; }},
-      {"stress_ratio",
-       [](const MaterialPoint &p) { return p.stress[rr] / p.stress[zz]; }},
-      {"plastic_strain",
-       [](const MaterialPoint &p) { return p.plastic_deviatoric; }},
-      {"volume_ratio",
-       [](const MaterialPoint &p) { return p.volume / p.initial_volume; }}};
-
-    /** The two values of a quantity that are compared, and their difference. */
-    struct Comparison
-    {
-      double computed = 0.;
-      double exact    = 0.;
-      double error    = 0.;
-    };
-
-    /** What all points have: [n_points] each. */
-    struct Samples
-    {
-      std::vector<double> computed, exact, volume;
-    };
-
-    /** |v - e| over the scale, or itself where the scale is 0. */
-    double
-    error_over(const double scale, const double computed, const double exact)
-    {
-      const double difference = std::abs(computed - exact);
-      return scale == 0. ? difference : difference / std::abs(scale);
-    }
-
-    /** The point with the largest error; one that is not a number is the
-     * worst. @p scale_at(i) is what the error of point i is divided by. */
-    template <typename Scale>
-    Comparison
-    worst_of(const Samples &s, const Scale &scale_at)
-    {
-      Comparison worst;
-      worst.error = -1.;
-      for (std::size_t i = 0; i < s.computed.size(); ++i)
-        {
-          const double error =
-            error_over(scale_at(i), s.computed[i], s.exact[i]);
-          if (!(error <= worst.error))
-            worst = {s.computed[i], s.exact[i], error};
-          if (std::isnan(error))
-            break;
-        }
-      return worst;
-    }
-
-    Comparison
-    compare_max(const Samples &s)
-    {
-      double scale = 0.;
-      for (const double exact : s.exact)
-        scale = std::max(scale, std::abs(exact));
-      return worst_of(s, [scale](const std::size_t) { return scale; });
-    }
-
-    Comparison
-    compare_pointwise(const Samples &s)
-    {
-      return worst_of(s, [&s](const std::size_t i) { return s.exact[i]; });
-    }
-
-    Comparison
-    compare_mean(const Samples &s)
-    {
-      double computed = 0., exact = 0., volume = 0.;
-      for (std::size_t i = 0; i < s.volume.size(); ++i)
-        {
-          computed += s.volume[i] * s.computed[i];
-          exact += s.volume[i] * s.exact[i];
-          volume += s.volume[i];
-        }
-      computed /= volume;
-      exact /= volume;
-      return {computed, exact, error_over(exact, computed, exact)};
-    }
-
-    using Mode = Comparison (*)(const Samples &);
-
-    const std::map<std::string, Mode> modes = {{"max", compare_max},
-                                               {"pointwise", compare_pointwise},
-                                               {"mean", compare_mean}};
+    const std::string name_of_entry = "Verification/Checks";
 
     struct Check
     {
-      std::string mode, quantity, expression;
+      std::string head; // what stands before the first colon
+      std::string mode, name;
+      std::string region;         // an expression, or empty
+      std::string exact, upper;   // expressions; upper: of between only
+      double      begin     = 0.; // of the records
+      double      end       = std::numeric_limits<double>::infinity();
       double      tolerance = 0.;
     };
+
+    /** Whether the check gives a bound instead of an exact value. */
+    bool
+    is_one_sided(const std::string &mode)
+    {
+      return mode == "below" || mode == "above" || mode == "between";
+    }
+
+    bool
+    has_exact_value(const std::string &mode)
+    {
+      return mode != "spread" && mode != "drift";
+    }
+
+    std::string
+    place_of(const std::string &text)
+    {
+      return name_of_entry + ": \"" + text + "\": ";
+    }
 
 
 
     // ---------------------------------------------------------- reading
 
-    [[noreturn]] void
-    refuse(const std::string &text, const std::string &reason)
+    std::vector<std::string>
+    all_modes()
     {
-      throw BadInput("Verification/Checks: \"" + text + "\": " + reason);
+      auto result = names_of(point_modes());
+      for (const std::string &mode : names_of(series_modes()))
+        result.push_back(mode);
+      return result;
     }
 
-    template <typename Value>
+    /** Mode, name, and where REGION or from T to T. */
     void
-    check_name(const std::string                  &text,
-               const std::string                  &kind,
-               const std::string                  &name,
-               const std::map<std::string, Value> &known)
+    parse_head(const std::string              &place,
+               Check                          &check,
+               const std::vector<std::string> &observed)
     {
-      if (known.count(name) > 0)
-        return;
-      std::vector<std::string> names;
-      std::string              list;
-      for (const auto &entry : known)
+      std::istringstream in(check.head);
+      in >> check.mode >> check.name;
+      if (check.name.empty())
+        throw BadInput(place + "before the first colon stand a mode and a "
+                               "quantity or a series, for instance max "
+                               "displacement_z.");
+      check_known(check.mode, all_modes(), place, "mode");
+      const bool of_points = point_modes().count(check.mode) > 0;
+      if (of_points)
+        check_known(check.name,
+                    names_of(point_quantities()),
+                    place,
+                    "quantity");
+      else
+        check_known(check.name,
+                    Records::names(observed),
+                    place,
+                    "observation or column of history.csv");
+      for (std::string word; in >> word;)
         {
-          names.push_back(entry.first);
-          list += (list.empty() ? "" : ", ") + entry.first;
+          std::string value;
+          if (of_points && word == "where")
+            {
+              std::getline(in, check.region);
+              Expression(check.region, place + "the region");
+            }
+          else if (!of_points && (word == "from" || word == "to"))
+            {
+              in >> value;
+              (word == "from" ? check.begin : check.end) =
+                parse_number(value, place, "time");
+            }
+          else
+            throw BadInput(place + "\"" + word +
+                           "\" is not understood; behind a quantity may stand "
+                           "\"where REGION\", behind a series \"from T\" and "
+                           "\"to T\".");
         }
-      refuse(text,
-             "there is no " + kind + " \"" + name + "\", only " + list + "." +
-               did_you_mean(nearest_names(name, names)));
     }
 
-    /** The exact solution of the check @p text. */
-    Expression
-    parse_expression(const std::string &text, const std::string &expression)
+    /** What stands behind the first colon. */
+    void
+    parse_values(const std::string &place,
+                 const std::string &text,
+                 Check             &check)
     {
-      return Expression(expression,
-                        "Verification/Checks: \"" + text +
-                          "\": the exact solution");
-    }
-
-    double
-    parse_tolerance(const std::string &text, const std::string &number)
-    {
-      char        *end   = nullptr;
-      const double value = std::strtod(number.c_str(), &end);
-      if (number.empty() || *end != '\0' || !(value > 0.) ||
-          !std::isfinite(value))
-        refuse(text,
-               "the tolerance \"" + number + "\" must be a positive number.");
-      return value;
+      // an expression may contain colons: (z < -1 ? 0 : 1)
+      const auto        colon = text.rfind(':');
+      const bool        two   = colon != std::string::npos;
+      const std::string last =
+        Utilities::trim(text.substr(two ? colon + 1 : 0));
+      if (check.mode == "below" || check.mode == "above")
+        check.exact = Utilities::trim(text);
+      else if (has_exact_value(check.mode) && !two)
+        throw BadInput(
+          place +
+          (check.mode == "between" ?
+             "it is written as between series : lower : upper." :
+             "it is written as mode quantity : exact solution : tolerance, for "
+             "instance max displacement_z : -0.01*z : 1e-3."));
+      else if (has_exact_value(check.mode))
+        check.exact = Utilities::trim(text.substr(0, colon));
+      else
+        check.exact = "0";
+      check.upper = check.mode == "between" ? last : "0";
+      Expression(check.exact, place + "the exact solution");
+      Expression(check.upper, place + "the upper bound");
+      if (is_one_sided(check.mode))
+        return;
+      check.tolerance = parse_number(last, place, "tolerance");
+      if (!(check.tolerance > 0.))
+        throw BadInput(place + "the tolerance \"" + last +
+                       "\" must be a positive number.");
     }
 
     Check
-    parse_check(const std::string &text)
+    parse_check(const std::string              &text,
+                const std::vector<std::string> &observed)
     {
-      // an expression may contain colons: (z < -1 ? 0 : 1)
-      const auto first = text.find(':'), last = text.rfind(':');
-      if (first == last)
-        refuse(text,
-               "a check is written as mode quantity : exact solution : "
-               "tolerance, for instance max displacement_z : -0.01*z : 1e-3.");
-      Check              check;
-      std::string        rest;
-      std::istringstream names(text.substr(0, first));
-      names >> check.mode >> check.quantity >> rest;
-      if (check.quantity.empty() || !rest.empty())
-        refuse(text,
-               "before the first colon stand a mode and a quantity, for "
-               "instance max displacement_z.");
-      check_name(text, "mode", check.mode, modes);
-      check_name(text, "quantity", check.quantity, quantities);
-      check.expression =
-        Utilities::trim(text.substr(first + 1, last - first - 1));
-      parse_expression(text, check.expression);
-      check.tolerance =
-        parse_tolerance(text, Utilities::trim(text.substr(last + 1)));
+      const std::string place = place_of(text);
+      const auto        colon = text.find(':');
+      if (colon == std::string::npos)
+        throw BadInput(place +
+                       "a check is written as mode quantity : exact solution : "
+                       "tolerance, for instance max displacement_z : -0.01*z : "
+                       "1e-3.");
+      Check check;
+      check.head = Utilities::trim(text.substr(0, colon));
+      parse_head(place, check, observed);
+      parse_values(place, text.substr(colon + 1), check);
       return check;
     }
 
-    std::vector<Check>
-    parse_checks(const std::string &texts)
+    std::vector<std::string>
+    texts_of(const std::string &entry)
     {
-      std::vector<Check> result;
-      for (const auto &text : Utilities::split_string_list(texts, ';'))
+      std::vector<std::string> result;
+      for (const auto &text : Utilities::split_string_list(entry, ';'))
         if (!text.empty())
-          result.push_back(parse_check(text));
+          result.push_back(text);
       return result;
     }
 
@@ -228,18 +179,73 @@ namespace CaissonMPM
 
     // ---------------------------------------------------------- comparing
 
-    Samples
-    sample(const Check &check, const MaterialPoints &points, const double time)
+    [[noreturn]] void
+    report_nothing(const Check &check, const std::string &what)
     {
-      const Expression exact(check.expression, "the exact solution");
-      const Quantity   value = quantities.at(check.quantity);
-      Samples          samples;
+      throw RunFailure(place_of(check.head) + "there is no " + what +
+                       " to compare. Choose another one.");
+    }
+
+    PointSamples
+    sample_points(const Check          &check,
+                  const MaterialPoints &points,
+                  const double          time)
+    {
+      const std::string place = place_of(check.head);
+      const Expression  exact(check.exact, place);
+      const Expression region(check.region.empty() ? "1" : check.region, place);
+      const PointQuantity value = point_quantities().at(check.name);
+      PointSamples        samples;
       points.for_each([&](const MaterialPoint &p, const unsigned int) {
+        if (region(p.initial_position, time) == 0.)
+          return;
         samples.computed.push_back(value(p));
         samples.exact.push_back(exact(p.initial_position, time));
         samples.volume.push_back(p.volume);
       });
+      if (samples.computed.empty())
+        report_nothing(check, "material point in the region");
       return samples;
+    }
+
+    SeriesSamples
+    sample_records(const Check &check, const Records &records)
+    {
+      const std::string place = place_of(check.head);
+      const Expression  exact(check.exact, place);
+      const Expression  upper(check.upper, place);
+      SeriesSamples     samples;
+      samples.computed = records.series(check.name, check.begin, check.end);
+      for (const double time : samples.computed.time)
+        {
+          samples.exact.push_back(exact(Point<2>(), time));
+          samples.upper.push_back(upper(Point<2>(), time));
+        }
+      if (samples.exact.empty())
+        report_nothing(check, "record between these times");
+      return samples;
+    }
+
+    Comparison
+    compare(const Check          &check,
+            const MaterialPoints &points,
+            const Records        &records,
+            const double          time)
+    {
+      const auto mode = point_modes().find(check.mode);
+      return mode != point_modes().end() ?
+               mode->second(sample_points(check, points, time)) :
+               series_modes().at(check.mode)(sample_records(check, records));
+    }
+
+    std::string
+    demand_of(const Check &check)
+    {
+      if (check.mode == "between")
+        return " " + check.exact + " and " + check.upper;
+      if (is_one_sided(check.mode))
+        return " " + check.exact;
+      return ": within " + to_text(check.tolerance, 6);
     }
 
     /** What of a check is the same on all machines; with @p values also the
@@ -250,13 +256,25 @@ namespace CaissonMPM
             const bool        pass,
             const bool        values)
     {
-      std::string line = check.mode + " " + check.quantity + ": within " +
-                         to_text(check.tolerance, 6) + ": " +
-                         (pass ? "yes" : "no");
+      std::string line =
+        check.head + demand_of(check) + ": " + (pass ? "yes" : "no");
       if (values)
         line += " (computed " + to_text(c.computed, 8) + ", exact " +
                 to_text(c.exact, 8) + ", error " + to_text(c.error, 3) + ")";
       return line;
+    }
+
+    std::string
+    json_of(const Check &check, const Comparison &c, const bool pass)
+    {
+      return Json::flat_object({{"check", Json::text(check.head)},
+                                {"mode", Json::text(check.mode)},
+                                {"quantity", Json::text(check.name)},
+                                {"computed", Json::number(c.computed)},
+                                {"exact", Json::number(c.exact)},
+                                {"relative_error", Json::number(c.error)},
+                                {"tolerance", Json::number(check.tolerance)},
+                                {"pass", Json::boolean(pass)}});
     }
   } // namespace
 
@@ -265,28 +283,39 @@ namespace CaissonMPM
   Verification::Verification()
     : ParameterAcceptor("/Verification")
   {
-    add_parameter("Checks",
-                  checks,
-                  "Comparisons with an exact solution at the end of the run, "
-                  "separated by semicolons. Each is written as mode quantity : "
-                  "exact solution : tolerance. Modes: max (largest error over "
-                  "largest exact value), pointwise (largest relative error), "
-                  "mean (of the means over the volume). Quantities: "
-                  "displacement_r, displacement_z, velocity_r, velocity_z, "
-                  "speed, stress_rr, stress_zz, stress_tt, stress_rz, "
-                  "stress_ratio (rr over zz), plastic_strain, volume_ratio. "
-                  "The exact solution is an expression in the initial "
-                  "coordinates r and z, the time t, and pi. Units: SI.",
-                  prm,
-                  Patterns::Anything());
+    add_parameter(
+      "Checks",
+      entry,
+      "Comparisons with an exact solution at the end of the run, separated by "
+      "semicolons. Of the points: mode quantity : exact solution : tolerance, "
+      "with the modes max (largest error over largest exact value), pointwise "
+      "(largest relative error), mean (of the means over the volume), rms (of "
+      "the error, over the largest exact value), and spread quantity : "
+      "tolerance (largest difference over the mean). Behind the quantity may "
+      "stand where REGION. Of a series, which is an observation or a column of "
+      "history.csv: mode series : exact solution : tolerance, with the modes "
+      "trace (largest error over largest exact value), final (last record), "
+      "average (over the records), frequency (rad/s) and amplitude (exp(-g T) "
+      "after two periods T) of the best fit c + exp(-g t)*(a*cos(w*t) + "
+      "b*sin(w*t)); drift series : tolerance (largest change since the start "
+      "over the largest value); and for the last record below series : bound, "
+      "above series : bound, between series : lower : upper. Behind the series "
+      "may stand from T and to T. Errors are relative except where the exact "
+      "value is 0. " +
+        point_quantities_text() +
+        " The exact solution and the region are expressions in the initial "
+        "coordinates r and z, the time t, and pi. Units: SI.",
+      prm,
+      Patterns::Anything());
   }
 
 
 
   void
-  Verification::check_parameters() const
+  Verification::check_parameters(const std::vector<std::string> &observed) const
   {
-    parse_checks(checks);
+    for (const std::string &text : texts_of(entry))
+      parse_check(text, observed);
   }
 
 
@@ -294,13 +323,14 @@ namespace CaissonMPM
   bool
   Verification::empty() const
   {
-    return parse_checks(checks).empty();
+    return texts_of(entry).empty();
   }
 
 
 
   bool
   Verification::run(const MaterialPoints &points,
+                    const Records        &records,
                     const double          time,
                     const std::string    &directory,
                     Console              &console) const
@@ -308,19 +338,13 @@ namespace CaissonMPM
     const bool full     = console.get_verbosity() == Console::Verbosity::full;
     bool       all_pass = true;
     std::vector<std::string> items;
-    for (const Check &check : parse_checks(checks))
+    for (const std::string &text : texts_of(entry))
       {
-        const Comparison c = modes.at(check.mode)(sample(check, points, time));
-        const bool       pass = c.error <= check.tolerance;
-        all_pass              = all_pass && pass;
-        items.push_back(
-          Json::flat_object({{"mode", Json::text(check.mode)},
-                             {"quantity", Json::text(check.quantity)},
-                             {"computed", Json::number(c.computed)},
-                             {"exact", Json::number(c.exact)},
-                             {"relative_error", Json::number(c.error)},
-                             {"tolerance", Json::number(check.tolerance)},
-                             {"pass", Json::boolean(pass)}}));
+        const Check      check = parse_check(text, records.observed());
+        const Comparison c     = compare(check, points, records, time);
+        const bool       pass  = c.error <= check.tolerance;
+        all_pass               = all_pass && pass;
+        items.push_back(json_of(check, c, pass));
         console.message(line_of(check, c, pass, full));
       }
     write_atomically(directory + "/verification.json",

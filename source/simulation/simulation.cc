@@ -60,10 +60,10 @@ namespace CaissonMPM
                   Patterns::Selection("full|plain|silent"));
     add_parameter("Record interval",
                   record_interval,
-                  "Time between rows of history.csv; forces are means over it. "
-                  "Units: s.",
+                  "Time between rows of history.csv; forces are means over it; "
+                  "0: a row for every step. Units: s.",
                   prm,
-                  Patterns::Double(1e-12));
+                  not_negative);
     add_parameter("Frame interval",
                   frame_interval,
                   "Time between frames (VTU); 0: first and last only. Units: "
@@ -108,7 +108,8 @@ namespace CaissonMPM
     generator.check_parameters();
     boundary_conditions.check_parameters(grid);
     nodal_motion.check_parameters();
-    verification.check_parameters();
+    observations.initialize(Records::names({}));
+    verification.check_parameters(observations.names());
     if (last_penetration > 0. && last_penetration < body.initial_depth())
       throw BadInput(
         "Time/End penetration = " + std::to_string(last_penetration) +
@@ -139,7 +140,7 @@ namespace CaissonMPM
       terminal == "full"  ? Console::Verbosity::full :
       terminal == "plain" ? Console::Verbosity::plain :
                             Console::Verbosity::silent);
-    history       = std::make_unique<HistoryFile>(directory + "/history.csv");
+    records       = std::make_unique<Records>(directory, observations);
     visualization = std::make_unique<Visualization>(directory);
     stop_request.arm(directory);
     kernels = Kernels::select_kernels(instruction_set.c_str());
@@ -187,7 +188,7 @@ namespace CaissonMPM
   {
     generator.generate(grid, body, soil, time_step.mass_scaling, points);
     choose_step(); // refuses a fixed step that is too large
-    history->create();
+    records->create();
     next_record = record_interval;
   }
 
@@ -202,7 +203,7 @@ namespace CaissonMPM
     external_work = state.external_work;
     points.set_n_held_back(state.held_back);
     resume_record(state.more);
-    history->resume(time);
+    records->resume(time);
     visualization->resume(time);
   }
 
@@ -248,7 +249,9 @@ namespace CaissonMPM
   {
     dt = time_step.choose(grid, points, soil);
     // do not step over the next event; share what is left evenly
-    double event = std::min(next_record, end_time());
+    double event = end_time();
+    if (record_interval > 0.)
+      event = std::min(event, next_record);
     if (next_frame < frame_times.size())
       event = std::min(event, frame_times[next_frame]);
     const double left = event - time;
@@ -377,8 +380,9 @@ namespace CaissonMPM
             return ExitStatus::stopped;
           }
       }
-    const bool passed = verification.empty() ||
-                        verification.run(points, time, directory, *console);
+    const bool passed =
+      verification.empty() ||
+      verification.run(points, *records, time, directory, *console);
     write_summary(passed ? "finished" : "verification failed");
     print_counts();
     print_times();
@@ -423,7 +427,7 @@ namespace CaissonMPM
     row.sticking_nodes = contact.n_sticking;
     add_forces(row);
     add_sums_over_points(row);
-    history->append(row);
+    records->append(row, points);
     print_record(row);
   }
 
@@ -460,6 +464,12 @@ namespace CaissonMPM
   void
   Simulation::print_record(const HistoryRow &row)
   {
+    // where records are dense, not all of them: a line for each percent
+    const bool at_end = time >= end_time() * (1. - 1e-9);
+    if (time > start_of_run && !at_end &&
+        time - last_printed < .01 * end_time() * (1. - 1e-9))
+      return;
+    last_printed = time;
     RecordLine line;
     line.time                   = time;
     line.has_body               = body.kind() != RigidBody::Kind::none;

@@ -4,9 +4,8 @@
 #ifndef caisson_mpm_output_history_h
 #define caisson_mpm_output_history_h
 
-#include <cstdio>
-#include <memory>
 #include <string>
+#include <vector>
 
 namespace CaissonMPM
 {
@@ -34,59 +33,23 @@ namespace CaissonMPM
     unsigned long step           = 0;
   };
 
-  /**
-   * The file of rows, one per record. Every row is in the file when append()
-   * returns, so that a run can be followed, and a killed one read; a row that
-   * does not fit on the disk is taken back. In parallel one rank owns it; it
-   * is not collective.
-   *
-   * @code
-   * HistoryFile history(directory + "/history.csv");
-   * if (restart)
-   *   history.resume(checkpoint.time);
-   * else
-   *   history.create();
-   * history.append(row);
-   * @endcode
-   */
-  class HistoryFile
+  /** The columns of history.csv, and how each follows from a row. Others'
+   * scripts read these names: add new columns at the end. */
+  struct HistoryColumn
   {
-  public:
-    explicit HistoryFile(const std::string &path);
-
-    /** Begin a new file with its header; one of a previous run is replaced.
-     * Throws RunFailure where that cannot be written. */
-    void
-    create();
-
-    /** Keep the complete rows up to this time, and go on after them; as
-     * create() where there is no file. Throws RunFailure, and BadInput if the
-     * file has other columns. Units: s. */
-    void
-    resume(const double time);
-
-    /** Add a row. Throws RunFailure where it cannot be written. */
-    void
-    append(const HistoryRow &row);
-
-  private:
-    struct Close
-    {
-      void
-      operator()(std::FILE *file) const
-      {
-        std::fclose(file);
-      }
-    };
-
-    /** Replace the file by this text and open it behind that. */
-    void
-    start_with(const std::string &text);
-
-    std::string                       path;
-    std::unique_ptr<std::FILE, Close> file;
-    long                              size = 0; // bytes in complete rows
+    std::string name;
+    double (*value)(const HistoryRow &);
   };
+
+  const std::vector<HistoryColumn> &
+  history_columns();
+
+  std::vector<std::string>
+  history_names();
+
+  /** One value per column. */
+  std::vector<double>
+  history_values(const HistoryRow &row);
 } // namespace CaissonMPM
 
 #endif

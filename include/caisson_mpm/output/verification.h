@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Comparison of the material points with an exact solution at the end of a run.
-//
-// With the computed values v and the exact ones e at all points, the error is
-//   max:       max |v - e| / max |e|,
-//   pointwise: max (|v - e| / |e|),
-//   mean:      |<v> - <e>| / |<e>|,  <.> the mean weighted with the volume.
-// Where the exact value that would be divided by is 0 the error is absolute.
+// Checks against an exact solution at the end of a run: of the material points
+// as they are then, or of a series over the whole run. The errors are those of
+// output/comparisons.h.
 #ifndef caisson_mpm_output_verification_h
 #define caisson_mpm_output_verification_h
 
 #include <caisson_mpm/base/console.h>
 #include <caisson_mpm/bodies/material_points.h>
+#include <caisson_mpm/output/records.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <string>
+#include <vector>
 
 namespace CaissonMPM
 {
   /**
-   * The checks of a verification scene. Each names a mode, a quantity, the
-   * exact solution in the initial coordinates r and z of a point and the time
-   * t, and the largest error:
+   * The checks of a verification scene. One of the points names a mode, a
+   * quantity, the exact solution in the initial coordinates r and z of a point
+   * and the time t, and the largest error; one of a series names an observation
+   * or a column of history.csv instead of the quantity:
    *
    * @code
    * subsection Verification
    *   set Checks = max displacement_z : -0.01*z*t : 0.005 ; \
-   *                mean stress_ratio : 1 - sin(30*pi/180) : 1e-3
+   *                rms stress_rr where r < 1 : 0 : 1e-3 ; \
+   *                trace total_force_N from 0.5 : 1e3*t : 0.01 ; \
+   *                between x99 : 0.40 : 0.43
    * end
    * @endcode
    *
@@ -38,9 +39,10 @@ namespace CaissonMPM
   public:
     Verification();
 
-    /** Throws BadInput for a check that cannot be understood. */
+    /** Throws BadInput for a check that cannot be understood; @p observed are
+     * the names of the observations. */
     void
-    check_parameters() const;
+    check_parameters(const std::vector<std::string> &observed) const;
 
     /** Whether there is nothing to check. */
     bool
@@ -48,18 +50,19 @@ namespace CaissonMPM
 
     /**
      * Make all checks, print a line for each, and write them with the values
-     * at the worst point (mode mean: the means) to verification.json. Returns
-     * whether all errors are within their tolerance. Throws RunFailure where
-     * the file cannot be written.
+     * that decide to verification.json. Returns whether all errors are within
+     * their tolerance. Throws RunFailure where the file cannot be written, or
+     * a check finds no point or record.
      */
     bool
     run(const MaterialPoints &points,
+        const Records        &records,
         const double          time,
         const std::string    &directory,
         Console              &console) const;
 
   private:
-    std::string checks;
+    std::string entry;
   };
 } // namespace CaissonMPM
 

@@ -20,7 +20,8 @@
 #include <caisson_mpm/operators/contact.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 #include <caisson_mpm/output/checkpoint.h>
-#include <caisson_mpm/output/history.h>
+#include <caisson_mpm/output/observations.h>
+#include <caisson_mpm/output/records.h>
 #include <caisson_mpm/output/verification.h>
 #include <caisson_mpm/output/visualization.h>
 #include <caisson_mpm/time/time_step.h>
@@ -124,6 +125,7 @@ namespace CaissonMPM
     BoundaryConditions boundary_conditions;
     NodalMotion        nodal_motion;
     TimeStep           time_step;
+    Observations       observations;
     Verification       verification;
     StopRequest        stop_request;
 
@@ -152,12 +154,13 @@ namespace CaissonMPM
 
     // output
     std::unique_ptr<Console>       console;
-    std::unique_ptr<HistoryFile>   history;
+    std::unique_ptr<Records>       records;
     std::unique_ptr<Visualization> visualization;
     SectionTimer                   timer;
     std::vector<double>            frame_times;
     std::string                    scene;
     double        next_record = 0., last_record = 0., next_checkpoint = 0.;
+    double        last_printed = 0.;
     unsigned int  next_frame   = 0;
     unsigned long first_step   = 0; // of this run
     double        start_of_run = 0.;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Named numbers that are read from the material points at every record.
+//
+// With the values q of a quantity at all points, or at those whose initial
+// position lies in a region, their volumes V and masses m:
+//   point q at R Z:   q of the point that began nearest to (R, Z),
+//   mean q:           sum V q / sum V,
+//   rms q:            sqrt(sum V q^2 / sum V),
+//   min q, max q:     the smallest, the largest,
+//   quantile F q:     the smallest value that the q of at least the share F of
+//                     the mass do not exceed,
+//   projection q on f:  sum m q f / sum m f^2, the amplitude of the shape f,
+//                     a function of the initial coordinates.
+#ifndef caisson_mpm_output_observations_h
+#define caisson_mpm_output_observations_h
+
+#include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/bodies/material_points.h>
+#include <caisson_mpm/output/point_quantities.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** One observation, as read from its text. */
+  struct Observation
+  {
+    std::string      name, kind;
+    PointQuantity    quantity = nullptr;
+    double           share    = 0.; // of a quantile
+    dealii::Point<2> place;         // of a point
+    Expression       shape, region; // or empty
+  };
+
+  /**
+   * The observations of a scene.
+   *
+   * @code
+   * subsection Verification
+   *   set Observations = top  = point displacement_z at 0.01 -0.005 ; \
+   *                      x99  = quantile 0.99 position_r ; \
+   *                      mode = projection velocity_r on sin(pi*r)
+   * end
+   * @endcode
+   *
+   * The values are those of all points of one rank; not collective.
+   */
+  class Observations : public dealii::ParameterAcceptor
+  {
+  public:
+    Observations();
+
+    /** Read the entry. Throws BadInput for an observation that cannot be
+     * understood, or whose name is among @p taken. */
+    void
+    initialize(const std::vector<std::string> &taken);
+
+    /** In the order of the entry. */
+    std::vector<std::string>
+    names() const;
+
+    /** The value of each observation. Throws RunFailure where a region has no
+     * points. */
+    std::vector<double>
+    values(const MaterialPoints &points, const double time) const;
+
+  private:
+    std::string              entry;
+    std::vector<Observation> observations;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// All records of a run: the files history.csv and observations.csv, and the
+// same numbers in memory for the checks over time.
+#ifndef caisson_mpm_output_records_h
+#define caisson_mpm_output_records_h
+
+#include <caisson_mpm/output/history.h>
+#include <caisson_mpm/output/observations.h>
+#include <caisson_mpm/output/row_file.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** One number over time. */
+  struct Series
+  {
+    std::vector<double> time, value; // [n_records]
+  };
+
+  /**
+   * The columns are those of history.csv and then the observations, in one row
+   * per record. observations.csv is written where there are observations.
+   * Owned by one rank; not collective.
+   */
+  class Records
+  {
+  public:
+    /** @p observations must outlive this object. */
+    Records(const std::string &directory, const Observations &observations);
+
+    /** Begin new files. Throws RunFailure where that is not possible. */
+    void
+    create();
+
+    /** Go on after the rows up to this time; see RowFile::resume(). Units: s.
+     */
+    void
+    resume(const double time);
+
+    /** Add the record of this row and the state of the points. */
+    void
+    append(const HistoryRow &row, const MaterialPoints &points);
+
+    /** The names of all columns but the time; @p observed are those of the
+     * observations. */
+    static std::vector<std::string>
+    names(const std::vector<std::string> &observed);
+
+    /** The names of the observations. */
+    std::vector<std::string>
+    observed() const;
+
+    /** A column by its name, from @p begin to @p end. Units: s. */
+    Series
+    series(const std::string &name, const double begin, const double end) const;
+
+  private:
+    const Observations              &observations;
+    RowFile                          history;
+    std::unique_ptr<RowFile>         observed_file;
+    std::vector<std::vector<double>> rows; // of both files
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/output/check_text.h>
+#include <caisson_mpm/output/observations.h>
+
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <utility>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** What the points of an observation have: [n_points] each. */
+    struct Samples
+    {
+      std::vector<double> value, volume, mass, shape;
+    };
+
+    /** sum w v / sum w. */
+    double
+    mean_of(const std::vector<double> &values,
+            const std::vector<double> &weight)
+    {
+      double sum = 0., total = 0.;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        {
+          sum += weight[i] * values[i];
+          total += weight[i];
+        }
+      return sum / total;
+    }
+
+    double
+    mean(const Observation &, const Samples &s)
+    {
+      return mean_of(s.value, s.volume);
+    }
+
+    double
+    rms(const Observation &, const Samples &s)
+    {
+      std::vector<double> squares;
+      for (const double value : s.value)
+        squares.push_back(value * value);
+      return std::sqrt(mean_of(squares, s.volume));
+    }
+
+    double
+    smallest(const Observation &, const Samples &s)
+    {
+      return *std::min_element(s.value.begin(), s.value.end());
+    }
+
+    double
+    largest(const Observation &, const Samples &s)
+    {
+      return *std::max_element(s.value.begin(), s.value.end());
+    }
+
+    double
+    quantile(const Observation &o, const Samples &s)
+    {
+      std::vector<std::pair<double, double>> sorted;
+      double                                 total = 0.;
+      for (std::size_t i = 0; i < s.value.size(); ++i)
+        {
+          sorted.emplace_back(s.value[i], s.mass[i]);
+          total += s.mass[i];
+        }
+      std::sort(sorted.begin(), sorted.end());
+      double sum = 0.;
+      for (const auto &[value, mass] : sorted)
+        {
+          sum += mass;
+          if (sum >= o.share * total * (1. - 1e-12))
+            return value;
+        }
+      return sorted.back().first;
+    }
+
+    double
+    projection(const Observation &, const Samples &s)
+    {
+      double product = 0., square = 0.;
+      for (std::size_t i = 0; i < s.value.size(); ++i)
+        {
+          product += s.mass[i] * s.value[i] * s.shape[i];
+          square += s.mass[i] * s.shape[i] * s.shape[i];
+        }
+      return product / square;
+    }
+
+    double
+    at_point(const Observation &o, const MaterialPoints &points)
+    {
+      // initial positions do not change: the same point at all times, also
+      // after a restart; of two at the same distance the first
+      MaterialPoint nearest;
+      double        distance = std::numeric_limits<double>::infinity();
+      points.for_each([&](const MaterialPoint &p, const unsigned int) {
+        const double d = p.initial_position.distance(o.place);
+        if (d < distance || (d == distance && p.id < nearest.id))
+          {
+            nearest  = p;
+            distance = d;
+          }
+      });
+      return o.quantity(nearest);
+    }
+
+    Samples
+    sample(const Observation    &o,
+           const MaterialPoints &points,
+           const double          time)
+    {
+      Samples samples;
+      points.for_each([&](const MaterialPoint &p, const unsigned int) {
+        if (!o.region.empty() && o.region(p.initial_position, time) == 0.)
+          return;
+        samples.value.push_back(o.quantity(p));
+        samples.volume.push_back(p.volume);
+        samples.mass.push_back(p.mass);
+        if (!o.shape.empty())
+          samples.shape.push_back(o.shape(p.initial_position, time));
+      });
+      if (samples.value.empty())
+        throw RunFailure("Verification/Observations: " + o.name +
+                         ": no material point began in its region. Choose "
+                         "another region.");
+      return samples;
+    }
+
+    using Value = double (*)(const Observation &, const Samples &);
+
+    const std::map<std::string, Value> kinds = {{"point", nullptr},
+                                                {"mean", mean},
+                                                {"rms", rms},
+                                                {"min", smallest},
+                                                {"max", largest},
+                                                {"quantile", quantile},
+                                                {"projection", projection}};
+
+
+
+    // ---------------------------------------------------------- reading
+
+    /** The text behind the word @p word, cut off; empty where it is absent. */
+    std::string
+    cut_behind(std::string &text, const std::string &word)
+    {
+      const auto begin = text.find(" " + word + " ");
+      if (begin == std::string::npos)
+        return "";
+      const std::string rest = text.substr(begin + word.size() + 2);
+      text.resize(begin);
+      return Utilities::trim(rest);
+    }
+
+    void
+    check_name(const std::string              &name,
+               const std::vector<std::string> &taken,
+               const std::string              &place)
+    {
+      bool good = !name.empty() && !std::isdigit(name[0]);
+      for (const unsigned char c : name)
+        good = good && (std::isalnum(c) || c == '_');
+      if (!good)
+        throw BadInput(place +
+                       "an observation is written as name = kind quantity, for "
+                       "instance top = point displacement_z at 0.01 -0.005; "
+                       "its name has letters, digits and _ only.");
+      if (std::count(taken.begin(), taken.end(), name) > 0)
+        throw BadInput(place + "the name \"" + name +
+                       "\" is taken, by another observation or a column of "
+                       "history.csv. Choose another one.");
+    }
+
+    Point<2>
+    parse_place(const std::string &text, const std::string &place)
+    {
+      std::string        r, z, rest;
+      std::istringstream in(text);
+      in >> r >> z >> rest;
+      if (z.empty() || !rest.empty())
+        throw BadInput(place + "behind \"at\" stand two numbers, the initial "
+                               "position r z in m.");
+      return {parse_number(r, place, "initial r"),
+              parse_number(z, place, "initial z")};
+    }
+
+    /** The kind, its number and the quantity. */
+    void
+    parse_words(const std::string &text,
+                const std::string &place,
+                Observation       &o)
+    {
+      std::string        quantity, rest;
+      std::istringstream in(text);
+      in >> o.kind;
+      check_known(o.kind, names_of(kinds), place, "kind");
+      if (o.kind == "quantile")
+        {
+          std::string share;
+          in >> share;
+          o.share = parse_number(share, place, "share of the mass");
+          if (o.share < 0. || o.share > 1.)
+            throw BadInput(place + "the share of the mass must lie between 0 "
+                                   "and 1, for instance quantile 0.99 "
+                                   "position_r.");
+        }
+      in >> quantity >> rest;
+      check_known(quantity, names_of(point_quantities()), place, "quantity");
+      if (!rest.empty())
+        throw BadInput(place + "\"" + rest +
+                       "\" is not understood; behind the quantity stand \"at "
+                       "R Z\" (kind point), \"on SHAPE\" (kind projection) or "
+                       "\"where REGION\".");
+      o.quantity = point_quantities().at(quantity);
+    }
+
+    Observation
+    parse(const std::string &text, const std::vector<std::string> &taken)
+    {
+      const std::string place = "Verification/Observations: \"" + text + "\": ";
+      const auto        equal = text.find('=');
+      Observation       o;
+      o.name =
+        Utilities::trim(text.substr(0, equal == std::string::npos ? 0 : equal));
+      check_name(o.name, taken, place);
+      std::string       words  = text.substr(equal + 1);
+      const std::string region = cut_behind(words, "where");
+      const std::string shape  = cut_behind(words, "on");
+      const std::string at     = cut_behind(words, "at");
+      parse_words(words, place, o);
+      if ((o.kind == "point") != !at.empty() ||
+          (o.kind == "projection") != !shape.empty() ||
+          (o.kind == "point" && !region.empty()))
+        throw BadInput(place + "kind point needs \"at R Z\" and no more, kind "
+                               "projection needs \"on SHAPE\", and no other "
+                               "kind has them.");
+      if (!at.empty())
+        o.place = parse_place(at, place);
+      if (!shape.empty())
+        o.shape = Expression(shape, place + "the shape");
+      if (!region.empty())
+        o.region = Expression(region, place + "the region");
+      return o;
+    }
+  } // namespace
+
+
+
+  Observations::Observations()
+    : ParameterAcceptor("/Verification")
+  {
+    add_parameter(
+      "Observations",
+      entry,
+      "Numbers read from the material points at every record and written to "
+      "observations.csv, separated by semicolons. Each is written as name = "
+      "kind quantity. Kinds: point quantity at R Z (of the point that began "
+      "nearest to there); mean, rms, min, max quantity (over the volume); "
+      "quantile F quantity (not exceeded by the share F of the mass); "
+      "projection quantity on SHAPE (sum m q f / sum m f^2). All kinds but "
+      "point may end with where REGION. Shape and region are expressions in "
+      "the initial coordinates r and z, the time t, and pi; a point belongs to "
+      "the region where it is not 0. Quantities: see Checks. Units: SI.",
+      prm,
+      Patterns::Anything());
+  }
+
+
+
+  void
+  Observations::initialize(const std::vector<std::string> &taken)
+  {
+    std::vector<std::string> names = taken;
+    observations.clear();
+    for (const auto &text : Utilities::split_string_list(entry, ';'))
+      if (!text.empty())
+        {
+          observations.push_back(parse(text, names));
+          names.push_back(observations.back().name);
+        }
+  }
+
+
+
+  std::vector<std::string>
+  Observations::names() const
+  {
+    std::vector<std::string> result;
+    for (const Observation &o : observations)
+      result.push_back(o.name);
+    return result;
+  }
+
+
+
+  std::vector<double>
+  Observations::values(const MaterialPoints &points, const double time) const
+  {
+    std::vector<double> result;
+    for (const Observation &o : observations)
+      result.push_back(o.kind == "point" ?
+                         at_point(o, points) :
+                         kinds.at(o.kind)(o, sample(o, points, time)));
+    return result;
+  }
+} // namespace CaissonMPM

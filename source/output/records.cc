@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/output/records.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+
+namespace CaissonMPM
+{
+  namespace
+  {
+    std::vector<std::string>
+    with_time(std::vector<std::string> names)
+    {
+      names.insert(names.begin(), "time_s");
+      return names;
+    }
+  } // namespace
+
+
+
+  Records::Records(const std::string  &directory,
+                   const Observations &observations)
+    : observations(observations)
+    , history(directory + "/history.csv", history_names(), 10)
+  {
+    // all digits, so that a restart sees the same numbers
+    if (!observations.names().empty())
+      observed_file = std::make_unique<RowFile>(directory + "/observations.csv",
+                                                with_time(observations.names()),
+                                                17);
+  }
+
+
+
+  void
+  Records::create()
+  {
+    history.create();
+    if (observed_file)
+      observed_file->create();
+  }
+
+
+
+  void
+  Records::resume(const double time)
+  {
+    rows = history.resume(time);
+    if (!observed_file)
+      return;
+    const auto others = observed_file->resume(time);
+    if (others.size() != rows.size())
+      throw BadInput("observations.csv has " + std::to_string(others.size()) +
+                     " rows up to the checkpoint and history.csv " +
+                     std::to_string(rows.size()) +
+                     ", so that the run cannot go on in them. Run without "
+                     "--restart, or without Verification/Observations.");
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i].insert(rows[i].end(), others[i].begin() + 1, others[i].end());
+  }
+
+
+
+  void
+  Records::append(const HistoryRow &row, const MaterialPoints &points)
+  {
+    std::vector<double> values = history_values(row);
+    history.append(values);
+    if (observed_file)
+      {
+        std::vector<double> more = observations.values(points, row.time);
+        values.insert(values.end(), more.begin(), more.end());
+        more.insert(more.begin(), row.time);
+        observed_file->append(more);
+      }
+    rows.push_back(values);
+  }
+
+
+
+  std::vector<std::string>
+  Records::names(const std::vector<std::string> &observed)
+  {
+    std::vector<std::string> result = history_names();
+    result.erase(result.begin());
+    result.insert(result.end(), observed.begin(), observed.end());
+    return result;
+  }
+
+
+
+  std::vector<std::string>
+  Records::observed() const
+  {
+    return observations.names();
+  }
+
+
+
+  Series
+  Records::series(const std::string &name,
+                  const double       begin,
+                  const double       end) const
+  {
+    const auto all   = names(observations.names());
+    const auto found = std::find(all.begin(), all.end(), name);
+    Assert(found != all.end(), dealii::ExcMessage("unknown column " + name));
+    const std::size_t column = 1 + (found - all.begin());
+    Series            result;
+    for (const auto &row : rows)
+      if (row[0] >= begin - 1e-9 * begin && row[0] <= end * (1. + 1e-9))
+        {
+          result.time.push_back(row[0]);
+          result.value.push_back(row[column]);
+        }
+    return result;
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/output/row_file.h>
+#include <caisson_mpm/output/text_file.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+namespace CaissonMPM
+{
+  namespace
+  {
+    std::string
+    join(const std::vector<std::string> &words)
+    {
+      std::string line;
+      for (const std::string &word : words)
+        line += (line.empty() ? "" : ",") + word;
+      return line + "\n";
+    }
+
+    std::vector<double>
+    numbers_in(const std::string &line)
+    {
+      std::vector<double> values;
+      std::istringstream  words(line);
+      for (std::string word; std::getline(words, word, ',');)
+        values.push_back(std::strtod(word.c_str(), nullptr));
+      return values;
+    }
+  } // namespace
+
+
+
+  RowFile::RowFile(const std::string              &path,
+                   const std::vector<std::string> &columns,
+                   const int                       digits)
+    : path(path)
+    , header(join(columns))
+    , n_columns(columns.size())
+    , digits(digits)
+  {}
+
+
+
+  void
+  RowFile::create()
+  {
+    start_with(header);
+  }
+
+
+
+  std::vector<std::vector<double>>
+  RowFile::resume(const double time)
+  {
+    const std::string text = read_text(path);
+    if (text.empty())
+      {
+        create();
+        return {};
+      }
+    if (text.compare(0, header.size(), header) != 0)
+      throw BadInput(path + " has other columns than this run writes, so that "
+                            "the run cannot go on in it. Move the file away "
+                            "and try again.");
+    const double tolerance = 1e-9 * std::abs(time); // times are rounded
+    std::string  kept      = header;
+    std::vector<std::vector<double>> rows;
+    std::istringstream               lines(text.substr(header.size()));
+    for (std::string line; std::getline(lines, line) && !lines.eof();)
+      {
+        const std::vector<double> values = numbers_in(line);
+        if (values.size() != n_columns || values[0] > time + tolerance)
+          continue;
+        kept += line + "\n";
+        rows.push_back(values);
+      }
+    start_with(kept);
+    return rows;
+  }
+
+
+
+  void
+  RowFile::append(const std::vector<double> &values)
+  {
+    Assert(file != nullptr, dealii::ExcMessage("call create() or resume()"));
+    AssertDimension(values.size(), n_columns);
+    std::vector<std::string> words;
+    for (const double value : values)
+      words.push_back(to_text(value, digits));
+    const std::string line = join(words);
+    if (std::fwrite(line.data(), 1, line.size(), file.get()) != line.size())
+      {
+        const int error = errno;
+        // a part of the row may be in the file
+        const bool shortened = ftruncate(fileno(file.get()), size) == 0;
+        report_unwritable(path,
+                          error,
+                          shortened ? "the rows so far are kept" :
+                                      "its last row is incomplete");
+      }
+    size += line.size();
+  }
+
+
+
+  void
+  RowFile::start_with(const std::string &text)
+  {
+    file.reset();
+    write_atomically(path, text);
+    file.reset(std::fopen(path.c_str(), "ab"));
+    if (file == nullptr)
+      report_unwritable(path, errno);
+    // a row that was taken back must not be written again when closing
+    std::setvbuf(file.get(), nullptr, _IONBF, 0);
+    size = text.size();
+  }
+} // namespace CaissonMPM

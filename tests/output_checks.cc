@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The errors of output/comparisons.h on numbers that can be worked out by hand,
+// the fit of a damped wave, and the messages about what cannot be understood.
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/output/comparisons.h>
+#include <caisson_mpm/output/damped_wave.h>
+#include <caisson_mpm/output/verification.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace CaissonMPM;
+
+void
+show(const std::string &mode, const Comparison &c)
+{
+  std::printf("%s: computed %.6f, exact %.6f, error %.6f\n",
+              mode.c_str(),
+              c.computed,
+              c.exact,
+              c.error);
+}
+
+/** Two points; that of volume 3 is wrong by 1, the other by -0.2. */
+void
+compare_points()
+{
+  const PointSamples samples = {{5., 0.8}, {4., 1.}, {3., 1.}};
+  for (const auto &[name, mode] : point_modes())
+    show(name, mode(samples));
+  std::printf("where the exact value is 0\n");
+  const PointSamples zero = {{.5, -.25}, {0., 0.}, {1., 1.}};
+  for (const auto &[name, mode] : point_modes())
+    show(name, mode(zero));
+  std::printf("not a number\n");
+  const PointSamples none = {{std::nan(""), 1.}, {1., 1.}, {1., 1.}};
+  for (const auto &[name, mode] : point_modes())
+    std::printf("%s passes: %s\n",
+                name.c_str(),
+                mode(none).error <= 1e9 ? "yes" : "no");
+}
+
+void
+compare_series()
+{
+  const SeriesSamples samples = {{{0., 1., 2.}, {1., 2.5, 4.}},
+                                 {1., 2., 5.},
+                                 {1., 2., 6.}};
+  for (const char *name :
+       {"trace", "final", "average", "drift", "below", "above", "between"})
+    show(name, series_modes().at(name)(samples));
+  std::printf("within the bounds\n");
+  const SeriesSamples inside = {{{0.}, {5.5}}, {5.}, {6.}};
+  for (const char *name : {"above", "between"})
+    show(name, series_modes().at(name)(inside));
+  const SeriesSamples less = {{{0.}, {4.5}}, {5.}, {6.}};
+  show("below", series_modes().at("below")(less));
+}
+
+/** w and g are found from 100 values in 2.2 periods, whatever the phase. */
+void
+fit(const double w, const double g, const double phase, const double offset)
+{
+  Series series;
+  for (unsigned int i = 0; i < 100; ++i)
+    {
+      const double t = 5. + i * .022 * 2. * 3.14159265358979 / w;
+      series.time.push_back(t);
+      series.value.push_back(offset +
+                             std::exp(-g * t) * std::cos(w * t + phase));
+    }
+  const DampedWave wave = fit_damped_wave(series);
+  std::printf("w / w_exact %.6f, g / w %.6f, after two periods %.6f\n",
+              wave.frequency / w,
+              wave.damping / w,
+              wave.left_after_two_periods());
+}
+
+/** Set the entry of section Verification, and print the beginning of what the
+ * program has to say. */
+void
+refuse(const std::string &entry, const std::string &text)
+{
+  Observations observations;
+  Verification verification;
+  auto        &prm = dealii::ParameterAcceptor::prm;
+  prm.enter_subsection("Verification");
+  prm.set(entry, text);
+  prm.leave_subsection();
+  dealii::ParameterAcceptor::parse_all_parameters(prm);
+  try
+    {
+      observations.initialize(Records::names({}));
+      verification.check_parameters(observations.names());
+      std::printf("accepted: %s\n", text.c_str());
+    }
+  catch (const BadInput &error)
+    {
+      std::string what = error.what();
+      what.resize(std::min(what.find('\n'), what.size()));
+      if (what.size() > 160)
+        what = what.substr(0, 120) + " ...";
+      std::printf("%s\n", what.c_str());
+    }
+  dealii::ParameterAcceptor::clear();
+}
+
+int
+main()
+{
+  for (const char *text : {"maxx speed : 0 : 1",
+                           "max sped : 0 : 1",
+                           "final force : 0 : 1",
+                           "max speed",
+                           "max : 0 : 1",
+                           "max speed : 0",
+                           "between step : 0",
+                           "max speed : 0 : 0",
+                           "max speed : 0 : x",
+                           "max speed in r > 1 : 1 : 1",
+                           "final step where r > 1 : 1 : 1",
+                           "final step from x : 1 : 1",
+                           "max speed where r > 1 : r > 2 ? 1 : 2 : 0.1",
+                           "average step from 1 to 2 : t : 0.1",
+                           "drift step : 0.1; spread density : 0.1; below step "
+                           ": 3; between step : 1 : 2"})
+    refuse("Checks", text);
+  for (const char *text : {"mean speed",
+                           "a = mean speed; a = max speed",
+                           "step = mean speed",
+                           "2a = mean speed",
+                           "a = quantil 0.5 speed",
+                           "a = mean sped",
+                           "a = quantile 99 speed",
+                           "a = point speed",
+                           "a = point speed at 1",
+                           "a = mean speed at 1 1",
+                           "a = projection speed",
+                           "a = mean speed over r",
+                           "a = projection speed on sin(r) where z < -1 | r == "
+                           "2; b = quantile 0.1 deviator; c = point density at "
+                           "0 -1"})
+    refuse("Observations", text);
+  std::printf("points\n");
+  compare_points();
+  std::printf("series\n");
+  compare_series();
+  std::printf("damped waves\n");
+  fit(1400., 0., 0., 0.);
+  fit(1400., 7., 0., 0.);
+  fit(.3, .006, 1., -10.);
+  fit(2., -.01, 2.5, 3.);
+  const SeriesSamples straight = {{{0., 1., 2., 3., 4., 5., 6., 7., 8., 9.},
+                                   {0., 1., 2., 3., 4., 5., 6., 7., 8., 9.}},
+                                  {1.},
+                                  {1.}};
+  std::printf("a straight line passes: %s\n",
+              series_modes().at("frequency")(straight).error <= 1e9 ? "yes" :
+                                                                      "no");
+}
