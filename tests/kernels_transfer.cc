@@ -158,7 +158,7 @@ make_scene(const double axisymmetric, const bool affine)
   for (unsigned int c = 0; c < n_cells; ++c)
     {
       const CellGeometry &g = s.geometry[c];
-      const unsigned int  n = 5 + 4 * c;
+      const unsigned int  n = 9 + 4 * c;
       for (unsigned int k = 0; k < n; ++k)
         {
           Point        p;
@@ -473,6 +473,60 @@ check_mean_pressure()
   verdict("cells that are full, miscounted", full, 0.);
   verdict("mean pressure: slope of the mean stress", slope / 1e3, 1e-12);
   verdict("mean pressure: change of the deviator", deviator / 1e3, 1e-12);
+}
+
+/** Points in a narrow band: the slope across it is reduced, along it exact. */
+void
+check_narrow_band()
+{
+  const double slope[2] = {3e3, -2e3};
+  double       along = 0., across = 0.;
+  for (const double half_width : {0., .05, .3})
+    {
+      FitSums<Lanes<1>> sums;
+      sums.clear();
+      const double n = 20.;
+      for (int k = 0; k < n; ++k)
+        {
+          const double x      = .1 + (k % 2 ? half_width : -half_width),
+                       y      = (k / 2 - 4.5) / 10.;
+          const Lanes<1> s[4] = {Lanes<1>(slope[0] * x + slope[1] * y),
+                                 Lanes<1>(0.),
+                                 Lanes<1>(0.),
+                                 Lanes<1>(0.)};
+          sums.add(Lanes<1>(x), Lanes<1>(y), Lanes<1>(2.), s);
+        }
+      double plain[FitSums<Lanes<1>>::size], fit[12];
+      for (int i = 0; i < FitSums<Lanes<1>>::size; ++i)
+        plain[i] = sum(sums.sum[i]);
+      fit_stress(2. * n, plain, false, fit);
+      const double share = std::min(1., half_width * half_width / .02);
+      along              = std::max(along, std::abs(fit[2] / slope[1] - 1.));
+      across = std::max(across, std::abs(fit[1] / slope[0] - share));
+    }
+  verdict("narrow band: slope along it, error", along, 1e-12);
+  verdict("narrow band: share of the slope across it, error", across, 1e-12);
+}
+
+/** For lumped mass on a regular grid the floor is the mass at Courant one. */
+void
+check_full_stiffness()
+{
+  double worst = 0.;
+  for (const double width : {.1, .3, 40.})
+    {
+      const double height = .1, M = 1e6;
+      double       stiffness[4] = {0., 0., 0., 0.};
+      add_full_stiffness(CellMap({7., width, -1., -1., height, height}),
+                         0.,
+                         M,
+                         stiffness);
+      const double bound =
+        M * width * height * (1. / (width * width) + 1. / (height * height));
+      for (const double k : stiffness)
+        worst = std::max(worst, std::abs(k / bound - 1.));
+    }
+  verdict("full cells: bound of the stiffness, error", worst, 1e-12);
 }
 
 /** A cell filled by a third is full inside the soil, not at a free surface. */
@@ -866,7 +920,9 @@ main()
     }
   std::printf("both\n");
   check_mean_pressure();
+  check_narrow_band();
   check_full_cells();
+  check_full_stiffness();
   check_mass_matrix();
   check_stiffness_bound();
   check_limiter();

@@ -22,12 +22,13 @@ namespace CaissonMPM
                   Patterns::Selection("XPIC|PIC|FLIP|blend"));
     add_parameter("XPIC order",
                   xpic_order,
-                  "Order of XPIC; 1 is PIC. Units: none.",
+                  "Order of XPIC, alone and in the blend; 1 is PIC. Units: "
+                  "none.",
                   prm,
                   Patterns::Integer(1, 10));
     add_parameter("FLIP fraction",
                   flip_fraction,
-                  "Share of FLIP in the blend. Units: none.",
+                  "Share of FLIP in the blend, the rest is XPIC. Units: none.",
                   prm,
                   Patterns::Double(0., 1.));
     add_parameter("Stress update",
@@ -265,11 +266,11 @@ namespace CaissonMPM
     // the part that is added to keep * V_p
     for (std::size_t i = 0; i < n; ++i)
       transfer[i] = v[i] - keep * old[i];
-    if (transfer_scheme == "XPIC" && xpic_order > 1)
+    if (filter_order() > 1)
       {
         work[0] = old_velocity;
         hold(data(work[0]));
-        for (unsigned int k = 1; k < xpic_order; ++k)
+        for (unsigned int k = 1; k < filter_order(); ++k)
           {
             // from the second round on the field is a difference
             round_trip(
@@ -280,7 +281,7 @@ namespace CaissonMPM
               {
                 // (I - A)^k v; differences of held fields stay held
                 work[0].begin()[i] -= work[1].begin()[i];
-                transfer[i] += work[0].begin()[i];
+                transfer[i] += (1. - keep) * work[0].begin()[i];
               }
           }
       }
@@ -306,6 +307,14 @@ namespace CaissonMPM
             data(stress_scheme == "USL" ? new_velocity : strain_velocity)};
   }
 
+  unsigned int
+  NodalMotion::filter_order() const
+  {
+    return transfer_scheme == "XPIC" || transfer_scheme == "blend" ?
+             xpic_order :
+             1;
+  }
+
   double
   NodalMotion::keep_velocity() const
   {
@@ -317,19 +326,21 @@ namespace CaissonMPM
   Kernels::UpdateSettings
   NodalMotion::update_settings(const double dt) const
   {
-    const double keep = transfer_scheme == "FLIP"  ? 1. :
-                        transfer_scheme == "blend" ? flip_fraction :
-                                                     0.;
-    return {
-      dt, keep, mean_volume, limiter_on ? limiter_factor : 0., stress_filter};
+    return {dt,
+            keep_velocity(),
+            mean_volume,
+            limiter_on ? limiter_factor : 0.,
+            stress_filter};
   }
 
   std::string
   NodalMotion::description() const
   {
-    return stress_scheme + ", " + transfer_scheme +
-           (transfer_scheme == "XPIC" ? "(" + std::to_string(xpic_order) + ")" :
-                                        "") +
+    const std::string xpic = "XPIC(" + std::to_string(xpic_order) + ")";
+    return stress_scheme + ", " +
+           (transfer_scheme == "XPIC"  ? xpic :
+            transfer_scheme == "blend" ? "FLIP and " + xpic :
+                                         transfer_scheme) +
            ", " + integration;
   }
 } // namespace CaissonMPM

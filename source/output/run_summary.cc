@@ -13,6 +13,7 @@ namespace CaissonMPM
       {"dealii_version", Json::text(s.dealii_version)},
       {"scene_file", Json::text(s.scene_file)},
       {"instruction_set", Json::text(s.instruction_set)},
+      {"fingerprint", Json::text(s.fingerprint)},
       {"status", Json::text(s.status)},
       {"ranks", Json::integer(s.ranks)},
       {"material_points", Json::integer(s.material_points)},

@@ -152,6 +152,7 @@ namespace CaissonMPM
     nodal_motion.initialize(grid);
     materials = soil.kernel_materials(time_step.mass_scaling);
 
+    wrong_error_bar = error_bar.read(scene, fingerprint_of(changed_physics()));
     schedule_frames();
     if (restart)
       resume();
@@ -237,9 +238,11 @@ namespace CaissonMPM
        {"time step",
         text(dt) + " s, mass scaling " + text(time_step.mass_scaling)},
        {"end", text(end_time()) + " s"}});
-    if (time_step.mass_scaling > 25.)
-      console->warning("Time/Mass scaling above 25 has been seen to raise the "
-                       "tip force by more than 10 %");
+    if (!wrong_error_bar.empty())
+      console->warning(wrong_error_bar);
+    if (time_step.mass_scaling > 100.)
+      console->warning("Time/Mass scaling above 100 has been seen to change the "
+                       "tip force by more than 5 %");
   }
 
   // ------------------------------------------------------------ one step
@@ -344,7 +347,7 @@ namespace CaissonMPM
     });
     s << ". Likely causes: a time step too large for the deformed mesh (reduce "
          "Time/Courant number), an unstable choice in section Method (the "
-         "defaults are MUSL, XPIC and Mass floor = true), or a parameter of "
+         "defaults are MUSL, blend and Mass floor = true), or a parameter of "
          "the soil that is out of any range. The files written so far are "
          "kept.";
     throw RunFailure(s.str());
@@ -504,21 +507,41 @@ namespace CaissonMPM
       .count();
   }
 
+  namespace
+  {
+    /** Whether an entry has no influence on the state at a given time. */
+    bool
+    is_not_physics(const DeclaredEntry &entry)
+    {
+      for (const std::string free :
+           {"Output/", "Run control/", "Verification/", "Time/End"})
+        if (entry.path.compare(0, free.size(), free) == 0)
+          return true;
+      return false;
+    }
+  } // namespace
+
   std::string
   Simulation::fingerprint() const
   {
-    // without what may change between a run and its continuation
     const DeclaredEntries entries(prm);
     std::string           result;
     for (const DeclaredEntry &entry : entries.all())
-      {
-        bool may_change = false;
-        for (const std::string free :
-             {"Output/", "Run control/", "Verification/", "Time/End"})
-          may_change |= entry.path.compare(0, free.size(), free) == 0;
-        if (!may_change)
-          result += entry.path + " = " + entry.value + "\n";
-      }
+      if (!is_not_physics(entry))
+        result += entry.path + " = " + entry.value + "\n";
+    return result;
+  }
+
+  std::string
+  Simulation::changed_physics() const
+  {
+    // defaults are left out, so that a new entry changes nothing
+    const DeclaredEntries entries(prm);
+    std::string           result;
+    for (const DeclaredEntry &entry : entries.all())
+      if (!is_not_physics(entry) && entry.value != entry.default_value &&
+          entry.path != "Title" && entry.path != "Method/Instruction set")
+        result += entry.path + " = " + entry.value + "\n";
     return result;
   }
 
@@ -553,7 +576,9 @@ namespace CaissonMPM
   void
   Simulation::write_summary(const std::string &status)
   {
+    error_bar.write(directory);
     RunSummary s;
+    s.fingerprint            = fingerprint_of(changed_physics());
     s.version                = CAISSON_MPM_VERSION;
     s.dealii_version         = DEAL_II_PACKAGE_VERSION;
     s.scene_file             = scene;

@@ -185,8 +185,12 @@ namespace CaissonMPM
 
       /**
        * The affine stress of a cell, into fit[12] (see CellMoments): the
-       * least-squares fit, or the mean where the points do not span the cell.
-       * With @p mean_pressure the mean stress keeps its mean only.
+       * least-squares fit. With @p mean_pressure the mean stress keeps its mean
+       * only. Points that lie in a narrow band say little of the slope across
+       * it, and the Gauss points lie far outside it: where their variance in a
+       * direction is below smallest_variance (of a cell of size one, where
+       * points that fill half of it have 0.021), the slope in this direction is
+       * reduced in proportion, down to none for points on a line.
        */
       CAISSON_INLINE void
       fit_stress(const double  mass,
@@ -194,19 +198,29 @@ namespace CaissonMPM
                  const bool    mean_pressure,
                  double       *fit)
       {
-        const double x = s[0] / mass, y = s[1] / mass;
-        const double xx = s[2] - mass * x * x, xy = s[3] - mass * x * y,
-                     yy          = s[4] - mass * y * y;
-        const double determinant = xx * yy - xy * xy;
-        const bool   spans       = determinant > 1e-5 * mass * mass;
-        const double inverse     = spans ? 1. / determinant : 0.;
-        double       slope[2][4], trace[2] = {0., 0.};
+        constexpr double smallest_variance = .02;
+        const double     x = s[0] / mass, y = s[1] / mass;
+        const double     xx = s[2] / mass - x * x, xy = s[3] / mass - x * y,
+                     yy = s[4] / mass - y * y;
+        // the inverse of the covariance, its eigenvalues bounded from below
+        const double center = .5 * (xx + yy), half = .5 * (xx - yy),
+                     radius = __builtin_sqrt(half * half + xy * xy);
+        const auto bounded  = [](const double variance) {
+          return variance > smallest_variance ? variance : smallest_variance;
+        };
+        const double major = 1. / (mass * bounded(center + radius)),
+                     minor = 1. / (mass * bounded(center - radius));
+        const double turn  = radius > 0. ? .5 * (major - minor) / radius : 0.;
+        const double inverse_xx = .5 * (major + minor) + turn * half,
+                     inverse_yy = .5 * (major + minor) - turn * half,
+                     inverse_xy = turn * xy;
+        double slope[2][4], trace[2] = {0., 0.};
         for (int c = 0; c < 4; ++c)
           {
             const double *const t  = s + FitSums<Lanes<1>>::stress + 3 * c;
             const double        sx = t[1] - t[0] * x, sy = t[2] - t[0] * y;
-            slope[0][c] = (yy * sx - xy * sy) * inverse;
-            slope[1][c] = (xx * sy - xy * sx) * inverse;
+            slope[0][c] = inverse_xx * sx + inverse_xy * sy;
+            slope[1][c] = inverse_xy * sx + inverse_yy * sy;
             for (int d = 0; d < 2 && c < 3; ++d)
               trace[d] += slope[d][c];
           }

@@ -84,12 +84,46 @@ namespace CaissonMPM
         }
       };
 
-      /** The internal force of a full cell, from the fitted stress. */
+      /**
+       * The bound of sum_J |K_IJ| of a full cell, from the gradients at its
+       * center: sharp for lumped mass on a regular grid, where the floor that
+       * follows from it is below the mass for any Courant number below one.
+       */
+      inline void
+      add_full_stiffness(const CellMap &map,
+                         const double   axisymmetric,
+                         const double   modulus,
+                         double        *stiffness)
+      {
+        using Number       = Lanes<1>;
+        const auto   p     = map.at_reference(Number(.5), Number(.5));
+        const double r     = map.left + .5 * map.width;
+        const double hoop  = .25 * axisymmetric / r;
+        const double d_eta = sum(p.inverse_height), slope = sum(p.slope);
+        double       norm[4], total                       = 0.;
+        for (int i = 0; i < 4; ++i)
+          {
+            const double half_r = i % 2 ? .5 : -.5, half_z = i / 2 ? .5 : -.5;
+            const double g_r = (half_r - half_z * slope) * map.inverse_width,
+                         g_z = half_z * d_eta;
+            norm[i] = __builtin_sqrt(g_r * g_r + g_z * g_z + hoop * hoop);
+            total += norm[i];
+          }
+        const double scale = modulus * map.volume(axisymmetric) * total;
+        for (int i = 0; i < 4; ++i)
+          stiffness[i] += scale * norm[i];
+      }
+
+      /**
+       * The internal force of a full cell, from the fitted stress, and the
+       * stiffness bound for the given modulus where that is not 0.
+       */
       template <typename Number>
       CAISSON_INLINE void
       integrate_full_cell(const CellMap    &map,
                           const double      axisymmetric,
                           const double     *fit,
+                          const double      modulus,
                           CellContribution &contribution)
       {
         ForceSums<Number> forces;
@@ -116,6 +150,11 @@ namespace CaissonMPM
         double sums[ForceSums<Number>::size];
         sum_lanes<ForceSums<Number>::size>(forces.sum, sums);
         contribution.add_forces(sums);
+        if (modulus > 0.)
+          add_full_stiffness(map,
+                             axisymmetric,
+                             modulus,
+                             contribution.stiffness);
       }
 
       /** The sums of one run of blocks (same cell, same material). */
@@ -257,16 +296,21 @@ namespace CaissonMPM
                         map.volume(grid.axisymmetric));
             if (full)
               {
-                double fit[24] = {};
+                double fit[24] = {}, modulus = 0.;
                 for (int block = first; block >= 0;)
-                  block = add_run<Number, true>(points,
-                                                materials,
-                                                settings,
-                                                map,
-                                                grid.axisymmetric,
-                                                block,
-                                                contribution,
-                                                fit);
+                  {
+                    const double own =
+                      materials[points.headers[block].material].p_wave_modulus;
+                    modulus = own > modulus ? own : modulus;
+                    block   = add_run<Number, true>(points,
+                                                  materials,
+                                                  settings,
+                                                  map,
+                                                  grid.axisymmetric,
+                                                  block,
+                                                  contribution,
+                                                  fit);
+                  }
                 fit_stress(contribution.mass[0],
                            fit,
                            settings.mean_pressure,
@@ -274,6 +318,7 @@ namespace CaissonMPM
                 integrate_full_cell<Number>(map,
                                             grid.axisymmetric,
                                             moments[i].fit,
+                                            settings.floor_mass ? modulus : 0.,
                                             contribution);
               }
             else

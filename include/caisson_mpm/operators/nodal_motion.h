@@ -8,8 +8,8 @@
 // the mass-weighted average; A = M / m with the consistent mass matrix M):
 //   FLIP       V_p <- V_p + S (v+ - v)
 //   PIC        V_p <- S v+
-//   blend      V_p <- a FLIP + (1 - a) PIC
 //   XPIC(n)    V_p <- S (v+ + sum_{k=1}^{n-1} (I - A)^k v)
+//   blend      V_p <- a FLIP + (1 - a) XPIC(n)
 // (Sulsky et al. 1994; Hammerquist & Nairn 2017, doi:10.1016/j.cma.2017.01.035).
 // MUSL strains the points with the velocity that they bring back to the nodes,
 // S+ V_p; as A is known per cell, no second pass over the points is needed.
@@ -111,8 +111,13 @@ namespace CaissonMPM
     description() const;
 
   private:
+    /** Share of a point's own velocity that it keeps (FLIP: 1). */
     double
     keep_velocity() const;
+
+    /** Order of XPIC in what it does not keep; 1: PIC. */
+    unsigned int
+    filter_order() const;
 
     template <typename Constrain>
     void
@@ -123,12 +128,12 @@ namespace CaissonMPM
                NodalData                  &to,
                const Constrain            &constrain);
 
-    std::string  transfer_scheme      = "XPIC";
+    std::string  transfer_scheme      = "blend";
     std::string  stress_scheme        = "MUSL";
     std::string  integration          = "Gauss in full cells";
     std::string  pressure             = "affine";
     unsigned int xpic_order           = 2;
-    double       flip_fraction        = 0.99;
+    double       flip_fraction        = 0.95;
     double       full_fraction        = 0.9;
     double       full_fraction_inside = 0.5;
     bool         mean_volume          = true;

@@ -17,6 +17,8 @@ namespace CaissonMPM
     std::string dealii_version;
     std::string scene_file;
     std::string instruction_set;
+    /** Of all parameters of the physics that are not defaults. */
+    std::string fingerprint;
     /** How the run ended, e.g. "finished". */
     std::string   status;
     unsigned int  ranks                  = 1;

@@ -20,6 +20,7 @@
 #include <caisson_mpm/operators/contact.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 #include <caisson_mpm/output/checkpoint.h>
+#include <caisson_mpm/output/error_bar.h>
 #include <caisson_mpm/output/observations.h>
 #include <caisson_mpm/output/records.h>
 #include <caisson_mpm/output/verification.h>
@@ -112,6 +113,8 @@ namespace CaissonMPM
     print_times();
     std::string
     fingerprint() const;
+    std::string
+    changed_physics() const;
     double
     end_time() const;
     double
@@ -127,6 +130,7 @@ namespace CaissonMPM
     TimeStep           time_step;
     Observations       observations;
     Verification       verification;
+    ErrorBar           error_bar;
     StopRequest        stop_request;
 
     MaterialPoints                 points;
@@ -158,7 +162,7 @@ namespace CaissonMPM
     std::unique_ptr<Visualization> visualization;
     SectionTimer                   timer;
     std::vector<double>            frame_times;
-    std::string                    scene;
+    std::string                    scene, wrong_error_bar;
     double        next_record = 0., last_record = 0., next_checkpoint = 0.;
     double        last_printed = 0.;
     unsigned int  next_frame   = 0;
