@@ -241,8 +241,9 @@ namespace CaissonMPM
     if (!wrong_error_bar.empty())
       console->warning(wrong_error_bar);
     if (time_step.mass_scaling > 100.)
-      console->warning("Time/Mass scaling above 100 has been seen to change the "
-                       "tip force by more than 5 %");
+      console->warning(
+        "Time/Mass scaling above 100 has been seen to change the "
+        "tip force by more than 5 %");
   }
 
   // ------------------------------------------------------------ one step
