@@ -125,11 +125,12 @@ update(const Tensor                   &old_stress,
                                    increment.zz,
                                    increment.tt,
                                    increment.rz};
-  Scalar                        deviatoric(0.), volumetric(0.);
-  Law::update(sigma, de, deviatoric, volumetric, parameters);
+  LawState<Scalar>              state;
+  state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
+  Law::update(sigma, de, state, parameters);
   return {{sigma.rr[0], sigma.zz[0], sigma.tt[0], sigma.rz[0]},
-          deviatoric[0],
-          volumetric[0]};
+          state.plastic_deviatoric[0],
+          state.plastic_volumetric[0]};
 }
 
 
@@ -160,13 +161,14 @@ update_lanes(const std::array<Tensor, 8>   &old_stress,
                                    gather(increment, &Tensor::zz),
                                    gather(increment, &Tensor::tt),
                                    gather(increment, &Tensor::rz)};
-  Number                        deviatoric(offset), volumetric(offset);
-  MohrCoulomb::update(sigma, de, deviatoric, volumetric, parameters);
+  LawState<Number>              state;
+  state.plastic_deviatoric = state.plastic_volumetric = Number(offset);
+  MohrCoulomb::update(sigma, de, state, parameters);
   std::array<Result, 8> result;
   for (unsigned int l = 0; l < 8; ++l)
     result[l] = {{sigma.rr[l], sigma.zz[l], sigma.tt[l], sigma.rz[l]},
-                 deviatoric[l] - offset,
-                 volumetric[l] - offset};
+                 state.plastic_deviatoric[l] - offset,
+                 state.plastic_volumetric[l] - offset};
   return result;
 }
 

@@ -31,10 +31,12 @@ namespace CaissonMPM
     p.volume             = b.volume[lane];
     p.plastic_deviatoric = b.plastic_deviatoric[lane];
     p.plastic_volumetric = b.plastic_volumetric[lane];
-    p.initial_position   = Point<2>(b.initial_r[lane], b.initial_z[lane]);
-    p.initial_volume     = b.initial_volume[lane];
-    p.id                 = b.id[lane];
-    p.material           = headers[block].material;
+    for (int i = 0; i < n_state_variables; ++i)
+      p.state[i] = b.state[i][lane];
+    p.initial_position = Point<2>(b.initial_r[lane], b.initial_z[lane]);
+    p.initial_volume   = b.initial_volume[lane];
+    p.id               = b.id[lane];
+    p.material         = headers[block].material;
     return p;
   }
 
@@ -52,10 +54,12 @@ namespace CaissonMPM
     b.volume[lane]             = p.volume;
     b.plastic_deviatoric[lane] = p.plastic_deviatoric;
     b.plastic_volumetric[lane] = p.plastic_volumetric;
-    b.initial_r[lane]          = p.initial_position[0];
-    b.initial_z[lane]          = p.initial_position[1];
-    b.initial_volume[lane]     = p.initial_volume;
-    b.id[lane]                 = p.id;
+    for (int i = 0; i < n_state_variables; ++i)
+      b.state[i][lane] = p.state[i];
+    b.initial_r[lane]      = p.initial_position[0];
+    b.initial_z[lane]      = p.initial_position[1];
+    b.initial_volume[lane] = p.initial_volume;
+    b.id[lane]             = p.id;
   }
 
   // ------------------------------------------------------------ blocks
@@ -334,21 +338,23 @@ namespace CaissonMPM
   void
   MaterialPoints::insert(const unsigned int cell, const MaterialPoint &p)
   {
-    const double    data[n_properties] = {p.velocity[0],
-                                          p.velocity[1],
-                                          p.stress[rr],
-                                          p.stress[zz],
-                                          p.stress[tt],
-                                          p.stress[rz],
-                                          p.mass,
-                                          p.volume,
-                                          p.plastic_deviatoric,
-                                          p.plastic_volumetric,
-                                          p.initial_position[0],
-                                          p.initial_position[1],
-                                          p.initial_volume,
-                                          p.id,
-                                          static_cast<double>(p.material)};
+    double data[n_properties] = {p.velocity[0],
+                                 p.velocity[1],
+                                 p.stress[rr],
+                                 p.stress[zz],
+                                 p.stress[tt],
+                                 p.stress[rz],
+                                 p.mass,
+                                 p.volume,
+                                 p.plastic_deviatoric,
+                                 p.plastic_volumetric,
+                                 p.initial_position[0],
+                                 p.initial_position[1],
+                                 p.initial_volume,
+                                 p.id,
+                                 static_cast<double>(p.material)};
+    for (int i = 0; i < n_state_variables; ++i)
+      data[15 + i] = p.state[i];
     const Reference x = to_reference(grid.geometry(cell), p.position);
     handler.insert_particle(p.position,
                             Point<2>(x.xi, x.eta),
@@ -392,6 +398,8 @@ namespace CaissonMPM
         p.initial_volume     = d[12];
         p.id                 = d[13];
         p.material           = static_cast<unsigned int>(d[14]);
+        for (int i = 0; i < n_state_variables; ++i)
+          p.state[i] = d[15 + i];
         add(grid.local_number(
               typename BackgroundGrid::Triangulation::active_cell_iterator(
                 particle.get_surrounding_cell())),

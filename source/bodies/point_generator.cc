@@ -171,6 +171,10 @@ namespace CaissonMPM
     RandomNumbers          random(seed);
     const unsigned int     k  = grid.axisymmetric() ? 1 : 0;
     unsigned int           id = 0;
+
+    std::vector<StateVariables> states;
+    for (unsigned int i = 0; i < soil.n_layers(); ++i)
+      states.push_back(soil.layer(i).start_of_state());
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       {
         const auto  &g        = grid.geometry(cell);
@@ -214,6 +218,7 @@ namespace CaissonMPM
                 for (unsigned int d = 0; d < 2; ++d)
                   if (!velocity[d].is_zero())
                     p.velocity[d] = velocity[d](p.position, 0.);
+                p.state  = states[p.material];
                 p.volume = p.initial_volume = moments[k] / n_z;
                 p.mass =
                   mass_scaling * soil.inertial_density(p.material) * p.volume;

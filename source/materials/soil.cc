@@ -13,51 +13,72 @@ namespace CaissonMPM
 {
   using namespace dealii;
 
+  namespace
+  {
+    using Kernels::LawDescription;
+    using Kernels::LawEntry;
+
+    /** Call action(law) for all laws. */
+    template <typename Action>
+    void
+    for_each_law(const Action &action)
+    {
+      for (const LawDescription &law : Kernels::law_table.law)
+        if (law.name != nullptr)
+          action(law);
+    }
+
+    std::string
+    names_of_laws()
+    {
+      std::string names;
+      for_each_law([&](const LawDescription &law) {
+        names += (names.empty() ? "" : "|") + std::string(law.name);
+      });
+      return names;
+    }
+
+    const LawDescription &
+    law_named(const std::string &name)
+    {
+      const LawDescription *result = nullptr;
+      for_each_law([&](const LawDescription &law) {
+        if (name == law.name)
+          result = &law;
+      });
+      AssertThrow(result != nullptr, ExcInternalError());
+      return *result;
+    }
+  } // namespace
+
   SoilLayer::SoilLayer(const unsigned int index)
     : ParameterAcceptor("/Soil/Layer " + std::to_string(index))
   {
-    const Patterns::Double positive(1e-12), not_negative(0.);
     add_parameter("Top depth",
                   top_depth,
                   "Depth of the layer's upper boundary below the soil surface; "
                   "0 for layer 1. Units: m.",
                   prm,
-                  not_negative);
+                  Patterns::Double(0.));
     add_parameter("Law",
                   law,
                   "The constitutive law. Units: none.",
                   prm,
-                  Patterns::Selection("linear elastic|Mohr-Coulomb"));
-    add_parameter("Youngs modulus",
-                  youngs_modulus,
-                  "Young's modulus of the skeleton. Units: Pa.",
-                  prm,
-                  positive);
-    add_parameter("Poisson ratio",
-                  poisson_ratio,
-                  "Poisson's ratio of the skeleton. Units: none.",
-                  prm,
-                  Patterns::Double(0., 0.4999));
-    add_parameter("Friction angle",
-                  friction_angle,
-                  "Effective friction angle phi. Units: degrees.",
-                  prm,
-                  Patterns::Double(0., 60.));
-    add_parameter("Dilatancy angle",
-                  dilatancy_angle,
-                  "Dilatancy angle psi, at most phi. Units: degrees.",
-                  prm,
-                  Patterns::Double(0., 60.));
-    add_parameter("Cohesion",
-                  cohesion,
-                  "Effective cohesion c. Units: Pa.",
-                  prm,
-                  not_negative);
-    add_parameter("Tension cut-off",
-                  tension_cutoff,
-                  "Largest tensile principal stress. Units: Pa.",
-                  prm,
-                  not_negative);
+                  Patterns::Selection(names_of_laws()));
+    for_each_law([this](const LawDescription &law) {
+      for (int i = 0; i < law.n_entries; ++i)
+        {
+          const LawEntry &e = law.entries[i];
+          if (values.count(e.name) > 0)
+            continue;
+          double &value = values[e.name] = e.value;
+          add_parameter(e.name,
+                        value,
+                        e.text,
+                        prm,
+                        Patterns::Double(e.smallest, e.largest));
+        }
+    });
     add_parameter("Porosity",
                   porosity,
                   "Initial porosity n. Units: none.",
@@ -67,12 +88,12 @@ namespace CaissonMPM
                   solid_density,
                   "Density of the grains. Units: kg/m3.",
                   prm,
-                  positive);
+                  Patterns::Double(1e-12));
     add_parameter("K0",
                   k0,
                   "Horizontal over vertical effective stress at the start; -1 "
-                  "for 1 - sin(phi) (Mohr-Coulomb) or nu / (1 - nu) (linear "
-                  "elastic). Units: none.",
+                  "for 1 - sin(phi) or, without a friction angle, nu / (1 - "
+                  "nu). Units: none.",
                   prm,
                   Patterns::Double(-1., 10.));
   }
@@ -81,27 +102,25 @@ namespace CaissonMPM
   SoilLayer::check_parameters() const
   {
     const std::string where = get_section_name().substr(1) + "/";
-    if (dilatancy_angle > friction_angle)
-      throw BadInput(
-        where + "Dilatancy angle = " + std::to_string(dilatancy_angle) +
-        " exceeds Friction angle = " + std::to_string(friction_angle) +
-        " degrees: plastic flow would create energy. Lower the "
-        "dilatancy angle.");
     if (k0 < 0. && k0 != -1.)
       throw BadInput(where + "K0 = " + std::to_string(k0) +
                      " is negative. Set a value of 0 or more, or -1 for the "
                      "law's own value.");
-    const double phi = radians(friction_angle), k = earth_pressure_at_rest();
-    const double passive =
-      (1. + std::sin(phi)) / (1. - std::sin(phi)); // largest stress ratio
-    if (law == "Mohr-Coulomb" && cohesion == 0. &&
-        (k > passive * (1. + 1e-9) || k < (1. - 1e-9) / passive))
-      throw BadInput(where + "K0 = " + std::to_string(k) +
-                     " lies outside what Friction angle = " +
-                     std::to_string(friction_angle) +
-                     " degrees without cohesion can carry (" +
-                     std::to_string(1. / passive) + " to " +
-                     std::to_string(passive) + "). Change one of them.");
+    Kernels::LawMessage message;
+    if (!law_named(law).check(law_values().data(),
+                              {earth_pressure_at_rest(), void_ratio()},
+                              message))
+      throw BadInput(where + message.text);
+  }
+
+  std::vector<double>
+  SoilLayer::law_values() const
+  {
+    const LawDescription &description = law_named(law);
+    std::vector<double>   result;
+    for (int i = 0; i < description.n_entries; ++i)
+      result.push_back(values.at(description.entries[i].name));
+    return result;
   }
 
   double
@@ -115,34 +134,51 @@ namespace CaissonMPM
   {
     if (k0 >= 0.)
       return k0;
-    return law == "Mohr-Coulomb" ? 1. - std::sin(radians(friction_angle)) :
-                                   poisson_ratio / (1. - poisson_ratio);
+    Kernels::Material material;
+    set_law(material);
+    return law_named(law).earth_pressure_at_rest(material);
   }
 
   double
-  SoilLayer::p_wave_modulus() const
+  SoilLayer::friction_angle() const
   {
-    return youngs_modulus * (1. - poisson_ratio) /
-           ((1. + poisson_ratio) * (1. - 2. * poisson_ratio));
+    const LawDescription &description = law_named(law);
+    return description.friction_entry >= 0 ?
+             law_values()[description.friction_entry] :
+             values.at("Friction angle");
+  }
+
+  bool
+  SoilLayer::stiffness_varies() const
+  {
+    return law_named(law).stiffness_varies;
   }
 
   void
   SoilLayer::set_law(Kernels::Material &material) const
   {
-    using namespace Kernels;
-    if (law == "Mohr-Coulomb")
-      Kernels::set_law<MohrCoulomb>(
-        material,
-        MohrCoulomb::Parameters::make(youngs_modulus,
-                                      poisson_ratio,
-                                      radians(friction_angle),
-                                      radians(dilatancy_angle),
-                                      cohesion,
-                                      tension_cutoff));
-    else
-      Kernels::set_law<LinearElastic>(
-        material,
-        LinearElastic::Parameters::make(youngs_modulus, poisson_ratio));
+    law_named(law).set(material, law_values().data());
+    material.initial_void_ratio = void_ratio();
+  }
+
+  StateVariables
+  SoilLayer::start_of_state() const
+  {
+    Kernels::Material material;
+    set_law(material);
+    StateVariables result;
+    law_named(law).start(material, result.data());
+    return result;
+  }
+
+  double
+  p_wave_modulus(const Kernels::Material &material,
+                 const Stress            &stress,
+                 const double             void_ratio)
+  {
+    return Kernels::law_table.law[material.law].p_wave_modulus(material,
+                                                               stress.data(),
+                                                               void_ratio);
   }
 
   Soil::Soil()
@@ -295,7 +331,8 @@ namespace CaissonMPM
     for (unsigned int i = 0; i < n_layers_; ++i)
       {
         layers[i]->set_law(result[i]);
-        result[i].p_wave_modulus = layers[i]->p_wave_modulus();
+        result[i].p_wave_modulus =
+          p_wave_modulus(result[i], Stress(), layers[i]->void_ratio());
         // weight and mass ratio: buoyancy and mass scaling leave the force
         const double buoyancy =
           (1. - layers[i]->porosity) *

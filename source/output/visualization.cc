@@ -89,9 +89,7 @@ namespace CaissonMPM
                   const Soil          &soil,
                   const double         circumference)
     {
-      const double porosity        = soil.layer(p.material).porosity;
-      const double e0              = porosity / (1. - porosity);
-      Properties   v               = {};
+      Properties v                 = {};
       v[velocity_r]                = p.velocity[0];
       v[velocity_z]                = p.velocity[1];
       v[displacement_r]            = p.position[0] - p.initial_position[0];
@@ -104,7 +102,7 @@ namespace CaissonMPM
       v[deviatoric_stress]         = deviator(p.stress);
       v[plastic_strain]            = p.plastic_deviatoric;
       v[plastic_volumetric_strain] = p.plastic_volumetric;
-      v[void_ratio] = (1. + e0) * p.volume / p.initial_volume - 1.;
+      v[void_ratio] = p.void_ratio(soil.layer(p.material).void_ratio());
       v[volume]     = circumference * p.volume;
       v[material]   = p.material;
       return v;

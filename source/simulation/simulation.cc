@@ -251,7 +251,7 @@ namespace CaissonMPM
   double
   Simulation::choose_step()
   {
-    dt = time_step.choose(grid, points, soil);
+    dt = time_step.choose(grid, points, soil, materials);
     // do not step over the next event; share what is left evenly
     double event = end_time();
     if (record_interval > 0.)
@@ -609,7 +609,7 @@ namespace CaissonMPM
                  {"skirt_length_m", body.skirt_length},
                  {"initial_penetration_m", body.initial_depth()},
                  {"submerged_unit_weight_N_m3", soil.unit_weight(0)},
-                 {"friction_angle_deg", soil.layer(0).friction_angle},
+                 {"friction_angle_deg", soil.layer(0).friction_angle()},
                  {"wall_friction_angle_deg", body.friction_angle[outer_wall]},
                  {"K0", soil.layer(0).earth_pressure_at_rest()}};
     write_run_summary(directory + "/run.json", s);

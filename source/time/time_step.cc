@@ -35,14 +35,18 @@ namespace CaissonMPM
   }
 
   double
-  TimeStep::choose(const BackgroundGrid &grid,
-                   MaterialPoints       &points,
-                   const Soil           &soil)
+  TimeStep::choose(const BackgroundGrid           &grid,
+                   MaterialPoints                 &points,
+                   const Soil                     &soil,
+                   std::vector<Kernels::Material> &materials)
   {
     constexpr unsigned int interval = 20;
     const bool             is_first = limit == 0.;
     if (is_first || ++age == interval)
-      find_limit(grid, points, soil);
+      {
+        find_moduli(points, soil, materials);
+        find_limit(grid, points, soil, materials);
+      }
     if (fixed_step == 0.)
       return courant * limit;
     if (fixed_step > limit)
@@ -60,14 +64,46 @@ namespace CaissonMPM
   }
 
   void
-  TimeStep::find_limit(const BackgroundGrid &grid,
-                       MaterialPoints       &points,
-                       const Soil           &soil)
+  TimeStep::find_moduli(const MaterialPoints           &points,
+                        const Soil                     &soil,
+                        std::vector<Kernels::Material> &materials)
+  {
+    // what stress and density may add until they are looked at again
+    constexpr double    margin = 1.25;
+    std::vector<double> found(materials.size(), -1.);
+    bool                any = false;
+    for (unsigned int i = 0; i < materials.size(); ++i)
+      if (soil.layer(i).stiffness_varies())
+        {
+          found[i] = 0.;
+          any      = true;
+        }
+    if (!any)
+      return;
+    points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      double &largest = found[p.material];
+      if (largest >= 0.)
+        largest = std::max(
+          largest,
+          p_wave_modulus(materials[p.material],
+                         p.stress,
+                         p.void_ratio(soil.layer(p.material).void_ratio())));
+    });
+    for (unsigned int i = 0; i < materials.size(); ++i)
+      if (found[i] > 0.) // else no point is of this material
+        materials[i].p_wave_modulus = margin * found[i];
+  }
+
+  void
+  TimeStep::find_limit(const BackgroundGrid                 &grid,
+                       MaterialPoints                       &points,
+                       const Soil                           &soil,
+                       const std::vector<Kernels::Material> &materials)
   {
     double speed = 0.;
     for (unsigned int i = 0; i < soil.n_layers(); ++i)
       speed = std::max(speed,
-                       std::sqrt(soil.layer(i).p_wave_modulus() /
+                       std::sqrt(materials[i].p_wave_modulus /
                                  (mass_scaling * soil.inertial_density(i))));
     const auto   view     = points.view();
     unsigned int limiting = 0;

@@ -7,6 +7,7 @@
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/bodies/background_grid.h>
 #include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/materials/soil.h>
 
 #include <deal.II/particles/particle_handler.h>
 
@@ -23,10 +24,17 @@ namespace CaissonMPM
     double           mass               = 0.; // scaled, kg per radian
     double           volume             = 0.; // m3 per radian
     double           plastic_deviatoric = 0., plastic_volumetric = 0.;
+    StateVariables   state = {}; // of the material law
     dealii::Point<2> initial_position;
     double           initial_volume = 0.;
     double           id             = 0.;
     unsigned int     material       = 0;
+
+    double
+    void_ratio(const double initial_void_ratio) const
+    {
+      return (1. + initial_void_ratio) * volume / initial_volume - 1.;
+    }
   };
 
   /**
@@ -46,7 +54,8 @@ namespace CaissonMPM
   {
   public:
     /** The properties of a particle in the handler, in this order. */
-    static constexpr unsigned int n_properties = 15;
+    static constexpr unsigned int n_properties =
+      15 + Kernels::n_state_variables;
 
     explicit MaterialPoints(BackgroundGrid &grid);
 

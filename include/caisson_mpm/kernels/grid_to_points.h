@@ -113,6 +113,7 @@ namespace CaissonMPM
                     const LocalPoint<Number>       &p,
                     const CellUpdate               &cell,
                     const UpdateSettings           &settings,
+                    const double                    initial_void_ratio,
                     const typename Law::Parameters &parameters)
       {
         const auto load = [lane](const double *field) {
@@ -158,16 +159,26 @@ namespace CaissonMPM
                                    zz - turn,
                                    tt,
                                    rz + spin * (zz - rr)};
-        Number              deviatoric = load(b.plastic_deviatoric),
-               volumetric              = load(b.plastic_volumetric);
-        Law::update(stress, strain, deviatoric, volumetric, parameters);
+        LawState<Number>    state;
+        state.plastic_deviatoric = load(b.plastic_deviatoric);
+        state.plastic_volumetric = load(b.plastic_volumetric);
+        const Number volume      = load(b.volume);
+        if (Law::uses_void_ratio)
+          state.void_ratio = Number(1. + initial_void_ratio) *
+                               (volume / load(b.initial_volume)) -
+                             Number(1.);
+        for (int i = 0; i < Law::n_state; ++i)
+          state.variable[i] = load(b.state[i]);
+        Law::update(stress, strain, state, parameters);
         stress.rr.store(b.stress[0] + lane);
         stress.zz.store(b.stress[1] + lane);
         stress.tt.store(b.stress[2] + lane);
         stress.rz.store(b.stress[3] + lane);
-        deviatoric.store(b.plastic_deviatoric + lane);
-        volumetric.store(b.plastic_volumetric + lane);
-        (load(b.volume) * (Number(1.) + volume_change)).store(b.volume + lane);
+        state.plastic_deviatoric.store(b.plastic_deviatoric + lane);
+        state.plastic_volumetric.store(b.plastic_volumetric + lane);
+        for (int i = 0; i < Law::n_state; ++i)
+          state.variable[i].store(b.state[i] + lane);
+        (volume * (Number(1.) + volume_change)).store(b.volume + lane);
       }
 
       /** Update one block; returns its lanes outside the moved cell. */
@@ -176,6 +187,7 @@ namespace CaissonMPM
       update_block(PointBlock                     &b,
                    const CellUpdate               &cell,
                    const UpdateSettings           &settings,
+                   const double                    initial_void_ratio,
                    const typename Law::Parameters &parameters,
                    unsigned int                   &limited)
       {
@@ -186,7 +198,8 @@ namespace CaissonMPM
           {
             Number r = Number::load(b.r + lane), z = Number::load(b.z + lane);
             const LocalPoint<Number> p = cell.map.at_position(r, z);
-            update_stress<Law>(b, lane, p, cell, settings, parameters);
+            update_stress<Law>(
+              b, lane, p, cell, settings, initial_void_ratio, parameters);
 
             const Number keep(settings.keep_velocity);
             Number       velocity_r = keep * Number::load(b.velocity_r + lane) +
@@ -279,12 +292,14 @@ namespace CaissonMPM
               {
                     const BlockHeader header  = points.headers[block];
                     unsigned int      outside = 0, limited = 0;
-                    with_law(materials[header.material],
+                    const Material   &material = materials[header.material];
+                    with_law(material,
                          [&](auto law, const auto &parameters) CAISSON_LAMBDA {
                            outside = update_block<decltype(law), Number>(
                              points.blocks[block],
                              update,
                              settings,
+                             material.initial_void_ratio,
                              parameters,
                              limited);
                          });

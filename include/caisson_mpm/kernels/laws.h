@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The list of material laws that the kernels know, and the choice among them
-// once per block. A new law is a header like mohr_coulomb.h and one more entry
-// of Laws (see doc/developer.md).
+// The material laws that the kernels know, the choice among them once per
+// block, and what the rest of the program asks of them. A new law is a header
+// as described in material_law.h and one more line among the next ones.
 #ifndef caisson_mpm_kernels_laws_h
 #define caisson_mpm_kernels_laws_h
 
-#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/kernels/hypoplastic.h>
 #include <caisson_mpm/kernels/linear_elastic.h>
 #include <caisson_mpm/kernels/mohr_coulomb.h>
+#include <caisson_mpm/kernels/mohr_coulomb_softening.h>
 
 #define CAISSON_LAMBDA __attribute__((always_inline))
 
@@ -18,39 +19,45 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      template <typename... Law>
-      struct LawList
+      template <int slot>
+      struct SlotNumber
+      {
+        using Law = typename LawSlot<slot>::type;
+
+        static constexpr bool is_taken = !__is_same(Law, void);
+      };
+
+      template <int... slot>
+      struct SlotList
       {};
 
-      /** The position in this list is Material::law. */
-      using Laws = LawList<LinearElastic, MohrCoulomb>;
+      using Slots =
+        SlotList<0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15>;
 
-      template <typename Wanted, typename... Law>
-      constexpr int
-      index_in(LawList<Law...>)
+      // ------------------------------------------------------ parameters
+
+      /** Call action(law, parameters) if the material's law is this one. */
+      template <int slot, typename Action>
+      CAISSON_INLINE void
+      with_slot(const Material &material, const Action &action)
       {
-        int index = 0, found = -1;
-        ((__is_same(Wanted, Law) ? (found = index++) : index++), ...);
-        return found;
+        if constexpr (SlotNumber<slot>::is_taken)
+          if (material.law == slot)
+            {
+              using Law = typename SlotNumber<slot>::Law;
+              action(Law(),
+                     reinterpret_cast<const typename Law::Parameters &>(
+                       material.parameters));
+            }
       }
 
-      /** Material::law of a law. */
-      template <typename Law>
-      constexpr int law_id = index_in<Law>(Laws());
-
-      template <typename Action, typename... Law>
+      template <typename Action, int... slot>
       CAISSON_INLINE void
-      with_law_of(const Material &material,
-                  const Action   &action,
-                  LawList<Law...>)
+      with_law(const Material &material,
+               const Action   &action,
+               SlotList<slot...>)
       {
-        (void)((material.law == law_id<Law> ?
-                  (action(Law(),
-                          reinterpret_cast<const typename Law::Parameters &>(
-                            material.parameters)),
-                   true) :
-                  false) ||
-               ...);
+        (with_slot<slot>(material, action), ...);
       }
 
       /** Call action(law, parameters) with the law of the material. */
@@ -58,19 +65,184 @@ namespace CaissonMPM
       CAISSON_INLINE void
       with_law(const Material &material, const Action &action)
       {
-        with_law_of(material, action, Laws());
+        with_law(material, action, Slots());
       }
 
-      /** Write the parameters of a law into a material. */
+      template <typename Law, int... slot>
+      constexpr int
+      slot_of(SlotList<slot...>)
+      {
+        int result = -1;
+        ((__is_same(Law, typename LawSlot<slot>::type) ? (void)(result = slot) :
+                                                         (void)0),
+         ...);
+        return result;
+      }
+
+      /** Material::law of a law. */
+      template <typename Law>
+      constexpr int law_id = slot_of<Law>(Slots());
+
+      /** Write a law and its parameters into a material. */
       template <typename Law>
       inline void
       set_law(Material &material, const typename Law::Parameters &parameters)
       {
         static_assert(sizeof(parameters) <= sizeof(material.parameters),
-                      "enlarge Material::parameters");
+                      "enlarge Material::parameters (layout.h)");
         material.law = law_id<Law>;
         __builtin_memcpy(material.parameters, &parameters, sizeof(parameters));
       }
+
+      // ------------------------------------------------------ descriptions
+
+      /** A law for code that is not compiled for each law. */
+      struct LawDescription
+      {
+        const char     *name; // null: the slot is free
+        const LawEntry *entries;
+        int             n_entries;
+        int             friction_entry;
+        bool            stiffness_varies;
+
+        /** Whether the values fit together; if not, why. */
+        bool (*check)(const double *values, const LawContext &, LawMessage &);
+
+        /** Write the law and its parameters into the material. */
+        void (*set)(Material &, const double *values);
+
+        double (*earth_pressure_at_rest)(const Material &);
+
+        /** @p stress: rr, zz, tt, rz. Units: Pa. */
+        double (*p_wave_modulus)(const Material &,
+                                 const double *stress,
+                                 const double  void_ratio);
+
+        /** The variables of a point at the start [n_state_variables]. */
+        void (*start)(const Material &, double *variable);
+      };
+
+      /** The functions of a description. */
+      template <int slot>
+      struct LawFunctions
+      {
+        using Law        = typename SlotNumber<slot>::Law;
+        using Parameters = typename Law::Parameters;
+
+        static_assert(Law::n_state <= n_state_variables,
+                      "enlarge n_state_variables (layout.h)");
+
+        static const Parameters &
+        parameters(const Material &material)
+        {
+          return reinterpret_cast<const Parameters &>(material.parameters);
+        }
+
+        static void
+        set(Material &material, const double *values)
+        {
+          set_law<Law>(material, Law::make(values));
+        }
+
+        static double
+        earth_pressure_at_rest(const Material &material)
+        {
+          return Law::earth_pressure_at_rest(parameters(material));
+        }
+
+        static double
+        p_wave_modulus(const Material &material,
+                       const double   *stress,
+                       const double    void_ratio)
+        {
+          return Law::p_wave_modulus(
+            {stress[0], stress[1], stress[2], stress[3]},
+            void_ratio,
+            parameters(material));
+        }
+
+        static void
+        start(const Material &material, double *variable)
+        {
+          (void)material;
+          for (int i = 0; i < n_state_variables; ++i)
+            variable[i] = 0.;
+          if constexpr (Law::n_state > 0)
+            Law::start(parameters(material), variable);
+        }
+      };
+
+      template <int slot>
+      constexpr LawDescription
+      describe()
+      {
+        if constexpr (SlotNumber<slot>::is_taken)
+          {
+            using Law = typename SlotNumber<slot>::Law;
+            using F   = LawFunctions<slot>;
+            return {Law::name,
+                    Law::entries,
+                    sizeof(Law::entries) / sizeof(LawEntry),
+                    Law::friction_entry,
+                    Law::stiffness_varies,
+                    &Law::check,
+                    &F::set,
+                    &F::earth_pressure_at_rest,
+                    &F::p_wave_modulus,
+                    &F::start};
+          }
+        else
+          return {};
+      }
+
+      /** All slots, the free ones without a name. */
+      template <int n>
+      struct LawTable
+      {
+        LawDescription law[n];
+      };
+
+      template <int... slot>
+      constexpr LawTable<sizeof...(slot)>
+      describe_all(SlotList<slot...>)
+      {
+        return {{describe<slot>()...}};
+      }
+
+      inline constexpr LawTable law_table = describe_all(Slots());
+
+      // ------------------------------------------------------ shared entries
+
+      constexpr bool
+      same_text(const char *a, const char *b)
+      {
+        for (; *a == *b; ++a, ++b)
+          if (*a == 0)
+            return true;
+        return false;
+      }
+
+      /** Whether entries of the same name are the same in all laws. */
+      template <int n>
+      constexpr bool
+      entries_agree(const LawTable<n> &table)
+      {
+        for (const LawDescription &a : table.law)
+          for (const LawDescription &b : table.law)
+            for (int i = 0; i < a.n_entries; ++i)
+              for (int j = 0; j < b.n_entries; ++j)
+                {
+                  const LawEntry &x = a.entries[i], &y = b.entries[j];
+                  if (same_text(x.name, y.name) &&
+                      !(same_text(x.text, y.text) && x.value == y.value &&
+                        x.smallest == y.smallest && x.largest == y.largest))
+                    return false;
+                }
+        return true;
+      }
+
+      static_assert(entries_agree(law_table),
+                    "two laws have different entries of the same name");
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels
 } // namespace CaissonMPM

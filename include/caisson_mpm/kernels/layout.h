@@ -21,6 +21,9 @@ namespace CaissonMPM
   {
     constexpr int block_size = 8;
 
+    /** What a material law may keep of a point besides its plastic strains. */
+    constexpr int n_state_variables = 2;
+
     /** The state of up to eight MPs. SI units; volume and mass per radian. */
     struct alignas(64) PointBlock
     {
@@ -30,6 +33,7 @@ namespace CaissonMPM
       double stress[4][block_size];
       double mass[block_size], volume[block_size];
       double plastic_deviatoric[block_size], plastic_volumetric[block_size];
+      double state[n_state_variables][block_size]; // of the law
       // read only during a step
       double initial_r[block_size], initial_z[block_size];
       double initial_volume[block_size];
@@ -72,7 +76,8 @@ namespace CaissonMPM
     {
       int    law;
       double body_force[2];  // acceleration of the scaled mass (m/s2)
-      double p_wave_modulus; // lambda + 2 mu (Pa)
+      double p_wave_modulus; // lambda + 2 mu, the largest of all points (Pa)
+      double initial_void_ratio;
       alignas(16) unsigned char parameters[256];
     };
 

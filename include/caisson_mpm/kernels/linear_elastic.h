@@ -9,7 +9,7 @@
 #ifndef caisson_mpm_kernels_linear_elastic_h
 #define caisson_mpm_kernels_linear_elastic_h
 
-#include <caisson_mpm/kernels/stress_state.h>
+#include <caisson_mpm/kernels/material_law.h>
 
 namespace CaissonMPM
 {
@@ -19,6 +19,13 @@ namespace CaissonMPM
     {
       struct LinearElastic
       {
+        static constexpr const char *name           = "linear elastic";
+        static constexpr LawEntry    entries[]      = {Entries::youngs_modulus,
+                                                       Entries::poisson_ratio};
+        static constexpr int         friction_entry = -1, n_state = 0;
+        static constexpr bool        uses_void_ratio  = false;
+        static constexpr bool        stiffness_varies = false;
+
         struct Parameters
         {
           /** Lame's constants. Units: Pa. */
@@ -38,20 +45,49 @@ namespace CaissonMPM
           }
         };
 
-        /**
-         * Advance @p sigma by the strain increment @p de. The plastic strains
-         * stay as they are: they are here so that all laws are called alike.
-         */
+        static Parameters
+        make(const double *values)
+        {
+          return Parameters::make(values[0], values[1]);
+        }
+
+        static bool
+        check(const double * /*values*/, const LawContext &, LawMessage &)
+        {
+          return true;
+        }
+
+        /** nu / (1 - nu). */
+        static double
+        earth_pressure_at_rest(const Parameters &p)
+        {
+          return p.lambda / (p.lambda + 2. * p.mu);
+        }
+
+        static double
+        p_wave_modulus(const StressState<Lanes<1>> & /*stress*/,
+                       const double /*void_ratio*/,
+                       const Parameters &p)
+        {
+          return p.lambda + 2. * p.mu;
+        }
+
+        /** Advance @p sigma by the strain increment @p de. */
         template <typename Number>
         static CAISSON_INLINE void
         update(StressState<Number>           &sigma,
                const StrainIncrement<Number> &de,
-               Number & /*plastic_strain_deviatoric*/,
-               Number & /*plastic_strain_volumetric*/,
+               LawState<Number> & /*state*/,
                const Parameters &parameters)
         {
           add_elastic_increment(sigma, de, parameters.lambda, parameters.mu);
         }
+      };
+
+      template <>
+      struct LawSlot<0>
+      {
+        using type = LinearElastic;
       };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

@@ -51,7 +51,7 @@
 #ifndef caisson_mpm_kernels_mohr_coulomb_h
 #define caisson_mpm_kernels_mohr_coulomb_h
 
-#include <caisson_mpm/kernels/stress_state.h>
+#include <caisson_mpm/kernels/material_law.h>
 
 namespace CaissonMPM
 {
@@ -59,40 +59,138 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
+      /** Elastic constants of Mohr-Coulomb. Units: Pa, poisson: none. */
+      struct MohrCoulombElasticity
+      {
+        double lambda, mu, bulk, poisson;
+
+        /** nu / (1 - nu), the elastic earth pressure at rest. */
+        double oedometric;
+
+        /** From Young's modulus [Pa], > 0, and 0 <= nu < 1/2. */
+        static MohrCoulombElasticity
+        make(const double E, const double nu)
+        {
+          return {E * nu / ((1. + nu) * (1. - 2. * nu)),
+                  0.5 * E / (1. + nu),
+                  E / (3. * (1. - 2. * nu)),
+                  nu,
+                  nu / (1. - nu)};
+        }
+      };
+
+      /**
+       * The strength and what follows from it. Real is double where all MPs
+       * share it, or a number of lanes where each has its own.
+       */
+      template <typename Real>
+      struct MohrCoulombStrength
+      {
+        Real sin_phi, cos_phi, sin_psi;
+
+        /** Units: Pa. */
+        Real cohesion;
+
+        /** T, the largest tensile stress that is admissible. Units: Pa. */
+        Real tension_cutoff;
+
+        /** t, where the cone meets the cut-off: f(T, t) = 0. Units: Pa. */
+        Real minor_at_cutoff;
+
+        /**
+         * D times the flow direction of the plane (s1, s3), by component,
+         * and the averages of two of them, which the edges need. Units: Pa.
+         */
+        Real flow_major, flow_middle, flow_minor;
+        Real flow_major_edge, flow_minor_edge;
+
+        /** 1 / (grad f . D . flow direction). Units: 1/Pa. */
+        Real inverse_plane, inverse_major_edge, inverse_minor_edge;
+
+        /** The sines and cosines suit 0 <= psi <= phi < pi/2. */
+        static CAISSON_INLINE MohrCoulombStrength
+        make(const MohrCoulombElasticity &elastic,
+             const Real                   sin_phi,
+             const Real                   cos_phi,
+             const Real                   sin_psi,
+             const Real                   cohesion,
+             const double                 tension);
+      };
+
+      /**
+       * The return of elastic trial stresses. Strength is a
+       * MohrCoulombStrength of double or of Number.
+       */
+      template <typename Number, typename Strength>
+      struct MohrCoulombReturn
+      {
+        using Mask   = typename Number::Mask;
+        using Stress = PrincipalStresses<Number>;
+
+        /**
+         * Advance @p sigma, the old stress rotated with the material, by the
+         * strain increment @p de. Add to plastic_deviatoric the equivalent
+         * sqrt(2/3 e:e) of the deviator e of the plastic strain increment, and
+         * to plastic_volumetric its trace.
+         */
+        static CAISSON_INLINE void
+        update(StressState<Number>           &sigma,
+               const StrainIncrement<Number> &de,
+               LawState<Number>              &state,
+               const MohrCoulombElasticity   &elastic,
+               const Strength                &strength);
+
+      private:
+        /** f of the major and the minor stress. Units: Pa. */
+        static CAISSON_INLINE Number
+        yield_function(const Number    major,
+                       const Number    minor,
+                       const Strength &s)
+        {
+          return (1. + s.sin_phi) * major - (1. - s.sin_phi) * minor -
+                 2. * s.cohesion * s.cos_phi;
+        }
+
+        /** Step 1 of the file's head. Admissible stresses do not change. */
+        static CAISSON_INLINE Stress
+        to_cone(const Stress &trial, const Number yield, const Strength &);
+
+        /** Steps 2 and 3, for trial stresses that step 1 leaves above T. */
+        static CAISSON_INLINE Stress
+        to_cutoff(const Stress                &trial,
+                  const MohrCoulombElasticity &elastic,
+                  const Strength              &strength);
+
+        /** Add the plastic strain that took @p trial to @p final_stress. */
+        static CAISSON_INLINE void
+        accumulate(LawState<Number>            &state,
+                   const Stress                &trial,
+                   const Stress                &final_stress,
+                   const MohrCoulombElasticity &elastic);
+      };
+
+
+
       struct MohrCoulomb
       {
+        static constexpr const char *name           = "Mohr-Coulomb";
+        static constexpr LawEntry    entries[]      = {Entries::youngs_modulus,
+                                                       Entries::poisson_ratio,
+                                                       Entries::friction_angle,
+                                                       Entries::dilatancy_angle,
+                                                       Entries::cohesion,
+                                                       Entries::tension_cutoff};
+        static constexpr int         friction_entry = 2, n_state = 0;
+        static constexpr bool        uses_void_ratio  = false;
+        static constexpr bool        stiffness_varies = false;
+
         /** The largest tension_cutoff; larger values mean no cut-off. */
         static constexpr double no_cutoff = 1e30;
 
-        /** The law's constants and what follows from them, made by make(). */
         struct Parameters
         {
-          /** Elastic constants. Units: Pa, poisson: none. */
-          double lambda, mu, bulk, poisson;
-
-          double sin_phi, cos_phi, sin_psi;
-
-          /** Units: Pa. */
-          double cohesion;
-
-          /** T, the largest tensile stress that is admissible. Units: Pa. */
-          double tension_cutoff;
-
-          /** t, where the cone meets the cut-off: f(T, t) = 0. Units: Pa. */
-          double minor_at_cutoff;
-
-          /**
-           * D times the flow direction of the plane (s1, s3), by component,
-           * and the averages of two of them, which the edges need. Units: Pa.
-           */
-          double flow_major, flow_middle, flow_minor;
-          double flow_major_edge, flow_minor_edge;
-
-          /** 1 / (grad f . D . flow direction). Units: 1/Pa. */
-          double inverse_plane, inverse_major_edge, inverse_minor_edge;
-
-          /** nu / (1 - nu), the elastic earth pressure at rest. */
-          double oedometric;
+          MohrCoulombElasticity       elastic;
+          MohrCoulombStrength<double> strength;
 
           /**
            * @param E       Young's modulus, > 0. Units: Pa.
@@ -109,94 +207,181 @@ namespace CaissonMPM
                const double phi,
                const double psi,
                const double cohesion,
-               const double tension);
+               const double tension)
+          {
+            Parameters p;
+            p.elastic  = MohrCoulombElasticity::make(E, nu);
+            p.strength = MohrCoulombStrength<double>::make(p.elastic,
+                                                           __builtin_sin(phi),
+                                                           __builtin_cos(phi),
+                                                           __builtin_sin(psi),
+                                                           cohesion,
+                                                           tension);
+            return p;
+          }
         };
 
-        /**
-         * Advance @p sigma, the old stress rotated with the material, by the
-         * strain increment @p de. Add to @p plastic_strain_deviatoric the
-         * equivalent sqrt(2/3 e:e) of the deviator e of the plastic strain
-         * increment, and to @p plastic_strain_volumetric its trace.
-         */
+        static Parameters
+        make(const double *values)
+        {
+          return Parameters::make(values[0],
+                                  values[1],
+                                  values[2] * radians_per_degree,
+                                  values[3] * radians_per_degree,
+                                  values[4],
+                                  values[5]);
+        }
+
+        static bool
+        check(const double *values, const LawContext &, LawMessage &);
+
+        /** 1 - sin phi (Jaky). */
+        static double
+        earth_pressure_at_rest(const Parameters &p)
+        {
+          return 1. - p.strength.sin_phi;
+        }
+
+        static double
+        p_wave_modulus(const StressState<Lanes<1>> & /*stress*/,
+                       const double /*void_ratio*/,
+                       const Parameters &p)
+        {
+          return p.elastic.lambda + 2. * p.elastic.mu;
+        }
+
         template <typename Number>
         static CAISSON_INLINE void
         update(StressState<Number>           &sigma,
                const StrainIncrement<Number> &de,
-               Number                        &plastic_strain_deviatoric,
-               Number                        &plastic_strain_volumetric,
-               const Parameters              &parameters);
-
-      private:
-        /** f of the major and the minor stress. Units: Pa. */
-        template <typename Number>
-        static CAISSON_INLINE Number
-        yield_function(const Number      major,
-                       const Number      minor,
-                       const Parameters &p)
+               LawState<Number>              &state,
+               const Parameters              &p)
         {
-          return (1. + p.sin_phi) * major - (1. - p.sin_phi) * minor -
-                 2. * p.cohesion * p.cos_phi;
+          MohrCoulombReturn<Number, MohrCoulombStrength<double>>::update(
+            sigma, de, state, p.elastic, p.strength);
         }
+      };
 
-        /** Step 1 of the file's head. Admissible stresses do not change. */
-        template <typename Number>
-        static CAISSON_INLINE PrincipalStresses<Number>
-        return_to_cone(const PrincipalStresses<Number> &trial,
-                       const Number                     yield,
-                       const Parameters                &parameters);
-
-        /** Steps 2 and 3, for trial stresses that step 1 leaves above T. */
-        template <typename Number>
-        static CAISSON_INLINE PrincipalStresses<Number>
-        return_to_cutoff(const PrincipalStresses<Number> &trial,
-                         const Parameters                &parameters);
-
-        /** Add the plastic strain that took @p trial to @p final_stress. */
-        template <typename Number>
-        static CAISSON_INLINE void
-        accumulate(Number                          &plastic_strain_deviatoric,
-                   Number                          &plastic_strain_volumetric,
-                   const PrincipalStresses<Number> &trial,
-                   const PrincipalStresses<Number> &final_stress,
-                   const Parameters                &parameters);
+      template <>
+      struct LawSlot<1>
+      {
+        using type = MohrCoulomb;
       };
 
 
 
-      inline MohrCoulomb::Parameters
-      MohrCoulomb::Parameters::make(const double E,
-                                    const double nu,
-                                    const double phi,
-                                    const double psi,
-                                    const double cohesion,
-                                    const double tension)
+      /** What check() of a law with these three entries looks at. */
+      inline bool
+      check_strength(const double      friction,
+                     const double      dilatancy,
+                     const double      cohesion,
+                     const LawContext &context,
+                     LawMessage       &message)
       {
-        Parameters p;
-        p.lambda     = E * nu / ((1. + nu) * (1. - 2. * nu));
-        p.mu         = 0.5 * E / (1. + nu);
-        p.bulk       = E / (3. * (1. - 2. * nu));
-        p.poisson    = nu;
-        p.oedometric = nu / (1. - nu);
-        p.sin_phi    = __builtin_sin(phi);
-        p.cos_phi    = __builtin_cos(phi);
-        p.sin_psi    = __builtin_sin(psi);
-        p.cohesion   = cohesion;
+        if (dilatancy > friction)
+          {
+            __builtin_snprintf(
+              message.text,
+              sizeof(message.text),
+              "Dilatancy angle = %f exceeds Friction angle = %f degrees: "
+              "plastic flow would create energy. Lower the dilatancy angle.",
+              dilatancy,
+              friction);
+            return false;
+          }
+        const double s       = __builtin_sin(friction * radians_per_degree);
+        const double passive = (1. + s) / (1. - s); // largest stress ratio
+        const double k       = context.earth_pressure_at_rest;
+        if (cohesion == 0. &&
+            (k > passive * (1. + 1e-9) || k < (1. - 1e-9) / passive))
+          {
+            __builtin_snprintf(
+              message.text,
+              sizeof(message.text),
+              "K0 = %f lies outside what Friction angle = %f degrees without "
+              "cohesion can carry (%f to %f). Change one of them.",
+              k,
+              friction,
+              1. / passive,
+              passive);
+            return false;
+          }
+        return true;
+      }
 
-        const double s = p.sin_phi, c = cohesion * p.cos_phi;
+      inline bool
+      MohrCoulomb::check(const double     *values,
+                         const LawContext &context,
+                         LawMessage       &message)
+      {
+        return check_strength(
+          values[2], values[3], values[4], context, message);
+      }
+
+
+
+      CAISSON_INLINE double
+      smaller(const double a, const double b)
+      {
+        return a < b ? a : b;
+      }
+
+      template <int n>
+      CAISSON_INLINE Lanes<n>
+                     smaller(const Lanes<n> a, const Lanes<n> b)
+      {
+        return min(a, b);
+      }
+
+      /** min(c / s, no_cutoff) without a division by s = 0. */
+      CAISSON_INLINE double
+      apex_of(const double c, const double s)
+      {
+        constexpr double no_cutoff = MohrCoulomb::no_cutoff;
+        return c < no_cutoff * s ? c / s : no_cutoff;
+      }
+
+      template <int n>
+      CAISSON_INLINE Lanes<n>
+                     apex_of(const Lanes<n> c, const Lanes<n> s)
+      {
+        const Lanes<n> no_cutoff(MohrCoulomb::no_cutoff);
+        const auto     exists = c < no_cutoff * s;
+        return select(exists, c / select(exists, s, Lanes<n>(1.)), no_cutoff);
+      }
+
+      template <typename Real>
+      CAISSON_INLINE MohrCoulombStrength<Real>
+      MohrCoulombStrength<Real>::make(const MohrCoulombElasticity &elastic,
+                                      const Real                   sin_phi,
+                                      const Real                   cos_phi,
+                                      const Real                   sin_psi,
+                                      const Real                   cohesion,
+                                      const double                 tension)
+      {
+        MohrCoulombStrength p;
+        p.sin_phi  = sin_phi;
+        p.cos_phi  = cos_phi;
+        p.sin_psi  = sin_psi;
+        p.cohesion = cohesion;
+
+        const Real s = sin_phi, c = cohesion * cos_phi;
         // c cot phi without a division by sin phi = 0
-        const double apex = c < no_cutoff * s ? c / s : no_cutoff;
-        p.tension_cutoff  = tension < apex ? tension : apex;
-        const double t    = ((1. + s) * p.tension_cutoff - 2. * c) / (1. - s);
-        p.minor_at_cutoff = t < p.tension_cutoff ? t : p.tension_cutoff;
+        const Real apex   = apex_of(c, s);
+        p.tension_cutoff  = smaller(Real(tension), apex);
+        const Real t      = ((1. + s) * p.tension_cutoff - 2. * c) / (1. - s);
+        p.minor_at_cutoff = smaller(t, p.tension_cutoff);
 
-        const double trace = 2. * p.sin_psi;
-        p.flow_major       = p.lambda * trace + 2. * p.mu * (1. + p.sin_psi);
-        p.flow_middle      = p.lambda * trace;
-        p.flow_minor       = p.lambda * trace - 2. * p.mu * (1. - p.sin_psi);
-        p.flow_major_edge  = 0.5 * (p.flow_major + p.flow_middle);
-        p.flow_minor_edge  = 0.5 * (p.flow_middle + p.flow_minor);
+        const Real trace = 2. * sin_psi;
+        p.flow_major =
+          elastic.lambda * trace + 2. * elastic.mu * (1. + sin_psi);
+        p.flow_middle = elastic.lambda * trace;
+        p.flow_minor =
+          elastic.lambda * trace - 2. * elastic.mu * (1. - sin_psi);
+        p.flow_major_edge = 0.5 * (p.flow_major + p.flow_middle);
+        p.flow_minor_edge = 0.5 * (p.flow_middle + p.flow_minor);
 
-        const auto inverse = [s](const double major, const double minor) {
+        const auto inverse = [s](const Real major, const Real minor) {
           return 1. / ((1. + s) * major - (1. - s) * minor);
         };
         p.inverse_plane      = inverse(p.flow_major, p.flow_minor);
@@ -207,47 +392,41 @@ namespace CaissonMPM
 
 
 
-      template <typename Number>
+      template <typename Number, typename Strength>
       CAISSON_INLINE void
-      MohrCoulomb::update(StressState<Number>           &sigma,
-                          const StrainIncrement<Number> &de,
-                          Number           &plastic_strain_deviatoric,
-                          Number           &plastic_strain_volumetric,
-                          const Parameters &parameters)
+      MohrCoulombReturn<Number, Strength>::update(
+        StressState<Number>           &sigma,
+        const StrainIncrement<Number> &de,
+        LawState<Number>              &state,
+        const MohrCoulombElasticity   &elastic,
+        const Strength                &strength)
       {
-        add_elastic_increment(sigma, de, parameters.lambda, parameters.mu);
+        add_elastic_increment(sigma, de, elastic.lambda, elastic.mu);
 
-        const PrincipalFrame<Number>    frame(sigma);
-        const PrincipalStresses<Number> trial = frame.principal_stresses();
-        const Number                    yield =
-          yield_function(trial.major, trial.minor, parameters);
-        const Number cutoff(parameters.tension_cutoff);
+        const PrincipalFrame<Number> frame(sigma);
+        const Stress                 trial = frame.principal_stresses();
+        const Number yield = yield_function(trial.major, trial.minor, strength);
+        const Number cutoff(strength.tension_cutoff);
         if (!any((yield > Number(0.)) | (trial.major > cutoff)))
           return;
 
-        PrincipalStresses<Number> s = return_to_cone(trial, yield, parameters);
-        const typename Number::Mask torn = s.major > cutoff;
+        Stress     s    = to_cone(trial, yield, strength);
+        const Mask torn = s.major > cutoff;
         if (any(torn))
-          s = select(torn, return_to_cutoff(trial, parameters), s);
+          s = select(torn, to_cutoff(trial, elastic, strength), s);
 
-        accumulate(plastic_strain_deviatoric,
-                   plastic_strain_volumetric,
-                   trial,
-                   s,
-                   parameters);
+        accumulate(state, trial, s, elastic);
         sigma = frame.with_principal_stresses(s);
       }
 
 
 
-      template <typename Number>
+      template <typename Number, typename Strength>
       CAISSON_INLINE PrincipalStresses<Number>
-      MohrCoulomb::return_to_cone(const PrincipalStresses<Number> &trial,
-                                  const Number                     yield,
-                                  const Parameters                &p)
+      MohrCoulombReturn<Number, Strength>::to_cone(const Stress   &trial,
+                                                   const Number    yield,
+                                                   const Strength &p)
       {
-        using Mask = typename Number::Mask;
-
         const Number on_plane = max(yield, Number(0.)) * p.inverse_plane;
         const Number major    = trial.major - on_plane * p.flow_major;
         const Number middle   = trial.middle - on_plane * p.flow_middle;
@@ -274,38 +453,39 @@ namespace CaissonMPM
           trial_minor - on_edge * select(minor_edge,
                                          Number(p.flow_minor_edge),
                                          Number(p.flow_minor));
-        return select(
-          major_edge | minor_edge,
-          PrincipalStresses<Number>{edge_major,
-                                    select(major_edge, edge_major, edge_minor),
-                                    edge_minor},
-          PrincipalStresses<Number>{major, middle, minor});
+        return select(major_edge | minor_edge,
+                      Stress{edge_major,
+                             select(major_edge, edge_major, edge_minor),
+                             edge_minor},
+                      Stress{major, middle, minor});
       }
 
 
 
-      template <typename Number>
+      template <typename Number, typename Strength>
       CAISSON_INLINE PrincipalStresses<Number>
-      MohrCoulomb::return_to_cutoff(const PrincipalStresses<Number> &trial,
-                                    const Parameters                &p)
+                     MohrCoulombReturn<Number, Strength>::to_cutoff(
+        const Stress                &trial,
+        const MohrCoulombElasticity &elastic,
+        const Strength              &p)
       {
-        using Mask = typename Number::Mask;
-
         const Number T(p.tension_cutoff), t(p.minor_at_cutoff);
         const Number excess_major  = trial.major - T;
         const Number excess_middle = trial.middle - T;
 
         // on s1 = T alone, or on s1 = s2 = T
-        const Number plane_middle = trial.middle - p.oedometric * excess_major;
-        const Mask   edge         = plane_middle > T;
-        const Number fall         = select(edge,
-                                   p.poisson * (excess_major + excess_middle),
-                                   p.oedometric * excess_major);
-        const Number minor        = min(trial.minor - fall, T);
+        const Number plane_middle =
+          trial.middle - elastic.oedometric * excess_major;
+        const Mask   edge = plane_middle > T;
+        const Number fall =
+          select(edge,
+                 elastic.poisson * (excess_major + excess_middle),
+                 elastic.oedometric * excess_major);
+        const Number minor = min(trial.minor - fall, T);
 
         // on s1 = T and the cone
         const Number line_middle =
-          trial.middle - p.poisson * (excess_major + (trial.minor - t));
+          trial.middle - elastic.poisson * (excess_major + (trial.minor - t));
         const Mask on_cone = minor < t;
         return {T,
                 select(on_cone,
@@ -316,13 +496,13 @@ namespace CaissonMPM
 
 
 
-      template <typename Number>
+      template <typename Number, typename Strength>
       CAISSON_INLINE void
-      MohrCoulomb::accumulate(Number &plastic_strain_deviatoric,
-                              Number &plastic_strain_volumetric,
-                              const PrincipalStresses<Number> &trial,
-                              const PrincipalStresses<Number> &final_stress,
-                              const Parameters                &p)
+      MohrCoulombReturn<Number, Strength>::accumulate(
+        LawState<Number>            &state,
+        const Stress                &trial,
+        const Stress                &final_stress,
+        const MohrCoulombElasticity &elastic)
       {
         const Number major  = trial.major - final_stress.major;
         const Number middle = trial.middle - final_stress.middle;
@@ -332,8 +512,9 @@ namespace CaissonMPM
                               (middle - mean) * (middle - mean) +
                               (minor - mean) * (minor - mean);
         // sqrt(2/3 e:e) with e = deviator of the fall in stress / (2 mu)
-        plastic_strain_deviatoric += (0.5 / p.mu) * sqrt((2. / 3.) * square);
-        plastic_strain_volumetric += (1. / p.bulk) * mean;
+        state.plastic_deviatoric +=
+          (0.5 / elastic.mu) * sqrt((2. / 3.) * square);
+        state.plastic_volumetric += (1. / elastic.bulk) * mean;
       }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

@@ -11,15 +11,20 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace CaissonMPM
 {
+  /** What a material law keeps of a point besides its plastic strains. */
+  using StateVariables = std::array<double, Kernels::n_state_variables>;
+
   /**
    * One layer of soil: what the user says of it, and what follows. The section
-   * of layer k is "Soil/Layer k".
+   * of layer k is "Soil/Layer k". It declares the entries of all material laws
+   * (kernels/laws.h) and hands those of the layer's own law on.
    */
   class SoilLayer : public dealii::ParameterAcceptor
   {
@@ -38,26 +43,49 @@ namespace CaissonMPM
     double
     earth_pressure_at_rest() const;
 
-    /** lambda + 2 mu. Units: Pa. */
+    /** The void ratio at the start. */
     double
-    p_wave_modulus() const;
+    void_ratio() const
+    {
+      return porosity / (1. - porosity);
+    }
+
+    /** The friction angle of the law (peak, critical). Units: degrees. */
+    double
+    friction_angle() const;
+
+    /** Whether the stiffness depends on stress or void ratio. */
+    bool
+    stiffness_varies() const;
 
     /** Write the law and its parameters for the kernels. */
     void
     set_law(Kernels::Material &material) const;
 
-    double      top_depth       = 0.;
-    std::string law             = "Mohr-Coulomb";
-    double      youngs_modulus  = 5e6;
-    double      poisson_ratio   = 0.3;
-    double      friction_angle  = 30.;
-    double      dilatancy_angle = 0.;
-    double      cohesion        = 0.;
-    double      tension_cutoff  = 0.;
-    double      porosity        = 0.4;
-    double      solid_density   = 2500.;
-    double      k0              = -1.;
+    /** The law's variables of a point at the start. */
+    StateVariables
+    start_of_state() const;
+
+    double      top_depth     = 0.;
+    std::string law           = "Mohr-Coulomb";
+    double      porosity      = 0.4;
+    double      solid_density = 2500.;
+    double      k0            = -1.;
+
+    /** The entries of all laws by name, in the units of the entries. */
+    std::map<std::string, double> values;
+
+  private:
+    /** The values that the layer's law asks for, in its order. */
+    std::vector<double>
+    law_values() const;
   };
+
+  /** lambda + 2 mu of a material in this state. Units: Pa. */
+  double
+  p_wave_modulus(const Kernels::Material &material,
+                 const Stress            &stress,
+                 const double             void_ratio);
 
   /**
    * The soil profile below z = 0. Owns the layers; layer i is the material i of

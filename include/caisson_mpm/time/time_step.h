@@ -4,8 +4,9 @@
 //
 //   dt = C min over cells with points of 1 / (c sqrt(1/dr^2 + 1/dz^2)),
 //   c = sqrt((lambda + 2 mu) / (s rho)) of the layer where it is largest,
-// C the Courant number, s the mass scaling. Mass scaling enters inertia only:
-// weight and friction are those of the real soil.
+// C the Courant number, s the mass scaling. Where the stiffness depends on
+// stress and void ratio, it is the largest of all points of a layer. Mass
+// scaling enters inertia only: weight and friction are those of the real soil.
 #ifndef caisson_mpm_time_time_step_h
 #define caisson_mpm_time_time_step_h
 
@@ -16,6 +17,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <string>
+#include <vector>
 
 namespace CaissonMPM
 {
@@ -26,12 +28,14 @@ namespace CaissonMPM
 
     /**
      * The step of the current geometry. The limit is found anew every few
-     * steps only: the mesh moves slowly.
+     * steps only: the mesh moves slowly. So is the p-wave modulus of
+     * @p materials whose stiffness varies, with a margin for the steps between.
      */
     double
-    choose(const BackgroundGrid &grid,
-           MaterialPoints       &points,
-           const Soil           &soil);
+    choose(const BackgroundGrid           &grid,
+           MaterialPoints                 &points,
+           const Soil                     &soil,
+           std::vector<Kernels::Material> &materials);
 
     /** The cell that limits the step, in words. */
     const std::string &
@@ -44,9 +48,14 @@ namespace CaissonMPM
 
   private:
     void
-    find_limit(const BackgroundGrid &grid,
-               MaterialPoints       &points,
-               const Soil           &soil);
+    find_moduli(const MaterialPoints           &points,
+                const Soil                     &soil,
+                std::vector<Kernels::Material> &materials);
+    void
+    find_limit(const BackgroundGrid                 &grid,
+               MaterialPoints                       &points,
+               const Soil                           &soil,
+               const std::vector<Kernels::Material> &materials);
 
     double       courant    = 0.5;
     double       fixed_step = 0.;

@@ -1,0 +1,510 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Hypoplastic sand of von Wolffersdorff (1996): a rate equation without a yield
+// surface, in which strength, dilatancy and stiffness follow from the effective
+// stress T and the void ratio e. With D the strain increment,
+//
+//   dT = f_b f_e / tr(S S) [F^2 D + a^2 S tr(S D) + f_d a F (S + S*) |D|],
+//   S = T / tr T,   S* = S - 1/3,
+//   a = sqrt(3) (3 - sin phi_c) / (2 sqrt(2) sin phi_c),
+//   F = sqrt(t^2/8 + (2 - t^2) / (2 + sqrt(2) t cos 3theta)) - t / (2 sqrt 2),
+//   t = sqrt(3) |S*|,   cos 3theta = -sqrt(6) tr(S* S* S*) / |S*|^3,
+//   f_d = ((e - e_d) / (e_c - e_d))^alpha,   f_e = (e_c / e)^beta,
+//   f_b = h_s/n (e_i0/e_c0)^beta (1 + e_i)/e_i (3p/h_s)^(1-n)
+//         / [3 + a^2 - a sqrt(3) ((e_i0 - e_d0) / (e_c0 - e_d0))^alpha],
+//   e_i / e_i0 = e_c / e_c0 = e_d / e_d0 = exp(-(3p/h_s)^n)   (Bauer 1996),
+//
+// p = -tr T / 3. F is the stress criterion of Matsuoka & Nakai. What bounds the
+// law where it has no meaning:
+//
+// - T = sigma - p_t I with p_t = "Smallest mean stress": a small apparent
+//   cohesion p_t tan(phi), with which soil at a free surface keeps a stiffness.
+//   Where p falls below p_t the soil has parted, and sigma is set to 0 there.
+// - No principal value of S is less than 1/50; the deviator is reduced to that.
+// - e below e_d has f_d = 0, and e above e_i counts as e_i.
+//
+// The step is integrated by pairs of Euler and Heun of first and second order
+// with substeps chosen lane by lane, so that the difference of both stays below
+// a tolerance times the stress (Sloan 1987); the void ratio grows with tr D.
+// The rate is homogeneous in D: time steps have no meaning here.
+//
+// There are no plastic strains. plastic_deviatoric and plastic_volumetric keep
+// the accumulated sqrt(2/3 D*:D*) and tr D of the total strain.
+//
+// References:
+//   P.-A. von Wolffersdorff (1996), A hypoplastic relation for granular
+//     materials with a predefined limit state surface. Mech. Cohes.-Frict.
+//     Mater. 1, 251-271. doi:10.1002/(SICI)1099-1484(199607)1:3<251::AID-CFM13>
+//     3.0.CO;2-3
+//   E. Bauer (1996), Calibration of a comprehensive hypoplastic model for
+//     granular materials. Soils Found. 36(1), 13-26.
+//     doi:10.3208/sandf.36.13
+//   G. Gudehus (1996), A comprehensive constitutive equation for granular
+//     materials. Soils Found. 36(1), 1-12. doi:10.3208/sandf.36.1
+//   I. Herle, G. Gudehus (1999), Determination of parameters of a hypoplastic
+//     constitutive model from properties of grain assemblies. Mech. Cohes.-
+//     Frict. Mater. 4, 461-486. (The defaults are their Karlsruhe sand.)
+//   S.W. Sloan (1987), Substepping schemes for the numerical integration of
+//     elastoplastic stress-strain relations. Int. J. Numer. Meth. Engng 24,
+//     893-911. doi:10.1002/nme.1620240505
+#ifndef caisson_mpm_kernels_hypoplastic_h
+#define caisson_mpm_kernels_hypoplastic_h
+
+#include <caisson_mpm/kernels/material_law.h>
+#include <caisson_mpm/kernels/simd_math.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    inline namespace CAISSON_KERNEL_ISA
+    {
+      struct HypoplasticSand
+      {
+        static constexpr const char *name      = "hypoplastic sand";
+        static constexpr LawEntry    entries[] = {
+             {"Critical friction angle",
+              "Friction angle phi_c in the critical state (hypoplastic sand). "
+                 "Units: degrees.",
+              30.,
+              10.,
+              60.},
+             {"Granulate hardness",
+              "h_s of Bauer's law of compression (hypoplastic sand). Units: Pa.",
+              5.8e9,
+              1e5,
+              no_limit},
+             {"Compression exponent",
+              "n of Bauer's law of compression (hypoplastic sand). Units: none.",
+              0.28,
+              0.05,
+              0.95},
+             {"Densest void ratio",
+              "e_d0, the smallest void ratio at zero pressure (hypoplastic sand). "
+                 "Units: none.",
+              0.53,
+              0.01,
+              10.},
+             {"Critical void ratio",
+              "e_c0, the void ratio of the critical state at zero pressure "
+                 "(hypoplastic sand). Units: none.",
+              0.84,
+              0.01,
+              10.},
+             {"Loosest void ratio",
+              "e_i0, the largest void ratio at zero pressure (hypoplastic sand). "
+                 "Units: none.",
+              1.,
+              0.01,
+              10.},
+             {"Density exponent of strength",
+              "alpha, which sets the peak strength of dense sand (hypoplastic "
+                 "sand). Units: none.",
+              0.13,
+              0.,
+              1.},
+             {"Density exponent of stiffness",
+              "beta, which sets the stiffness of dense sand (hypoplastic sand). "
+                 "Units: none.",
+              1.05,
+              0.,
+              10.},
+             {"Smallest mean stress",
+              "p_t: the law sees the mean effective stress increased by this, and "
+                 "soil under tension beyond it parts (hypoplastic sand). Units: Pa.",
+              100.,
+              1.,
+              1e5}};
+        static constexpr int  friction_entry = 0, n_state = 0;
+        static constexpr bool uses_void_ratio  = true;
+        static constexpr bool stiffness_varies = true;
+
+        /** Of the substeps: relative error, smallest share of a step. */
+        static constexpr double tolerance = 1e-4, smallest_substep = 1e-3;
+
+        struct Parameters
+        {
+          double sin_phi, a, hardness, n, e_d0, e_c0, e_i0, alpha, beta;
+
+          /** p_t. Units: Pa. */
+          double shift;
+
+          /** What of f_b depends on neither stress nor e_i. Units: Pa. */
+          double stiffness;
+        };
+
+        static Parameters
+        make(const double *values)
+        {
+          Parameters p;
+          p.sin_phi = __builtin_sin(values[0] * radians_per_degree);
+          p.a       = __builtin_sqrt(3.) * (3. - p.sin_phi) /
+                (2. * __builtin_sqrt(2.) * p.sin_phi);
+          p.hardness  = values[1];
+          p.n         = values[2];
+          p.e_d0      = values[3];
+          p.e_c0      = values[4];
+          p.e_i0      = values[5];
+          p.alpha     = values[6];
+          p.beta      = values[7];
+          p.shift     = values[8];
+          p.stiffness = p.hardness / p.n *
+                        __builtin_pow(p.e_i0 / p.e_c0, p.beta) / denominator(p);
+          return p;
+        }
+
+        static bool
+        check(const double     *values,
+              const LawContext &context,
+              LawMessage       &message);
+
+        /** 1 - sin phi_c (Jaky). */
+        static double
+        earth_pressure_at_rest(const Parameters &p)
+        {
+          return 1. - p.sin_phi;
+        }
+
+        /**
+         * A bound of the stiffness rho c^2 of plane waves: for directions n
+         * and m, m.(dT/dD : m n).n is at most f_b f_e / tr(S S) (F^2 + a^2 s^2
+         * + f_d a F |2 s - 1/3|) with s the principal value of S that makes it
+         * largest.
+         */
+        static double
+        p_wave_modulus(const StressState<Lanes<1>> &stress,
+                       const double                 void_ratio,
+                       const Parameters            &parameters);
+
+        template <typename Number>
+        static CAISSON_INLINE void
+        update(StressState<Number>           &sigma,
+               const StrainIncrement<Number> &de,
+               LawState<Number>              &state,
+               const Parameters              &parameters);
+
+      private:
+        /** Stress and void ratio. */
+        template <typename Number>
+        struct State
+        {
+          StressState<Number> stress;
+          Number              void_ratio;
+        };
+
+        /** What the rate takes from stress and void ratio. */
+        template <typename Number>
+        struct Factors
+        {
+          StressState<Number> s; // S = T / tr T
+          Number              scale, F, f_d;
+        };
+
+        static double
+        denominator(const Parameters &p)
+        {
+          return 3. + p.a * p.a -
+                 p.a * __builtin_sqrt(3.) *
+                   __builtin_pow((p.e_i0 - p.e_d0) / (p.e_c0 - p.e_d0),
+                                 p.alpha);
+        }
+
+        template <typename Number>
+        static CAISSON_INLINE Number
+        product(const StressState<Number> &a, const StressState<Number> &b)
+        {
+          return a.rr * b.rr + a.zz * b.zz + a.tt * b.tt + 2. * (a.rz * b.rz);
+        }
+
+        template <typename Number>
+        static CAISSON_INLINE StressState<Number>
+                              sum(const StressState<Number> &a,
+                                  const Number               factor,
+                                  const StressState<Number> &b)
+        {
+          return {a.rr + factor * b.rr,
+                  a.zz + factor * b.zz,
+                  a.tt + factor * b.tt,
+                  a.rz + factor * b.rz};
+        }
+
+        /** @p T is the shifted stress, in bounds. */
+        template <typename Number>
+        static CAISSON_INLINE Factors<Number>
+                              factors(const StressState<Number> &T,
+                                      const Number               void_ratio,
+                                      const Parameters          &parameters);
+
+        /** The increments of shifted stress and void ratio for all of @p D. */
+        template <typename Number>
+        static CAISSON_INLINE State<Number>
+                              rate(const State<Number>       &at,
+                                   const StressState<Number> &D,
+                                   const Number               length,
+                                   const Parameters          &parameters);
+
+        /** Bring a shifted stress into the bounds of the file's head. */
+        template <typename Number>
+        static CAISSON_INLINE void
+        hold_in_bounds(State<Number> &state, const Parameters &parameters);
+      };
+
+      template <>
+      struct LawSlot<3>
+      {
+        using type = HypoplasticSand;
+      };
+
+
+
+      inline bool
+      HypoplasticSand::check(const double     *values,
+                             const LawContext &context,
+                             LawMessage       &message)
+      {
+        const double e_d = values[3], e_c = values[4], e_i = values[5];
+        if (!(e_d < e_c && e_c < e_i))
+          {
+            __builtin_snprintf(
+              message.text,
+              sizeof(message.text),
+              "Densest void ratio = %f, Critical void ratio = %f and Loosest "
+              "void ratio = %f must grow in this order. Correct them.",
+              e_d,
+              e_c,
+              e_i);
+            return false;
+          }
+        if (context.void_ratio < e_d || context.void_ratio > e_i)
+          {
+            __builtin_snprintf(
+              message.text,
+              sizeof(message.text),
+              "Porosity = %f, a void ratio of %f, lies outside Densest void "
+              "ratio = %f to Loosest void ratio = %f (porosities %f to %f). "
+              "Change one of them.",
+              context.void_ratio / (1. + context.void_ratio),
+              context.void_ratio,
+              e_d,
+              e_i,
+              e_d / (1. + e_d),
+              e_i / (1. + e_i));
+            return false;
+          }
+        if (!(denominator(make(values)) > 0.))
+          {
+            __builtin_snprintf(message.text,
+                               sizeof(message.text),
+                               "Density exponent of strength = %f leaves the "
+                               "loosest sand without stiffness. Lower it.",
+                               values[6]);
+            return false;
+          }
+        return true;
+      }
+
+
+
+      template <typename Number>
+      CAISSON_INLINE HypoplasticSand::Factors<Number>
+                     HypoplasticSand::factors(const StressState<Number> &T,
+                               const Number               void_ratio,
+                               const Parameters          &p)
+      {
+        const Number    third(1. / 3.);
+        const Number    trace   = T.rr + T.zz + T.tt;
+        const Number    inverse = Number(1.) / trace;
+        Factors<Number> f;
+        f.s = {T.rr * inverse, T.zz * inverse, T.tt * inverse, T.rz * inverse};
+
+        // the deviator: its length and its third invariant
+        const Number x = f.s.rr - third, y = f.s.zz - third, z = f.s.tt - third,
+                     w      = f.s.rz;
+        const Number square = x * x + y * y + z * z + 2. * (w * w);
+        // tr(S* S* S*) = 3 det(S*)
+        const Number cubic      = 3. * (z * (x * y - w * w));
+        const Number length     = sqrt(square);
+        const Number cos_3theta = max(min(Number(-2.449489742783178) * cubic /
+                                            max(square * length, Number(1e-30)),
+                                          Number(1.)),
+                                      Number(-1.));
+        const Number t          = 1.7320508075688772 * length;
+        const Number radicand =
+          0.125 * (t * t) +
+          (2. - t * t) / (2. + 1.4142135623730951 * t * cos_3theta);
+        f.F = sqrt(max(radicand, Number(0.))) - 0.35355339059327373 * t;
+
+        // pressure and density
+        const Number pressure = -trace * (1. / p.hardness); // 3 p / h_s
+        const Number power    = pow(pressure, p.n);
+        const Number bauer    = exp(-power);
+        const Number e_i      = p.e_i0 * bauer;
+        const Number e        = max(min(void_ratio, e_i), Number(.5 * p.e_d0));
+        const Number e_d      = p.e_d0 * bauer;
+        const Number excess =
+          max(e - e_d, Number(0.)) / ((p.e_c0 - p.e_d0) * bauer);
+        f.f_d            = select(excess > Number(0.),
+                       pow(max(excess, Number(1e-30)), p.alpha),
+                       Number(0.));
+        const Number f_e = pow(p.e_c0 * bauer / e, p.beta);
+        f.scale = p.stiffness * f_e * (1. + e_i) / e_i * (pressure / power) /
+                  product(f.s, f.s);
+        return f;
+      }
+
+
+
+      template <typename Number>
+      CAISSON_INLINE HypoplasticSand::State<Number>
+                     HypoplasticSand::rate(const State<Number>       &at,
+                            const StressState<Number> &D,
+                            const Number               length,
+                            const Parameters          &p)
+      {
+        const Factors<Number> f    = factors(at.stress, at.void_ratio, p);
+        const Number          on_D = f.scale * f.F * f.F;
+        const Number          on_s = f.scale * (p.a * p.a) * product(f.s, D);
+        const Number          on_length = f.scale * f.f_d * p.a * f.F * length;
+        // S + S* = 2 S - 1/3
+        const Number along = on_s + 2. * on_length;
+        const Number less  = (1. / 3.) * on_length;
+        return {{on_D * D.rr + along * f.s.rr - less,
+                 on_D * D.zz + along * f.s.zz - less,
+                 on_D * D.tt + along * f.s.tt - less,
+                 on_D * D.rz + along * f.s.rz},
+                (1. + at.void_ratio) * (D.rr + D.zz + D.tt)};
+      }
+
+
+
+      template <typename Number>
+      CAISSON_INLINE void
+      HypoplasticSand::hold_in_bounds(State<Number>    &state,
+                                      const Parameters &parameters)
+      {
+        StressState<Number> &T    = state.stress;
+        const Number         mean = (1. / 3.) * (T.rr + T.zz + T.tt);
+        const Number center = .5 * (T.rr + T.zz), half = .5 * (T.rr - T.zz);
+        const Number radius = sqrt(half * half + T.rz * T.rz);
+        // how far the least compressive value stands above the mean
+        const Number excess  = max(center + radius, T.tt) - mean;
+        const Number allowed = -(1. - 3. / 50.) * mean;
+        const auto   parted  = !(mean < Number(-parameters.shift));
+        const Number share   = select(excess > allowed,
+                                    allowed / max(excess, Number(1e-30)),
+                                    Number(1.));
+        const auto   held    = [&](const Number component) {
+          return select(parted,
+                        Number(-parameters.shift),
+                        mean + share * (component - mean));
+        };
+        T.rr = held(T.rr);
+        T.zz = held(T.zz);
+        T.tt = held(T.tt);
+        T.rz = select(parted, Number(0.), share * T.rz);
+      }
+
+
+
+      template <typename Number>
+      CAISSON_INLINE void
+      HypoplasticSand::update(StressState<Number>           &sigma,
+                              const StrainIncrement<Number> &de,
+                              LawState<Number>              &law_state,
+                              const Parameters              &p)
+      {
+        using Mask = typename Number::Mask;
+        const Number              one(1.), zero(0.);
+        const StressState<Number> D{de.rr, de.zz, de.tt, de.rz};
+        const Number              square = product(D, D);
+        const Number              length = sqrt(square);
+        const Number              trace  = D.rr + D.zz + D.tt;
+
+        State<Number> state{{sigma.rr - p.shift,
+                             sigma.zz - p.shift,
+                             sigma.tt - p.shift,
+                             sigma.rz},
+                            law_state.void_ratio};
+        hold_in_bounds(state, p);
+
+        // the share of the step that is done, and the next substep's
+        Number done(0.), substep(1.);
+        for (int n = 0; n < 2000; ++n)
+          {
+            const State<Number> first = rate(state, D, length, p);
+            State<Number>       euler{sum(state.stress, substep, first.stress),
+                                state.void_ratio + substep * first.void_ratio};
+            hold_in_bounds(euler, p);
+            const State<Number>       second = rate(euler, D, length, p);
+            const Number              half   = .5 * substep;
+            const StressState<Number> difference =
+              sum(second.stress, Number(-1.), first.stress);
+            State<Number> heun{
+              sum(sum(state.stress, half, first.stress), half, second.stress),
+              state.void_ratio + half * (first.void_ratio + second.void_ratio)};
+            hold_in_bounds(heun, p);
+
+            // half the difference of both rates is the error of Euler
+            const Number error = half * sqrt(product(difference, difference)) /
+                                 sqrt(product(heun.stress, heun.stress));
+            const Mask running = done < one;
+            // a NaN is accepted, and noticed elsewhere
+            const Mask accepted =
+              running & !((error > Number(tolerance)) &
+                          (substep > Number(smallest_substep)));
+            state.stress.rr = select(accepted, heun.stress.rr, state.stress.rr);
+            state.stress.zz = select(accepted, heun.stress.zz, state.stress.zz);
+            state.stress.tt = select(accepted, heun.stress.tt, state.stress.tt);
+            state.stress.rz = select(accepted, heun.stress.rz, state.stress.rz);
+            state.void_ratio =
+              select(accepted, heun.void_ratio, state.void_ratio);
+            // an end that is missed by round-off only is reached
+            done = select(accepted, done + substep, done);
+            done = select(done > Number(1. - 1e-12), one, done);
+            if (!any(done < one))
+              break;
+            const Number growth =
+              max(min(.9 * sqrt(Number(tolerance) / max(error, Number(1e-12))),
+                      Number(4.)),
+                  Number(.1));
+            substep = min(max(substep * growth, Number(smallest_substep)),
+                          max(one - done, Number(1e-12)));
+          }
+        sigma = {state.stress.rr + p.shift,
+                 state.stress.zz + p.shift,
+                 state.stress.tt + p.shift,
+                 state.stress.rz};
+        law_state.plastic_deviatoric +=
+          sqrt(max((2. / 3.) * (square - (1. / 3.) * trace * trace), zero));
+        law_state.plastic_volumetric += trace;
+      }
+
+
+
+      inline double
+      HypoplasticSand::p_wave_modulus(const StressState<Lanes<1>> &stress,
+                                      const double                 void_ratio,
+                                      const Parameters            &p)
+      {
+        using Scalar = Lanes<1>;
+        State<Scalar> state{{stress.rr - p.shift,
+                             stress.zz - p.shift,
+                             stress.tt - p.shift,
+                             stress.rz},
+                            Scalar(void_ratio)};
+        hold_in_bounds(state, p);
+        const Factors<Scalar> f = factors(state.stress, state.void_ratio, p);
+        const double          center = .5 * (f.s.rr[0] + f.s.zz[0]),
+                     half = .5 * (f.s.rr[0] - f.s.zz[0]), rz = f.s.rz[0],
+                     tt    = f.s.tt[0];
+        const double upper = center + __builtin_sqrt(half * half + rz * rz);
+        const double s     = upper > tt ? upper : tt;
+        const double F     = f.F[0];
+        return f.scale[0] * (F * F + p.a * p.a * s * s +
+                             f.f_d[0] * p.a * F * (2. * s - 1. / 3.));
+      }
+    } // namespace CAISSON_KERNEL_ISA
+  }   // namespace Kernels
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What a material law consists of, apart from its equations. A law is one
+// header with one struct, here called Law, and is registered by including that
+// header in laws.h. It has
+//
+//   static constexpr const char *name;          // the value of the entry "Law"
+//   static constexpr LawEntry    entries[];     // what it asks of the user
+//   static constexpr int         friction_entry;// its friction angle; -1: none
+//   static constexpr bool        uses_void_ratio;
+//   static constexpr bool        stiffness_varies; // with stress, void ratio
+//   static constexpr int         n_state;       // LawState::variable in use
+//   struct Parameters;                          // plain data
+//
+//   static Parameters make(const double *values);
+//   static bool check(const double *values, const LawContext &, LawMessage &);
+//   static double earth_pressure_at_rest(const Parameters &);
+//   static double p_wave_modulus(const StressState<Lanes<1>> &,
+//                                double void_ratio, const Parameters &);
+//   static void start(const Parameters &, double *variable); // if n_state > 0
+//   template <typename Number>
+//   static void update(StressState<Number> &, const StrainIncrement<Number> &,
+//                      LawState<Number> &, const Parameters &);
+//
+// and, below the struct, the number by which the kernels know it:
+//
+//   template <> struct LawSlot<7> { using type = Law; };
+//
+// Values stand in the order of the entries and in their units (angles in
+// degrees). update() may not branch on single lanes: select(), any().
+#ifndef caisson_mpm_kernels_material_law_h
+#define caisson_mpm_kernels_material_law_h
+
+#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/kernels/stress_state.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    inline namespace CAISSON_KERNEL_ISA
+    {
+      /**
+       * An entry of the section "Soil/Layer k". Laws that ask for the same
+       * name share the entry: it must then be the same in all of them.
+       */
+      struct LawEntry
+      {
+        const char *name;
+        const char *text; // ends with "Units: ..."
+        double      value, smallest, largest;
+      };
+
+      /** The largest value of an entry that has no upper limit. */
+      constexpr double no_limit = __DBL_MAX__;
+
+      constexpr double radians_per_degree = 3.14159265358979323846 / 180.;
+
+      /** What check() of a law may hold its entries against. */
+      struct LawContext
+      {
+        double earth_pressure_at_rest; // horizontal over vertical stress
+        double void_ratio;             // at the start
+      };
+
+      /** Room for the answer of check() to what the user gave. */
+      struct LawMessage
+      {
+        char text[512];
+      };
+
+      /** Of each MP, besides its stress. */
+      template <typename Number>
+      struct LawState
+      {
+        // accumulated sqrt(2/3 e:e) of the deviator, and trace; what a law
+        // without plastic strain keeps here is its own choice
+        Number plastic_deviatoric, plastic_volumetric;
+
+        // at the start of the step; set where Law::uses_void_ratio
+        Number void_ratio;
+
+        // the first Law::n_state are the law's own
+        Number variable[n_state_variables];
+      };
+
+      /** Entries that several laws share. */
+      namespace Entries
+      {
+        constexpr LawEntry youngs_modulus = {
+          "Youngs modulus",
+          "Young's modulus of the skeleton. Units: Pa.",
+          5e6,
+          1e-12,
+          no_limit};
+        constexpr LawEntry poisson_ratio = {
+          "Poisson ratio",
+          "Poisson's ratio of the skeleton. Units: none.",
+          0.3,
+          0.,
+          0.4999};
+        constexpr LawEntry friction_angle = {
+          "Friction angle",
+          "Effective friction angle phi; the peak value where the law softens. "
+          "Units: degrees.",
+          30.,
+          0.,
+          60.};
+        constexpr LawEntry dilatancy_angle = {
+          "Dilatancy angle",
+          "Dilatancy angle psi, at most phi; the peak value where the law "
+          "softens. Units: degrees.",
+          0.,
+          0.,
+          60.};
+        constexpr LawEntry cohesion = {
+          "Cohesion",
+          "Effective cohesion c; the peak value where the law softens. Units: "
+          "Pa.",
+          0.,
+          0.,
+          no_limit};
+        constexpr LawEntry tension_cutoff = {
+          "Tension cut-off",
+          "Largest tensile principal stress. Units: Pa.",
+          0.,
+          0.,
+          no_limit};
+      } // namespace Entries
+
+      /** lambda + 2 mu of isotropic elasticity. Units: Pa. */
+      inline double
+      oedometric_modulus(const double E, const double nu)
+      {
+        return E * (1. - nu) / ((1. + nu) * (1. - 2. * nu));
+      }
+
+      /** The law of this number, Material::law; void: none. */
+      template <int slot>
+      struct LawSlot
+      {
+        using type = void;
+      };
+    } // namespace CAISSON_KERNEL_ISA
+  }   // namespace Kernels
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Mohr-Coulomb whose strength falls from peak to residual values with plastic
+// shearing (Yerro Colom 2015; Yerro, Alonso & Pinyol 2016):
+//
+//   x = x_res + (x_peak - x_res) exp(-eta eps),   x = c, phi, psi,
+//
+// eps the accumulated equivalent deviatoric plastic strain sqrt(2/3 e:e). For
+// eta = 0 the law is Mohr-Coulomb with the peak values.
+//
+// The step is explicit in the strength: the return map is that of
+// mohr_coulomb.h with the strength at the start of the step, lane by lane, and
+// eps grows by what it did. A stress is thus outside the new yield surface by
+// what the strength loses in one step, O(eta deps), and the next step brings
+// it back, even without strain. Softening gives shear bands a width of about
+// one cell, and eta must be scaled with it: nothing here regularises it.
+//
+// References:
+//   A. Yerro Colom (2015), MPM modelling of landslides in brittle and
+//     unsaturated soils. PhD thesis, Universitat Politecnica de Catalunya.
+//   A. Yerro, E.E. Alonso, N.M. Pinyol (2016), Run-out of landslides in brittle
+//     soils. Comput. Geotech. 80, 427-439. doi:10.1016/j.compgeo.2016.03.001
+#ifndef caisson_mpm_kernels_mohr_coulomb_softening_h
+#define caisson_mpm_kernels_mohr_coulomb_softening_h
+
+#include <caisson_mpm/kernels/mohr_coulomb.h>
+#include <caisson_mpm/kernels/simd_math.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    inline namespace CAISSON_KERNEL_ISA
+    {
+      struct MohrCoulombSoftening
+      {
+        static constexpr const char *name      = "Mohr-Coulomb with softening";
+        static constexpr LawEntry    entries[] = {
+             Entries::youngs_modulus,
+             Entries::poisson_ratio,
+             Entries::friction_angle,
+             Entries::dilatancy_angle,
+             Entries::cohesion,
+             Entries::tension_cutoff,
+             {"Residual friction angle",
+              "Friction angle after much plastic strain, where the law softens. "
+                 "Units: degrees.",
+              30.,
+              0.,
+              60.},
+             {"Residual dilatancy angle",
+              "Dilatancy angle after much plastic strain, where the law softens. "
+                 "Units: degrees.",
+              0.,
+              0.,
+              60.},
+             {"Residual cohesion",
+              "Cohesion after much plastic strain, where the law softens. Units: "
+                 "Pa.",
+              0.,
+              0.,
+              no_limit},
+             {"Softening shape factor",
+              "eta: strength falls with exp(-eta times the accumulated "
+                 "deviatoric plastic strain). Units: none.",
+              10.,
+              0.,
+              no_limit}};
+        static constexpr int  friction_entry = 2, n_state = 0;
+        static constexpr bool uses_void_ratio  = false;
+        static constexpr bool stiffness_varies = false;
+
+        /** Angles in rad, stresses in Pa. */
+        struct Parameters
+        {
+          MohrCoulombElasticity elastic;
+          double                phi, psi, cohesion; // residual
+          double phi_lost, psi_lost, cohesion_lost; // peak - residual
+          double rate, tension;
+        };
+
+        static Parameters
+        make(const double *values)
+        {
+          const auto angle = [values](const int i) {
+            return values[i] * radians_per_degree;
+          };
+          return {MohrCoulombElasticity::make(values[0], values[1]),
+                  angle(6),
+                  angle(7),
+                  values[8],
+                  angle(2) - angle(6),
+                  angle(3) - angle(7),
+                  values[4] - values[8],
+                  values[9],
+                  values[5]};
+        }
+
+        static bool
+        check(const double     *values,
+              const LawContext &context,
+              LawMessage       &message)
+        {
+          static constexpr int peak[] = {2, 3, 4}, residual[] = {6, 7, 8};
+          for (int i = 0; i < 3; ++i)
+            if (values[residual[i]] > values[peak[i]])
+              {
+                __builtin_snprintf(message.text,
+                                   sizeof(message.text),
+                                   "%s = %f exceeds %s = %f: the law softens. "
+                                   "Lower the residual value.",
+                                   entries[residual[i]].name,
+                                   values[residual[i]],
+                                   entries[peak[i]].name,
+                                   values[peak[i]]);
+                return false;
+              }
+          if (values[7] > values[6])
+            {
+              __builtin_snprintf(
+                message.text,
+                sizeof(message.text),
+                "Residual dilatancy angle = %f exceeds Residual friction "
+                "angle = %f degrees: plastic flow would create energy. Lower "
+                "the dilatancy angle.",
+                values[7],
+                values[6]);
+              return false;
+            }
+          return check_strength(
+            values[2], values[3], values[4], context, message);
+        }
+
+        /** 1 - sin phi of the peak (Jaky). */
+        static double
+        earth_pressure_at_rest(const Parameters &p)
+        {
+          return 1. - __builtin_sin(p.phi + p.phi_lost);
+        }
+
+        static double
+        p_wave_modulus(const StressState<Lanes<1>> & /*stress*/,
+                       const double /*void_ratio*/,
+                       const Parameters &p)
+        {
+          return p.elastic.lambda + 2. * p.elastic.mu;
+        }
+
+        template <typename Number>
+        static CAISSON_INLINE void
+        update(StressState<Number>           &sigma,
+               const StrainIncrement<Number> &de,
+               LawState<Number>              &state,
+               const Parameters              &p)
+        {
+          using Strength    = MohrCoulombStrength<Number>;
+          const Number left = exp(Number(-p.rate) * state.plastic_deviatoric);
+          const Number phi  = p.phi + p.phi_lost * left;
+          const Number psi  = p.psi + p.psi_lost * left;
+          MohrCoulombReturn<Number, Strength>::update(
+            sigma,
+            de,
+            state,
+            p.elastic,
+            Strength::make(p.elastic,
+                           sin(phi),
+                           cos(phi),
+                           sin(psi),
+                           p.cohesion + p.cohesion_lost * left,
+                           p.tension));
+        }
+      };
+
+      template <>
+      struct LawSlot<2>
+      {
+        using type = MohrCoulombSoftening;
+      };
+    } // namespace CAISSON_KERNEL_ISA
+  }   // namespace Kernels
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,607 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The laws MohrCoulombSoftening and HypoplasticSand in element tests, and the
+// functions of simd_math.h.
+//
+// - exp, log, pow, sin and cos of one and of eight lanes against <cmath>.
+// - Softening: with eta = 0 the law is Mohr-Coulomb; the strength in triaxial
+//   compression against its closed form; the plastic strain against the one
+//   integrated from it.
+// - Hypoplastic sand against an independent integration with small steps
+//   (scripts/element_tests table), and against what the theory implies: Bauer's
+//   law along the loosest state, the friction angle phi_c and the void ratio
+//   e_c in the critical state, wherever the test began, homogeneity,
+//   independence of the step, and a finite answer to any state.
+#include <caisson_mpm/kernels/laws.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <vector>
+
+using namespace CaissonMPM::Kernels;
+using Scalar = Lanes<1>;
+
+constexpr double degrees = 180. / 3.14159265358979323846;
+
+void
+report(const char *name, const double error, const double tolerance)
+{
+  if (error <= tolerance)
+    std::printf("%s <= %.0e: yes\n", name, tolerance);
+  else
+    std::printf("%s <= %.0e: NO, %.2e\n", name, tolerance, error);
+}
+
+void
+raise(double &largest, const double value)
+{
+  // a NaN must fail, and must stay
+  if (!std::isnan(largest) && !(value <= largest))
+    largest = value;
+}
+
+
+
+// ---------------------------------------------------------------- functions
+
+template <int n>
+void
+test_functions()
+{
+  using Number        = Lanes<n>;
+  const auto relative = [](const Number a, const double b) {
+    double error = 0.;
+    for (int i = 0; i < n; ++i)
+      raise(error, std::fabs(a[i] - b) / std::max(std::fabs(b), 1e-300));
+    return error;
+  };
+  double e = 0., l = 0., p = 0., s = 0.;
+  for (double x = -300.; x < 300.; x += 0.0371)
+    raise(e, relative(exp(Number(x)), std::exp(x)));
+  for (double x = 1e-12; x < 1e12; x *= 1.0123)
+    {
+      raise(l, relative(log(Number(x)), std::log(x)));
+      for (const double y : {0.13, 0.28, 1.05})
+        raise(p, relative(pow(Number(x), y), std::pow(x, y)));
+    }
+  for (double x = -1.57; x < 1.57; x += 0.00123)
+    {
+      raise(s, std::fabs(sin(Number(x))[n - 1] - std::sin(x)));
+      raise(s, std::fabs(cos(Number(x))[n - 1] - std::cos(x)));
+    }
+  std::printf("Functions of %d lanes\n", n);
+  report("exp", e, 1e-15);
+  report("log", l, 1e-15);
+  report("pow", p, 1e-14);
+  report("sin, cos", s, 1e-15);
+}
+
+
+
+// ---------------------------------------------------------------- a sample
+
+/** One point under strain, and the means to hold its lateral stress. */
+template <typename Law>
+class Sample
+{
+public:
+  typename Law::Parameters parameters;
+  double                   lateral, axial; // stress, tension positive
+  double                   void_ratio = 1.;
+  double                   plastic    = 0.;
+
+  Sample(const typename Law::Parameters &parameters,
+         const double                    pressure,
+         const double                    void_ratio)
+    : parameters(parameters)
+    , lateral(-pressure)
+    , axial(-pressure)
+    , void_ratio(void_ratio)
+  {}
+
+  void
+  strain(const double d_lateral, const double d_axial)
+  {
+    StressState<Scalar> sigma{lateral, axial, lateral, 0.};
+    LawState<Scalar>    state;
+    state.plastic_deviatoric = Scalar(plastic);
+    state.plastic_volumetric = Scalar(0.);
+    state.void_ratio         = Scalar(void_ratio);
+    Law::update(sigma,
+                StrainIncrement<Scalar>{d_lateral, d_axial, d_lateral, 0.},
+                state,
+                parameters);
+    lateral = sigma.rr[0];
+    axial   = sigma.zz[0];
+    plastic = state.plastic_deviatoric[0];
+    // the volume of a point grows with exp(tr D) as steps become small
+    void_ratio = (1. + void_ratio) * std::exp(2. * d_lateral + d_axial) - 1.;
+  }
+
+  /** The lateral strain that leads to this lateral stress, by secants. */
+  double
+  strain_at_lateral_stress(const double wanted, const double d_axial)
+  {
+    const auto error = [&](const double x) {
+      Sample copy = *this;
+      copy.strain(x, d_axial);
+      return copy.lateral - wanted;
+    };
+    double a = -0.2 * d_axial, b = -0.6 * d_axial;
+    double f_a = error(a), f_b = error(b);
+    for (int i = 0;
+         i < 60 && std::fabs(f_b) > 1e-10 * std::fabs(wanted) && f_a != f_b;
+         ++i)
+      {
+        const double c = b - f_b * (b - a) / (f_b - f_a);
+        a              = b;
+        f_a            = f_b;
+        b              = c;
+        f_b            = error(b);
+      }
+    strain(b, d_axial);
+    return b;
+  }
+};
+
+
+
+// ---------------------------------------------------------------- softening
+
+constexpr double brittle[] = {5e7, 0.3, 36., 8., 5e3, 1e30, 30., 0., 1e3, 15.};
+
+/** Axial over lateral stress against the strength at the plastic strain. */
+void
+test_softening()
+{
+  using Law = MohrCoulombSoftening;
+  std::printf("Mohr-Coulomb with softening, triaxial compression\n");
+  const double pressure = 1e5;
+  for (const int n_steps : {1000, 4000})
+    {
+      Sample<Law> sample(Law::make(brittle), pressure, 1.);
+      double      peak = 0., error = 0., flow = 0.;
+      for (int i = 0; i < n_steps; ++i)
+        {
+          const double d_axial = -0.2 / n_steps, plastic = sample.plastic;
+          const double stress = sample.axial;
+          const double d_lateral =
+            sample.strain_at_lateral_stress(-pressure, d_axial);
+          peak = std::max(peak, sample.axial / sample.lateral);
+          if (plastic == 0.)
+            continue;
+          // the strength of the step's start, in closed form
+          const double left = std::exp(-brittle[9] * plastic);
+          const double phi  = (30. + 6. * left) / degrees,
+                       psi = 8. * left / degrees, c = 1e3 + 4e3 * left;
+          const double N = (1. + std::sin(phi)) / (1. - std::sin(phi));
+          raise(error,
+                std::fabs(-sample.axial - N * pressure -
+                          2. * c * std::sqrt(N)) /
+                  pressure);
+          const double plastic_axial = -d_axial + (sample.axial - stress) / 5e7;
+          const double plastic_lateral =
+            d_lateral + 0.3 * (sample.axial - stress) / 5e7;
+          const double ratio = (1. + std::sin(psi)) / (1. - std::sin(psi));
+          raise(flow, std::fabs(2. * plastic_lateral / plastic_axial - ratio));
+        }
+      std::printf("%d steps: peak %.4f, end %.4f, plastic strain %.4f\n",
+                  n_steps,
+                  peak,
+                  sample.axial / sample.lateral,
+                  sample.plastic);
+      report("strength error", error, 1e-8);
+      report("flow rule error", flow, 1e-5);
+    }
+
+  double values[10];
+  std::copy(brittle, brittle + 10, values);
+  values[9] = 0.;
+  Sample<Law>         soft(Law::make(values), pressure, 1.);
+  Sample<MohrCoulomb> hard(MohrCoulomb::make(values), pressure, 1.);
+  double              difference = 0.;
+  for (int i = 0; i < 200; ++i)
+    {
+      soft.strain_at_lateral_stress(-pressure, -1e-3);
+      hard.strain_at_lateral_stress(-pressure, -1e-3);
+      raise(difference, std::fabs(soft.axial / hard.axial - 1.));
+    }
+  report("eta = 0 against Mohr-Coulomb", difference, 1e-10);
+}
+
+
+
+// ---------------------------------------------------------------- hypoplastic
+
+constexpr double karlsruhe[] =
+  {30., 5.8e9, 0.28, 0.53, 0.84, 1., 0.13, 1.05, 1.};
+constexpr double hochstetten[] =
+  {33., 1e9, 0.25, 0.55, 0.95, 1.05, 0.25, 1.5, 1.};
+
+struct Row
+{
+  double strain, lateral, axial, void_ratio;
+};
+
+/** One element test: the rows are those of scripts/element_tests. */
+struct ElementTest
+{
+  const char   *name;
+  const double *values;
+  char          kind; // t: triaxial, e: extension, o: oedometer
+  double        void_ratio, pressure;
+  Row           rows[6];
+};
+
+const ElementTest element_tests[] = {
+  {"Karlsruhe sand, triaxial, dense",
+   karlsruhe,
+   't',
+   0.56,
+   1e5,
+   {
+     {0.100, 1.000000e+05, 3.872893e+05, 0.612478},
+     {0.200, 1.000000e+05, 3.505539e+05, 0.654194},
+     {0.300, 1.000000e+05, 3.344410e+05, 0.682332},
+     {0.400, 1.000000e+05, 3.250677e+05, 0.702923},
+     {0.500, 1.000000e+05, 3.189192e+05, 0.718578},
+     {0.600, 1.000000e+05, 3.146073e+05, 0.730747},
+   }},
+  {"Karlsruhe sand, triaxial, medium",
+   karlsruhe,
+   't',
+   0.66,
+   1e5,
+   {
+     {0.100, 1.000000e+05, 3.387718e+05, 0.673934},
+     {0.200, 1.000000e+05, 3.277433e+05, 0.696671},
+     {0.300, 1.000000e+05, 3.207268e+05, 0.713779},
+     {0.400, 1.000000e+05, 3.158977e+05, 0.726994},
+     {0.500, 1.000000e+05, 3.124084e+05, 0.737372},
+     {0.600, 1.000000e+05, 3.098043e+05, 0.745616},
+   }},
+  {"Karlsruhe sand, triaxial, loose",
+   karlsruhe,
+   't',
+   0.88,
+   1e5,
+   {
+     {0.100, 1.000000e+05, 2.854215e+05, 0.850206},
+     {0.200, 1.000000e+05, 2.874915e+05, 0.838966},
+     {0.300, 1.000000e+05, 2.893180e+05, 0.829435},
+     {0.400, 1.000000e+05, 2.909240e+05, 0.821385},
+     {0.500, 1.000000e+05, 2.923236e+05, 0.814610},
+     {0.600, 1.000000e+05, 2.935334e+05, 0.808927},
+   }},
+  {"Karlsruhe sand, triaxial, dense, 1 MPa",
+   karlsruhe,
+   't',
+   0.56,
+   1e6,
+   {
+     {0.100, 1.000000e+06, 3.767811e+06, 0.583446},
+     {0.200, 1.000000e+06, 3.461625e+06, 0.620870},
+     {0.300, 1.000000e+06, 3.313365e+06, 0.646103},
+     {0.400, 1.000000e+06, 3.227026e+06, 0.664440},
+     {0.500, 1.000000e+06, 3.170403e+06, 0.678283},
+     {0.600, 1.000000e+06, 3.130762e+06, 0.688965},
+   }},
+  {"Karlsruhe sand, extension, extension",
+   karlsruhe,
+   'e',
+   0.56,
+   1e5,
+   {
+     {0.025, 1.000000e+05, 2.406810e+04, 0.567214},
+     {0.050, 1.000000e+05, 2.478719e+04, 0.577888},
+     {0.075, 1.000000e+05, 2.556831e+04, 0.587741},
+     {0.100, 1.000000e+05, 2.621614e+04, 0.596883},
+     {0.125, 1.000000e+05, 2.676543e+04, 0.605412},
+     {0.150, 1.000000e+05, 2.723991e+04, 0.613405},
+   }},
+  {"Hochstetten sand, triaxial, dense",
+   hochstetten,
+   't',
+   0.65,
+   1e5,
+   {
+     {0.100, 1.000000e+05, 4.786350e+05, 0.689697},
+     {0.200, 1.000000e+05, 4.038729e+05, 0.738434},
+     {0.300, 1.000000e+05, 3.754992e+05, 0.765427},
+     {0.400, 1.000000e+05, 3.616600e+05, 0.782105},
+     {0.500, 1.000000e+05, 3.537416e+05, 0.792940},
+     {0.600, 1.000000e+05, 3.488548e+05, 0.800157},
+   }},
+  {"Karlsruhe sand, oedometer, dense",
+   karlsruhe,
+   'o',
+   0.56,
+   1e4,
+   {
+     {0.003333333, 2.597614e+04, 4.962989e+04, 0.554809},
+     {0.006666667, 6.907438e+04, 1.461911e+05, 0.549635},
+     {0.010, 1.529015e+05, 3.324921e+05, 0.544478},
+     {0.013333333, 2.943713e+05, 6.453978e+05, 0.539338},
+     {0.016666667, 5.123063e+05, 1.125355e+06, 0.534215},
+     {0.020, 8.271753e+05, 1.815997e+06, 0.529110},
+   }},
+  {"Karlsruhe sand, oedometer, loose",
+   karlsruhe,
+   'o',
+   0.88,
+   1e4,
+   {
+     {0.010, 4.054297e+04, 7.748894e+04, 0.861294},
+     {0.020, 1.424755e+05, 2.777551e+05, 0.842774},
+     {0.030, 3.664374e+05, 7.158254e+05, 0.824438},
+     {0.040, 7.792890e+05, 1.522769e+06, 0.806284},
+     {0.050, 1.461962e+06, 2.856744e+06, 0.788311},
+     {0.060, 2.509954e+06, 4.904231e+06, 0.770517},
+   }}};
+
+HypoplasticSand::Parameters
+parameters_of(const double *values)
+{
+  return HypoplasticSand::make(values);
+}
+
+void
+test_against_reference()
+{
+  std::printf("strain, lateral and axial stress / 100 kPa, void ratio\n");
+  for (const ElementTest &test : element_tests)
+    {
+      Sample<HypoplasticSand> sample(parameters_of(test.values),
+                                     test.pressure,
+                                     test.void_ratio);
+      std::printf("%s\n", test.name);
+      double       error  = 0.;
+      double       strain = 0.;
+      const double sign   = test.kind == 'e' ? 1. : -1.;
+      for (const Row &row : test.rows)
+        {
+          const int    n    = 400;
+          const double step = (row.strain - strain) / n;
+          for (int i = 0; i < n; ++i)
+            if (test.kind == 'o')
+              sample.strain(0., -step);
+            else
+              sample.strain_at_lateral_stress(-test.pressure, sign * step);
+          strain = row.strain;
+          std::printf("%.4f %.4f %.4f %.4f\n",
+                      strain,
+                      -1e-5 * sample.lateral,
+                      -1e-5 * sample.axial,
+                      sample.void_ratio);
+          raise(error, std::fabs(-sample.lateral / row.lateral - 1.));
+          raise(error, std::fabs(-sample.axial / row.axial - 1.));
+          raise(error, std::fabs(sample.void_ratio - row.void_ratio));
+        }
+      report("difference from the reference", error, 1e-3);
+    }
+}
+
+/** Isotropic compression of the loosest sand: e = e_i0 exp(-(3p/h_s)^n). */
+void
+test_isotropic_compression()
+{
+  const double pressure = 1e3;
+  const auto   bauer    = [](const double p) {
+    return karlsruhe[5] *
+           std::exp(-std::pow(3. * p / karlsruhe[1], karlsruhe[2]));
+  };
+  // the law sees the mean stress increased by p_t
+  const double            shift = karlsruhe[8];
+  Sample<HypoplasticSand> sample(parameters_of(karlsruhe),
+                                 pressure,
+                                 bauer(pressure + shift));
+  double                  error = 0.;
+  for (int i = 0; i < 4000; ++i)
+    {
+      sample.strain(-1e-5, -1e-5);
+      raise(error, std::fabs(sample.void_ratio - bauer(shift - sample.axial)));
+    }
+  std::printf("Isotropic compression\npressure reached / 1 MPa: %.3f\n",
+              -1e-6 * sample.axial);
+  report("difference from Bauer's law", error, 1e-5);
+}
+
+/** Where all triaxial tests end, whatever their density and pressure. */
+void
+test_critical_state()
+{
+  std::printf("Critical state: friction angle, void ratio over e_c\n");
+  for (const double *values : {karlsruhe, hochstetten})
+    for (const double start : {values[3] + 0.03, values[4] + 0.05})
+      {
+        const double            pressure = 2e5;
+        Sample<HypoplasticSand> sample(parameters_of(values), pressure, start);
+        double                  peak = 0.;
+        for (int i = 0; i < 3000; ++i)
+          {
+            sample.strain_at_lateral_stress(-pressure, -2e-3);
+            peak = std::max(peak, sample.axial / sample.lateral);
+          }
+        const auto angle = [](const double ratio) {
+          return degrees * std::asin((ratio - 1.) / (ratio + 1.));
+        };
+        const double p = -(sample.axial + 2. * sample.lateral) / 3.;
+        const double e_c =
+          values[4] * std::exp(-std::pow(3. * p / values[1], values[2]));
+        std::printf("e = %.2f at the start: peak %.1f, end %.2f (%.0f), %.4f\n",
+                    start,
+                    angle(peak),
+                    angle(sample.axial / sample.lateral),
+                    values[0],
+                    sample.void_ratio / e_c);
+      }
+}
+
+/** A strain in one step, in ten and in a thousand. */
+void
+test_step_size()
+{
+  std::printf("Independence of the step\n");
+  StressState<Scalar> results[3];
+  int                 k = 0;
+  for (const int n_steps : {1, 10, 1000})
+    {
+      StressState<Scalar> sigma{-5e4, -1e5, -6e4, 1e4};
+      double              e = 0.6;
+      for (int i = 0; i < n_steps; ++i)
+        {
+          const StrainIncrement<Scalar> de{2e-3 / n_steps,
+                                           -6e-3 / n_steps,
+                                           1e-3 / n_steps,
+                                           3e-3 / n_steps};
+          LawState<Scalar>              state;
+          state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
+          state.void_ratio                                    = Scalar(e);
+          HypoplasticSand::update(sigma, de, state, parameters_of(karlsruhe));
+          e = (1. + e) * std::exp(-3e-3 / n_steps) - 1.;
+        }
+      results[k++] = sigma;
+    }
+  for (int i = 0; i < 2; ++i)
+    report(i == 0 ? "one step" : "ten steps",
+           std::max(std::max(std::fabs(results[i].rr[0] - results[2].rr[0]),
+                             std::fabs(results[i].zz[0] - results[2].zz[0])),
+                    std::max(std::fabs(results[i].tt[0] - results[2].tt[0]),
+                             std::fabs(results[i].rz[0] - results[2].rz[0]))) /
+             1e5,
+           1e-3);
+}
+
+/** Any stress, void ratio and strain; eight lanes against one. */
+void
+test_any_state()
+{
+  std::mt19937                           generator(7);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  const auto                             p = parameters_of(karlsruhe);
+  double       lanes = 0., tension = -1e300, modulus = 0.;
+  unsigned int not_finite = 0;
+  for (unsigned int n = 0; n < 3000; ++n)
+    {
+      double old[5][8], increment[4][8];
+      for (int l = 0; l < 8; ++l)
+        {
+          const double size = std::pow(10., 3. + 3. * uniform(generator));
+          const double jump = std::pow(10., -4. + 3. * uniform(generator));
+          for (int c = 0; c < 4; ++c)
+            {
+              old[c][l]       = size * uniform(generator);
+              increment[c][l] = jump * uniform(generator);
+            }
+          old[4][l] = 0.5 + 1.5 * uniform(generator); // padding has -1
+        }
+      using Eight = Lanes<8>;
+      StressState<Eight>           sigma{Eight::load(old[0]),
+                               Eight::load(old[1]),
+                               Eight::load(old[2]),
+                               Eight::load(old[3])};
+      const StrainIncrement<Eight> de{Eight::load(increment[0]),
+                                      Eight::load(increment[1]),
+                                      Eight::load(increment[2]),
+                                      Eight::load(increment[3])};
+      LawState<Eight>              state;
+      state.plastic_deviatoric = state.plastic_volumetric = Eight(0.);
+      state.void_ratio                                    = Eight::load(old[4]);
+      HypoplasticSand::update(sigma, de, state, p);
+      for (int l = 0; l < 8; ++l)
+        {
+          StressState<Scalar> one{old[0][l], old[1][l], old[2][l], old[3][l]};
+          LawState<Scalar>    own;
+          own.plastic_deviatoric = own.plastic_volumetric = Scalar(0.);
+          own.void_ratio                                  = Scalar(old[4][l]);
+          HypoplasticSand::update(one,
+                                  StrainIncrement<Scalar>{increment[0][l],
+                                                          increment[1][l],
+                                                          increment[2][l],
+                                                          increment[3][l]},
+                                  own,
+                                  p);
+          const double size = std::fabs(one.rr[0]) + std::fabs(one.zz[0]) + 1.;
+          raise(lanes,
+                (std::fabs(one.rr[0] - sigma.rr[l]) +
+                 std::fabs(one.zz[0] - sigma.zz[l]) +
+                 std::fabs(one.tt[0] - sigma.tt[l]) +
+                 std::fabs(one.rz[0] - sigma.rz[l])) /
+                  size);
+          tension = std::max(tension, one.rr[0] + one.zz[0] + one.tt[0]);
+          const double sum = one.rr[0] + one.zz[0] + one.tt[0] + one.rz[0];
+          not_finite += !std::isfinite(sum);
+          const double M = HypoplasticSand::p_wave_modulus(one, old[4][l], p);
+          not_finite += !(std::isfinite(M) && M > 0.);
+          modulus = std::max(modulus, M);
+        }
+    }
+  std::printf("Any state\nnot finite: %u\n", not_finite);
+  report("lanes against scalar", lanes, 1e-10);
+  report("mean tension", tension / karlsruhe[8], 1e-12);
+}
+
+/** The bound of wave stiffness against the acoustic tensor of many waves. */
+void
+test_wave_modulus()
+{
+  std::mt19937                           generator(8);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  const auto                             p       = parameters_of(karlsruhe);
+  double                                 largest = 0.;
+  for (unsigned int n = 0; n < 100000; ++n)
+    {
+      const double pressure = std::pow(10., 4.5 + 1.5 * uniform(generator));
+      const StressState<Scalar> sigma{
+        -pressure * (1. + .5 * uniform(generator)),
+        -pressure * (1. + .5 * uniform(generator)),
+        -pressure * (1. + .5 * uniform(generator)),
+        .3 * pressure * uniform(generator)};
+      const double e     = 0.7 + 0.15 * uniform(generator);
+      const double angle = 3.2 * uniform(generator);
+      const double nr = std::cos(angle), nz = std::sin(angle);
+      // a motion m of a plane wave in direction n strains by sym(m n)
+      const double turn = 3.2 * uniform(generator);
+      const double mr = std::cos(turn), mz = std::sin(turn), small = 1e-9;
+      StressState<Scalar> stress = sigma;
+      LawState<Scalar>    state;
+      state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
+      state.void_ratio                                    = Scalar(e);
+      HypoplasticSand::update(stress,
+                              StrainIncrement<Scalar>{small * mr * nr,
+                                                      small * mz * nz,
+                                                      0.,
+                                                      .5 * small *
+                                                        (mr * nz + mz * nr)},
+                              state,
+                              p);
+      const double rr = (stress.rr[0] - sigma.rr[0]) / small,
+                   zz = (stress.zz[0] - sigma.zz[0]) / small,
+                   rz = (stress.rz[0] - sigma.rz[0]) / small;
+      const double stiffness =
+        mr * (rr * nr + rz * nz) + mz * (rz * nr + zz * nz);
+      raise(largest, stiffness / HypoplasticSand::p_wave_modulus(sigma, e, p));
+    }
+  std::printf("Wave modulus\nlargest stiffness over the bound: %.2f\n",
+              largest);
+  report("excess over the bound", largest - 1., 1e-6);
+}
+
+
+
+int
+main()
+{
+  test_functions<1>();
+  test_functions<8>();
+  test_softening();
+  test_against_reference();
+  test_isotropic_compression();
+  test_critical_state();
+  test_step_size();
+  test_any_state();
+  test_wave_modulus();
+}
