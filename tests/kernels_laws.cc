@@ -10,8 +10,8 @@
 // - Hypoplastic sand against an independent integration with small steps
 //   (scripts/element_tests table), and against what the theory implies: Bauer's
 //   law along the loosest state, the friction angle phi_c and the void ratio
-//   e_c in the critical state, wherever the test began, homogeneity,
-//   independence of the step, and a finite answer to any state.
+//   e_c in the critical state wherever the test began, invariance to in-plane
+//   rotation, independence of the step, and a finite answer to any state.
 #include <caisson_mpm/kernels/laws.h>
 
 #include <algorithm>
@@ -475,6 +475,48 @@ test_step_size()
            1e-3);
 }
 
+/** Stress and strain turned by an angle give a stress turned by it. */
+void
+test_rotation()
+{
+  const auto turned = [](const StressState<Scalar> &a, const double angle) {
+    const double c = std::cos(2. * angle), s = std::sin(2. * angle);
+    const double center = .5 * (a.rr[0] + a.zz[0]),
+                 half   = .5 * (a.rr[0] - a.zz[0]);
+    return StressState<Scalar>{center + c * half + s * a.rz[0],
+                               center - c * half - s * a.rz[0],
+                               a.tt[0],
+                               c * a.rz[0] - s * half};
+  };
+  const StressState<Scalar> old{-5e4, -1e5, -6e4, 1e4};
+  const StressState<Scalar> strain{2e-3, -6e-3, 1e-3, 3e-3};
+  double                    error = 0.;
+  StressState<Scalar>       straight{0., 0., 0., 0.};
+  for (const double angle : {0., 0.3, 1., 2.})
+    {
+      StressState<Scalar>       sigma = turned(old, angle);
+      const StressState<Scalar> D     = turned(strain, angle);
+      LawState<Scalar>          state;
+      state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
+      state.void_ratio                                    = Scalar(0.6);
+      HypoplasticSand::update(sigma,
+                              StrainIncrement<Scalar>{D.rr, D.zz, D.tt, D.rz},
+                              state,
+                              parameters_of(karlsruhe));
+      const StressState<Scalar> back = turned(sigma, -angle);
+      if (angle == 0.)
+        straight = back;
+      raise(error,
+            (std::fabs(back.rr[0] - straight.rr[0]) +
+             std::fabs(back.zz[0] - straight.zz[0]) +
+             std::fabs(back.tt[0] - straight.tt[0]) +
+             std::fabs(back.rz[0] - straight.rz[0])) /
+              1e5);
+    }
+  std::printf("Rotation\n");
+  report("difference after turning back", error, 1e-12);
+}
+
 /** Any stress, void ratio and strain; eight lanes against one. */
 void
 test_any_state()
@@ -602,6 +644,7 @@ main()
   test_isotropic_compression();
   test_critical_state();
   test_step_size();
+  test_rotation();
   test_any_state();
   test_wave_modulus();
 }
