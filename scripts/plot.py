@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Draws forces.png, stress.png and displacement.png from a run's output.
+"""Draws forces.png, stress.png and displacement.png from a run's output, and
+void_ratio.png where the soil changes its volume.
 
 Usage: scripts/plot DIR (which finds the right python3 for this file).
 """

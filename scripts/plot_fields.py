@@ -128,25 +128,48 @@ def panels(n, window):
     return figure, axes
 
 
-def draw_stress(path, frames, window):
-    """The vertical effective stress at each frame, on one colour scale."""
-    fields = [frame.means.of(-frame.soil["effective_stress_zz"] / 1e3)
-              for frame in frames]
-    highest = np.percentile(np.concatenate(
-        [field[inside(frame, window)]
-         for frame, field in zip(frames, fields)]), 99)
-    style = {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
+def draw_frames(path, frames, window, fields, style, label):
+    """Cell means [frame][cell] of a field, on one colour scale."""
     figure, axes = panels(len(frames), window)
     for panel, frame, field in zip(axes.flat, frames, fields):
         painted = draw_mirrored(panel, frame, field, window, style)
         panel.label_outer()
     for panel in axes[:, 0]:
         panel.set_ylabel("z (m)")
-    figure.colorbar(painted, ax=axes, extend="max", shrink=0.7, pad=0.02,
-                    label="vertical effective stress (kPa),\n"
-                          "compression positive, mean of each cell")
+    figure.colorbar(painted, ax=axes, extend="both" if style["vmin"] else
+                    "max", shrink=0.7, pad=0.02, label=label)
     figure.savefig(path, dpi=150)
     return path
+
+
+def shown_values(frames, fields, window):
+    """The values of all cells in the window."""
+    return np.concatenate([field[inside(frame, window)]
+                           for frame, field in zip(frames, fields)])
+
+
+def draw_stress(path, frames, window):
+    """The vertical effective stress at each frame."""
+    fields = [frame.means.of(-frame.soil["effective_stress_zz"] / 1e3)
+              for frame in frames]
+    highest = np.percentile(shown_values(frames, fields, window), 99)
+    style = {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
+    return draw_frames(path, frames, window, fields, style,
+                       "vertical effective stress (kPa),\n"
+                       "compression positive, mean of each cell")
+
+
+def draw_void_ratio(path, frames, window):
+    """The void ratio at each frame; None where it hardly changes."""
+    if "void_ratio" not in frames[0].soil:
+        return None
+    fields = [frame.means.of(frame.soil["void_ratio"]) for frame in frames]
+    low, high = np.percentile(shown_values(frames, fields, window), [1, 99])
+    if high - low < 0.05:
+        return None
+    style = {"cmap": "viridis", "vmin": low, "vmax": high}
+    return draw_frames(path, frames, window, fields, style,
+                       "void ratio (-), mean of each cell")
 
 
 def draw_tip(axes, frame, values, box, style):
@@ -216,7 +239,8 @@ def draw_displacement(path, frame, window, scene):
 
 
 def draw(directory, history, scene):
-    """Writes stress.png and displacement.png; returns their paths."""
+    """Writes stress.png, displacement.png and, where volume changes,
+    void_ratio.png; returns their paths, None for none."""
     series = read_series(directory / "points.pvd")
     grids = read_series(directory / "grid.pvd")
     if not series or not grids:
@@ -228,4 +252,5 @@ def draw(directory, history, scene):
     window = window_of(frames[0], frames[-1], scene)
     return [draw_stress(directory / "stress.png", frames, window),
             draw_displacement(directory / "displacement.png", frames[-1],
-                              window, scene)]
+                              window, scene),
+            draw_void_ratio(directory / "void_ratio.png", frames, window)]
