@@ -20,8 +20,9 @@ class BadInput(Exception):
     """What is wrong with the directory, for the user."""
 
 
-def read_history(path):
-    """The columns of history.csv by name; a torn last row is left out."""
+def read_table(path, column):
+    """The columns of history.csv, or of its companion, by name, with this one
+    among them; a torn last row is left out."""
     if not path.is_file():
         raise BadInput(f"no {path.name} in {path.parent}: is it the output "
                        "directory of a run?")
@@ -36,8 +37,8 @@ def read_history(path):
             continue
         if len(numbers) == len(names):
             values.append(numbers)
-    if "time_s" not in names or not values:
-        raise BadInput(f"{path} has no column time_s or no complete row")
+    if column not in names or not values:
+        raise BadInput(f"{path} has no column {column} or no complete row")
     return dict(zip(names, np.array(values).T))
 
 
@@ -55,9 +56,13 @@ def read_scene(path):
 def main(directory):
     if not directory.is_dir():
         raise BadInput(f"no directory {directory}")
-    history = read_history(directory / "history.csv")
+    history = read_table(directory / "history.csv", "time_s")
+    bounds_file = directory / "history_error.csv"
+    bounds = (read_table(bounds_file, "penetration_m")
+              if bounds_file.is_file() else {})
     scene = read_scene(directory / "run.json")
-    pictures = [plot_forces.draw(directory / "forces.png", history, scene)]
+    pictures = [plot_forces.draw(directory / "forces.png", history, scene,
+                                 bounds)]
     if (directory / "points.pvd").is_file():
         pictures += plot_fields.draw(directory, history, scene)
     else:

@@ -66,6 +66,20 @@ def draw_bands(axes, scene, depth, friction_only):
         axes.plot(enhanced, h, color=colour, linewidth=0.8, linestyle=":")
 
 
+def draw_error_bars(axes, bounds):
+    """The bounds of total and tip force from history_error.csv."""
+    for column, label, colour in FORCES:
+        low, high = [column.replace("_N", f"_{side}_N")
+                     for side in ("low", "high")]
+        if low in bounds:
+            depth = bounds["penetration_m"]
+            axes.fill_betweenx(
+                depth, *[running_mean(depth, bounds[c], WINDOW) / 1e3
+                         for c in (low, high)],
+                color=colour, alpha=0.3, linewidth=0,
+                label=f"{label}, error bar")
+
+
 def limits(axes, curves):
     """Force limits from the running means, so that no spike hides them."""
     values = np.concatenate([c for c in curves] + [np.zeros(1)])
@@ -77,7 +91,7 @@ def limits(axes, curves):
     axes.set_xlim(values.min() - 0.02 * span, values.max() + 0.08 * span)
 
 
-def draw_panel(axes, history, scene, friction_only):
+def draw_panel(axes, history, scene, bounds, friction_only):
     """One panel over the penetration; all forces, or those of the walls."""
     depth = penetration(history)
     means = []
@@ -86,6 +100,8 @@ def draw_panel(axes, history, scene, friction_only):
             draw_curve(axes, depth, history[column], label, colour)
             means.append(running_mean(depth, history[column], WINDOW) / 1e3)
     draw_bands(axes, scene, depth, friction_only)
+    if not friction_only:
+        draw_error_bars(axes, bounds)
     limits(axes, means)
     axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
     axes.xaxis.set_label_position("top")
@@ -115,8 +131,9 @@ def caption(scene):
     return text
 
 
-def draw(path, history, scene):
-    """Writes the picture; returns its path, or None without any force."""
+def draw(path, history, scene, bounds):
+    """Writes the picture; returns its path, or None without any force. The
+    bounds are those of history_error.csv, or empty."""
     if not any(column in history for column, _, _ in FORCES):
         print("plot: no forces in history.csv, so no forces.png")
         return None
@@ -127,8 +144,8 @@ def draw(path, history, scene):
         panel.grid(color="0.9")
         panel.set_axisbelow(True)
     if moving:
-        draw_panel(axes[0], history, scene, friction_only=False)
-        draw_panel(axes[1], history, scene, friction_only=True)
+        draw_panel(axes[0], history, scene, bounds, friction_only=False)
+        draw_panel(axes[1], history, scene, bounds, friction_only=True)
         figure.text(0.5, 0.012, caption(scene), ha="center", fontsize=8,
                     color="0.3")
     else:
