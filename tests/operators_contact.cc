@@ -67,7 +67,7 @@ try_node(const std::string &parameters,
          const double       z,
          const double       vr,
          const double       vz,
-         const double       vb = 0.)
+         const Vector2     &V)
 {
   Scene   s(parameters + "end\n");
   Contact contact;
@@ -78,9 +78,9 @@ try_node(const std::string &parameters,
   mass[n]           = m;
   v[n].value[0]     = vr;
   v[n].value[1]     = vz;
-  other[n]          = {{.25, -.5 + vb}};
-  const double work = contact.apply(Vector2({0., vb}), dt, mass, v.data());
-  contact.constrain(Vector2({0., vb}), other.data());
+  other[n]          = {{.25 + V[0], -.5 + V[1]}};
+  const double work = contact.apply(V, dt, mass, v.data());
+  contact.constrain(V, other.data());
   std::printf("%s: v %.6f %.6f, held %.4f %.4f, touching %d sticking %d, "
               "work %.4f",
               what,
@@ -91,7 +91,7 @@ try_node(const std::string &parameters,
               contact.n_touching,
               contact.n_sticking,
               work + 0.);
-  const char *names[] = {"tip", "inner", "outer", "top"};
+  const char *names[] = {"tip", "inner", "outer", "top", "lid"};
   for (unsigned int i = 0; i < n_surfaces; ++i)
     if (contact.impulse()[i].norm() > 0.)
       std::printf(", %s %.6f %.6f",
@@ -99,6 +99,19 @@ try_node(const std::string &parameters,
                   contact.impulse()[i][0],
                   contact.impulse()[i][1]);
   std::printf("\n");
+}
+
+void
+try_node(const std::string &parameters,
+         const char        *what,
+         const double       r,
+         const double       z,
+         const double       vr,
+         const double       vz,
+         const double       vb = 0.)
+{
+  const Vector2 V({0., vb});
+  try_node(parameters, what, r, z, vr, vz, V);
 }
 
 void
@@ -153,10 +166,87 @@ check_corners()
            -.1);
 }
 
+void
+check_cone()
+{
+  const std::string cone = R"(
+    subsection Grid
+      set Outer radius = 2
+      set Bottom       = -4
+      set Top          = 1
+    end
+    subsection Rigid body
+      set Kind                  = cone
+      set Outer diameter        = 0.4
+      set Skirt length          = 1.5
+      set Cells across the wall = 4
+      set Initial penetration   = 1
+      set Friction angle of the tip        = 0
+      set Friction angle of the outer wall = 45
+    )";
+  const double      h    = .2 * std::sqrt(3.);
+  std::printf("cone: a face normal (sin 60, -cos 60), vertical at the point\n");
+  try_node(cone, "point", 0., -1., 0., 0., -.1);
+  try_node(cone, "face", .1, -1. + .5 * h, 0., 0., -.1);
+  try_node(cone, "shoulder", .2, -1. + h, 0., 0., -.1);
+  try_node(cone, "shaft", .2, 0., -.1, .05, -.1);
+  try_node(cone, "pulled up, point", 0., -1., 0., 0., .1);
+  try_node(cone, "pulled up, shaft", .2, 0., -.1, 0., .05);
+}
+
+void
+check_lid()
+{
+  const std::string on_axis = tube + "set Lid thickness = 0.2\n"
+                                     "set Friction angle of the lid = 45\n";
+  const std::string lid =
+    "subsection Grid\nset Inner radius = 1\nend\n" + on_axis;
+  std::printf("lid: lower face at z = 0.3, corner with the inner wall\n");
+  try_node(on_axis, "axis", 0., .3, 0., .1, -.1);
+  try_node(lid, "slides", 1., .3, .3, .1, -.1);
+  try_node(lid, "leaves", 1., .3, .1, -.2, -.1);
+  try_node(lid, "corner, up", 2.8, .3, 0., .1);
+  try_node(lid, "corner, into the wall", 2.8, .3, .1, -.3);
+  try_node(lid, "corner, into both", 2.8, .3, .1, .1);
+  try_node(lid, "upper face", 1., .5, 0., -.1);
+  try_node(lid + "set Friction angle of the lid = 0\n"
+                 "set Adhesion of the lid = 20\n",
+           "adhesion",
+           1.,
+           .3,
+           3.,
+           .1);
+}
+
+void
+check_cylinder()
+{
+  const std::string cylinder = R"(
+    subsection Grid
+      set Inner radius = 0.4
+      set Outer radius = 2
+      set Bottom       = -0.2
+      set Top          = 0
+      set Cell height  = 0.1
+    end
+    subsection Rigid body
+      set Kind           = cylinder
+      set Outer diameter = 1
+      set Friction angle of the outer wall = 0
+    )";
+  std::printf("cylinder, growing\n");
+  try_node(cylinder, "pushed", .5, -.1, 0., .1, Vector2({.2, 0.}));
+  try_node(cylinder, "is faster", .5, -.1, .3, .1, Vector2({.2, 0.}));
+  try_node(cylinder, "inside", .4, -.1, 0., 0., Vector2({.2, 0.}));
+}
+
 int
 main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   check_flat_faces();
   check_corners();
+  check_cone();
+  check_lid();
+  check_cylinder();
 }

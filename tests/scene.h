@@ -32,8 +32,10 @@ struct EmptyParameters
 
 struct Scene : EmptyParameters
 {
-  /** @p travel is how far the mesh is made to hold. */
-  explicit Scene(const std::string &parameters, const double travel = 0.)
+  /** @p travel, down, and @p uplift are what the mesh is made to hold. */
+  explicit Scene(const std::string &parameters,
+                 const double       travel = 0.,
+                 const double       uplift = 0.)
     : grid(MPI_COMM_SELF)
     , points(grid)
   {
@@ -43,7 +45,7 @@ struct Scene : EmptyParameters
     body.check_parameters();
     soil.check_parameters();
     grid.check_parameters();
-    grid.place_lines(body, soil, travel);
+    grid.place_lines(body, soil, travel, uplift);
     grid.create_mesh();
   }
 

@@ -62,13 +62,21 @@ namespace CaissonMPM
     add_parameter("Fine width",
                   fine_width,
                   "Distance from the wall, on both sides, with cells as wide "
-                  "as those of the wall. Units: m.",
+                  "as those of the wall (or of the cone, the cylinder). Units: "
+                  "m.",
                   prm,
                   not_negative);
     add_parameter("Fine height",
                   fine_height,
                   "Distance from the tip, above and below, with cells as high "
                   "as those of the wall are wide. Units: m.",
+                  prm,
+                  not_negative);
+    add_parameter("Fine cell size",
+                  fine_size,
+                  "Width and height of the finest cells; 0: of a caisson, cone "
+                  "or cylinder by Cells across the wall, of a box Cell width "
+                  "and Cell height. Units: m.",
                   prm,
                   not_negative);
     add_parameter("Moving zone below tip",
@@ -85,8 +93,8 @@ namespace CaissonMPM
                   Patterns::Selection("free|extending"));
     add_parameter("Smallest row height",
                   smallest_row,
-                  "Rows of the compressing zone must stay at least this high. "
-                  "Units: m.",
+                  "Rows of the compressing zone must stay at least this high, "
+                  "and columns around a cylinder this wide. Units: m.",
                   prm,
                   positive);
     add_parameter("Distortion",
@@ -128,12 +136,14 @@ namespace CaissonMPM
   void
   BackgroundGrid::place_lines(const RigidBody &body,
                               const Soil      &soil,
-                              const double     travel)
+                              const double     travel,
+                              const double     uplift)
   {
     if (distortion > 0. && body.kind() != RigidBody::Kind::none)
       throw BadInput("Grid/Distortion is for scenes without a rigid body: the "
                      "mesh must fit the body. Set Distortion = 0.");
     travel_to_hold = travel;
+    uplift_to_hold = uplift;
     place_columns(body);
     place_rows(body, soil);
     check_travel();
@@ -173,17 +183,29 @@ namespace CaissonMPM
           });
         return;
       }
-    const double left = body.left(), right = body.right();
+    const bool expands = body.kind() == RigidBody::Kind::cylinder;
+    // one column of the cylinder is enough
+    const double left  = expands ? inner_radius : body.left(),
+                 right = body.right();
+    if (expands)
+      expanding_radius = right;
+    if (expands && right <= inner_radius)
+      throw BadInput("Rigid body/Outer diameter: the radius of the cylinder, " +
+                     meters(right) + ", must exceed Grid/Inner radius = " +
+                     meters(inner_radius) +
+                     ". Reduce Grid/Inner radius, for instance to 0.");
     if (left < inner_radius || right > outer_radius)
       throw BadInput("The body, from r = " + meters(left) + " to " +
                      meters(right) + ", does not fit in the mesh, from r = " +
                      meters(inner_radius) + " to " + meters(outer_radius) +
                      ". Change Grid/Outer radius or the body.");
-    const bool   is_caisson = body.kind() == RigidBody::Kind::caisson;
-    const double fine =
-      is_caisson ? body.wall_thickness / body.cells_across : cell_width;
+    const double fine = fine_size > 0.         ? fine_size :
+                        body.cell_width() > 0. ? body.cell_width() :
+                                                 cell_width;
     columns           = graded_lines({inner_radius, left, right, outer_radius},
                            [=](const double r) {
+                             if (expands && r < right)
+                               return right - inner_radius;
                              const double distance =
                                std::max({left - r, r - right, 0.}) - fine_width;
                              return std::min(std::max(cell_width, fine),
@@ -193,8 +215,10 @@ namespace CaissonMPM
                            });
     body_column_begin = line_at(columns, left);
     body_column_end   = line_at(columns, right);
-    shoulder          = body.bottom() + body.tip_height();
     dip.assign(columns.size(), 0.);
+    if (expands)
+      return;
+    shoulder = body.bottom() + body.tip_height();
     for (unsigned int i = body_column_begin; i <= body_column_end; ++i)
       dip[i] = shoulder - body.lower_surface(columns[i]);
   }
@@ -207,13 +231,16 @@ namespace CaissonMPM
       fixed.push_back(z);
     zone_bottom = bottom;
     zone_top    = top;
-    if (body.kind() == RigidBody::Kind::none)
+    if (body.kind() == RigidBody::Kind::none ||
+        body.kind() == RigidBody::Kind::cylinder)
       {
         rows = graded_lines(fixed, [this](double) {
           return cell_height / refinement;
         });
         if (distortion > 0.)
           distort(fixed);
+        // of a cylinder all rows; empty without a body
+        body_row_end = lid_row_begin = rows.size() - 1;
         return;
       }
     if (body.bottom() < bottom || body.top_of_body() > top)
@@ -222,16 +249,21 @@ namespace CaissonMPM
                      ", does not fit in the mesh, from z = " + meters(bottom) +
                      " to " + meters(top) +
                      ". Change Grid/Bottom, Grid/Top or the body.");
-    const bool   is_caisson = body.kind() == RigidBody::Kind::caisson;
-    const double fine =
-      is_caisson ? body.wall_thickness / body.cells_across : cell_height;
-    zone_bottom  = std::max(bottom, body.bottom() - zone_below_tip);
-    zone_top     = body.top_of_body();
-    decay_length = 8. * body.tip_height();
-    if (travel_to_hold > 0.)
+    const double fine = fine_size > 0.         ? fine_size :
+                        body.cell_width() > 0. ? body.cell_width() :
+                                                 cell_height;
+    zone_bottom       = std::max(bottom, body.bottom() - zone_below_tip);
+    zone_top          = body.top_of_body();
+    // rows below keep 7/8 of their height, and 3/4 at the axis below a cone
+    decay_below =
+      body.tip_height() * (body.kind() == RigidBody::Kind::cone ? 4. : 8.);
+    decay_above = std::min(decay_below, zone_top - shoulder);
+    if (travel_to_hold > 0. || uplift_to_hold > 0.)
       fixed.push_back(zone_bottom);
     fixed.push_back(shoulder);
     fixed.push_back(zone_top);
+    if (body.has_lid())
+      fixed.push_back(body.lower_face_of_lid());
     rows           = graded_lines(fixed, [=](const double z) {
       const double distance = std::abs(z - shoulder) - fine_height;
       return std::min(std::max(cell_height, fine),
@@ -240,6 +272,8 @@ namespace CaissonMPM
     });
     body_row_begin = line_at(rows, shoulder);
     body_row_end   = line_at(rows, zone_top);
+    lid_row_begin =
+      body.has_lid() ? line_at(rows, body.lower_face_of_lid()) : body_row_end;
   }
 
   namespace
@@ -287,8 +321,89 @@ namespace CaissonMPM
   void
   BackgroundGrid::check_travel() const
   {
-    if (travel_to_hold <= 0.)
+    if (expanding_radius > 0.)
+      return check_expansion();
+    const bool   moves = travel_to_hold > 0. || uplift_to_hold > 0.;
+    const double floor = moves ? zone_bottom : bottom;
+    const double tip_depth =
+      dip.empty() ? 0. : *std::max_element(dip.begin(), dip.end());
+    if (shoulder - decay_below < floor - 1e-9)
+      {
+        const double needed = decay_below - tip_depth;
+        throw BadInput(
+          (moves ? "Grid/Moving zone below tip = " + meters(zone_below_tip) :
+                   "The mesh below the tip, " +
+                     meters(shoulder - tip_depth - bottom) + " deep,") +
+          " must be at least " + meters(needed) +
+          " for this tip: the rows need that depth to straighten.");
+      }
+    if (travel_to_hold > 0.)
+      check_travel_down();
+    if (uplift_to_hold > 0.)
+      check_travel_up();
+  }
+
+  double
+  BackgroundGrid::smallest_row_at(const double travel,
+                                  const bool   above_body) const
+  {
+    double smallest = 1e300;
+    for (unsigned int j = 0; j + 1 < rows.size(); ++j)
+      if (above_body ? rows[j] > zone_top - 1e-9 : rows[j] < zone_bottom - 1e-9)
+        smallest =
+          std::min(smallest,
+                   height_at(rows[j + 1], travel) - height_at(rows[j], travel));
+    return smallest;
+  }
+
+  void
+  BackgroundGrid::check_travel_up() const
+  {
+    if (zone_bottom <= bottom)
+      throw BadInput("The body moves up by " + meters(uplift_to_hold) +
+                     ", and no rows can stretch below Grid/Moving zone below "
+                     "tip = " +
+                     meters(zone_below_tip) +
+                     ". Reduce that, or lower Grid/Bottom.");
+    if (upper_text == "free")
       return;
+    if (top <= zone_top)
+      throw BadInput("Grid/Upper zone = extending needs cells above the body: "
+                     "raise Grid/Top above " +
+                     meters(zone_top) + ".");
+    const double smallest = smallest_row_at(-uplift_to_hold, true);
+    if (smallest < smallest_row)
+      throw BadInput(
+        "Moving up by " + meters(uplift_to_hold) +
+        " compresses a row above the body to " + meters(smallest) +
+        ", below Grid/Smallest row height = " + meters(smallest_row) +
+        ". Raise Grid/Top, or set Grid/Upper zone = free.");
+  }
+
+  void
+  BackgroundGrid::check_expansion() const
+  {
+    if (uplift_to_hold > 0.)
+      throw BadInput("Rigid body/Velocity: the cylinder would become smaller "
+                     "than at the start, by " +
+                     meters(uplift_to_hold) + ". It can only grow.");
+    const double factor =
+      1. - travel_to_hold / (outer_radius - expanding_radius);
+    double smallest = 1e300;
+    for (unsigned int i = body_column_end; i + 1 < columns.size(); ++i)
+      smallest = std::min(smallest, factor * (columns[i + 1] - columns[i]));
+    if (smallest < smallest_row)
+      throw BadInput(
+        "The radius grows by " + meters(travel_to_hold) +
+        ", which compresses a column to " + meters(smallest) +
+        ", below Grid/Smallest row height = " + meters(smallest_row) +
+        ". Increase Grid/Outer radius, or reduce Grid/Smallest "
+        "row height or the velocity.");
+  }
+
+  void
+  BackgroundGrid::check_travel_down() const
+  {
     const double available = zone_bottom - bottom;
     if (travel_to_hold >= available)
       throw BadInput("The compressing zone, " + meters(available) +
@@ -296,16 +411,7 @@ namespace CaissonMPM
                      meters(travel_to_hold) + ". Lower Grid/Bottom below " +
                      meters(zone_bottom - travel_to_hold) +
                      ", reduce Grid/Moving zone below tip, or push less far.");
-    if (shoulder - decay_length < zone_bottom)
-      throw BadInput("Grid/Moving zone below tip = " + meters(zone_below_tip) +
-                     " must be at least " + meters(decay_length) +
-                     " for this tip: the rows need that depth to straighten.");
-    double smallest = 1e300;
-    for (unsigned int j = 0; j + 1 < rows.size(); ++j)
-      if (rows[j] < zone_bottom - 1e-9)
-        smallest = std::min(smallest,
-                            height_at(rows[j + 1], travel_to_hold) -
-                              height_at(rows[j], travel_to_hold));
+    const double smallest = smallest_row_at(travel_to_hold, false);
     if (smallest < smallest_row)
       {
         const double factor = 1. - travel_to_hold / available;
@@ -338,6 +444,8 @@ namespace CaissonMPM
   double
   BackgroundGrid::height_at(const double z0, const double travel) const
   {
+    if (expanding_radius > 0.)
+      return z0;
     double rate = -1.;
     if (z0 < zone_bottom)
       rate = -(z0 - bottom) / (zone_bottom - bottom);
@@ -354,16 +462,29 @@ namespace CaissonMPM
       return rows[j] + node_shift[j][i];
     if (dip.empty() || dip[i] == 0.)
       return rows[j];
-    const double distance = std::abs(rows[j] - shoulder) / decay_length;
+    const double distance = rows[j] > shoulder ?
+                              (rows[j] - shoulder) / decay_above :
+                              (shoulder - rows[j]) / decay_below;
     return rows[j] - dip[i] * std::max(0., 1. - distance);
+  }
+
+  double
+  BackgroundGrid::radial_rate(const double r0) const
+  {
+    if (expanding_radius == 0.)
+      return 0.;
+    return r0 < expanding_radius ?
+             r0 / expanding_radius :
+             (outer_radius - r0) / (outer_radius - expanding_radius);
   }
 
   bool
   BackgroundGrid::inside_body(const unsigned int column,
                               const unsigned int row) const
   {
-    return column >= body_column_begin && column < body_column_end &&
-           row >= body_row_begin && row < body_row_end;
+    if (row >= body_row_end || column >= body_column_end)
+      return false;
+    return row >= (column < body_column_begin ? lid_row_begin : body_row_begin);
   }
 
   // ------------------------------------------------------------ mesh
@@ -480,10 +601,10 @@ namespace CaissonMPM
     const unsigned int n =
       partitioner->locally_owned_size() + partitioner->n_ghost_indices();
     node_r.assign(n, 0.);
-    node_z0.assign(n, 0.);
-    node_rate.assign(n, 0.);
+    node_start.assign(n, Point<dim>());
+    node_rate.assign(n, Tensor<1, dim>());
     node_sides.assign(n, 0);
-    vertex_heights.clear();
+    vertices.clear();
     std::vector<bool> seen(n, false);
     for (unsigned int c = 0; c < n_cells(); ++c)
       for (unsigned int k = 0; k < 4; ++k)
@@ -493,16 +614,16 @@ namespace CaissonMPM
           if (seen[node])
             continue;
           seen[node]       = true;
-          node_r[node]     = columns[i];
-          node_z0[node]    = reference_height(i, j);
-          node_rate[node]  = height_at(rows[j], 1.) - rows[j];
-          node_sides[node] = (i == 0 ? 1 << axis : 0) |
+          node_start[node] = Point<dim>(columns[i], reference_height(i, j));
+          node_rate[node][radial]   = radial_rate(columns[i]);
+          node_rate[node][vertical] = height_at(rows[j], 1.) - rows[j];
+          node_sides[node]          = (i == 0 ? 1 << axis : 0) |
                              (i == n_columns() ? 1 << outer : 0) |
                              (j == 0 ? 1 << bottom_side : 0) |
                              (j == n_rows() ? 1 << top_side : 0);
-          vertex_heights.emplace_back(node, &iterators[c]->vertex(k)[vertical]);
+          vertices.emplace_back(node, &iterators[c]->vertex(k));
         }
-    node_z = node_z0;
+    node_z.assign(n, 0.);
   }
 
   void
@@ -532,7 +653,10 @@ namespace CaissonMPM
   BackgroundGrid::prepare_motion(const double travel)
   {
     for (unsigned int n = 0; n < n_nodes(); ++n)
-      node_z[n] = node_z0[n] + node_rate[n] * travel;
+      {
+        node_r[n] = node_start[n][radial] + node_rate[n][radial] * travel;
+        node_z[n] = node_start[n][vertical] + node_rate[n][vertical] * travel;
+      }
     auto &next = geometries[1 - current];
     for (unsigned int c = 0; c < n_cells(); ++c)
       {
@@ -556,8 +680,8 @@ namespace CaissonMPM
   void
   BackgroundGrid::write_vertices()
   {
-    for (const auto &vertex : vertex_heights)
-      *vertex.second = node_z[vertex.first];
+    for (const auto &vertex : vertices)
+      *vertex.second = Point<dim>(node_r[vertex.first], node_z[vertex.first]);
   }
 
   Kernels::GridView
@@ -593,18 +717,23 @@ namespace CaissonMPM
     const double       low = line(j, 0.), high = line(j + 1, 0.);
     double             smallest  = high - low;
     const unsigned int n_samples = 100;
-    for (unsigned int s = 1; s <= n_samples && travel_to_hold > 0.; ++s)
+    const auto meet = [&](const unsigned int first, const double travel) {
+      for (unsigned int k = first; k < n_rows(); ++k)
+        {
+          const double z0 = line(k, travel), z1 = line(k + 1, travel);
+          if (z0 > high)
+            break;
+          if (z1 > low && !inside_body(i, k))
+            smallest = std::min(smallest, z1 - z0);
+        }
+    };
+    for (unsigned int s = 1; s <= n_samples && expanding_radius == 0.; ++s)
       {
-        const double travel = travel_to_hold * s / n_samples;
         // rows sink: soil of this cell meets only cells that began above it
-        for (unsigned int k = j; k < n_rows(); ++k)
-          {
-            const double z0 = line(k, travel), z1 = line(k + 1, travel);
-            if (z0 > high)
-              break;
-            if (z1 > low && !inside_body(i, k))
-              smallest = std::min(smallest, z1 - z0);
-          }
+        if (travel_to_hold > 0.)
+          meet(j, travel_to_hold * s / n_samples);
+        if (uplift_to_hold > 0.)
+          meet(0, -uplift_to_hold * s / n_samples);
       }
     return smallest;
   }

@@ -37,9 +37,10 @@ namespace CaissonMPM
         }
       const Vector2 along  = x[1] - x[0];
       const double  length = along.norm();
-      face.surface         = surfaces[f];
-      face.normal[0]       = along[1] / length;
-      face.normal[1]       = -along[0] / length;
+      face.surface =
+        surfaces[f] == tip && grid.is_lid(cell) ? lid : surfaces[f];
+      face.normal[0] = along[1] / length;
+      face.normal[1] = -along[0] / length;
       if (f == 0 || f == 3) // the other side
         face.normal *= -1.;
       const double r0 = grid.axisymmetric() ? x[0][0] : 1.,
@@ -53,7 +54,7 @@ namespace CaissonMPM
     Surface
     dominant(const Surface a, const Surface b)
     {
-      for (const Surface s : {tip, top, outer_wall})
+      for (const Surface s : {tip, lid, top, outer_wall})
         if (a == s || b == s)
           return s;
       return a;
@@ -79,7 +80,8 @@ namespace CaissonMPM
               const bool is_new = found.count(face.nodes[i]) == 0;
               Node      &node   = found[face.nodes[i]];
               if (is_new)
-                node = {face.nodes[i], face.surface, 0, {}, Vector2(), 0., 0.};
+                node = {
+                  face.nodes[i], face.surface, 0, {}, Vector2(), false, 0., 0.};
               node.surface = dominant(node.surface, face.surface);
               if (node.n_normals == 0 ||
                   (node.n_normals == 1 &&
@@ -90,10 +92,23 @@ namespace CaissonMPM
         }
     nodes.clear();
     inner_nodes.clear();
+    std::vector<unsigned int> n_rigid(grid.n_nodes(), 0);
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      for (const unsigned int node : grid.cell_nodes(cell).node)
+        n_rigid[node] += grid.is_rigid(cell);
     for (auto &entry : found)
       {
         Node &node    = entry.second;
+        node.concave  = n_rigid[node.node] == 3;
         node.friction = body.friction_coefficient(node.surface);
+        // by symmetry: the point of a cone
+        if (grid.reaches_axis() &&
+            (grid.sides_of(node.node) & (1u << BackgroundGrid::axis)))
+          for (unsigned int i = 0; i < node.n_normals; ++i)
+            {
+              node.normal[i][radial] = 0.;
+              node.normal[i] /= node.normal[i].norm();
+            }
         for (unsigned int i = 0; i < node.n_normals; ++i)
           node.mean_normal += node.normal[i];
         node.mean_normal /= node.mean_normal.norm();
@@ -125,7 +140,7 @@ namespace CaissonMPM
     // At rest a tip bears on both faces of a corner, whatever it does in
     // motion.
     const bool at_rest = node.surface == tip && velocity.norm_square() == 0.;
-    if (!at_rest && corner_normals != Corner::both)
+    if (!at_rest && !node.concave && corner_normals != Corner::both)
       {
         const bool first_is_wall  = std::abs(node.normal[0][1]) < 1e-9,
                    second_is_wall = std::abs(node.normal[1][1]) < 1e-9;

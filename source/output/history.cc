@@ -25,7 +25,9 @@ namespace CaissonMPM
       {"points_in_body", [](Row row) { return 1. * row.points_in_body; }},
       {"contact_nodes", [](Row row) { return 1. * row.contact_nodes; }},
       {"sticking_nodes", [](Row row) { return 1. * row.sticking_nodes; }},
-      {"step", [](Row row) { return 1. * row.step; }}};
+      {"step", [](Row row) { return 1. * row.step; }},
+      {"lid_force_N", [](Row row) { return row.lid; }},
+      {"cavity_pressure_Pa", [](Row row) { return row.cavity; }}};
     return columns;
   }
 

@@ -128,17 +128,24 @@ namespace CaissonMPM
 
       void
       add_body(const std::vector<BodyPoint> &points,
-               const double                  speed,
-               const double                  travel)
+               const RigidBody              &body,
+               const double                  travel,
+               const double                  time)
       {
         for (const BodyPoint &p : points)
           {
+            const Point<2>     position = body.moved(p.position, travel);
+            const Tensor<1, 2> moved    = position - p.position,
+                               velocity =
+                                 body.velocity(time) * body.direction();
             Properties v      = {};
-            v[velocity_z]     = -speed;
-            v[displacement_z] = -travel;
+            v[velocity_r]     = velocity[radial];
+            v[velocity_z]     = velocity[vertical];
+            v[displacement_r] = moved[radial];
+            v[displacement_z] = moved[vertical];
             v[volume]         = p.volume;
             v[material]       = -1.;
-            add(p.position - Point<2>(0., travel), v, p.cell);
+            add(position, v, p.cell);
           }
       }
 
@@ -345,7 +352,7 @@ namespace CaissonMPM
 
     PointCloud cloud(grid);
     cloud.add_soil(points, soil);
-    cloud.add_body(body_points, body.velocity(time), travel);
+    cloud.add_body(body_points, body, travel, time);
     Particles::DataOut<2> point_output = cloud.build();
     const std::string     point_file   = write_vtu(
       point_output, directory, numbered("points", number), time, communicator);

@@ -110,23 +110,22 @@ namespace CaissonMPM
     nodal_motion.check_parameters();
     observations.initialize(Records::names({}));
     verification.check_parameters(observations.names());
-    if (last_penetration > 0. && last_penetration < body.initial_depth())
+    if (last_penetration > 0. && last_penetration < body.initial_depth() &&
+        !std::isfinite(end_time()))
       throw BadInput(
         "Time/End penetration = " + std::to_string(last_penetration) +
         " m is less than Rigid body/Initial penetration = " +
         std::to_string(body.initial_depth()) +
-        " m. Push deeper, or start higher.");
+        " m. Push deeper, start higher, or pull with a negative velocity.");
     if (!std::isfinite(end_time()))
       throw BadInput(
         "the run has no end: set Time/End time, or Time/End penetration to a "
         "depth that the body reaches with its velocity.");
-    if (body.max_velocity() > 0. && body.travel(end_time()) < 0.)
-      throw BadInput("Rigid body/Velocity moves the body up: the mesh holds "
-                     "downward travel only. Use a positive velocity.");
     if (Kernels::select_kernels(instruction_set.c_str()) == nullptr)
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");
-    grid.place_lines(body, soil, body.travel(end_time()));
+    const auto range = body.travel_range(end_time());
+    grid.place_lines(body, soil, range.second, -range.first);
   }
 
   void
@@ -305,7 +304,7 @@ namespace CaissonMPM
   Simulation::body_velocity() const
   {
     // of the whole step, so that body and mesh move alike
-    return Vector2({0., -(body.travel(time + dt) - body.travel(time)) / dt});
+    return (body.travel(time + dt) - body.travel(time)) / dt * body.direction();
   }
 
   void
@@ -433,17 +432,40 @@ namespace CaissonMPM
     add_sums_over_points(row);
     records->append(row, points);
     print_record(row);
+    warn_of_lid(row);
+  }
+
+  void
+  Simulation::warn_of_lid(const HistoryRow &row)
+  {
+    if (at_lid || row.lid == 0.)
+      return;
+    at_lid = true;
+    std::ostringstream s;
+    s << "the soil plug touches the lid at a penetration of " << row.penetration
+      << " m: from here on the lid carries load, and the mesh allows no more "
+         "heave";
+    console->warning(s.str());
   }
 
   void
   Simulation::add_forces(HistoryRow &row)
   {
     const double interval = time - last_record;
-    double      *forces[] = {&row.tip, &row.inner, &row.outer, &row.top};
+    double *forces[] = {&row.tip, &row.inner, &row.outer, &row.top, &row.lid};
     for (unsigned int s = 0; s < n_surfaces && interval > 0.; ++s)
       {
         *forces[s] = contact.impulse()[s][vertical] / interval;
         row.total += *forces[s];
+      }
+    if (body.kind() == RigidBody::Kind::cylinder && interval > 0.)
+      {
+        const double travel =
+          .5 * (body.travel(time) + body.travel(last_record));
+        const double around =
+          grid.axisymmetric() ? 2. * pi * (body.right() + travel) : 1.;
+        row.cavity = -contact.impulse()[outer_wall][radial] /
+                     (interval * around * grid.depth());
       }
     contact.reset_impulse();
     last_record = time;

@@ -4,11 +4,13 @@
 // body, moves with it, and compresses below it.
 //
 // Grid lines: rows and columns. Vertical lines stay vertical, so that every
-// cell is a trapezoid; rows bend only around a triangular tip. The height of a
-// node is linear in the travel d of the body:
+// cell is a trapezoid; rows bend only around a triangular tip or a cone. The
+// position of a node is linear in the travel d of the body:
 //   z = z0 - d                                      in the moving zone,
 //   z = z0 - d (z0 - bottom) / (zone bottom - bottom)    below it,
-//   z = z0 - d, or z0 - d (top - z0) / (top - zone top)  above the body.
+//   z = z0 - d, or z0 - d (top - z0) / (top - zone top)  above the body,
+// and around a cylinder whose radius grows from a by d
+//   r = r0 + d (outer radius - r0) / (outer radius - a),  r0 >= a.
 // For tests of the method without a body, the cells can be distorted: columns
 // and the heights of nodes displaced irregularly.
 #ifndef caisson_mpm_bodies_background_grid_h
@@ -78,11 +80,15 @@ namespace CaissonMPM
     check_parameters() const;
 
     /**
-     * Place the grid lines for the body and its whole travel. Throws BadInput,
-     * with the numbers to change, if the mesh cannot hold the travel.
+     * Place the grid lines for the body and its whole travel, from -uplift to
+     * travel. Throws BadInput, with the numbers to change, if the mesh cannot
+     * hold it. Units: m.
      */
     void
-    place_lines(const RigidBody &body, const Soil &soil, const double travel);
+    place_lines(const RigidBody &body,
+                const Soil      &soil,
+                const double     travel,
+                const double     uplift = 0.);
 
     /** Create mesh, dofs and geometry from the lines. Collective. */
     void
@@ -128,6 +134,12 @@ namespace CaissonMPM
     is_rigid(const unsigned int cell) const
     {
       return rigid[cell];
+    }
+    /** Whether a cell of the body belongs to the lid of a caisson. */
+    bool
+    is_lid(const unsigned int cell) const
+    {
+      return rigid[cell] && column_of(cell) < body_column_begin;
     }
     Zone
     zone(const unsigned int cell) const
@@ -218,6 +230,13 @@ namespace CaissonMPM
       return inner_radius == 0.;
     }
 
+    /** Height of the domain below the soil surface at the start. Units: m. */
+    double
+    depth() const
+    {
+      return -bottom;
+    }
+
     double
     total_travel() const
     {
@@ -240,6 +259,16 @@ namespace CaissonMPM
     place_rows(const RigidBody &body, const Soil &soil);
     void
     check_travel() const;
+    void
+    check_travel_down() const;
+    void
+    check_travel_up() const;
+    void
+    check_expansion() const;
+    double
+    smallest_row_at(const double travel, const bool above_body) const;
+    double
+    radial_rate(const double r0) const;
     void
     create_triangulation();
     void
@@ -264,6 +293,7 @@ namespace CaissonMPM
     double       growth         = 1.15;
     double       fine_width     = 0.2;
     double       fine_height    = 0.2;
+    double       fine_size      = 0.;
     double       zone_below_tip = 1.5;
     std::string  upper_text     = "free";
     double       smallest_row   = 0.01;
@@ -275,11 +305,13 @@ namespace CaissonMPM
     // displacement of the nodes by the distortion, [row][column]; or empty
     std::vector<std::vector<double>> node_shift;
     double                           zone_bottom = 0., zone_top = 0.;
-    double                           travel_to_hold = 0.;
+    double                           travel_to_hold = 0., uplift_to_hold = 0.;
     // the body in line numbers [begin, end), and its lower surface by column
     unsigned int        body_column_begin = 0, body_column_end = 0;
     unsigned int        body_row_begin = 0, body_row_end = 0;
-    double              shoulder = 0., decay_length = 1.;
+    unsigned int        lid_row_begin    = 0;  // body_row_end without a lid
+    double              expanding_radius = 0.; // of a cylinder, else 0
+    double              shoulder = 0., decay_below = 1., decay_above = 1.;
     std::vector<double> dip; // [columns] depth of the tip below the shoulder
 
     std::vector<Triangulation::active_cell_iterator> iterators;
@@ -294,10 +326,12 @@ namespace CaissonMPM
     std::array<std::vector<Kernels::CellGeometry>, 2> geometries;
     unsigned int                                      current = 0;
 
-    // z = node_z0 + node_rate travel
-    std::vector<double>       node_r, node_z, node_z0, node_rate;
-    std::vector<unsigned int> node_sides;
-    std::vector<std::pair<unsigned int, double *>> vertex_heights;
+    // x = node_start + node_rate travel, r and z
+    std::vector<double>                                        node_r, node_z;
+    std::vector<dealii::Point<dim>>                            node_start;
+    std::vector<dealii::Tensor<1, dim>>                        node_rate;
+    std::vector<unsigned int>                                  node_sides;
+    std::vector<std::pair<unsigned int, dealii::Point<dim> *>> vertices;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     mutable std::map<unsigned int,

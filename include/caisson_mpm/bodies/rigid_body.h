@@ -6,6 +6,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
 
 #include <array>
 #include <string>
@@ -17,20 +18,24 @@ namespace CaissonMPM
   /** The surfaces of a body, for friction and for the split of its forces. */
   enum Surface : unsigned int
   {
-    tip        = 0, // faces that look down
+    tip        = 0, // faces that look down, but for those of a lid
     inner_wall = 1, // vertical faces towards the axis
     outer_wall = 2, // vertical faces away from the axis
     top        = 3, // faces that look up
-    n_surfaces = 4
+    lid        = 4, // the lower face of a lid
+    n_surfaces = 5
   };
 
   /**
-   * A rigid body that moves down along the axis with a prescribed velocity.
+   * A rigid body that moves with a prescribed velocity: along the axis, down
+   * or up, or, a cylinder, outward.
    *
    * Its shape is exact, and the background grid follows it: the cells inside
    * the body are rigid, and its surface consists of faces of the grid. A
-   * caisson is a tube with a triangular or flat tip; a box is a rectangle in
-   * (r, z), for tests of contact. Nothing here is collective.
+   * caisson is a tube with a triangular or flat tip, open or closed by a lid; a
+   * cone has a shaft of its radius above it; a cylinder has the height of the
+   * mesh and a radius that grows; a box is a rectangle in (r, z). Nothing here
+   * is collective.
    */
   class RigidBody : public dealii::ParameterAcceptor
   {
@@ -39,7 +44,9 @@ namespace CaissonMPM
     {
       none,
       caisson,
-      box
+      box,
+      cone,
+      cylinder
     };
 
     /** How a node on an edge of the body, with two normals, is treated. */
@@ -63,7 +70,8 @@ namespace CaissonMPM
       return kind_;
     }
 
-    /** Extent in r, and initial extent in z: of the skirt, or of the box. */
+    /** Initial extent in r and z: of the skirt of a caisson, else of the whole
+     * body. Units: m. */
     double
     left() const;
     double
@@ -73,17 +81,35 @@ namespace CaissonMPM
     double
     top_of_body() const;
 
-    /** Depth of the body's lowest point at the start, 0 without a body. Units:
-     * m. */
+    /** Depth of the body's lowest point at the start, 0 without a body and for
+     * a cylinder. Units: m. */
     double
     initial_depth() const
     {
-      return kind_ == Kind::none ? 0. : -bottom();
+      return kind_ == Kind::none || kind_ == Kind::cylinder ? 0. : -bottom();
     }
 
-    /** Height of the triangular tip, 0 for a flat one. Units: m. */
+    /** Height of the triangular tip or the cone, 0 for a flat one. Units: m. */
     double
     tip_height() const;
+
+    /** Height of the lid's lower face at the start. Units: m. */
+    double
+    lower_face_of_lid() const
+    {
+      return top_of_body() - lid_thickness;
+    }
+    bool
+    has_lid() const
+    {
+      return kind_ == Kind::caisson && lid_thickness > 0.;
+    }
+
+    /** Width of the cells that the body asks for: of those across the wall of a
+     * caisson, or across the radius of a cone or cylinder; 0 for a box. Units:
+     * m. */
+    double
+    cell_width() const;
 
     /**
      * Initial height of the body's lower surface at radius r between left()
@@ -97,15 +123,28 @@ namespace CaissonMPM
     bool
     contains(const dealii::Point<2> &p, const double travel) const;
 
-    /** Downward velocity at time t. Units: m/s. */
+    /** The direction of a positive velocity: down, or outward for a cylinder.
+     */
+    dealii::Tensor<1, 2>
+    direction() const;
+
+    /** Where a place of the body at the start is after a travel. */
+    dealii::Point<2>
+    moved(const dealii::Point<2> &p, const double travel) const;
+
+    /** Velocity at time t, positive in direction(). Units: m/s. */
     double
     velocity(const double t) const;
 
-    /** How far the body has moved down at time t. Units: m. */
+    /** How far the body has moved in direction() at time t. Units: m. */
     double
     travel(const double t) const;
 
-    /** The time at which it has moved down by d; infinity if never. */
+    /** The smallest and the largest travel from 0 to time t. Units: m. */
+    std::pair<double, double>
+    travel_range(const double t) const;
+
+    /** The first time at which it has moved by d; infinity if never. */
     double
     time_of_travel(const double d) const;
 
@@ -121,20 +160,26 @@ namespace CaissonMPM
     double skirt_length        = 7.;
     double wall_thickness      = 0.1;
     double tip_angle           = 45.;
+    double apex_angle          = 60.;
+    double lid_thickness       = 0.;
     double density             = 7850.;
 
     unsigned int cells_across = 2;
 
     /** Contact friction angles by surface. Units: degrees. */
-    std::array<double, n_surfaces> friction_angle = {{20., 20., 20., 20.}};
+    std::array<double, n_surfaces> friction_angle = {{20., 20., 20., 20., 20.}};
     /** Contact adhesion by surface. Units: Pa. */
-    std::array<double, n_surfaces> adhesion = {{0., 0., 0., 0.}};
+    std::array<double, n_surfaces> adhesion = {{0., 0., 0., 0., 0.}};
 
     CornerNormals corner_normals = CornerNormals::average;
 
   private:
     void
     parse_texts();
+    void
+    check_caisson() const;
+    std::vector<double>
+    turning_times(const double end) const;
 
     Kind        kind_             = Kind::none;
     std::string kind_text         = "none";

@@ -29,7 +29,8 @@ namespace CaissonMPM
   /**
    * The contact nodes and what they do in a step. They are found on their own:
    * nodes of the body's surface to which soil has brought mass. The grid moves
-   * with the body, so that normals and areas never change.
+   * with the body, so that normals never change, nor do areas (but for an
+   * expanding cylinder, which has no adhesion).
    */
   class Contact
   {
@@ -99,6 +100,7 @@ namespace CaissonMPM
       unsigned int           n_normals; // of different direction: 1 or 2
       std::array<Vector2, 2> normal;
       Vector2                mean_normal;
+      bool                   concave; // between lid and wall
       double                 friction;
       double                 adhesion; // a A, N per radian
     };

@@ -19,6 +19,8 @@ namespace CaissonMPM
     double        inner          = 0.;
     double        outer          = 0.;
     double        top            = 0.;
+    double        lid            = 0.;
+    double        cavity         = 0.; // mean pressure on a cylinder
     double        total          = 0.;
     double        kinetic_energy = 0.;
     double        external_work  = 0.;

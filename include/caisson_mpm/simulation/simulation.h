@@ -96,6 +96,8 @@ namespace CaissonMPM
     void
     add_forces(HistoryRow &row);
     void
+    warn_of_lid(const HistoryRow &row);
+    void
     add_sums_over_points(HistoryRow &row);
     void
     print_record(const HistoryRow &row);
@@ -169,6 +171,7 @@ namespace CaissonMPM
     unsigned long first_step   = 0; // of this run
     double        start_of_run = 0.;
     unsigned int  max_in_body  = 0;
+    bool          at_lid       = false;
     double        point_steps  = 0.;
     std::chrono::steady_clock::time_point start_time;
   };
