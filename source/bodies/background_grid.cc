@@ -738,6 +738,34 @@ namespace CaissonMPM
     return smallest;
   }
 
+  double
+  BackgroundGrid::smallest_width_met(const unsigned int cell) const
+  {
+    const unsigned int i         = column_of(cell);
+    const double       r0        = columns[i];
+    double             smallest  = columns[i + 1] - r0;
+    const unsigned int n_samples = expanding_radius > 0. ? 100 : 0;
+    for (unsigned int s = 1; s <= n_samples; ++s)
+      {
+        const double travel = travel_to_hold * s / n_samples;
+        const double a = expanding_radius, b = a + travel;
+        const double r =
+          axisymmetric() ? std::sqrt(r0 * r0 + b * b - a * a) : r0 + travel;
+        // soil that was dr wide is now r0 / r times that
+        const double shortened = axisymmetric() ? r0 / r : 1.;
+        const double rate      = 1. / (outer_radius - a);
+        const double start =
+          (r - travel * rate * outer_radius) / (1. - travel * rate);
+        const auto next =
+          std::upper_bound(columns.begin() + body_column_end + 1,
+                           columns.end() - 1,
+                           start + 1e-9);
+        const double width = (*next - *(next - 1)) * (1. - travel * rate);
+        smallest           = std::min(smallest, width / shortened);
+      }
+    return smallest;
+  }
+
   std::string
   BackgroundGrid::description() const
   {

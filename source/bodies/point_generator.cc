@@ -182,11 +182,13 @@ namespace CaissonMPM
         if (grid.is_rigid(cell) || center_z > region_top ||
             center_z < region_bottom)
           continue;
-        const unsigned int n_r =
+        const unsigned int n =
           points_per_direction(g, body, grid.total_travel());
+        const unsigned int n_r =
+          std::ceil(n * g.width / grid.smallest_width_met(cell) - 1e-6);
         const double       height = std::max(g.height_left, g.height_right);
         const unsigned int n_z =
-          std::ceil(n_r * height / grid.smallest_height_met(cell) - 1e-6);
+          std::ceil(n * height / grid.smallest_height_met(cell) - 1e-6);
         for (unsigned int i = 0; i < n_r; ++i)
           {
             const auto moments =

@@ -218,6 +218,14 @@ namespace CaissonMPM
     double
     smallest_height_met(const unsigned int cell) const;
 
+    /**
+     * Around an expanding cylinder: the smallest width, as seen at the start,
+     * of the columns that soil of this cell will meet if it flows without
+     * change of volume; else the width of the cell. Units: m.
+     */
+    double
+    smallest_width_met(const unsigned int cell) const;
+
     bool
     axisymmetric() const
     {
