@@ -691,7 +691,7 @@ check_boundary_conditions()
               "\nset Top = " + kind + "\nend\n");
       s.boundary_conditions.initialize(s.grid);
       std::vector<Kernels::NodalVector> v(s.grid.n_nodes(), {{1., 1.}});
-      s.boundary_conditions.apply(v.data());
+      s.boundary_conditions.constrain(v.data());
       // 3 x 3 nodes, from the lower left one
       std::printf("%s:", kind.c_str());
       for (const double z : {-2., -1., 0.})
@@ -702,6 +702,64 @@ check_boundary_conditions()
               std::printf(" %g%g", v[n].value[0], v[n].value[1]);
       std::printf("\n");
     }
+}
+
+/** Prescribed velocities: which nodes, which components, impulse and work. */
+void
+check_prescribed_velocity()
+{
+  Scene s(R"(
+    subsection Grid
+      set Inner radius = 1
+      set Outer radius = 3
+      set Bottom       = -2
+      set Top          = 0
+    end
+    subsection Boundary conditions
+      set Prescribed region   = t - 0.5 - abs(z)
+      set Prescribed velocity = free ; r*t
+    end)");
+  auto &b = s.boundary_conditions;
+  b.check_parameters(s.grid);
+  b.initialize(s.grid);
+  // at t = 1 the rows z = 0; in the middle of the step t = 2
+  b.prepare(s.grid, 1., 2.);
+  const std::vector<double>         mass(s.grid.n_nodes(), 5.);
+  std::vector<Kernels::NodalVector> v(s.grid.n_nodes(), {{1., 1.}}), held = v,
+                                                                     zero = v;
+  const double work = b.apply(mass, v.data());
+  b.constrain(held.data());
+  b.constrain_difference(zero.data());
+  double error = 0.;
+  for (unsigned int n = 0; n < v.size(); ++n)
+    {
+      const bool   is_top = s.grid.z_of(n) > -1e-9;
+      const double r      = s.grid.r_of(n);
+      // rollers on both sides
+      const double v_r     = r < 1.5 || r > 2.5 ? 0. : 1.;
+      const double v_z     = s.grid.z_of(n) < -1.5 ? 0. : is_top ? 2. * r : 1.;
+      const double fixed_r = s.grid.z_of(n) < -1.5 ? 0. : v_r;
+      error                = std::max({error,
+                                       std::abs(v[n].value[0] - fixed_r),
+                                       std::abs(v[n].value[1] - v_z),
+                                       std::abs(held[n].value[0] - fixed_r),
+                                       std::abs(held[n].value[1] - v_z),
+                                       std::abs(zero[n].value[0] - fixed_r),
+                                       std::abs(zero[n].value[1] - (is_top ? 0. : v_z))});
+    }
+  verdict("prescribed velocity: error", error, 1e-14);
+  // three nodes at r = 1, 2, 3, from 1 to 2 r
+  verdict("prescribed velocity: impulse error",
+          std::abs(b.impulse()[1] / (2. * pi * 5. * (1. + 3. + 5.)) - 1.) +
+            std::abs(b.impulse()[0]),
+          1e-14);
+  verdict("prescribed velocity: work error",
+          std::abs(work / (2. * pi * 5. * (2. + 12. + 30.)) - 1.),
+          1e-14);
+  b.prepare(s.grid, .4, 0.);
+  std::fill(v.begin(), v.end(), Kernels::NodalVector{{1., 1.}});
+  const double no_work = b.apply(mass, v.data());
+  verdict("nothing prescribed before its time", std::abs(no_work), 0.);
 }
 
 int
@@ -724,4 +782,5 @@ main(int argc, char *argv[])
   check_distortion();
   check_point_options();
   check_boundary_conditions();
+  check_prescribed_velocity();
 }

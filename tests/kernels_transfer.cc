@@ -121,10 +121,12 @@ struct Scene
 
 constexpr double E = 1e6, nu = .3;
 
+constexpr double surrounding = -1.7; // added to the normal stresses
+
 // full from 0.9 of the volume on, here the cells 0, 2 and 4
-const IntegrationSettings gauss      = {.9, .9, true, false},
-                          gauss_mean = {.9, .9, true, true},
-                          at_points  = {1e300, 1e300, true, false};
+const IntegrationSettings gauss      = {.9, .9, true, false, surrounding},
+                          gauss_mean = {.9, .9, true, true, surrounding},
+                          at_points  = {1e300, 1e300, true, false, surrounding};
 
 /** Cells 0, 2, 4 are filled, the others by a third. The stress of the points
  * is random, or affine. */
@@ -340,9 +342,9 @@ add_force(NodalSums                  &n,
           const std::array<double, 4> s, // rr zz tt rz
           const double                kappa_over_r)
 {
-  n.force[0] -= volume * (N.d_dr[i] * s[0] + N.d_dz[i] * s[3] +
-                          kappa_over_r * N.value[i] * s[2]);
-  n.force[1] -= volume * (N.d_dr[i] * s[3] + N.d_dz[i] * s[1]);
+  n.force[0] -= volume * (N.d_dr[i] * (s[0] + surrounding) + N.d_dz[i] * s[3] +
+                          kappa_over_r * N.value[i] * (s[2] + surrounding));
+  n.force[1] -= volume * (N.d_dr[i] * s[3] + N.d_dz[i] * (s[1] + surrounding));
 }
 
 /** The sums as the equations say; the stress of full cells is affine. */

@@ -142,25 +142,27 @@ namespace CaissonMPM
 
   void
   NodalMotion::collect(const Kernels::KernelTable           &kernels,
-                       const Kernels::PointsView            &points,
-                       const Kernels::GridView              &grid,
-                       const std::vector<Kernels::Material> &materials)
+                       MaterialPoints                       &points,
+                       const BackgroundGrid                 &grid,
+                       const std::vector<Kernels::Material> &materials,
+                       const Loads                          &loads,
+                       const double                          time)
   {
     sums = 0.;
     sums.zero_out_ghost_values();
-    moments.resize(points.n_active_cells);
+    const auto  view  = points.view();
+    auto *const nodes = reinterpret_cast<Kernels::NodalSums *>(sums.begin());
+    moments.resize(view.n_active_cells);
     const bool point_quadrature = integration == "material points";
     const Kernels::IntegrationSettings settings = {
       point_quadrature ? 1e300 : full_fraction,
       point_quadrature ? 1e300 : full_fraction_inside,
       floor_on,
-      pressure == "mean"};
-    kernels.points_to_grid(points,
-                           grid,
-                           materials.data(),
-                           settings,
-                           reinterpret_cast<Kernels::NodalSums *>(sums.begin()),
-                           moments.data());
+      pressure == "mean",
+      loads.surrounding_pressure(time)};
+    kernels.points_to_grid(
+      view, grid.view(), materials.data(), settings, nodes, moments.data());
+    loads.add_body_force(points, grid, time, nodes);
     sums.compress(VectorOperation::add);
     sums.update_ghost_values();
   }
@@ -208,15 +210,15 @@ namespace CaissonMPM
   }
 
   double
-  NodalMotion::constrain(const double              dt,
-                         const Vector2            &body_velocity,
-                         const BoundaryConditions &boundary_conditions,
-                         Contact                  &contact)
+  NodalMotion::constrain(const double        dt,
+                         const Vector2      &body_velocity,
+                         BoundaryConditions &boundary_conditions,
+                         Contact            &contact)
   {
     double work = 0.;
     if (!contact.empty())
       work = contact.apply(body_velocity, dt, mass, data(new_velocity));
-    boundary_conditions.apply(data(new_velocity));
+    work += boundary_conditions.apply(mass, data(new_velocity));
     return work;
   }
 
@@ -250,13 +252,15 @@ namespace CaissonMPM
                                 const BoundaryConditions   &boundary_conditions,
                                 const Contact              &contact)
   {
-    const auto hold_to = [&](const Vector2 &body_velocity, NodalVector *v) {
-      if (!contact.empty())
-        contact.constrain(body_velocity, v);
-      boundary_conditions.apply(v);
-    };
     const auto hold = [&](NodalVector *v) {
-      hold_to(contact.body_velocity(), v);
+      if (!contact.empty())
+        contact.constrain(contact.body_velocity(), v);
+      boundary_conditions.constrain(v);
+    };
+    const auto hold_difference = [&](NodalVector *v) {
+      if (!contact.empty())
+        contact.constrain(Vector2(), v);
+      boundary_conditions.constrain_difference(v);
     };
     const std::size_t n   = 2 * mass.size();
     const double     *old = old_velocity.begin(), *v = new_velocity.begin();
@@ -275,7 +279,7 @@ namespace CaissonMPM
             // from the second round on the field is a difference
             round_trip(
               kernels, points, grid, work[0], work[1], [&](NodalVector *u) {
-                hold_to(k == 1 ? contact.body_velocity() : Vector2(), u);
+                k == 1 ? hold(u) : hold_difference(u);
               });
             for (std::size_t i = 0; i < n; ++i)
               {

@@ -107,6 +107,7 @@ namespace CaissonMPM
     grid.check_parameters();
     generator.check_parameters();
     boundary_conditions.check_parameters(grid);
+    loads.check_parameters();
     nodal_motion.check_parameters();
     observations.initialize(Records::names({}));
     verification.check_parameters(observations.names());
@@ -148,6 +149,7 @@ namespace CaissonMPM
     body_points = generate_body_points(grid, body);
     contact.initialize(grid, body);
     boundary_conditions.initialize(grid);
+    loads.initialize(time_step.mass_scaling);
     nodal_motion.initialize(grid);
     materials = soil.kernel_materials(time_step.mass_scaling);
 
@@ -269,10 +271,11 @@ namespace CaissonMPM
     const auto view = grid.view();
     choose_step();
     timed("points to grid", [&]() {
-      nodal_motion.collect(*kernels, points.view(), view, materials);
+      nodal_motion.collect(*kernels, points, grid, materials, loads, time);
     });
     timed("nodal motion", [&]() { nodal_motion.accelerate(dt, contact); });
     timed("contact", [&]() {
+      boundary_conditions.prepare(grid, time, dt);
       external_work += nodal_motion.constrain(dt,
                                               body_velocity(),
                                               boundary_conditions,
@@ -467,7 +470,13 @@ namespace CaissonMPM
         row.cavity = -contact.impulse()[outer_wall][radial] /
                      (interval * around * grid.depth());
       }
+    if (interval > 0.)
+      {
+        row.prescribed_r = boundary_conditions.impulse()[radial] / interval;
+        row.prescribed_z = boundary_conditions.impulse()[vertical] / interval;
+      }
     contact.reset_impulse();
+    boundary_conditions.reset_impulse();
     last_record = time;
   }
 
@@ -582,6 +591,8 @@ namespace CaissonMPM
     for (const Vector2 &impulse : contact.impulse())
       for (unsigned int d = 0; d < 2; ++d)
         state.more.push_back(impulse[d]);
+    for (unsigned int d = 0; d < 2; ++d)
+      state.more.push_back(boundary_conditions.impulse()[d]);
     write_checkpoint(directory, grid, points, state, fingerprint());
   }
 
@@ -594,6 +605,8 @@ namespace CaissonMPM
     for (unsigned int i = 0; i < 2 * n_surfaces; ++i)
       impulse[i / 2][i % 2] = numbers.at(2 + i);
     contact.reset_impulse(impulse);
+    boundary_conditions.reset_impulse(Vector2(
+      {numbers.at(2 + 2 * n_surfaces), numbers.at(3 + 2 * n_surfaces)}));
   }
 
   void

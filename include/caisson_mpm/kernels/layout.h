@@ -131,10 +131,11 @@ namespace CaissonMPM
     /** How the internal force is integrated. */
     struct IntegrationSettings
     {
-      double full_at_surface; // filled volume from which a cell is full
-      double full_inside;     // the same where all neighbors have points
-      bool   floor_mass;      // sum the stiffness bound
-      bool   mean_pressure;   // cell mean instead of the affine pressure
+      double full_at_surface;      // filled volume from which a cell is full
+      double full_inside;          // the same where all neighbors have points
+      bool   floor_mass;           // sum the stiffness bound
+      bool   mean_pressure;        // cell mean instead of the affine pressure
+      double surrounding_pressure; // added to the normal stresses (Pa)
     };
 
     /** What grid_to_points needs besides the nodal fields. */

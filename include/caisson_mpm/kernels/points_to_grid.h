@@ -5,7 +5,8 @@
 // Equations (per radian; kappa = 1 axisymmetric, 0 plane strain; Sulsky, Chen
 // & Schreyer 1994, doi:10.1016/0045-7825(94)90112-0):
 //   m_I = sum m_p N_I,  p_I = sum m_p v_p N_I,
-//   f_I = sum m_p b N_I - int (sigma . grad N_I + e_r kappa sigma_tt N_I/r) dV.
+//   f_I = sum m_p b N_I - int (sigma . grad N_I + e_r kappa sigma_tt N_I/r) dV,
+// where sigma stands for sigma + p I under a surrounding pressure p.
 // The integral runs over the MPs in partly filled cells, and over 2 x 2 Gauss
 // points in full ones, with the stress reconstructed from the MPs by an affine
 // least-squares fit in (r, z), which is exact for a K0 state. A cell is full
@@ -95,17 +96,16 @@ namespace CaissonMPM
                          const double   modulus,
                          double        *stiffness)
       {
-        using Number       = Lanes<1>;
-        const auto   p     = map.at_reference(Number(.5), Number(.5));
-        const double r     = map.left + .5 * map.width;
-        const double hoop  = .25 * axisymmetric / r;
-        const double d_eta = sum(p.inverse_height), slope = sum(p.slope);
-        double       norm[4], total                       = 0.;
+        const double inverse_height = 1. / map.mean_height();
+        const double slope =
+          (map.bottom_slope + .5 * map.height_slope) * inverse_height;
+        const double hoop = .25 * axisymmetric / (map.left + .5 * map.width);
+        double       norm[4], total = 0.;
         for (int i = 0; i < 4; ++i)
           {
             const double half_r = i % 2 ? .5 : -.5, half_z = i / 2 ? .5 : -.5;
             const double g_r = (half_r - half_z * slope) * map.inverse_width,
-                         g_z = half_z * d_eta;
+                         g_z = half_z * inverse_height;
             norm[i] = __builtin_sqrt(g_r * g_r + g_z * g_z + hoop * hoop);
             total += norm[i];
           }
@@ -115,8 +115,9 @@ namespace CaissonMPM
       }
 
       /**
-       * The internal force of a full cell, from the fitted stress, and the
-       * stiffness bound for the given modulus where that is not 0.
+       * The internal force of a full cell, from the fitted stress and the
+       * surrounding pressure, and the stiffness bound for the given modulus
+       * where that is not 0.
        */
       template <typename Number>
       CAISSON_INLINE void
@@ -124,11 +125,13 @@ namespace CaissonMPM
                           const double      axisymmetric,
                           const double     *fit,
                           const double      modulus,
+                          const double      surrounding_pressure,
                           CellContribution &contribution)
       {
         ForceSums<Number> forces;
         forces.clear();
         const double inverse_mean_height = 1. / map.mean_height();
+        const Number pressure(surrounding_pressure);
         for (int lane = 0; lane < GaussPoints::n; lane += Number::width)
           {
             const GaussLanes<Number> gauss(map, axisymmetric, lane);
@@ -138,14 +141,15 @@ namespace CaissonMPM
             const Number x = gauss.point.xi - Number(.5),
                          y = (z - Number(map.center_z())) *
                              Number(inverse_mean_height);
-            forces.add(gauss.point,
-                       map.inverse_width,
-                       gauss.inverse_r,
-                       gauss.volume,
-                       StressState<Number>{evaluate_fit(fit, x, y),
-                                           evaluate_fit(fit + 3, x, y),
-                                           evaluate_fit(fit + 6, x, y),
-                                           evaluate_fit(fit + 9, x, y)});
+            forces.add(
+              gauss.point,
+              map.inverse_width,
+              gauss.inverse_r,
+              gauss.volume,
+              StressState<Number>{evaluate_fit(fit, x, y) + pressure,
+                                  evaluate_fit(fit + 3, x, y) + pressure,
+                                  evaluate_fit(fit + 6, x, y) + pressure,
+                                  evaluate_fit(fit + 9, x, y)});
           }
         double sums[ForceSums<Number>::size];
         sum_lanes<ForceSums<Number>::size>(forces.sum, sums);
@@ -179,6 +183,7 @@ namespace CaissonMPM
         const Material &material            = materials[material_id];
         const double    center_z            = map.center_z();
         const double    inverse_mean_height = 1. / map.mean_height();
+        const Number    pressure(settings.surrounding_pressure);
         for (; block >= 0 && points.headers[block].material == material_id;
              block = points.headers[block].next)
           {
@@ -209,7 +214,10 @@ namespace CaissonMPM
                                    map.inverse_width,
                                    inverse_r,
                                    volume,
-                                   StressState<Number>{s[0], s[1], s[2], s[3]});
+                                   StressState<Number>{s[0] + pressure,
+                                                       s[1] + pressure,
+                                                       s[2] + pressure,
+                                                       s[3]});
                     if (settings.floor_mass)
                       force_sums.add_stiffness(
                         p,
@@ -319,6 +327,7 @@ namespace CaissonMPM
                                             grid.axisymmetric,
                                             moments[i].fit,
                                             settings.floor_mass ? modulus : 0.,
+                                            settings.surrounding_pressure,
                                             contribution);
               }
             else

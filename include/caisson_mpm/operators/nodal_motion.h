@@ -25,6 +25,7 @@
 #include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/operators/contact.h>
+#include <caisson_mpm/operators/loads.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -48,24 +49,28 @@ namespace CaissonMPM
     void
     initialize(const BackgroundGrid &grid);
 
-    /** Sum mass, momentum and force of the points. */
+    /** Sum mass, momentum and force of the points, the loads at @p time
+     * included. */
     void
     collect(const Kernels::KernelTable           &kernels,
-            const Kernels::PointsView            &points,
-            const Kernels::GridView              &grid,
-            const std::vector<Kernels::Material> &materials);
+            MaterialPoints                       &points,
+            const BackgroundGrid                 &grid,
+            const std::vector<Kernels::Material> &materials,
+            const Loads                          &loads,
+            const double                          time);
 
     /** v = p / m, and v+ = v + dt f / m. Small masses are raised first. */
     void
     accelerate(const double dt, const Contact &contact);
 
-    /** Contact on v+, then the boundary conditions. Returns the work that the
-     * body does on the soil in this step, whole circumference. Units: J. */
+    /** Contact on v+, then the boundary conditions. Returns the work that body
+     * and prescribed nodes do on the soil in this step, whole circumference.
+     * Units: J. */
     double
-    constrain(const double              dt,
-              const Vector2            &body_velocity,
-              const BoundaryConditions &boundary_conditions,
-              Contact                  &contact);
+    constrain(const double        dt,
+              const Vector2      &body_velocity,
+              BoundaryConditions &boundary_conditions,
+              Contact            &contact);
 
     /** The fields that update the points. */
     void

@@ -10,7 +10,8 @@
 namespace CaissonMPM
 {
   /** One row. SI units; forces on the body, upward positive, on the whole
-   * circumference; the energies and the largest speed are those of the soil. */
+   * circumference; the energies and the largest speed are those of the soil.
+   * The force at prescribed nodes is that on the soil. */
   struct HistoryRow
   {
     double        time           = 0.;
@@ -33,6 +34,8 @@ namespace CaissonMPM
     unsigned int  contact_nodes  = 0;
     unsigned int  sticking_nodes = 0;
     unsigned long step           = 0;
+    double        prescribed_r   = 0.;
+    double        prescribed_z   = 0.;
   };
 
   /** The columns of history.csv, and how each follows from a row. Others'

@@ -18,6 +18,7 @@
 #include <caisson_mpm/materials/soil.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/operators/contact.h>
+#include <caisson_mpm/operators/loads.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 #include <caisson_mpm/output/checkpoint.h>
 #include <caisson_mpm/output/error_bar.h>
@@ -128,6 +129,7 @@ namespace CaissonMPM
     RigidBody          body;
     PointGenerator     generator;
     BoundaryConditions boundary_conditions;
+    Loads              loads;
     NodalMotion        nodal_motion;
     TimeStep           time_step;
     Observations       observations;
