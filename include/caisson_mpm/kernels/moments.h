@@ -14,22 +14,29 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** Moments of the MPs of one cell and one material. */
-      template <typename Number>
-      struct PointSums
+      /** Sums over points, lane by lane; sum_lanes() brings them together. */
+      template <typename Number, int n>
+      struct LaneSums
       {
-        // mass: 1, xi, eta, xi eta, xi2, eta2, xi2 eta, xi eta2, xi2 eta2;
-        // then momentum r and z: 1, xi, eta, xi eta
-        static constexpr int momentum = 9;
-        static constexpr int size     = 24;
-        Number               sum[size];
+        static constexpr int size = n;
+        Number               sum[n];
 
         CAISSON_INLINE void
         clear()
         {
-          for (int i = 0; i < size; ++i)
+          for (int i = 0; i < n; ++i)
             sum[i] = Number(0.);
         }
+      };
+
+      /** Moments of the MPs of one cell and one material. */
+      template <typename Number>
+      struct PointSums : LaneSums<Number, 24>
+      {
+        // mass: 1, xi, eta, xi eta, xi2, eta2, xi2 eta, xi eta2, xi2 eta2;
+        // then momentum r and z: 1, xi, eta, xi eta
+        static constexpr int momentum = 9;
+        using LaneSums<Number, 24>::sum;
 
         CAISSON_INLINE void
         add(const LocalPoint<Number> &p,
@@ -62,20 +69,12 @@ namespace CaissonMPM
 
       /** Moments of the internal force. */
       template <typename Number>
-      struct ForceSums
+      struct ForceSums : LaneSums<Number, 16>
       {
         // hoop: 1, xi, eta, xi eta; r: a, a eta, b, b xi; z: likewise;
         // then the four corners' stiffness
         static constexpr int stiffness = 12;
-        static constexpr int size      = 16;
-        Number               sum[size];
-
-        CAISSON_INLINE void
-        clear()
-        {
-          for (int i = 0; i < size; ++i)
-            sum[i] = Number(0.);
-        }
+        using LaneSums<Number, 16>::sum;
 
         CAISSON_INLINE void
         add(const LocalPoint<Number>  &p,
@@ -143,19 +142,11 @@ namespace CaissonMPM
       /** Moments of the stress for the affine fit in x = xi - 1/2 and
        * y = (z - z_center) / mean height, weighted by mass. */
       template <typename Number>
-      struct FitSums
+      struct FitSums : LaneSums<Number, 24>
       {
         // m x, m y, m x2, m x y, m y2; then per component s, s x, s y
         static constexpr int stress = 5;
-        static constexpr int size   = 24;
-        Number               sum[size];
-
-        CAISSON_INLINE void
-        clear()
-        {
-          for (int i = 0; i < size; ++i)
-            sum[i] = Number(0.);
-        }
+        using LaneSums<Number, 24>::sum;
 
         CAISSON_INLINE void
         add(const Number x, const Number y, const Number mass, const Number *s)
