@@ -657,7 +657,7 @@ update(Scene                                                      &s,
         const auto w              = v(r, z);
         field[s.nodes[c].node[i]] = {{w[0], w[1]}};
       }
-  LeavingPoints result = {leaving.data(), 1000, 0, 0};
+  LeavingPoints result = {leaving.data(), 1000, 0, 0, 0.};
   kernels.grid_to_points(s.view(),
                          s.grid(),
                          s.grid(),
@@ -679,8 +679,10 @@ check_linear_field(const double axisymmetric)
   const auto                     v = [&](const double r, const double z) {
     return std::array<double, 2>{{a * r, b * z + c * r}};
   };
-  update(s, *select_kernels("auto"), {dt, keep, true, 0., 0.}, v, moments);
-  const double M = E * (1. - nu) / ((1. + nu) * (1. - 2. * nu)),
+  const LeavingPoints sums =
+    update(s, *select_kernels("auto"), {dt, keep, true, 0., 0.}, v, moments);
+  double       work = 0.;
+  const double M    = E * (1. - nu) / ((1. + nu) * (1. - 2. * nu)),
                l = M * nu / (1. - nu), G = E / (2. * (1. + nu));
   double position = 0., velocity = 0., stress = 0., volume = 0.;
   for_all(s, [&](PointBlock &block, int lane, const Point &p) {
@@ -702,6 +704,14 @@ check_linear_field(const double axisymmetric)
                              p.s[3] + spin * (p.s[1] - p.s[0]) + 2. * G * rz};
     for (int i = 0; i < 4; ++i)
       stress = std::max(stress, std::abs(block.stress[i][lane] - exact[i]));
+    // the mean of the old stress, rotated, and the new one
+    const double turn    = 2. * spin * p.s[3];
+    const double mean_rr = .5 * (p.s[0] + turn + exact[0]),
+                 mean_zz = .5 * (p.s[1] - turn + exact[1]),
+                 mean_tt = .5 * (p.s[2] + exact[2]),
+                 mean_rz = .5 * (p.s[3] + spin * (p.s[1] - p.s[0]) + exact[3]);
+    work += p.volume * (1. + .5 * trace) *
+            (mean_rr * rr + mean_zz * zz + mean_tt * tt + 2. * mean_rz * rz);
     volume =
       std::max(volume, std::abs(block.volume[lane] / p.volume - 1. - trace));
   });
@@ -709,6 +719,9 @@ check_linear_field(const double axisymmetric)
   verdict("linear field: velocity error", velocity, 1e-13);
   verdict("linear field: stress error", stress / 1e4, 1e-13);
   verdict("linear field: volume error", volume, 1e-13);
+  verdict("linear field: error of the stress work",
+          std::abs(sums.stress_work / work - 1.),
+          1e-12);
 }
 
 /** B-bar: all points of a cell have its mean volume change, and keep their own

@@ -202,9 +202,9 @@ namespace CaissonMPM
           left = tangent * (1. - limit / speed);
         else
           ++n_sticking;
-        const Vector2 impulse = circumference * m * (w - left);
-        impulses[node.surface] += impulse;
-        total += impulse;
+        result.impulse = m * (w - left);
+        impulses[node.surface] += circumference * result.impulse;
+        total += circumference * result.impulse;
         for (unsigned int d = 0; d < 2; ++d)
           u[d] = velocity[d] + left[d];
       }
@@ -212,6 +212,18 @@ namespace CaissonMPM
       for (unsigned int d = 0; d < 2; ++d)
         v[node].value[d] = velocity[d];
     return -(total * velocity);
+  }
+
+  double
+  Contact::friction_heat(const Kernels::NodalVector *mean_velocity) const
+  {
+    double heat = 0.;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      if (results[i].state != State::apart)
+        for (unsigned int d = 0; d < 2; ++d)
+          heat += results[i].impulse[d] *
+                  (mean_velocity[nodes[i].node].value[d] - velocity[d]);
+    return circumference * heat;
   }
 
   void

@@ -123,6 +123,7 @@ namespace CaissonMPM
                          &work[1]})
       grid.reinit(*v, 2);
     mass.assign(grid.n_nodes(), 0.);
+    circumference = grid.axisymmetric() ? 2. * pi : 1.;
   }
 
   namespace
@@ -209,17 +210,16 @@ namespace CaissonMPM
     is_finite = std::isfinite(sum);
   }
 
-  double
+  void
   NodalMotion::constrain(const double        dt,
                          const Vector2      &body_velocity,
                          BoundaryConditions &boundary_conditions,
                          Contact            &contact)
   {
-    double work = 0.;
+    work_of_body = 0.;
     if (!contact.empty())
-      work = contact.apply(body_velocity, dt, mass, data(new_velocity));
-    work += boundary_conditions.apply(mass, data(new_velocity));
-    return work;
+      work_of_body = contact.apply(body_velocity, dt, mass, data(new_velocity));
+    work_of_prescribed = boundary_conditions.apply(mass, data(new_velocity));
   }
 
   template <typename Constrain>
@@ -301,6 +301,45 @@ namespace CaissonMPM
     for (std::size_t i = 0; i < n; ++i)
       strain[i] += keep * old[i];
     hold(data(strain_velocity));
+  }
+
+  NodalWork
+  NodalMotion::work_of_step(const double              dt,
+                            const BoundaryConditions &boundary_conditions,
+                            const Contact            &contact)
+  {
+    // the old velocity held to what holds the new one
+    NodalData &held = work[0];
+    held            = old_velocity;
+    if (!contact.empty())
+      contact.constrain(contact.body_velocity(), data(held));
+    boundary_conditions.constrain(data(held));
+
+    NodalWork   result;
+    const auto *node = reinterpret_cast<Kernels::NodalSums *>(sums.begin());
+    const double *const v0 = old_velocity.begin(), *h = held.begin(),
+                        *v = new_velocity.begin(), *s = fields().strain->value;
+    const bool damped = damping > 0.;
+    for (unsigned int i = 0; i < mass.size(); ++i, ++node)
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          const unsigned int k = 2 * i + d;
+          const double       f = dt * node->force[d], mean = .5 * (h[k] + v[k]);
+          result.forces += f * .5 * (h[k] + s[k]);
+          result.floor +=
+            (mass[i] - std::max(0., node->mass)) * (v[k] - v0[k]) * mean;
+          if (damped && !contact.is_contact_node(i))
+            result.damping += damping * std::abs(f) * sign(v0[k]) * mean;
+        }
+    for (unsigned int k = 0; k < 2 * mass.size(); ++k)
+      held.begin()[k] = .5 * (h[k] + v[k]);
+    for (double *sum : {&result.forces, &result.floor, &result.damping})
+      *sum *= circumference;
+    result.body       = work_of_body;
+    result.prescribed = work_of_prescribed;
+    if (!contact.empty())
+      result.friction = contact.friction_heat(data(held));
+    return result;
   }
 
   Kernels::NodalFields

@@ -29,7 +29,16 @@ namespace CaissonMPM
       {"lid_force_N", [](Row row) { return row.lid; }},
       {"cavity_pressure_Pa", [](Row row) { return row.cavity; }},
       {"prescribed_force_r_N", [](Row row) { return row.prescribed_r; }},
-      {"prescribed_force_z_N", [](Row row) { return row.prescribed_z; }}};
+      {"prescribed_force_z_N", [](Row row) { return row.prescribed_z; }},
+      {"gravity_work_J", [](Row row) { return row.energy.gravity_work; }},
+      {"stress_work_J", [](Row row) { return row.energy.stress_work; }},
+      {"friction_heat_J", [](Row row) { return row.energy.friction_heat; }},
+      {"damping_J", [](Row row) { return row.energy.damping; }},
+      {"mass_floor_J", [](Row row) { return row.energy.floor; }},
+      {"numerical_dissipation_J",
+       [](Row row) { return row.energy.dissipation; }},
+      {"energy_residual_J", [](Row row) { return row.energy.residual; }},
+      {"energy_residual", [](Row row) { return row.energy.relative; }}};
     return columns;
   }
 

@@ -30,6 +30,7 @@ namespace CaissonMPM
       {"body_mass_kg", Json::number(s.body_mass_kg)},
       {"time_step_s", Json::number(s.time_step_s)},
       {"time_step_limit", Json::text(s.time_step_limit)},
+      {"energies", Json::object(Json::numbers(s.energies), 2)},
       {"sections", Json::object(Json::numbers(s.sections), 2)},
       {"scene", Json::object(Json::numbers(s.scene), 2)}};
     write_atomically(path, Json::object(members) + "\n");

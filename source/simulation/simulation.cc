@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -189,6 +190,7 @@ namespace CaissonMPM
   Simulation::start()
   {
     generator.generate(grid, body, soil, time_step.mass_scaling, points);
+    energy.start(point_energies());
     choose_step(); // refuses a fixed step that is too large
     records->create();
     next_record = record_interval;
@@ -199,10 +201,9 @@ namespace CaissonMPM
   {
     const CheckpointState state =
       read_checkpoint(directory, grid, points, fingerprint());
-    time          = state.time;
-    step          = state.step;
-    n_limited     = state.limiter_count;
-    external_work = state.external_work;
+    time      = state.time;
+    step      = state.step;
+    n_limited = state.limiter_count;
     points.set_n_held_back(state.held_back);
     resume_record(state.more);
     records->resume(time);
@@ -269,6 +270,7 @@ namespace CaissonMPM
   Simulation::advance()
   {
     const auto view = grid.view();
+    NodalWork  work;
     choose_step();
     timed("points to grid", [&]() {
       nodal_motion.collect(*kernels, points, grid, materials, loads, time);
@@ -276,14 +278,12 @@ namespace CaissonMPM
     timed("nodal motion", [&]() { nodal_motion.accelerate(dt, contact); });
     timed("contact", [&]() {
       boundary_conditions.prepare(grid, time, dt);
-      external_work += nodal_motion.constrain(dt,
-                                              body_velocity(),
-                                              boundary_conditions,
-                                              contact);
+      nodal_motion.constrain(dt, body_velocity(), boundary_conditions, contact);
     });
     timed("transfer", [&]() {
       nodal_motion.prepare_transfer(
         *kernels, points.view(), view, boundary_conditions, contact);
+      work = nodal_motion.work_of_step(dt, boundary_conditions, contact);
     });
     timed("move mesh", [&]() { grid.prepare_motion(body.travel(time + dt)); });
     timed("grid to points", [&]() { update_points(view); });
@@ -291,6 +291,7 @@ namespace CaissonMPM
       grid.advance();
       points.relocate();
     });
+    energy.add(work, circumference() * points.leaving().stress_work);
     time += dt;
     ++step;
   }
@@ -391,6 +392,7 @@ namespace CaissonMPM
       verification.run(points, *records, time, directory, *console);
     write_summary(passed ? "finished" : "verification failed");
     print_counts();
+    print_energies();
     print_times();
     return passed ? ExitStatus::success : ExitStatus::failure;
   }
@@ -426,7 +428,6 @@ namespace CaissonMPM
     row.penetration    = body.initial_depth() + body.travel(time);
     row.step           = step;
     row.time_step      = dt;
-    row.external_work  = external_work;
     row.limiter_count  = n_limited;
     row.held_back      = points.n_held_back();
     row.contact_nodes  = contact.n_touching;
@@ -483,17 +484,44 @@ namespace CaissonMPM
   void
   Simulation::add_sums_over_points(HistoryRow &row)
   {
-    const double around = grid.axisymmetric() ? 2. * pi : 1.;
-    const double travel = body.travel(time);
+    const double        travel   = body.travel(time);
+    const PointEnergies energies = point_energies();
     points.for_each([&](const MaterialPoint &p, const unsigned int) {
-      const double speed2 =
-        p.velocity[0] * p.velocity[0] + p.velocity[1] * p.velocity[1];
-      row.kinetic_energy += .5 * around * p.mass * speed2;
-      row.max_speed = std::max(row.max_speed, std::sqrt(speed2));
+      row.max_speed =
+        std::max(row.max_speed, std::hypot(p.velocity[0], p.velocity[1]));
       row.points_in_body += body.contains(p.position, travel);
     });
-    row.added_mass = around * nodal_motion.added_mass;
-    max_in_body    = std::max(max_in_body, row.points_in_body);
+    energy.close(energies);
+    row.kinetic_energy = energies.kinetic;
+    row.external_work  = energy.work_of_body;
+    row.energy         = energy;
+    row.added_mass     = circumference() * nodal_motion.added_mass;
+    max_in_body        = std::max(max_in_body, row.points_in_body);
+  }
+
+  PointEnergies
+  Simulation::point_energies() const
+  {
+    PointEnergies result;
+    points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          result.kinetic +=
+            .5 * circumference() * p.mass * p.velocity[d] * p.velocity[d];
+          const double term = -circumference() * p.mass *
+                              materials[p.material].body_force[d] *
+                              p.position[d];
+          result.potential += term;
+          result.weight += std::abs(term);
+        }
+    });
+    return result;
+  }
+
+  double
+  Simulation::circumference() const
+  {
+    return grid.axisymmetric() ? 2. * pi : 1.;
   }
 
   void
@@ -586,13 +614,15 @@ namespace CaissonMPM
     state.step          = step;
     state.limiter_count = n_limited;
     state.held_back     = points.n_held_back();
-    state.external_work = external_work;
+    state.external_work = energy.work_of_body;
     state.more          = {next_record, last_record};
     for (const Vector2 &impulse : contact.impulse())
       for (unsigned int d = 0; d < 2; ++d)
         state.more.push_back(impulse[d]);
     for (unsigned int d = 0; d < 2; ++d)
       state.more.push_back(boundary_conditions.impulse()[d]);
+    for (const double value : energy.state())
+      state.more.push_back(value);
     write_checkpoint(directory, grid, points, state, fingerprint());
   }
 
@@ -607,6 +637,7 @@ namespace CaissonMPM
     contact.reset_impulse(impulse);
     boundary_conditions.reset_impulse(Vector2(
       {numbers.at(2 + 2 * n_surfaces), numbers.at(3 + 2 * n_surfaces)}));
+    energy.resume({numbers.begin() + 4 + 2 * n_surfaces, numbers.end()});
   }
 
   void
@@ -637,7 +668,12 @@ namespace CaissonMPM
       s.body_mass_kg += p.mass;
     s.time_step_s     = dt;
     s.time_step_limit = time_step.reason();
-    s.sections        = timer.seconds();
+    s.energies        = energy.entries();
+    s.energies.insert(s.energies.begin(),
+                      {"external_work_J", energy.work_of_body});
+    s.energies.insert(s.energies.begin() + 1,
+                      {"kinetic_energy_gain_J", energy.kinetic_gain});
+    s.sections = timer.seconds();
     if (body.kind() == RigidBody::Kind::caisson)
       s.scene = {{"diameter_m", body.outer_diameter},
                  {"wall_thickness_m", body.wall_thickness},
@@ -659,6 +695,35 @@ namespace CaissonMPM
        {"held back",
         std::to_string(points.n_held_back()) + " times at the body's surface"},
        {"limiter fired", std::to_string(n_limited) + " times"}});
+  }
+
+  void
+  Simulation::print_energies()
+  {
+    const auto percent = [](const double part) {
+      std::ostringstream s;
+      s << std::setprecision(3) << 100. * part << " %";
+      return s.str();
+    };
+    const auto joule = [&](const double value) {
+      std::ostringstream s;
+      s << std::setprecision(6) << value << " J";
+      return s.str();
+    };
+    console->header({{"work of the body", joule(energy.work_of_body)},
+                     {"work of gravity", joule(energy.gravity_work)},
+                     {"stress work", joule(energy.stress_work)},
+                     {"friction heat", joule(energy.friction_heat)},
+                     {"kinetic energy", joule(energy.kinetic_gain)},
+                     {"damping, mass floor",
+                      joule(energy.damping) + ", " + joule(energy.floor)},
+                     {"lost in the transfer", joule(energy.dissipation)},
+                     {"energy residual",
+                      joule(energy.residual) + ", " + percent(energy.relative) +
+                        " of the work"}});
+    if (std::abs(energy.relative) > .01)
+      console->warning("the energy residual is " + percent(energy.relative) +
+                       " of the work: see doc/limitations.md, Energy");
   }
 
   void

@@ -105,9 +105,13 @@ namespace CaissonMPM
         return to_integer(fast);
       }
 
-      /** New stress and volume of the points in the given lanes. */
+      /**
+       * New stress and volume of the points in the given lanes. Returns the
+       * work of the stress, with the means of old and new stress (after the
+       * rotation) and of old and new volume.
+       */
       template <typename Law, typename Number>
-      CAISSON_INLINE void
+      CAISSON_INLINE Number
       update_stress(PointBlock                     &b,
                     const int                       lane,
                     const LocalPoint<Number>       &p,
@@ -169,6 +173,7 @@ namespace CaissonMPM
                              Number(1.);
         for (int i = 0; i < Law::n_state; ++i)
           state.variable[i] = load(b.state[i]);
+        const StressState<Number> old = stress;
         Law::update(stress, strain, state, parameters);
         stress.rr.store(b.stress[0] + lane);
         stress.zz.store(b.stress[1] + lane);
@@ -179,9 +184,16 @@ namespace CaissonMPM
         for (int i = 0; i < Law::n_state; ++i)
           state.variable[i].store(b.state[i] + lane);
         (volume * (Number(1.) + volume_change)).store(b.volume + lane);
+        const Number twice_power =
+          (old.rr + stress.rr) * strain.rr + (old.zz + stress.zz) * strain.zz +
+          (old.tt + stress.tt) * strain.tt +
+          Number(2.) * (old.rz + stress.rz) * strain.rz;
+        return volume * (Number(.5) + Number(.25) * volume_change) *
+               twice_power;
       }
 
-      /** Update one block; returns its lanes outside the moved cell. */
+      /** Update one block; returns its lanes outside the moved cell. The work
+       * of the stress is added lane by lane. */
       template <typename Law, typename Number>
       CAISSON_INLINE unsigned int
       update_block(PointBlock                     &b,
@@ -189,7 +201,8 @@ namespace CaissonMPM
                    const UpdateSettings           &settings,
                    const double                    initial_void_ratio,
                    const typename Law::Parameters &parameters,
-                   unsigned int                   &limited)
+                   unsigned int                   &limited,
+                   Number                         &stress_work)
       {
         unsigned int outside = 0;
         limited              = 0;
@@ -198,7 +211,7 @@ namespace CaissonMPM
           {
             Number r = Number::load(b.r + lane), z = Number::load(b.z + lane);
             const LocalPoint<Number> p = cell.map.at_position(r, z);
-            update_stress<Law>(
+            stress_work += update_stress<Law>(
               b, lane, p, cell, settings, initial_void_ratio, parameters);
 
             const Number keep(settings.keep_velocity);
@@ -282,6 +295,7 @@ namespace CaissonMPM
                      LeavingPoints        &leaving)
       {
         leaving.n = leaving.n_limited = 0;
+        Number stress_work(0.);
         for (unsigned int i = 0; i < points.n_active_cells; ++i)
           {
             const unsigned int cell   = points.active_cells[i];
@@ -301,7 +315,8 @@ namespace CaissonMPM
                              settings,
                              material.initial_void_ratio,
                              parameters,
-                             limited);
+                             limited,
+                             stress_work);
                          });
                     const unsigned int real = (1u << header.count) - 1u;
                     leaving.n_limited += __builtin_popcount(limited & real);
@@ -315,6 +330,7 @@ namespace CaissonMPM
                   }
               }
           }
+        leaving.stress_work = sum(stress_work);
       }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

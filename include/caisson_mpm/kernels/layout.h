@@ -155,7 +155,7 @@ namespace CaissonMPM
       const NodalVector *strain;    // its gradient strains the MPs
     };
 
-    /** MPs that left their cell: written by grid_to_points. */
+    /** An MP that left its cell. */
     struct LeavingPoint
     {
       unsigned int cell;
@@ -163,12 +163,14 @@ namespace CaissonMPM
       int          lane;
     };
 
+    /** MPs that left their cell, and sums: written by grid_to_points. */
     struct LeavingPoints
     {
       LeavingPoint *points; // [capacity]
       unsigned int  capacity;
       unsigned int  n; // may exceed the capacity: then call again is an error
       unsigned int  n_limited;
+      double        stress_work; // of all MPs in this step, J per radian
     };
 
     /** The kernels, compiled for one instruction set. */

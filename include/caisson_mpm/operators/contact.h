@@ -65,6 +65,14 @@ namespace CaissonMPM
     void
     constrain(const Vector2 &body_velocity, Kernels::NodalVector *v) const;
 
+    /**
+     * The heat of friction of the last apply(): the work of the body less the
+     * work of the contact forces on the nodes, whose mean velocity in the step
+     * is @p mean_velocity. Units: J.
+     */
+    double
+    friction_heat(const Kernels::NodalVector *mean_velocity) const;
+
     /** The body's velocity in the last apply(). */
     const Vector2 &
     body_velocity() const
@@ -114,6 +122,7 @@ namespace CaissonMPM
     {
       State   state = State::apart;
       Vector2 normal;
+      Vector2 impulse; // on the body, N s per radian
     };
 
     Result

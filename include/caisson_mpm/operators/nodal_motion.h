@@ -35,6 +35,20 @@
 namespace CaissonMPM
 {
   /**
+   * Works of one step at the nodes, on the whole circumference (per metre in
+   * plane strain). Units: J.
+   */
+  struct NodalWork
+  {
+    double forces     = 0.; // of internal and body force, before damping
+    double body       = 0.; // of the rigid body on the soil
+    double prescribed = 0.; // of the nodes with a prescribed velocity
+    double friction   = 0.; // heat at the body's surface
+    double damping    = 0.; // taken by local damping
+    double floor      = 0.; // taken by the mass that the floor adds
+  };
+
+  /**
    * Nodal sums and velocities of one step. The functions are called in the
    * order in which they stand here. Collective over MPI.
    */
@@ -63,10 +77,8 @@ namespace CaissonMPM
     void
     accelerate(const double dt, const Contact &contact);
 
-    /** Contact on v+, then the boundary conditions. Returns the work that body
-     * and prescribed nodes do on the soil in this step, whole circumference.
-     * Units: J. */
-    double
+    /** Contact on v+, then the boundary conditions. */
+    void
     constrain(const double        dt,
               const Vector2      &body_velocity,
               BoundaryConditions &boundary_conditions,
@@ -79,6 +91,12 @@ namespace CaissonMPM
                      const Kernels::GridView    &grid,
                      const BoundaryConditions   &boundary_conditions,
                      const Contact              &contact);
+
+    /** The works of this step. */
+    NodalWork
+    work_of_step(const double              dt,
+                 const BoundaryConditions &boundary_conditions,
+                 const Contact            &contact);
 
     Kernels::NodalFields
     fields() const;
@@ -148,7 +166,9 @@ namespace CaissonMPM
     bool         limiter_on           = true;
     double       limiter_factor       = 0.75;
 
-    std::vector<double>               mass; // that accelerates
+    double circumference = 2. * pi;
+    double work_of_body = 0., work_of_prescribed = 0.; // in this step
+    std::vector<double>               mass;            // that accelerates
     std::vector<Kernels::CellMoments> moments;
     NodalData sums, old_velocity, new_velocity, transfer_velocity,
       strain_velocity, work[2];

@@ -4,6 +4,8 @@
 #ifndef caisson_mpm_output_history_h
 #define caisson_mpm_output_history_h
 
+#include <caisson_mpm/output/energy_balance.h>
+
 #include <string>
 #include <vector>
 
@@ -36,6 +38,7 @@ namespace CaissonMPM
     unsigned long step           = 0;
     double        prescribed_r   = 0.;
     double        prescribed_z   = 0.;
+    EnergyBalance energy;
   };
 
   /** The columns of history.csv, and how each follows from a row. Others'

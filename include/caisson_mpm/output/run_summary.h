@@ -39,6 +39,8 @@ namespace CaissonMPM
     std::string time_step_limit;
     /** Seconds in each section of the time step. */
     std::vector<std::pair<std::string, double>> sections;
+    /** The energy balance at the end: external_work_J, ... */
+    std::vector<std::pair<std::string, double>> energies;
     /** Lengths that the scripts draw: diameter_m, wall_thickness_m, ... */
     std::vector<std::pair<std::string, double>> scene;
   };

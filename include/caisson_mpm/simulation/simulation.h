@@ -21,6 +21,7 @@
 #include <caisson_mpm/operators/loads.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 #include <caisson_mpm/output/checkpoint.h>
+#include <caisson_mpm/output/energy_balance.h>
 #include <caisson_mpm/output/error_bar.h>
 #include <caisson_mpm/output/observations.h>
 #include <caisson_mpm/output/records.h>
@@ -100,6 +101,8 @@ namespace CaissonMPM
     warn_of_lid(const HistoryRow &row);
     void
     add_sums_over_points(HistoryRow &row);
+    PointEnergies
+    point_energies() const;
     void
     print_record(const HistoryRow &row);
     void
@@ -113,6 +116,8 @@ namespace CaissonMPM
     void
     print_counts();
     void
+    print_energies();
+    void
     print_times();
     std::string
     fingerprint() const;
@@ -122,6 +127,8 @@ namespace CaissonMPM
     end_time() const;
     double
     seconds_running() const;
+    double
+    circumference() const;
 
     // in the order of their sections in a .prm file
     BackgroundGrid     grid;
@@ -158,7 +165,7 @@ namespace CaissonMPM
     // state
     double        time = 0., dt = 0.;
     unsigned long step = 0, n_limited = 0;
-    double        external_work = 0.;
+    EnergyBalance energy;
 
     // output
     std::unique_ptr<Console>       console;
