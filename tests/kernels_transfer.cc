@@ -501,7 +501,7 @@ check_narrow_band()
       double plain[FitSums<Lanes<1>>::size], fit[12];
       for (int i = 0; i < FitSums<Lanes<1>>::size; ++i)
         plain[i] = sum(sums.sum[i]);
-      fit_stress(2. * n, plain, false, fit);
+      fit_stress(2. * n, plain, 0., false, fit);
       const double share = std::min(1., half_width * half_width / .02);
       along              = std::max(along, std::abs(fit[2] / slope[1] - 1.));
       across = std::max(across, std::abs(fit[1] / slope[0] - share));

@@ -88,6 +88,14 @@ namespace CaissonMPM
           return height + .5 * height_slope;
         }
 
+        /** How far the middle of the cell rises from left to right, over the
+         * mean height. */
+        CAISSON_INLINE double
+        rise() const
+        {
+          return (bottom_slope + .5 * height_slope) / mean_height();
+        }
+
         CAISSON_INLINE double
         center_z() const
         {

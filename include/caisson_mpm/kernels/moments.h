@@ -181,18 +181,22 @@ namespace CaissonMPM
        * it, and the Gauss points lie far outside it: where their variance in a
        * direction is below smallest_variance (of a cell of size one, where
        * points that fill half of it have 0.021), the slope in this direction is
-       * reduced in proportion, down to none for points on a line.
+       * reduced in proportion, down to none for points on a line. In a cell
+       * whose rows rise by @p rise (over its mean height, from left to right)
+       * the band is judged along them, in x and y - rise x.
        */
       CAISSON_INLINE void
       fit_stress(const double  mass,
                  const double *s,
+                 const double  rise,
                  const bool    mean_pressure,
                  double       *fit)
       {
         constexpr double smallest_variance = .02;
         const double     x = s[0] / mass, y = s[1] / mass;
-        const double     xx = s[2] / mass - x * x, xy = s[3] / mass - x * y,
-                     yy = s[4] / mass - y * y;
+        const double xx = s[2] / mass - x * x, plain_xy = s[3] / mass - x * y,
+                     xy = plain_xy - rise * xx,
+                     yy = s[4] / mass - y * y - rise * (plain_xy + xy);
         // the inverse of the covariance, its eigenvalues bounded from below
         const double center = .5 * (xx + yy), half = .5 * (xx - yy),
                      radius = __builtin_sqrt(half * half + xy * xy);
@@ -208,10 +212,11 @@ namespace CaissonMPM
         double slope[2][4], trace[2] = {0., 0.};
         for (int c = 0; c < 4; ++c)
           {
-            const double *const t  = s + FitSums<Lanes<1>>::stress + 3 * c;
-            const double        sx = t[1] - t[0] * x, sy = t[2] - t[0] * y;
-            slope[0][c] = inverse_xx * sx + inverse_xy * sy;
+            const double *const t = s + FitSums<Lanes<1>>::stress + 3 * c;
+            const double sx = t[1] - t[0] * x, sy = t[2] - t[0] * y - rise * sx;
             slope[1][c] = inverse_xy * sx + inverse_yy * sy;
+            slope[0][c] =
+              inverse_xx * sx + inverse_xy * sy - rise * slope[1][c];
             for (int d = 0; d < 2 && c < 3; ++d)
               trace[d] += slope[d][c];
           }

@@ -97,8 +97,7 @@ namespace CaissonMPM
                          double        *stiffness)
       {
         const double inverse_height = 1. / map.mean_height();
-        const double slope =
-          (map.bottom_slope + .5 * map.height_slope) * inverse_height;
+        const double slope          = map.rise();
         const double hoop = .25 * axisymmetric / (map.left + .5 * map.width);
         double       norm[4], total = 0.;
         for (int i = 0; i < 4; ++i)
@@ -321,6 +320,7 @@ namespace CaissonMPM
                   }
                 fit_stress(contribution.mass[0],
                            fit,
+                           map.rise(),
                            settings.mean_pressure,
                            moments[i].fit);
                 integrate_full_cell<Number>(map,
