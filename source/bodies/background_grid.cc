@@ -327,7 +327,7 @@ namespace CaissonMPM
     const double floor = moves ? zone_bottom : bottom;
     const double tip_depth =
       dip.empty() ? 0. : *std::max_element(dip.begin(), dip.end());
-    if (shoulder - decay_below < floor - 1e-9)
+    if (tip_depth > 0. && shoulder - decay_below < floor - 1e-9)
       {
         const double needed = decay_below - tip_depth;
         throw BadInput(

@@ -28,6 +28,7 @@ namespace CaissonMPM
       {"point_steps_per_second", Json::number(s.point_steps_per_second)},
       {"peak_memory_bytes", Json::number(s.peak_memory_bytes)},
       {"body_mass_kg", Json::number(s.body_mass_kg)},
+      {"soil_mass_kg", Json::number(s.soil_mass_kg)},
       {"time_step_s", Json::number(s.time_step_s)},
       {"time_step_limit", Json::text(s.time_step_limit)},
       {"energies", Json::object(Json::numbers(s.energies), 2)},

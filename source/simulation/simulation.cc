@@ -666,6 +666,9 @@ namespace CaissonMPM
     s.body_mass_kg           = 0.;
     for (const BodyPoint &p : body_points)
       s.body_mass_kg += p.mass;
+    points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      s.soil_mass_kg += circumference() * p.mass;
+    });
     s.time_step_s     = dt;
     s.time_step_limit = time_step.reason();
     s.energies        = energy.entries();

@@ -34,6 +34,7 @@ namespace CaissonMPM
     double        point_steps_per_second = 0.;
     double        peak_memory_bytes      = 0.;
     double        body_mass_kg           = 0.;
+    double        soil_mass_kg           = 0.; // scaled, as added_mass_kg
     double        time_step_s            = 0.;
     /** What limits the time step. */
     std::string time_step_limit;
