@@ -107,12 +107,21 @@ namespace CaissonMPM
                                  (mass_scaling * soil.inertial_density(i))));
     const auto   view     = points.view();
     unsigned int limiting = 0;
-    double       worst    = 0.; // largest 1/dr^2 + 1/dz^2
+    double       worst    = 0.;
     for (unsigned int i = 0; i < view.n_active_cells; ++i)
       {
-        const auto  &g       = grid.geometry(view.active_cells[i]);
-        const double h       = std::min(g.height_left, g.height_right);
-        const double inverse = 1. / (g.width * g.width) + 1. / (h * h);
+        const auto  &g = grid.geometry(view.active_cells[i]);
+        const double h = std::min(g.height_left, g.height_right);
+        // The gradient in the unit cell is J^-T, and the largest frequency of
+        // linear cells at most 2 c |J^-1|: 1/dr^2 + 1/dz^2 where rows are
+        // level, more where they are bent.
+        const double top = g.bottom_right + g.height_right - g.bottom_left -
+                           g.height_left,
+                     rise = std::max(std::abs(g.bottom_right - g.bottom_left),
+                                     std::abs(top)) /
+                            g.width;
+        const double inverse =
+          1. / (g.width * g.width) + (1. + rise * rise) / (h * h);
         if (inverse > worst)
           {
             worst    = inverse;

@@ -120,9 +120,9 @@ namespace CaissonMPM
     };
     struct Result
     {
-      State   state = State::apart;
-      Vector2 normal;
-      Vector2 impulse; // on the body, N s per radian
+      State   state   = State::apart;
+      Vector2 normal  = Vector2();
+      Vector2 impulse = Vector2(); // on the body, N s per radian
     };
 
     Result
