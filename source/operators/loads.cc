@@ -74,13 +74,16 @@ namespace CaissonMPM
   } // namespace
 
   void
-  Loads::add_body_force(const MaterialPoints &points,
-                        const BackgroundGrid &grid,
-                        const double          time,
-                        Kernels::NodalSums   *nodes) const
+  Loads::find_body_force(const MaterialPoints &points,
+                         const BackgroundGrid &grid,
+                         const double          time,
+                         const unsigned int    n_nodes,
+                         std::vector<double>  &nodal_force) const
   {
+    nodal_force.clear();
     if (body_force[radial].is_zero() && body_force[vertical].is_zero())
       return;
+    nodal_force.resize(2 * n_nodes);
     points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
       const auto  N    = shape_values(grid.geometry(cell), p.position);
       const auto &node = grid.cell_nodes(cell).node;
@@ -90,7 +93,7 @@ namespace CaissonMPM
             const double force =
               p.mass / mass_scaling * body_force[d](p.initial_position, time);
             for (unsigned int i = 0; i < 4; ++i)
-              nodes[node[i]].force[d] += N[i] * force;
+              nodal_force[2 * node[i] + d] += N[i] * force;
           }
     });
   }

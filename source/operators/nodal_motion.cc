@@ -155,15 +155,18 @@ namespace CaissonMPM
     auto *const nodes = reinterpret_cast<Kernels::NodalSums *>(sums.begin());
     moments.resize(view.n_active_cells);
     const bool point_quadrature = integration == "material points";
+    surrounding_pressure        = loads.surrounding_pressure(time);
     const Kernels::IntegrationSettings settings = {
       point_quadrature ? 1e300 : full_fraction,
       point_quadrature ? 1e300 : full_fraction_inside,
       floor_on,
       pressure == "mean",
-      loads.surrounding_pressure(time)};
+      surrounding_pressure};
     kernels.points_to_grid(
       view, grid.view(), materials.data(), settings, nodes, moments.data());
-    loads.add_body_force(points, grid, time, nodes);
+    loads.find_body_force(points, grid, time, mass.size(), load);
+    for (unsigned int k = 0; k < load.size(); ++k)
+      nodes[k / 2].force[k % 2] += load[k];
     sums.compress(VectorOperation::add);
     sums.update_ghost_values();
   }
@@ -326,6 +329,8 @@ namespace CaissonMPM
           const unsigned int k = 2 * i + d;
           const double       f = dt * node->force[d], mean = .5 * (h[k] + v[k]);
           result.forces += f * .5 * (h[k] + s[k]);
+          if (!load.empty())
+            result.load += dt * load[k] * .5 * (h[k] + s[k]);
           result.floor +=
             (mass[i] - std::max(0., node->mass)) * (v[k] - v0[k]) * mean;
           if (damped && !contact.is_contact_node(i))
@@ -333,7 +338,8 @@ namespace CaissonMPM
         }
     for (unsigned int k = 0; k < 2 * mass.size(); ++k)
       held.begin()[k] = .5 * (h[k] + v[k]);
-    for (double *sum : {&result.forces, &result.floor, &result.damping})
+    for (double *sum :
+         {&result.forces, &result.load, &result.floor, &result.damping})
       *sum *= circumference;
     result.body       = work_of_body;
     result.prescribed = work_of_prescribed;
@@ -373,7 +379,8 @@ namespace CaissonMPM
             keep_velocity(),
             mean_volume,
             limiter_on ? limiter_factor : 0.,
-            stress_filter};
+            stress_filter,
+            surrounding_pressure};
   }
 
   std::string

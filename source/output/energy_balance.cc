@@ -23,6 +23,7 @@ namespace CaissonMPM
   {
     work_of_body += nodes.body + nodes.prescribed;
     force_work += nodes.forces;
+    load_work += nodes.load;
     friction_heat += nodes.friction;
     damping += nodes.damping;
     floor += nodes.floor;
@@ -39,9 +40,11 @@ namespace CaissonMPM
     // the points have gained what the nodes were given, less this
     dissipation = force_work + work_of_body - friction_heat - damping - floor -
                   kinetic_gain;
-    residual = gravity_work - force_work - stress_work;
-    largest =
-      std::max({largest, std::abs(work_of_body), std::abs(gravity_work)});
+    residual = gravity_work + load_work - force_work - stress_work;
+    largest  = std::max({largest,
+                         std::abs(work_of_body),
+                         std::abs(gravity_work),
+                         std::abs(load_work)});
     relative = largest > 0. ? residual / largest : 0.;
   }
 
@@ -52,6 +55,7 @@ namespace CaissonMPM
   {
     return {work_of_body,
             force_work,
+            load_work,
             stress_work,
             friction_heat,
             damping,
@@ -68,6 +72,7 @@ namespace CaissonMPM
   {
     double *const values[] = {&work_of_body,
                               &force_work,
+                              &load_work,
                               &stress_work,
                               &friction_heat,
                               &damping,
@@ -85,6 +90,7 @@ namespace CaissonMPM
   EnergyBalance::entries() const
   {
     return {{"gravity_work_J", gravity_work},
+            {"load_work_J", load_work},
             {"stress_work_J", stress_work},
             {"friction_heat_J", friction_heat},
             {"damping_J", damping},

@@ -31,6 +31,7 @@ namespace CaissonMPM
       {"prescribed_force_r_N", [](Row row) { return row.prescribed_r; }},
       {"prescribed_force_z_N", [](Row row) { return row.prescribed_z; }},
       {"gravity_work_J", [](Row row) { return row.energy.gravity_work; }},
+      {"load_work_J", [](Row row) { return row.energy.load_work; }},
       {"stress_work_J", [](Row row) { return row.energy.stress_work; }},
       {"friction_heat_J", [](Row row) { return row.energy.friction_heat; }},
       {"damping_J", [](Row row) { return row.energy.damping; }},

@@ -715,6 +715,7 @@ namespace CaissonMPM
     };
     console->header({{"work of the body", joule(energy.work_of_body)},
                      {"work of gravity", joule(energy.gravity_work)},
+                     {"work of loads", joule(energy.load_work)},
                      {"stress work", joule(energy.stress_work)},
                      {"friction heat", joule(energy.friction_heat)},
                      {"kinetic energy", joule(energy.kinetic_gain)},

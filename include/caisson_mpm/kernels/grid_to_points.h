@@ -85,6 +85,7 @@ namespace CaissonMPM
       {
         CellMap       map, moved;
         CellField     advection, transfer, strain;
+        bool          full;
         double        axisymmetric;
         double        mean_divergence; // used where B-bar is on
         double        speed_limit;     // 0: none
@@ -107,8 +108,8 @@ namespace CaissonMPM
 
       /**
        * New stress and volume of the points in the given lanes. Returns the
-       * work of the stress, with the means of old and new stress (after the
-       * rotation) and of old and new volume.
+       * work of the stress per volume, with the mean of old and new stress
+       * (after the rotation) and volume, beyond the surrounding pressure.
        */
       template <typename Law, typename Number>
       CAISSON_INLINE Number
@@ -187,10 +188,50 @@ namespace CaissonMPM
         const Number twice_power =
           (old.rr + stress.rr) * strain.rr + (old.zz + stress.zz) * strain.zz +
           (old.tt + stress.tt) * strain.tt +
-          Number(2.) * (old.rz + stress.rz) * strain.rz;
-        return volume * (Number(.5) + Number(.25) * volume_change) *
-               twice_power;
+          Number(2.) * (old.rz + stress.rz) * strain.rz +
+          Number(2. * settings.surrounding_pressure) * volume_change;
+        return (Number(.5) + Number(.25) * volume_change) * twice_power;
       }
+
+      /**
+       * The work of the stress on the points of one cell in a step. The
+       * internal force is integrated over the volume of a full cell, from a fit
+       * to the stress of its points, wherever they are and whatever volume they
+       * have; so is the work, from the fit to the work per volume.
+       */
+      template <typename Number>
+      struct StressWork
+      {
+        // w q, w q xi, w q eta of the work per volume q with weights w
+        Number value{0.}, xi{0.}, eta{0.};
+
+        CAISSON_INLINE void
+        add(const LocalPoint<Number> &p, const Number weight, const Number work)
+        {
+          const Number q = weight * work;
+          value += q;
+          xi += q * p.xi;
+          eta += q * p.eta;
+        }
+
+        /** Of a cell whose points have the masses @p mass, the weights. */
+        CAISSON_INLINE double
+        in_full_cell(const double *mass, const double volume) const
+        {
+          const double x = mass[1] / mass[0], y = mass[2] / mass[0],
+                       mean    = sum(value) / mass[0];
+          const double slope_x = sum(xi) - mean * mass[1],
+                       slope_y = sum(eta) - mean * mass[2];
+          const auto inverse   = inverse_covariance(mass[0],
+                                                  mass[4] / mass[0] - x * x,
+                                                  mass[3] / mass[0] - x * y,
+                                                  mass[5] / mass[0] - y * y);
+          return volume *
+                 (mean +
+                  (.5 - x) * (inverse.xx * slope_x + inverse.xy * slope_y) +
+                  (.5 - y) * (inverse.xy * slope_x + inverse.yy * slope_y));
+        }
+      };
 
       /** Update one block; returns its lanes outside the moved cell. The work
        * of the stress is added lane by lane. */
@@ -202,7 +243,7 @@ namespace CaissonMPM
                    const double                    initial_void_ratio,
                    const typename Law::Parameters &parameters,
                    unsigned int                   &limited,
-                   Number                         &stress_work)
+                   StressWork<Number>             &stress_work)
       {
         unsigned int outside = 0;
         limited              = 0;
@@ -211,8 +252,13 @@ namespace CaissonMPM
           {
             Number r = Number::load(b.r + lane), z = Number::load(b.z + lane);
             const LocalPoint<Number> p = cell.map.at_position(r, z);
-            stress_work += update_stress<Law>(
-              b, lane, p, cell, settings, initial_void_ratio, parameters);
+            const Number             weight =
+              Number::load((cell.full ? b.mass : b.volume) + lane);
+            stress_work.add(
+              p,
+              weight,
+              update_stress<Law>(
+                b, lane, p, cell, settings, initial_void_ratio, parameters));
 
             const Number keep(settings.keep_velocity);
             Number       velocity_r = keep * Number::load(b.velocity_r + lane) +
@@ -258,6 +304,7 @@ namespace CaissonMPM
                           CellField(fields.advection, nodes),
                           CellField(fields.transfer, nodes),
                           CellField(fields.strain, nodes),
+                          moments.full,
                           grid.axisymmetric,
                           0.,
                           0.,
@@ -295,12 +342,13 @@ namespace CaissonMPM
                      LeavingPoints        &leaving)
       {
         leaving.n = leaving.n_limited = 0;
-        Number stress_work(0.);
+        leaving.stress_work           = 0.;
         for (unsigned int i = 0; i < points.n_active_cells; ++i)
           {
             const unsigned int cell   = points.active_cells[i];
             const CellUpdate   update = prepare_cell<Number>(
               cell, moments[i], grid, moved, settings, fields);
+            StressWork<Number> stress_work;
             for (int block = points.first_block[cell]; block >= 0;
                  block     = points.headers[block].next)
               {
@@ -329,8 +377,12 @@ namespace CaissonMPM
                     ++leaving.n;
                   }
               }
+            leaving.stress_work +=
+              update.full ?
+                stress_work.in_full_cell(moments[i].mass,
+                                         update.map.volume(grid.axisymmetric)) :
+                sum(stress_work.value);
           }
-        leaving.stress_work = sum(stress_work);
       }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

@@ -142,10 +142,11 @@ namespace CaissonMPM
     struct UpdateSettings
     {
       double time_step;
-      double keep_velocity;      // share of the MP's own velocity (FLIP 1)
-      bool   mean_volume_change; // B-bar
-      double limiter;            // k of |v| <= k H / dt; 0: off
-      double stress_filter;      // share of the misfit removed; 0: off
+      double keep_velocity;        // share of the MP's own velocity (FLIP 1)
+      bool   mean_volume_change;   // B-bar
+      double limiter;              // k of |v| <= k H / dt; 0: off
+      double stress_filter;        // share of the misfit removed; 0: off
+      double surrounding_pressure; // at rest when sigma = -p I (Pa)
     };
 
     struct NodalFields
@@ -170,7 +171,7 @@ namespace CaissonMPM
       unsigned int  capacity;
       unsigned int  n; // may exceed the capacity: then call again is an error
       unsigned int  n_limited;
-      double        stress_work; // of all MPs in this step, J per radian
+      double        stress_work; // of the soil in this step, J per radian
     };
 
     /** The kernels, compiled for one instruction set. */

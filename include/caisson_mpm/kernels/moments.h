@@ -174,16 +174,45 @@ namespace CaissonMPM
         return Number(fit[0]) + Number(fit[1]) * x + Number(fit[2]) * y;
       }
 
+      /** A symmetric 2 x 2 matrix. */
+      struct SymmetricMatrix
+      {
+        double xx, xy, yy;
+      };
+
+      /**
+       * The inverse of mass times the covariance of the points' places in a
+       * cell of size one, its eigenvalues bounded from below: points that lie
+       * in a narrow band say little of the slope across it, and the Gauss
+       * points lie far outside it. Where the variance in a direction is below
+       * smallest_variance (points that fill half the cell have 0.021), the
+       * slope in this direction is thus reduced in proportion, down to none for
+       * points on a line.
+       */
+      CAISSON_INLINE SymmetricMatrix
+      inverse_covariance(const double mass,
+                         const double xx,
+                         const double xy,
+                         const double yy)
+      {
+        constexpr double smallest_variance = .02;
+        const auto       bounded           = [](const double variance) {
+          return variance > smallest_variance ? variance : smallest_variance;
+        };
+        const double center = .5 * (xx + yy), half = .5 * (xx - yy),
+                     radius = __builtin_sqrt(half * half + xy * xy);
+        const double major  = 1. / (mass * bounded(center + radius)),
+                     minor  = 1. / (mass * bounded(center - radius));
+        const double mean   = .5 * (major + minor),
+                     turn   = radius > 0. ? .5 * (major - minor) / radius : 0.;
+        return {mean + turn * half, turn * xy, mean - turn * half};
+      }
+
       /**
        * The affine stress of a cell, into fit[12] (see CellMoments): the
        * least-squares fit. With @p mean_pressure the mean stress keeps its mean
-       * only. Points that lie in a narrow band say little of the slope across
-       * it, and the Gauss points lie far outside it: where their variance in a
-       * direction is below smallest_variance (of a cell of size one, where
-       * points that fill half of it have 0.021), the slope in this direction is
-       * reduced in proportion, down to none for points on a line. In a cell
-       * whose rows rise by @p rise (over its mean height, from left to right)
-       * the band is judged along them, in x and y - rise x.
+       * only. In a cell whose rows rise by @p rise (over its mean height, from
+       * left to right) the slopes are found along them, in x and y - rise x.
        */
       CAISSON_INLINE void
       fit_stress(const double  mass,
@@ -192,31 +221,19 @@ namespace CaissonMPM
                  const bool    mean_pressure,
                  double       *fit)
       {
-        constexpr double smallest_variance = .02;
-        const double     x = s[0] / mass, y = s[1] / mass;
+        const double x = s[0] / mass, y = s[1] / mass;
         const double xx = s[2] / mass - x * x, plain_xy = s[3] / mass - x * y,
-                     xy = plain_xy - rise * xx,
-                     yy = s[4] / mass - y * y - rise * (plain_xy + xy);
-        // the inverse of the covariance, its eigenvalues bounded from below
-        const double center = .5 * (xx + yy), half = .5 * (xx - yy),
-                     radius = __builtin_sqrt(half * half + xy * xy);
-        const auto bounded  = [](const double variance) {
-          return variance > smallest_variance ? variance : smallest_variance;
-        };
-        const double major = 1. / (mass * bounded(center + radius)),
-                     minor = 1. / (mass * bounded(center - radius));
-        const double turn  = radius > 0. ? .5 * (major - minor) / radius : 0.;
-        const double inverse_xx = .5 * (major + minor) + turn * half,
-                     inverse_yy = .5 * (major + minor) - turn * half,
-                     inverse_xy = turn * xy;
-        double slope[2][4], trace[2] = {0., 0.};
+                     xy    = plain_xy - rise * xx,
+                     yy    = s[4] / mass - y * y - rise * (plain_xy + xy);
+        const auto inverse = inverse_covariance(mass, xx, xy, yy);
+        double     slope[2][4], trace[2] = {0., 0.};
         for (int c = 0; c < 4; ++c)
           {
             const double *const t = s + FitSums<Lanes<1>>::stress + 3 * c;
             const double sx = t[1] - t[0] * x, sy = t[2] - t[0] * y - rise * sx;
-            slope[1][c] = inverse_xy * sx + inverse_yy * sy;
+            slope[1][c] = inverse.xy * sx + inverse.yy * sy;
             slope[0][c] =
-              inverse_xx * sx + inverse_xy * sy - rise * slope[1][c];
+              inverse.xx * sx + inverse.xy * sy - rise * slope[1][c];
             for (int d = 0; d < 2 && c < 3; ++d)
               trace[d] += slope[d][c];
           }

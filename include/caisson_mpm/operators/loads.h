@@ -24,6 +24,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <string>
+#include <vector>
 
 namespace CaissonMPM
 {
@@ -45,12 +46,16 @@ namespace CaissonMPM
     double
     surrounding_pressure(const double time) const;
 
-    /** Add the body force at @p time to the nodal sums [n_nodes]. */
+    /**
+     * The nodal force [2 n_nodes] of the body force at @p time, N per radian
+     * (per metre in plane strain); empty without a body force.
+     */
     void
-    add_body_force(const MaterialPoints &points,
-                   const BackgroundGrid &grid,
-                   const double          time,
-                   Kernels::NodalSums   *nodes) const;
+    find_body_force(const MaterialPoints &points,
+                    const BackgroundGrid &grid,
+                    const double          time,
+                    const unsigned int    n_nodes,
+                    std::vector<double>  &force) const;
 
   private:
     VectorExpression

@@ -40,7 +40,8 @@ namespace CaissonMPM
    */
   struct NodalWork
   {
-    double forces     = 0.; // of internal and body force, before damping
+    double forces     = 0.; // of all forces on the nodes, before damping
+    double load       = 0.; // of the body force of Loads, contained in forces
     double body       = 0.; // of the rigid body on the soil
     double prescribed = 0.; // of the nodes with a prescribed velocity
     double friction   = 0.; // heat at the body's surface
@@ -163,8 +164,11 @@ namespace CaissonMPM
     double       stress_filter        = 0.01;
     bool         floor_on             = true;
     double       damping              = 0.;
+    double       surrounding_pressure = 0.; // of this step
     bool         limiter_on           = true;
     double       limiter_factor       = 0.75;
+
+    std::vector<double> load; // nodal body force of Loads, or empty
 
     double circumference = 2. * pi;
     double work_of_body = 0., work_of_prescribed = 0.; // in this step

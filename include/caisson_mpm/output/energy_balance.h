@@ -2,8 +2,8 @@
 //
 // Where the work that is put into the soil goes, from the start of a run.
 //
-//   body + prescribed + gravity = kinetic + stress + friction + damping + floor
-//                    + dissipation + residual
+//   body + prescribed + gravity + load = kinetic + stress + friction + damping
+//                    + floor + dissipation + residual
 // The dissipation is what the transfer between points and nodes loses; it is
 // found from the identity of the nodal works. The residual is what the scheme
 // creates (negative) or loses because it integrates the nodal forces and the
@@ -38,7 +38,7 @@ namespace CaissonMPM
     void
     start(const PointEnergies &points);
 
-    /** Add a step. @p stress_work is that of the points. */
+    /** Add a step. @p stress_work is that of the soil. */
     void
     add(const NodalWork &nodes, const double stress_work);
 
@@ -58,6 +58,7 @@ namespace CaissonMPM
 
     double work_of_body  = 0.; // on the soil, prescribed nodes included
     double gravity_work  = 0.;
+    double load_work     = 0.; // of the body force of Loads
     double kinetic_gain  = 0.;
     double stress_work   = 0.; // elastic energy and plastic work
     double friction_heat = 0.;
