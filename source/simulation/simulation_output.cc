@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What a run writes: records, frames, checkpoints, its summary.
+#include <caisson_mpm/base/declared_entries.h>
+#include <caisson_mpm/output/run_summary.h>
+#include <caisson_mpm/simulation/simulation.h>
+
+#include <deal.II/base/revision.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  void
+  Simulation::output()
+  {
+    SectionTimer::Scope scope(timer, timer.section("output"));
+    if (time >= next_record - 1e-9 || time >= end_time() - 1e-9)
+      {
+        record();
+        next_record += record_interval;
+      }
+    if (next_frame < frame_times.size() &&
+        time >= frame_times[next_frame] - 1e-9)
+      {
+        write_frame();
+        ++next_frame;
+      }
+    if (checkpoint_interval > 0. &&
+        seconds_running() - next_checkpoint > checkpoint_interval)
+      {
+        save_checkpoint();
+        next_checkpoint = seconds_running();
+      }
+  }
+
+  void
+  Simulation::record()
+  {
+    HistoryRow row;
+    row.time           = time;
+    row.penetration    = body.initial_depth() + body.travel(time);
+    row.step           = step;
+    row.time_step      = dt;
+    row.limiter_count  = n_limited;
+    row.held_back      = points.n_held_back();
+    row.contact_nodes  = contact.n_touching;
+    row.sticking_nodes = contact.n_sticking;
+    add_forces(row);
+    add_sums_over_points(row);
+    records->append(row, points);
+    print_record(row);
+    warn_of_lid(row);
+  }
+
+  void
+  Simulation::warn_of_lid(const HistoryRow &row)
+  {
+    if (at_lid || row.lid == 0.)
+      return;
+    at_lid = true;
+    std::ostringstream s;
+    s << "the soil plug touches the lid at a penetration of " << row.penetration
+      << " m: from here on the lid carries load, and the mesh allows no more "
+         "heave";
+    console->warning(s.str());
+  }
+
+  void
+  Simulation::add_forces(HistoryRow &row)
+  {
+    const double interval = time - last_record;
+    double *forces[] = {&row.tip, &row.inner, &row.outer, &row.top, &row.lid};
+    for (unsigned int s = 0; s < n_surfaces && interval > 0.; ++s)
+      {
+        *forces[s] = contact.impulse()[s][vertical] / interval;
+        row.total += *forces[s];
+      }
+    if (body.kind() == RigidBody::Kind::cylinder && interval > 0.)
+      {
+        const double travel =
+          .5 * (body.travel(time) + body.travel(last_record));
+        const double around =
+          grid.axisymmetric() ? 2. * pi * (body.right() + travel) : 1.;
+        row.cavity = -contact.impulse()[outer_wall][radial] /
+                     (interval * around * grid.depth());
+      }
+    if (interval > 0.)
+      {
+        row.prescribed_r = boundary_conditions.impulse()[radial] / interval;
+        row.prescribed_z = boundary_conditions.impulse()[vertical] / interval;
+      }
+    contact.reset_impulse();
+    boundary_conditions.reset_impulse();
+    last_record = time;
+  }
+
+  void
+  Simulation::add_sums_over_points(HistoryRow &row)
+  {
+    const double        travel   = body.travel(time);
+    const PointEnergies energies = point_energies();
+    points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      row.max_speed =
+        std::max(row.max_speed, std::hypot(p.velocity[0], p.velocity[1]));
+      row.points_in_body += body.contains(p.position, travel);
+    });
+    energy.close(energies);
+    row.kinetic_energy = energies.kinetic;
+    row.external_work  = energy.work_of_body;
+    row.energy         = energy;
+    row.added_mass     = circumference() * nodal_motion.added_mass;
+    max_in_body        = std::max(max_in_body, row.points_in_body);
+  }
+
+  PointEnergies
+  Simulation::point_energies() const
+  {
+    PointEnergies result;
+    points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          result.kinetic +=
+            .5 * circumference() * p.mass * p.velocity[d] * p.velocity[d];
+          const double term = -circumference() * p.mass *
+                              materials[p.material].body_force[d] *
+                              p.position[d];
+          result.potential += term;
+          result.weight += std::abs(term);
+        }
+    });
+    return result;
+  }
+
+  double
+  Simulation::circumference() const
+  {
+    return grid.axisymmetric() ? 2. * pi : 1.;
+  }
+
+  void
+  Simulation::print_record(const HistoryRow &row)
+  {
+    // where records are dense, not all of them: a line for each percent
+    const bool at_end = time >= end_time() * (1. - 1e-9);
+    if (time > start_of_run && !at_end &&
+        time - last_printed < .01 * end_time() * (1. - 1e-9))
+      return;
+    last_printed = time;
+    RecordLine line;
+    line.time                   = time;
+    line.has_body               = body.kind() != RigidBody::Kind::none;
+    line.penetration            = row.penetration;
+    line.tip                    = row.tip;
+    line.inner                  = row.inner;
+    line.outer                  = row.outer;
+    line.total                  = row.total;
+    line.kinetic_energy         = row.kinetic_energy;
+    line.max_speed              = row.max_speed;
+    line.fraction_done          = time / end_time();
+    line.point_steps_per_second = point_steps / seconds_running();
+    line.eta_seconds =
+      time > start_of_run ?
+        seconds_running() * (end_time() - time) / (time - start_of_run) :
+        0.;
+    console->record(line);
+  }
+
+  void
+  Simulation::write_frame()
+  {
+    visualization->write_frame(
+      grid, points, body, soil, body_points, body.travel(time), time);
+  }
+
+  double
+  Simulation::seconds_running() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() -
+                                         start_time)
+      .count();
+  }
+
+  namespace
+  {
+    /** Whether an entry has no influence on the state at a given time. */
+    bool
+    is_not_physics(const DeclaredEntry &entry)
+    {
+      for (const std::string free :
+           {"Output/", "Run control/", "Verification/", "Time/End"})
+        if (entry.path.compare(0, free.size(), free) == 0)
+          return true;
+      return false;
+    }
+  } // namespace
+
+  std::string
+  Simulation::fingerprint() const
+  {
+    const DeclaredEntries entries(prm);
+    std::string           result;
+    for (const DeclaredEntry &entry : entries.all())
+      if (!is_not_physics(entry))
+        result += entry.path + " = " + entry.value + "\n";
+    return result;
+  }
+
+  std::string
+  Simulation::changed_physics() const
+  {
+    // defaults are left out, so that a new entry changes nothing
+    const DeclaredEntries entries(prm);
+    std::string           result;
+    for (const DeclaredEntry &entry : entries.all())
+      if (!is_not_physics(entry) && entry.value != entry.default_value &&
+          entry.path != "Title" && entry.path != "Method/Instruction set")
+        result += entry.path + " = " + entry.value + "\n";
+    return result;
+  }
+
+  void
+  Simulation::save_checkpoint()
+  {
+    CheckpointState state;
+    state.time          = time;
+    state.travel        = body.travel(time);
+    state.step          = step;
+    state.limiter_count = n_limited;
+    state.held_back     = points.n_held_back();
+    state.external_work = energy.work_of_body;
+    state.more          = {next_record, last_record};
+    for (const Vector2 &impulse : contact.impulse())
+      for (unsigned int d = 0; d < 2; ++d)
+        state.more.push_back(impulse[d]);
+    for (unsigned int d = 0; d < 2; ++d)
+      state.more.push_back(boundary_conditions.impulse()[d]);
+    for (const double value : energy.state())
+      state.more.push_back(value);
+    write_checkpoint(directory, grid, points, state, fingerprint());
+  }
+
+  void
+  Simulation::resume_record(const std::vector<double> &numbers)
+  {
+    next_record = numbers.at(0);
+    last_record = numbers.at(1);
+    SurfaceForces impulse;
+    for (unsigned int i = 0; i < 2 * n_surfaces; ++i)
+      impulse[i / 2][i % 2] = numbers.at(2 + i);
+    contact.reset_impulse(impulse);
+    boundary_conditions.reset_impulse(Vector2(
+      {numbers.at(2 + 2 * n_surfaces), numbers.at(3 + 2 * n_surfaces)}));
+    energy.resume({numbers.begin() + 4 + 2 * n_surfaces, numbers.end()});
+  }
+
+  void
+  Simulation::write_summary(const std::string &status)
+  {
+    error_bar.write(directory);
+    RunSummary s;
+    s.fingerprint            = fingerprint_of(changed_physics());
+    s.version                = CAISSON_MPM_VERSION;
+    s.dealii_version         = DEAL_II_PACKAGE_VERSION;
+    s.scene_file             = scene;
+    s.instruction_set        = kernels->name;
+    s.status                 = status;
+    s.ranks                  = 1;
+    s.material_points        = points.n_points();
+    s.cells                  = grid.n_cells();
+    s.body_points            = body_points.size();
+    s.steps                  = step - first_step;
+    s.limiter_count          = n_limited;
+    s.held_back              = points.n_held_back();
+    s.points_lost            = 0; // a lost point ends the run
+    s.max_points_in_body     = max_in_body;
+    s.wall_time_s            = seconds_running();
+    s.point_steps_per_second = point_steps / seconds_running();
+    s.peak_memory_bytes      = peak_memory_bytes();
+    s.body_mass_kg           = 0.;
+    for (const BodyPoint &p : body_points)
+      s.body_mass_kg += p.mass;
+    points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      s.soil_mass_kg += circumference() * p.mass;
+    });
+    s.time_step_s     = dt;
+    s.time_step_limit = time_step.reason();
+    s.energies        = energy.entries();
+    s.energies.insert(s.energies.begin(),
+                      {"external_work_J", energy.work_of_body});
+    s.energies.insert(s.energies.begin() + 1,
+                      {"kinetic_energy_gain_J", energy.kinetic_gain});
+    s.sections = timer.seconds();
+    if (body.kind() == RigidBody::Kind::caisson)
+      s.scene = {{"diameter_m", body.outer_diameter},
+                 {"wall_thickness_m", body.wall_thickness},
+                 {"skirt_length_m", body.skirt_length},
+                 {"initial_penetration_m", body.initial_depth()},
+                 {"submerged_unit_weight_N_m3", soil.unit_weight(0)},
+                 {"friction_angle_deg", soil.layer(0).friction_angle()},
+                 {"wall_friction_angle_deg", body.friction_angle[outer_wall]},
+                 {"K0", soil.layer(0).earth_pressure_at_rest()}};
+    write_run_summary(directory + "/run.json", s);
+  }
+
+  void
+  Simulation::print_counts()
+  {
+    console->header(
+      {{"points lost", "0"}, // one ends the run
+       {"points in the body", std::to_string(max_in_body) + " at any record"},
+       {"held back",
+        std::to_string(points.n_held_back()) + " times at the body's surface"},
+       {"limiter fired", std::to_string(n_limited) + " times"}});
+  }
+
+  void
+  Simulation::print_energies()
+  {
+    const auto percent = [](const double part) {
+      std::ostringstream s;
+      s << std::setprecision(3) << 100. * part << " %";
+      return s.str();
+    };
+    const auto joule = [&](const double value) {
+      std::ostringstream s;
+      s << std::setprecision(6) << value << " J";
+      return s.str();
+    };
+    console->header({{"work of the body", joule(energy.work_of_body)},
+                     {"work of gravity", joule(energy.gravity_work)},
+                     {"work of loads", joule(energy.load_work)},
+                     {"stress work", joule(energy.stress_work)},
+                     {"friction heat", joule(energy.friction_heat)},
+                     {"kinetic energy", joule(energy.kinetic_gain)},
+                     {"damping, mass floor",
+                      joule(energy.damping) + ", " + joule(energy.floor)},
+                     {"lost in the transfer", joule(energy.dissipation)},
+                     {"energy residual",
+                      joule(energy.residual) + ", " + percent(energy.relative) +
+                        " of the work"}});
+    if (std::abs(energy.relative) > .01)
+      console->warning("the energy residual is " + percent(energy.relative) +
+                       " of the work: see doc/limitations.md, Energy");
+  }
+
+  void
+  Simulation::print_times()
+  {
+    std::vector<TableRow> rows;
+    const double          total = seconds_running();
+    double                sum   = 0.;
+    for (const auto &section : timer.seconds())
+      {
+        rows.push_back(
+          {section.first, section.second, 100. * section.second / total});
+        sum += section.second;
+      }
+    rows.push_back({"set-up and rest", total - sum, 100. * (1. - sum / total)});
+    rows.push_back({"total", total, 100.});
+    console->table("wall time", rows);
+  }
+} // namespace CaissonMPM
