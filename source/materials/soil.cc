@@ -324,6 +324,28 @@ namespace CaissonMPM
     return parse_vector(velocity_text, "Soil/Initial velocity");
   }
 
+  std::vector<std::string>
+  Soil::known_limits() const
+  {
+    std::vector<std::string> limits;
+    for (unsigned int i = 0; i < n_layers(); ++i)
+      {
+        const SoilLayer  &layer = *layers[i];
+        const std::string place = "Soil/Layer " + std::to_string(i + 1);
+        if (layer.law == "Mohr-Coulomb" &&
+            layer.values.at("Dilatancy angle") > 0.)
+          limits.push_back(place + ": Mohr-Coulomb sand with a dilatancy angle "
+                                   "grows in volume without limit (where "
+                                   "shearing goes on use a law with a critical "
+                                   "state");
+        if (layer.law == "Mohr-Coulomb with softening")
+          limits.push_back(place +
+                           ": softening is not regularised: shear bands "
+                           "are about a cell wide, so compare meshes");
+      }
+    return limits;
+  }
+
   std::vector<Kernels::Material>
   Soil::kernel_materials(const double mass_scaling) const
   {

@@ -393,4 +393,18 @@ namespace CaissonMPM
                                          transfer_scheme) +
            ", " + integration;
   }
+
+  std::vector<std::string>
+  NodalMotion::known_limits() const
+  {
+    std::vector<std::string> limits;
+    if (integration == "material points")
+      limits.push_back("Method/Integration = material points makes noise where "
+                       "points cross cells; it has been seen to halve the tip "
+                       "force of a caisson");
+    if (transfer_scheme == "PIC")
+      limits.push_back("Method/Velocity transfer = PIC is viscous: a pulse "
+                       "loses a third of its energy over 20 of its lengths");
+    return limits;
+  }
 } // namespace CaissonMPM

@@ -239,6 +239,10 @@ namespace CaissonMPM
        {"end", text(end_time()) + " s"}});
     if (!wrong_error_bar.empty())
       console->warning(wrong_error_bar);
+    for (const auto &limits :
+         {soil.known_limits(), nodal_motion.known_limits()})
+      for (const std::string &limit : limits)
+        console->warning(limit + ": see doc/limitations.md");
     if (time_step.mass_scaling > 100.)
       console->warning(
         "Time/Mass scaling above 100 has been seen to change the "

@@ -146,6 +146,10 @@ namespace CaissonMPM
     std::vector<Kernels::Material>
     kernel_materials(const double mass_scaling) const;
 
+    /** Warnings of what the layers' laws are known not to describe. */
+    std::vector<std::string>
+    known_limits() const;
+
     std::array<double, 2> gravity = {{0., -9.81}};
 
   private:

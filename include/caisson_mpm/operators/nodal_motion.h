@@ -134,6 +134,10 @@ namespace CaissonMPM
     std::string
     description() const;
 
+    /** Warnings where the choices are known to fail in jacked scenes. */
+    std::vector<std::string>
+    known_limits() const;
+
   private:
     /** Share of a point's own velocity that it keeps (FLIP: 1). */
     double
