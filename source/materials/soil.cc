@@ -335,9 +335,9 @@ namespace CaissonMPM
         if (layer.law == "Mohr-Coulomb" &&
             layer.values.at("Dilatancy angle") > 0.)
           limits.push_back(place + ": Mohr-Coulomb sand with a dilatancy angle "
-                                   "grows in volume without limit (where "
-                                   "shearing goes on use a law with a critical "
-                                   "state");
+                                   "grows in volume without limit; where it is "
+                                   "large take Method/Pressure in full cells = "
+                                   "mean, or a law with a critical state");
         if (layer.law == "Mohr-Coulomb with softening")
           limits.push_back(place +
                            ": softening is not regularised: shear bands "
