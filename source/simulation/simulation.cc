@@ -243,6 +243,11 @@ namespace CaissonMPM
          {soil.known_limits(), nodal_motion.known_limits()})
       for (const std::string &limit : limits)
         console->warning(limit + ": see doc/limitations.md");
+    if (body.kind() == RigidBody::Kind::caisson &&
+        body.right() - body.left() > 3.5 * body.cell_width())
+      console->warning("with four cells across the wall the tip has been seen "
+                       "to break loose below 2 m: see doc/limitations.md, "
+                       "Snaps; two are as accurate");
     if (time_step.mass_scaling > 100.)
       console->warning(
         "Time/Mass scaling above 100 has been seen to change the "
