@@ -631,7 +631,16 @@ def test_scenes_jack_coarse_at_rest():
 
 
 def test_scenes_jack_at_rest():
-    at_rest('jack', **{'Time/End time': 2})
+    at_rest('jack', **{'Time/End time': 4})
+
+
+def test_scenes_warn_of_four_cells():
+    text = run(SUCCESS, os.path.join(arguments.scenes, 'jack.prm'),
+               '--output-directory', directory('four_cells'),
+               **{'Rigid body/Cells across the wall': 4,
+                  'Time/End penetration': 0.502, 'Output/Error bar': '',
+                  'Output/Frame penetrations': ''})
+    expect(text.count('warning:') == 1 and 'break loose' in text, text)
 
 
 # ---------------------------------------------------------------- main
