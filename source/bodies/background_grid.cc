@@ -15,6 +15,25 @@ namespace CaissonMPM
 {
   using namespace dealii;
 
+  Point<2>
+  to_reference(const Kernels::CellGeometry &g, const Point<2> &p)
+  {
+    const double xi     = (p[0] - g.left) / g.width;
+    const double bottom = g.bottom_left + (g.bottom_right - g.bottom_left) * xi;
+    const double height = g.height_left + (g.height_right - g.height_left) * xi;
+    return Point<2>(xi, (p[1] - bottom) / height);
+  }
+
+  Point<2>
+  to_position(const Kernels::CellGeometry &g, const Point<2> &x)
+  {
+    const double bottom =
+      g.bottom_left + (g.bottom_right - g.bottom_left) * x[0];
+    const double height =
+      g.height_left + (g.height_right - g.height_left) * x[0];
+    return Point<2>(g.left + g.width * x[0], bottom + height * x[1]);
+  }
+
   BackgroundGrid::BackgroundGrid(const MPI_Comm communicator)
     : ParameterAcceptor("/Grid")
     , triangulation(communicator)
@@ -133,6 +152,15 @@ namespace CaissonMPM
 
   // ------------------------------------------------------------ grid lines
 
+  double
+  BackgroundGrid::finest_cell(const RigidBody &body,
+                              const double     otherwise) const
+  {
+    return fine_size > 0.         ? fine_size :
+           body.cell_width() > 0. ? body.cell_width() :
+                                    otherwise;
+  }
+
   void
   BackgroundGrid::place_lines(const RigidBody &body,
                               const Soil      &soil,
@@ -199,9 +227,7 @@ namespace CaissonMPM
                      meters(right) + ", does not fit in the mesh, from r = " +
                      meters(inner_radius) + " to " + meters(outer_radius) +
                      ". Change Grid/Outer radius or the body.");
-    const double fine = fine_size > 0.         ? fine_size :
-                        body.cell_width() > 0. ? body.cell_width() :
-                                                 cell_width;
+    const double fine = finest_cell(body, cell_width);
     columns           = graded_lines({inner_radius, left, right, outer_radius},
                            [=](const double r) {
                              if (expands && r < right)
@@ -249,9 +275,7 @@ namespace CaissonMPM
                      ", does not fit in the mesh, from z = " + meters(bottom) +
                      " to " + meters(top) +
                      ". Change Grid/Bottom, Grid/Top or the body.");
-    const double fine = fine_size > 0.         ? fine_size :
-                        body.cell_width() > 0. ? body.cell_width() :
-                                                 cell_height;
+    const double fine = finest_cell(body, cell_height);
     zone_bottom       = std::max(bottom, body.bottom() - zone_below_tip);
     zone_top          = body.top_of_body();
     // rows below keep 7/8 of their height, and 3/4 at the axis below a cone

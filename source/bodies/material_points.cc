@@ -230,32 +230,6 @@ namespace CaissonMPM
 
   namespace
   {
-    struct Reference
-    {
-      double xi, eta;
-    };
-
-    Reference
-    to_reference(const CellGeometry &g, const Point<2> &p)
-    {
-      const double xi = (p[0] - g.left) / g.width;
-      const double bottom =
-        g.bottom_left + (g.bottom_right - g.bottom_left) * xi;
-      const double height =
-        g.height_left + (g.height_right - g.height_left) * xi;
-      return {xi, (p[1] - bottom) / height};
-    }
-
-    Point<2>
-    to_position(const CellGeometry &g, const Reference &x)
-    {
-      const double bottom =
-        g.bottom_left + (g.bottom_right - g.bottom_left) * x.xi;
-      const double height =
-        g.height_left + (g.height_right - g.height_left) * x.xi;
-      return Point<2>(g.left + g.width * x.xi, bottom + height * x.eta);
-    }
-
     /** The face to cross in one direction, or -1 if none. */
     int
     face_to_cross(const double x, const unsigned int direction)
@@ -271,10 +245,10 @@ namespace CaissonMPM
     constexpr double margin = 1e-10, tolerance = 1e-2;
     for (unsigned int n_crossed = 0; n_crossed < 100; ++n_crossed)
       {
-        Reference x = to_reference(grid.geometry(cell), point.position);
-        if (!std::isfinite(x.xi) || !std::isfinite(x.eta))
+        Point<2> x = to_reference(grid.geometry(cell), point.position);
+        if (!std::isfinite(x[0]) || !std::isfinite(x[1]))
           report_lost(point);
-        const int faces[2] = {face_to_cross(x.xi, 0), face_to_cross(x.eta, 1)};
+        const int faces[2] = {face_to_cross(x[0], 0), face_to_cross(x[1], 1)};
         int       next     = -1;
         for (const int face : faces)
           if (face >= 0 && next < 0)
@@ -293,7 +267,7 @@ namespace CaissonMPM
         for (const int face : faces)
           if (face >= 0)
             {
-              double &coordinate = face < 2 ? x.xi : x.eta;
+              double &coordinate = x[face / 2];
               if (grid.neighbor(cell, face) >= 0)
                 ++n_held_back_;
               else if (coordinate < -tolerance || coordinate > 1. + tolerance)
@@ -355,9 +329,9 @@ namespace CaissonMPM
                                  static_cast<double>(p.material)};
     for (int i = 0; i < n_state_variables; ++i)
       data[15 + i] = p.state[i];
-    const Reference x = to_reference(grid.geometry(cell), p.position);
+    const Point<2> x = to_reference(grid.geometry(cell), p.position);
     handler.insert_particle(p.position,
-                            Point<2>(x.xi, x.eta),
+                            x,
                             static_cast<types::particle_index>(p.id),
                             grid.cell_iterator(cell),
                             ArrayView<const double>(data, n_properties));

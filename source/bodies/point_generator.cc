@@ -205,10 +205,8 @@ namespace CaissonMPM
                     xi += randomness * ((i + random()) / n_r - xi);
                     eta += randomness * ((j + random()) / n_z - eta);
                   }
-                const double r = g.left + g.width * xi;
-                const double z =
-                  g.bottom_left + (g.bottom_right - g.bottom_left) * xi +
-                  (g.height_left + (g.height_right - g.height_left) * xi) * eta;
+                const Point<2> place = to_position(g, Point<2>(xi, eta));
+                const double   r = place[0], z = place[1];
                 if (r < region_left || r > region_right ||
                     (!in_region.empty() &&
                      !(in_region(Point<2>(r, z), 0.) > 0.)))

@@ -210,36 +210,44 @@ namespace CaissonMPM
   void
   RigidBody::check_caisson() const
   {
-    {
-      if (2. * wall_thickness >= outer_diameter)
-        throw BadInput(
-          "Rigid body/Wall thickness = " + std::to_string(wall_thickness) +
-          " m leaves no soil plug within Outer diameter = " +
-          std::to_string(outer_diameter) + " m. Reduce the thickness.");
-      if (tip_text == "triangular" && cells_across % 2 == 1)
-        throw BadInput(
-          "Rigid body/Cells across the wall = " + std::to_string(cells_across) +
-          " puts no node at the edge of the triangular tip. Use "
-          "an even number, or Tip = flat.");
-      if (tip_height() >= skirt_length)
-        throw BadInput("Rigid body/Tip angle = " + std::to_string(tip_angle) +
-                       " degrees makes the tip longer than Skirt length = " +
-                       std::to_string(skirt_length) + " m. Reduce the angle.");
-      if (initial_penetration > 0. && initial_penetration <= tip_height())
-        throw BadInput("Rigid body/Initial penetration = " +
-                       std::to_string(initial_penetration) +
-                       " m leaves the tip, which is " +
-                       std::to_string(tip_height()) +
-                       " m high, partly above the soil surface. Increase the "
-                       "penetration, or set 0.");
-      if (has_lid() && lower_face_of_lid() < -1e-9)
-        throw BadInput(
-          "Rigid body/Lid thickness = " + std::to_string(lid_thickness) +
-          " m puts the lid's lower face at z = " +
-          std::to_string(lower_face_of_lid()) +
-          " m, below the soil surface. Reduce it or Initial "
-          "penetration, or increase Skirt length.");
-    }
+    if (2. * wall_thickness >= outer_diameter)
+      throw BadInput(
+        "Rigid body/Wall thickness = " + std::to_string(wall_thickness) +
+        " m leaves no soil plug within Outer diameter = " +
+        std::to_string(outer_diameter) + " m. Reduce the thickness.");
+    if (tip_text == "triangular" && cells_across % 2 == 1)
+      throw BadInput(
+        "Rigid body/Cells across the wall = " + std::to_string(cells_across) +
+        " puts no node at the edge of the triangular tip. Use "
+        "an even number, or Tip = flat.");
+    if (tip_height() >= skirt_length)
+      throw BadInput("Rigid body/Tip angle = " + std::to_string(tip_angle) +
+                     " degrees makes the tip longer than Skirt length = " +
+                     std::to_string(skirt_length) + " m. Reduce the angle.");
+    if (initial_penetration > 0. && initial_penetration <= tip_height())
+      throw BadInput("Rigid body/Initial penetration = " +
+                     std::to_string(initial_penetration) +
+                     " m leaves the tip, which is " +
+                     std::to_string(tip_height()) +
+                     " m high, partly above the soil surface. Increase the "
+                     "penetration, or set 0.");
+    if (has_lid() && lower_face_of_lid() < -1e-9)
+      throw BadInput(
+        "Rigid body/Lid thickness = " + std::to_string(lid_thickness) +
+        " m puts the lid's lower face at z = " +
+        std::to_string(lower_face_of_lid()) +
+        " m, below the soil surface. Reduce it or Initial "
+        "penetration, or increase Skirt length.");
+  }
+
+  std::vector<std::string>
+  RigidBody::known_limits() const
+  {
+    if (kind_ == Kind::caisson && cells_across > 3)
+      return {"with four cells across the wall the tip has been seen to break "
+              "loose below 2 m: see doc/limitations.md, Snaps; two are as "
+              "accurate"};
+    return {};
   }
 
   double

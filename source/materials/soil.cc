@@ -337,11 +337,13 @@ namespace CaissonMPM
           limits.push_back(place + ": Mohr-Coulomb sand with a dilatancy angle "
                                    "grows in volume without limit; where it is "
                                    "large take Method/Pressure in full cells = "
-                                   "mean, or a law with a critical state");
+                                   "mean, or a law with a critical state: see "
+                                   "doc/limitations.md");
         if (layer.law == "Mohr-Coulomb with softening")
           limits.push_back(place +
                            ": softening is not regularised: shear bands "
-                           "are about a cell wide, so compare meshes");
+                           "are about a cell wide, so compare meshes: see "
+                           "doc/limitations.md");
       }
     return limits;
   }

@@ -74,7 +74,7 @@ namespace CaissonMPM
     const std::string kinds[4] = {axis, outer, bottom, top};
     region                     = parse_region();
     velocity                   = parse_velocity();
-    circumference              = grid.axisymmetric() ? 2. * pi : 1.;
+    circumference              = grid.circumference();
     fixed[0].clear();
     fixed[1].clear();
     for (unsigned int node = 0; node < grid.n_nodes(); ++node)
@@ -129,9 +129,7 @@ namespace CaissonMPM
   void
   BoundaryConditions::constrain(Kernels::NodalVector *v) const
   {
-    for (unsigned int d = 0; d < 2; ++d)
-      for (const unsigned int node : fixed[d])
-        v[node].value[d] = 0.;
+    constrain_difference(v);
     for (const Prescribed &p : prescribed)
       v[p.node].value[p.component] = p.velocity;
   }

@@ -65,7 +65,7 @@ namespace CaissonMPM
   Contact::initialize(const BackgroundGrid &grid, const RigidBody &body)
   {
     corner_normals = body.corner_normals;
-    circumference  = grid.axisymmetric() ? 2. * pi : 1.;
+    circumference  = grid.circumference();
     on_body.assign(grid.n_nodes(), false);
     std::map<unsigned int, Node> found;
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/operators/loads.h>
 
+#include <deal.II/base/geometry_info.h>
+
 namespace CaissonMPM
 {
   using namespace dealii;
@@ -56,23 +58,6 @@ namespace CaissonMPM
     return pressure.is_zero() ? 0. : pressure(Point<2>(), time);
   }
 
-  namespace
-  {
-    /** The shape functions of the four corners of a cell at a place. */
-    std::array<double, 4>
-    shape_values(const Kernels::CellGeometry &g, const Point<2> &x)
-    {
-      const double xi = (x[0] - g.left) / g.width;
-      const double bottom =
-        g.bottom_left + (g.bottom_right - g.bottom_left) * xi;
-      const double height =
-        g.height_left + (g.height_right - g.height_left) * xi;
-      const double eta = (x[1] - bottom) / height;
-      return {
-        {(1. - xi) * (1. - eta), xi * (1. - eta), (1. - xi) * eta, xi * eta}};
-    }
-  } // namespace
-
   void
   Loads::find_body_force(const MaterialPoints &points,
                          const BackgroundGrid &grid,
@@ -85,7 +70,7 @@ namespace CaissonMPM
       return;
     nodal_force.resize(2 * n_nodes);
     points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
-      const auto  N    = shape_values(grid.geometry(cell), p.position);
+      const auto  x    = to_reference(grid.geometry(cell), p.position);
       const auto &node = grid.cell_nodes(cell).node;
       for (unsigned int d = 0; d < 2; ++d)
         if (!body_force[d].is_zero())
@@ -93,7 +78,8 @@ namespace CaissonMPM
             const double force =
               p.mass / mass_scaling * body_force[d](p.initial_position, time);
             for (unsigned int i = 0; i < 4; ++i)
-              nodal_force[2 * node[i] + d] += N[i] * force;
+              nodal_force[2 * node[i] + d] +=
+                GeometryInfo<2>::d_linear_shape_function(x, i) * force;
           }
     });
   }

@@ -123,7 +123,7 @@ namespace CaissonMPM
                          &work[1]})
       grid.reinit(*v, 2);
     mass.assign(grid.n_nodes(), 0.);
-    circumference = grid.axisymmetric() ? 2. * pi : 1.;
+    circumference = grid.circumference();
   }
 
   namespace
@@ -248,6 +248,20 @@ namespace CaissonMPM
     constrain(v);
   }
 
+  namespace
+  {
+    /** Hold a velocity field to what holds the new one. */
+    void
+    hold_to(const Contact            &contact,
+            const BoundaryConditions &boundary_conditions,
+            NodalVector              *v)
+    {
+      if (!contact.empty())
+        contact.constrain(contact.body_velocity(), v);
+      boundary_conditions.constrain(v);
+    }
+  } // namespace
+
   void
   NodalMotion::prepare_transfer(const Kernels::KernelTable &kernels,
                                 const Kernels::PointsView  &points,
@@ -256,9 +270,7 @@ namespace CaissonMPM
                                 const Contact              &contact)
   {
     const auto hold = [&](NodalVector *v) {
-      if (!contact.empty())
-        contact.constrain(contact.body_velocity(), v);
-      boundary_conditions.constrain(v);
+      hold_to(contact, boundary_conditions, v);
     };
     const auto hold_difference = [&](NodalVector *v) {
       if (!contact.empty())
@@ -314,9 +326,7 @@ namespace CaissonMPM
     // the old velocity held to what holds the new one
     NodalData &held = work[0];
     held            = old_velocity;
-    if (!contact.empty())
-      contact.constrain(contact.body_velocity(), data(held));
-    boundary_conditions.constrain(data(held));
+    hold_to(contact, boundary_conditions, data(held));
 
     NodalWork   result;
     const auto *node = reinterpret_cast<Kernels::NodalSums *>(sums.begin());
@@ -401,10 +411,11 @@ namespace CaissonMPM
     if (integration == "material points")
       limits.push_back("Method/Integration = material points makes noise where "
                        "points cross cells; it has been seen to halve the tip "
-                       "force of a caisson");
+                       "force of a caisson: see doc/limitations.md");
     if (transfer_scheme == "PIC")
       limits.push_back("Method/Velocity transfer = PIC is viscous: a pulse "
-                       "loses a third of its energy over 20 of its lengths");
+                       "loses a third of its energy over 20 of its lengths: "
+                       "see doc/limitations.md");
     return limits;
   }
 } // namespace CaissonMPM

@@ -50,19 +50,33 @@ namespace CaissonMPM
 
 
 
+  const std::vector<double EnergyBalance::*> &
+  EnergyBalance::sums()
+  {
+    using E                                                 = EnergyBalance;
+    static const std::vector<double EnergyBalance::*> found = {
+      &E::work_of_body,
+      &E::force_work,
+      &E::load_work,
+      &E::stress_work,
+      &E::friction_heat,
+      &E::damping,
+      &E::floor,
+      &E::initial_kinetic,
+      &E::initial_potential,
+      &E::largest};
+    return found;
+  }
+
+
+
   std::vector<double>
   EnergyBalance::state() const
   {
-    return {work_of_body,
-            force_work,
-            load_work,
-            stress_work,
-            friction_heat,
-            damping,
-            floor,
-            initial_kinetic,
-            initial_potential,
-            largest};
+    std::vector<double> state;
+    for (const auto sum : sums())
+      state.push_back(this->*sum);
+    return state;
   }
 
 
@@ -70,18 +84,28 @@ namespace CaissonMPM
   void
   EnergyBalance::resume(const std::vector<double> &state)
   {
-    double *const values[] = {&work_of_body,
-                              &force_work,
-                              &load_work,
-                              &stress_work,
-                              &friction_heat,
-                              &damping,
-                              &floor,
-                              &initial_kinetic,
-                              &initial_potential,
-                              &largest};
-    for (unsigned int i = 0; i < std::size(values); ++i)
-      *values[i] = state.at(i);
+    unsigned int i = 0;
+    for (const auto sum : sums())
+      this->*sum = state.at(i++);
+  }
+
+
+
+  const std::vector<EnergyBalance::Term> &
+  EnergyBalance::terms()
+  {
+    using E                            = EnergyBalance;
+    static const std::vector<Term> all = {
+      {"gravity_work_J", &E::gravity_work},
+      {"load_work_J", &E::load_work},
+      {"stress_work_J", &E::stress_work},
+      {"friction_heat_J", &E::friction_heat},
+      {"damping_J", &E::damping},
+      {"mass_floor_J", &E::floor},
+      {"numerical_dissipation_J", &E::dissipation},
+      {"energy_residual_J", &E::residual},
+      {"energy_residual", &E::relative}};
+    return all;
   }
 
 
@@ -89,14 +113,9 @@ namespace CaissonMPM
   std::vector<std::pair<std::string, double>>
   EnergyBalance::entries() const
   {
-    return {{"gravity_work_J", gravity_work},
-            {"load_work_J", load_work},
-            {"stress_work_J", stress_work},
-            {"friction_heat_J", friction_heat},
-            {"damping_J", damping},
-            {"mass_floor_J", floor},
-            {"numerical_dissipation_J", dissipation},
-            {"energy_residual_J", residual},
-            {"energy_residual", relative}};
+    std::vector<std::pair<std::string, double>> entries;
+    for (const Term &term : terms())
+      entries.emplace_back(term.name, this->*term.value);
+    return entries;
   }
 } // namespace CaissonMPM

@@ -7,39 +7,35 @@ namespace CaissonMPM
   history_columns()
   {
     using Row                                       = const HistoryRow &;
-    static const std::vector<HistoryColumn> columns = {
-      {"time_s", [](Row row) { return row.time; }},
-      {"penetration_m", [](Row row) { return row.penetration; }},
-      {"tip_force_N", [](Row row) { return row.tip; }},
-      {"inner_friction_N", [](Row row) { return row.inner; }},
-      {"outer_friction_N", [](Row row) { return row.outer; }},
-      {"total_force_N", [](Row row) { return row.total; }},
-      {"top_force_N", [](Row row) { return row.top; }},
-      {"kinetic_energy_J", [](Row row) { return row.kinetic_energy; }},
-      {"external_work_J", [](Row row) { return row.external_work; }},
-      {"added_mass_kg", [](Row row) { return row.added_mass; }},
-      {"max_speed_m_s", [](Row row) { return row.max_speed; }},
-      {"time_step_s", [](Row row) { return row.time_step; }},
-      {"limiter_count", [](Row row) { return 1. * row.limiter_count; }},
-      {"held_back_count", [](Row row) { return 1. * row.held_back; }},
-      {"points_in_body", [](Row row) { return 1. * row.points_in_body; }},
-      {"contact_nodes", [](Row row) { return 1. * row.contact_nodes; }},
-      {"sticking_nodes", [](Row row) { return 1. * row.sticking_nodes; }},
-      {"step", [](Row row) { return 1. * row.step; }},
-      {"lid_force_N", [](Row row) { return row.lid; }},
-      {"cavity_pressure_Pa", [](Row row) { return row.cavity; }},
-      {"prescribed_force_r_N", [](Row row) { return row.prescribed_r; }},
-      {"prescribed_force_z_N", [](Row row) { return row.prescribed_z; }},
-      {"gravity_work_J", [](Row row) { return row.energy.gravity_work; }},
-      {"load_work_J", [](Row row) { return row.energy.load_work; }},
-      {"stress_work_J", [](Row row) { return row.energy.stress_work; }},
-      {"friction_heat_J", [](Row row) { return row.energy.friction_heat; }},
-      {"damping_J", [](Row row) { return row.energy.damping; }},
-      {"mass_floor_J", [](Row row) { return row.energy.floor; }},
-      {"numerical_dissipation_J",
-       [](Row row) { return row.energy.dissipation; }},
-      {"energy_residual_J", [](Row row) { return row.energy.residual; }},
-      {"energy_residual", [](Row row) { return row.energy.relative; }}};
+    static const std::vector<HistoryColumn> columns = [] {
+      std::vector<HistoryColumn> all = {
+        {"time_s", [](Row row) { return row.time; }},
+        {"penetration_m", [](Row row) { return row.penetration; }},
+        {"tip_force_N", [](Row row) { return row.tip; }},
+        {"inner_friction_N", [](Row row) { return row.inner; }},
+        {"outer_friction_N", [](Row row) { return row.outer; }},
+        {"total_force_N", [](Row row) { return row.total; }},
+        {"top_force_N", [](Row row) { return row.top; }},
+        {"kinetic_energy_J", [](Row row) { return row.kinetic_energy; }},
+        {"external_work_J", [](Row row) { return row.external_work; }},
+        {"added_mass_kg", [](Row row) { return row.added_mass; }},
+        {"max_speed_m_s", [](Row row) { return row.max_speed; }},
+        {"time_step_s", [](Row row) { return row.time_step; }},
+        {"limiter_count", [](Row row) { return 1. * row.limiter_count; }},
+        {"held_back_count", [](Row row) { return 1. * row.held_back; }},
+        {"points_in_body", [](Row row) { return 1. * row.points_in_body; }},
+        {"contact_nodes", [](Row row) { return 1. * row.contact_nodes; }},
+        {"sticking_nodes", [](Row row) { return 1. * row.sticking_nodes; }},
+        {"step", [](Row row) { return 1. * row.step; }},
+        {"lid_force_N", [](Row row) { return row.lid; }},
+        {"cavity_pressure_Pa", [](Row row) { return row.cavity; }},
+        {"prescribed_force_r_N", [](Row row) { return row.prescribed_r; }},
+        {"prescribed_force_z_N", [](Row row) { return row.prescribed_z; }}};
+      for (const EnergyBalance::Term &term : EnergyBalance::terms())
+        all.push_back(
+          {term.name, [term](Row row) { return row.energy.*term.value; }});
+      return all;
+    }();
     return columns;
   }
 

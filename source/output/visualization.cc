@@ -120,7 +120,7 @@ namespace CaissonMPM
       void
       add_soil(const MaterialPoints &points, const Soil &soil)
       {
-        const double circumference = grid.axisymmetric() ? 2. * pi : 1.;
+        const double circumference = grid.circumference();
         points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
           add(p.position, properties_of(p, soil, circumference), cell);
         });

@@ -239,19 +239,12 @@ namespace CaissonMPM
        {"end", text(end_time()) + " s"}});
     if (!wrong_error_bar.empty())
       console->warning(wrong_error_bar);
-    for (const auto &limits :
-         {soil.known_limits(), nodal_motion.known_limits()})
+    for (const auto &limits : {soil.known_limits(),
+                               nodal_motion.known_limits(),
+                               body.known_limits(),
+                               time_step.known_limits()})
       for (const std::string &limit : limits)
-        console->warning(limit + ": see doc/limitations.md");
-    if (body.kind() == RigidBody::Kind::caisson &&
-        body.right() - body.left() > 3.5 * body.cell_width())
-      console->warning("with four cells across the wall the tip has been seen "
-                       "to break loose below 2 m: see doc/limitations.md, "
-                       "Snaps; two are as accurate");
-    if (time_step.mass_scaling > 100.)
-      console->warning(
-        "Time/Mass scaling above 100 has been seen to change the "
-        "tip force by more than 5 %");
+        console->warning(limit);
   }
 
   // ------------------------------------------------------------ one step
@@ -297,7 +290,7 @@ namespace CaissonMPM
       grid.advance();
       points.relocate();
     });
-    energy.add(work, circumference() * points.leaving().stress_work);
+    energy.add(work, grid.circumference() * points.leaving().stress_work);
     time += dt;
     ++step;
   }

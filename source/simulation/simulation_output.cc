@@ -114,7 +114,7 @@ namespace CaissonMPM
     row.kinetic_energy = energies.kinetic;
     row.external_work  = energy.work_of_body;
     row.energy         = energy;
-    row.added_mass     = circumference() * nodal_motion.added_mass;
+    row.added_mass     = grid.circumference() * nodal_motion.added_mass;
     max_in_body        = std::max(max_in_body, row.points_in_body);
   }
 
@@ -126,8 +126,8 @@ namespace CaissonMPM
       for (unsigned int d = 0; d < 2; ++d)
         {
           result.kinetic +=
-            .5 * circumference() * p.mass * p.velocity[d] * p.velocity[d];
-          const double term = -circumference() * p.mass *
+            .5 * grid.circumference() * p.mass * p.velocity[d] * p.velocity[d];
+          const double term = -grid.circumference() * p.mass *
                               materials[p.material].body_force[d] *
                               p.position[d];
           result.potential += term;
@@ -135,12 +135,6 @@ namespace CaissonMPM
         }
     });
     return result;
-  }
-
-  double
-  Simulation::circumference() const
-  {
-    return grid.axisymmetric() ? 2. * pi : 1.;
   }
 
   void
@@ -286,7 +280,7 @@ namespace CaissonMPM
     for (const BodyPoint &p : body_points)
       s.body_mass_kg += p.mass;
     points.for_each([&](const MaterialPoint &p, const unsigned int) {
-      s.soil_mass_kg += circumference() * p.mass;
+      s.soil_mass_kg += grid.circumference() * p.mass;
     });
     s.time_step_s     = dt;
     s.time_step_limit = time_step.reason();

@@ -34,6 +34,16 @@ namespace CaissonMPM
                   Patterns::Double(0.));
   }
 
+  std::vector<std::string>
+  TimeStep::known_limits() const
+  {
+    if (mass_scaling > 100.)
+      return {
+        "Time/Mass scaling above 100 has been seen to change the tip force "
+        "by more than 5 %"};
+    return {};
+  }
+
   double
   TimeStep::choose(const BackgroundGrid           &grid,
                    MaterialPoints                 &points,

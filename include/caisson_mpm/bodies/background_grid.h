@@ -42,6 +42,14 @@ namespace CaissonMPM
 {
   using NodalData = dealii::LinearAlgebra::distributed::Vector<double>;
 
+  /** The coordinates xi and eta of a place in a cell, 0 to 1 inside. */
+  dealii::Point<2>
+  to_reference(const Kernels::CellGeometry &g, const dealii::Point<2> &p);
+
+  /** The place of these coordinates in a cell. */
+  dealii::Point<2>
+  to_position(const Kernels::CellGeometry &g, const dealii::Point<2> &x);
+
   /**
    * The mesh, its dofs and its motion.
    *
@@ -232,6 +240,14 @@ namespace CaissonMPM
       return geometry_text == "axisymmetric";
     }
 
+    /** What the values per radian that the program computes with are worth:
+     * 2 pi, or 1 in plane strain, where they are per metre. */
+    double
+    circumference() const
+    {
+      return axisymmetric() ? 2. * pi : 1.;
+    }
+
     bool
     reaches_axis() const
     {
@@ -277,6 +293,8 @@ namespace CaissonMPM
     smallest_row_at(const double travel, const bool above_body) const;
     double
     radial_rate(const double r0) const;
+    double
+    finest_cell(const RigidBody &body, const double otherwise) const;
     void
     create_triangulation();
     void

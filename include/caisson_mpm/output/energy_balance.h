@@ -52,7 +52,18 @@ namespace CaissonMPM
     void
     resume(const std::vector<double> &state);
 
-    /** Names with units and values, in the order of history.csv. */
+    /** A term of the balance with its name and unit. */
+    struct Term
+    {
+      const char *name;
+      double EnergyBalance::*value;
+    };
+
+    /** The terms in the order of history.csv. */
+    static const std::vector<Term> &
+    terms();
+
+    /** Their names and values. */
     std::vector<std::pair<std::string, double>>
     entries() const;
 
@@ -69,6 +80,10 @@ namespace CaissonMPM
     double relative      = 0.; // of the largest work so far
 
   private:
+    /** What state() consists of. */
+    static const std::vector<double EnergyBalance::*> &
+    sums();
+
     double force_work = 0., initial_kinetic = 0., initial_potential = 0.,
            largest = 0.;
   };

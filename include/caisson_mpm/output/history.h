@@ -6,6 +6,7 @@
 
 #include <caisson_mpm/output/energy_balance.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,8 @@ namespace CaissonMPM
    * scripts read these names: add new columns at the end. */
   struct HistoryColumn
   {
-    std::string name;
-    double (*value)(const HistoryRow &);
+    std::string                               name;
+    std::function<double(const HistoryRow &)> value;
   };
 
   const std::vector<HistoryColumn> &

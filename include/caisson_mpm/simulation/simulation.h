@@ -127,8 +127,6 @@ namespace CaissonMPM
     end_time() const;
     double
     seconds_running() const;
-    double
-    circumference() const;
 
     // in the order of their sections in a .prm file
     BackgroundGrid     grid;

@@ -44,6 +44,10 @@ namespace CaissonMPM
       return limiting_cell;
     }
 
+    /** Warnings where the choices are known to change the answer. */
+    std::vector<std::string>
+    known_limits() const;
+
     double mass_scaling = 1.;
 
   private:
