@@ -2,8 +2,11 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/bodies/material_points.h>
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 
 namespace CaissonMPM
@@ -103,6 +106,12 @@ namespace CaissonMPM
   {
     if (free_blocks.empty())
       {
+        if (blocks.size() == blocks.capacity())
+          {
+            // by a quarter: a million points take gigabytes
+            blocks.reserve(blocks.size() + blocks.size() / 4 + 64);
+            use_large_pages();
+          }
         free_blocks.push_back(blocks.size());
         blocks.emplace_back();
         headers.push_back({-1, 0, 0});
@@ -119,7 +128,13 @@ namespace CaissonMPM
   MaterialPoints::add(const unsigned int cell, const MaterialPoint &point)
   {
     if (first_block.size() != grid.n_cells())
-      first_block.resize(grid.n_cells(), -1);
+      {
+        first_block.resize(grid.n_cells(), -1);
+        filled_volume.resize(grid.n_cells(), 0.);
+        changed.resize(grid.n_cells(), true);
+      }
+    filled_volume[cell] += point.volume;
+    changed[cell]        = true;
     const short material = point.material;
     // the last block of this material, or the last block of the cell
     int block = -1, last = -1;
@@ -142,6 +157,8 @@ namespace CaissonMPM
                          const int          block,
                          const int          lane)
   {
+    filled_volume[cell] -= blocks[block].volume[lane];
+    changed[cell] = true;
     // fill the gap with the last point of this material
     int last = block, before = -1;
     for (int b = first_block[cell], previous = -1; b >= 0;
@@ -179,6 +196,72 @@ namespace CaissonMPM
     active_cells_changed = false;
   }
 
+  void
+  MaterialPoints::use_large_pages()
+  {
+#ifdef MADV_HUGEPAGE
+    // whole pages of 2 MiB inside the storage; only a hint
+    constexpr std::uintptr_t page = 1u << 21;
+    const auto begin = reinterpret_cast<std::uintptr_t>(blocks.data()),
+               end   = begin + blocks.capacity() * sizeof(PointBlock),
+               first = (begin + page - 1) / page * page,
+               last  = end / page * page;
+    if (first < last)
+      madvise(reinterpret_cast<void *>(first), last - first, MADV_HUGEPAGE);
+#endif
+  }
+
+  void
+  MaterialPoints::put_blocks_in_order()
+  {
+    if (active_cells_changed)
+      collect_active_cells();
+    // block i is to be the one that is now source[i]
+    std::vector<int> source;
+    source.reserve(blocks.size());
+    for (const unsigned int cell : active_cells)
+      {
+        int block         = first_block[cell];
+        first_block[cell] = source.size();
+        for (; block >= 0; block = headers[block].next)
+          source.push_back(block);
+      }
+    const unsigned int       n = source.size();
+    std::vector<BlockHeader> ordered(n);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        ordered[i] = headers[source[i]];
+        if (ordered[i].next >= 0)
+          ordered[i].next = i + 1;
+      }
+    std::copy(ordered.begin(), ordered.end(), headers.begin());
+    // the free blocks are the rest; then cycle by cycle, with room for one
+    std::vector<bool> used(blocks.size(), false);
+    for (const int block : source)
+      used[block] = true;
+    for (unsigned int block = 0; block < blocks.size(); ++block)
+      if (!used[block])
+        source.push_back(block);
+    free_blocks.clear();
+    for (unsigned int i = blocks.size(); i-- > n;)
+      free_blocks.push_back(i);
+    for (unsigned int start = 0; start < blocks.size(); ++start)
+      {
+        if (source[start] == static_cast<int>(start))
+          continue;
+        const PointBlock first = blocks[start];
+        unsigned int     i     = start;
+        for (unsigned int next = source[i]; next != start; next = source[i])
+          {
+            blocks[i] = blocks[next];
+            source[i] = i;
+            i         = next;
+          }
+        blocks[i] = first;
+        source[i] = i;
+      }
+  }
+
   PointsView
   MaterialPoints::view()
   {
@@ -188,7 +271,9 @@ namespace CaissonMPM
             headers.data(),
             first_block.data(),
             active_cells.data(),
-            static_cast<unsigned int>(active_cells.size())};
+            static_cast<unsigned int>(active_cells.size()),
+            filled_volume.data(),
+            changed.data()};
   }
 
   double
@@ -226,6 +311,8 @@ namespace CaissonMPM
       }
     for (auto &entry : moving)
       add(find_cell(entry.first, entry.second), entry.second);
+    if (++n_relocations % 200 == 0)
+      put_blocks_in_order();
   }
 
   namespace
@@ -354,6 +441,8 @@ namespace CaissonMPM
     headers.clear();
     free_blocks.clear();
     first_block.assign(grid.n_cells(), -1);
+    filled_volume.assign(grid.n_cells(), 0.);
+    changed.assign(grid.n_cells(), true);
     n_points_            = 0;
     active_cells_changed = true;
     for (const auto &particle : handler)

@@ -153,17 +153,14 @@ namespace CaissonMPM
     sums.zero_out_ghost_values();
     const auto  view  = points.view();
     auto *const nodes = reinterpret_cast<Kernels::NodalSums *>(sums.begin());
-    moments.resize(view.n_active_cells);
-    const bool point_quadrature = integration == "material points";
-    surrounding_pressure        = loads.surrounding_pressure(time);
-    const Kernels::IntegrationSettings settings = {
-      point_quadrature ? 1e300 : full_fraction,
-      point_quadrature ? 1e300 : full_fraction_inside,
-      floor_on,
-      pressure == "mean",
-      surrounding_pressure};
-    kernels.points_to_grid(
-      view, grid.view(), materials.data(), settings, nodes, moments.data());
+    moments.resize(grid.n_cells());
+    surrounding_pressure = loads.surrounding_pressure(time);
+    kernels.points_to_grid(view,
+                           grid.view(),
+                           materials.data(),
+                           integration_settings(surrounding_pressure),
+                           nodes,
+                           moments.data());
     loads.find_body_force(points, grid, time, mass.size(), load);
     for (unsigned int k = 0; k < load.size(); ++k)
       nodes[k / 2].force[k % 2] += load[k];
@@ -380,6 +377,17 @@ namespace CaissonMPM
     return transfer_scheme == "FLIP"  ? 1. :
            transfer_scheme == "blend" ? flip_fraction :
                                         0.;
+  }
+
+  Kernels::IntegrationSettings
+  NodalMotion::integration_settings(const double pressure_around) const
+  {
+    const bool at_points = integration == "material points";
+    return {at_points ? 1e300 : full_fraction,
+            at_points ? 1e300 : full_fraction_inside,
+            floor_on,
+            pressure == "mean",
+            pressure_around};
   }
 
   Kernels::UpdateSettings

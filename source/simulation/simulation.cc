@@ -320,9 +320,11 @@ namespace CaissonMPM
                             view,
                             grid.next(),
                             materials.data(),
-                            nodal_motion.cell_moments(),
                             nodal_motion.update_settings(dt),
+                            nodal_motion.integration_settings(
+                              loads.surrounding_pressure(time + dt)),
                             nodal_motion.fields(),
+                            nodal_motion.cell_moments(),
                             leaving);
     n_limited += leaving.n_limited;
     point_steps += points.n_points();

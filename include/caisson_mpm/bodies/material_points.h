@@ -48,7 +48,8 @@ namespace CaissonMPM
    *
    * Invariants: of the blocks of one cell and material all but the last are
    * full; every point lies in the cell that owns its block, up to round-off;
-   * cells of the body hold none.
+   * cells of the body hold none. The blocks of a cell may lie anywhere; now and
+   * then they are put in the order of the cells.
    */
   class MaterialPoints
   {
@@ -153,6 +154,10 @@ namespace CaissonMPM
     report_lost(const MaterialPoint &point) const;
     void
     collect_active_cells();
+    void
+    use_large_pages();
+    void
+    put_blocks_in_order();
 
     BackgroundGrid                    &grid;
     std::vector<Kernels::PointBlock>   blocks;
@@ -160,6 +165,9 @@ namespace CaissonMPM
     std::vector<int>                   free_blocks;
     std::vector<int>                   first_block;
     std::vector<unsigned int>          active_cells;
+    std::vector<double>                filled_volume; // of the cells
+    std::vector<unsigned char>         changed;       // the cells
+    unsigned int                       n_relocations        = 0;
     bool                               active_cells_changed = true;
     std::vector<Kernels::LeavingPoint> leaving_storage;
     Kernels::LeavingPoints             leaving_view = {};

@@ -8,7 +8,7 @@
 #define caisson_mpm_kernels_grid_to_points_h
 
 #include <caisson_mpm/kernels/laws.h>
-#include <caisson_mpm/kernels/moments.h>
+#include <caisson_mpm/kernels/points_to_grid.h>
 
 namespace CaissonMPM
 {
@@ -16,10 +16,14 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** Coefficients of both components of a nodal field in one cell. */
+      /** Coefficients of both components of a nodal field, in one cell or in
+       * one cell in each lane. */
+      template <typename Real = double>
       struct CellField
       {
-        double r[4], z[4];
+        Real r[4], z[4];
+
+        CellField() = default;
 
         CAISSON_INLINE
         CellField(const NodalVector *field, const CellNodes &cell)
@@ -41,10 +45,11 @@ namespace CaissonMPM
       {
         Number rr, rz, zr, zz, tt;
 
+        template <typename Real>
         CAISSON_INLINE
-        VelocityGradient(const CellField          &v,
+        VelocityGradient(const CellField<Real>    &v,
                          const LocalPoint<Number> &p,
-                         const double              inverse_width,
+                         const Real                inverse_width,
                          const Number              inverse_r)
         {
           gradient(v.r, p, inverse_width, rr, rz);
@@ -59,17 +64,17 @@ namespace CaissonMPM
         }
       };
 
-      /** The mean of div v over the cell's volume, by Gauss integration. */
+      /** The mean of div v over the volume of cells, by Gauss integration. */
       template <typename Number>
-      CAISSON_INLINE double
-      mean_divergence(const CellMap   &map,
-                      const double     axisymmetric,
-                      const CellField &v)
+      CAISSON_INLINE Number
+      mean_divergence(const CellMap<Number>   &map,
+                      const double             axisymmetric,
+                      const CellField<Number> &v)
       {
         Number change(0.), volume(0.);
-        for (int lane = 0; lane < GaussPoints::n; lane += Number::width)
+        for (int i = 0; i < GaussPoint<Number>::n; ++i)
           {
-            const GaussLanes<Number>       gauss(map, axisymmetric, lane);
+            const GaussPoint<Number>       gauss(map, axisymmetric, i);
             const VelocityGradient<Number> L(v,
                                              gauss.point,
                                              map.inverse_width,
@@ -77,14 +82,14 @@ namespace CaissonMPM
             change += gauss.volume * L.trace();
             volume += gauss.volume;
           }
-        return sum(change) / sum(volume);
+        return change / volume;
       }
 
       /** What all points of a cell share. */
       struct CellUpdate
       {
-        CellMap       map, moved;
-        CellField     advection, transfer, strain;
+        CellMap<>     map, moved;
+        CellField<>   advection, transfer, strain;
         bool          full;
         double        axisymmetric;
         double        mean_divergence; // used where B-bar is on
@@ -193,48 +198,55 @@ namespace CaissonMPM
         return (Number(.5) + Number(.25) * volume_change) * twice_power;
       }
 
-      /**
-       * The work of the stress on the points of one cell in a step. The
-       * internal force is integrated over the volume of a full cell, from a fit
-       * to the stress of its points, wherever they are and whatever volume they
-       * have; so is the work, from the fit to the work per volume.
-       */
+      /** Sums over the points of a cell after the update. */
       template <typename Number>
-      struct StressWork
+      struct UpdateSums : LaneSums<Number, 4>
       {
-        // w q, w q xi, w q eta of the work per volume q with weights w
-        Number value{0.}, xi{0.}, eta{0.};
+        // w q, w q xi, w q eta of the work q per volume with weights w, and the
+        // new volume
+        using LaneSums<Number, 4>::sum;
 
         CAISSON_INLINE void
-        add(const LocalPoint<Number> &p, const Number weight, const Number work)
+        add_work(const LocalPoint<Number> &p,
+                 const Number              weight,
+                 const Number              work)
         {
           const Number q = weight * work;
-          value += q;
-          xi += q * p.xi;
-          eta += q * p.eta;
-        }
-
-        /** Of a cell whose points have the masses @p mass, the weights. */
-        CAISSON_INLINE double
-        in_full_cell(const double *mass, const double volume) const
-        {
-          const double x = mass[1] / mass[0], y = mass[2] / mass[0],
-                       mean    = sum(value) / mass[0];
-          const double slope_x = sum(xi) - mean * mass[1],
-                       slope_y = sum(eta) - mean * mass[2];
-          const auto inverse   = inverse_covariance(mass[0],
-                                                  mass[4] / mass[0] - x * x,
-                                                  mass[3] / mass[0] - x * y,
-                                                  mass[5] / mass[0] - y * y);
-          return volume *
-                 (mean +
-                  (.5 - x) * (inverse.xx * slope_x + inverse.xy * slope_y) +
-                  (.5 - y) * (inverse.xy * slope_x + inverse.yy * slope_y));
+          sum[0] += q;
+          sum[1] += q * p.xi;
+          sum[2] += q * p.eta;
         }
       };
 
-      /** Update one block; returns its lanes outside the moved cell. The work
-       * of the stress is added lane by lane. */
+      /**
+       * The work of the stress on the points of full cells in a step. The
+       * internal force is integrated over the volume of a full cell, from a fit
+       * to the stress of its points, wherever they are and whatever volume they
+       * have; so is the work, from the fit to the work per volume. @p s: of
+       * UpdateSums, where the weights are the masses with the moments @p mass.
+       */
+      template <typename Number>
+      CAISSON_INLINE Number
+      work_in_full_cells(const Number *s,
+                         const Number *mass,
+                         const Number  volume)
+      {
+        const Number inverse_mass = Number(1.) / mass[0], half(.5);
+        const Number x = mass[1] * inverse_mass, y = mass[2] * inverse_mass,
+                     mean    = s[0] * inverse_mass;
+        const Number slope_x = s[1] - mean * mass[1],
+                     slope_y = s[2] - mean * mass[2];
+        const auto inverse   = inverse_covariance(mass[0],
+                                                mass[4] * inverse_mass - x * x,
+                                                mass[3] * inverse_mass - x * y,
+                                                mass[5] * inverse_mass - y * y);
+        return volume *
+               (mean +
+                (half - x) * (inverse.xx * slope_x + inverse.xy * slope_y) +
+                (half - y) * (inverse.xy * slope_x + inverse.yy * slope_y));
+      }
+
+      /** Update one block; returns its lanes outside the moved cell. */
       template <typename Law, typename Number>
       CAISSON_INLINE unsigned int
       update_block(PointBlock                     &b,
@@ -243,22 +255,23 @@ namespace CaissonMPM
                    const double                    initial_void_ratio,
                    const typename Law::Parameters &parameters,
                    unsigned int                   &limited,
-                   StressWork<Number>             &stress_work)
+                   UpdateSums<Number>             &sums)
       {
         unsigned int outside = 0;
         limited              = 0;
-        const Number dt(settings.time_step), zero(0.), one(1.);
+        const Number dt(settings.time_step);
         for (int lane = 0; lane < block_size; lane += Number::width)
           {
             Number r = Number::load(b.r + lane), z = Number::load(b.z + lane);
             const LocalPoint<Number> p = cell.map.at_position(r, z);
             const Number             weight =
               Number::load((cell.full ? b.mass : b.volume) + lane);
-            stress_work.add(
+            sums.add_work(
               p,
               weight,
               update_stress<Law>(
                 b, lane, p, cell, settings, initial_void_ratio, parameters));
+            sums.sum[3] += Number::load(b.volume + lane);
 
             const Number keep(settings.keep_velocity);
             Number       velocity_r = keep * Number::load(b.velocity_r + lane) +
@@ -280,40 +293,31 @@ namespace CaissonMPM
             z += dt * move_z;
             r.store(b.r + lane);
             z.store(b.z + lane);
-            const LocalPoint<Number> q = cell.moved.at_position(r, z);
-            // written so that a NaN counts as outside
-            outside |= to_integer(!((q.xi >= zero) & (q.xi <= one) &
-                                    (q.eta >= zero) & (q.eta <= one)))
-                       << lane;
+            outside |= to_integer(!cell.moved.contains(r, z)) << lane;
           }
         return outside;
       }
 
-      template <typename Number>
-      CAISSON_INLINE CellUpdate
+      /** All but the mean divergence. */
+      CAISSON_INLINE void
       prepare_cell(const unsigned int    cell,
                    const CellMoments    &moments,
                    const GridView       &grid,
                    const GridView       &moved,
                    const UpdateSettings &settings,
-                   const NodalFields    &fields)
+                   const NodalFields    &fields,
+                   CellUpdate           &update)
       {
         const CellNodes &nodes = grid.nodes[cell];
-        CellUpdate       update{CellMap(grid.geometry[cell]),
-                          CellMap(moved.geometry[cell]),
-                          CellField(fields.advection, nodes),
-                          CellField(fields.transfer, nodes),
-                          CellField(fields.strain, nodes),
-                          moments.full,
-                          grid.axisymmetric,
-                          0.,
-                          0.,
-                          nullptr,
-                          0.};
-        if (settings.mean_volume_change)
-          update.mean_divergence = mean_divergence<Number>(update.map,
-                                                           grid.axisymmetric,
-                                                           update.strain);
+        update.map             = CellMap<>(grid.geometry[cell]);
+        update.moved           = CellMap<>(moved.geometry[cell]);
+        update.advection       = CellField<>(fields.advection, nodes);
+        update.transfer        = CellField<>(fields.transfer, nodes);
+        update.strain          = CellField<>(fields.strain, nodes);
+        update.full            = moments.full;
+        update.axisymmetric    = grid.axisymmetric;
+        update.speed_limit     = 0.;
+        update.fit             = nullptr;
         if (settings.stress_filter > 0. && moments.full)
           {
             update.fit                 = moments.fit;
@@ -327,61 +331,147 @@ namespace CaissonMPM
             h                     = g.height_right < h ? g.height_right : h;
             update.speed_limit    = settings.limiter * h / settings.time_step;
           }
-        return update;
+      }
+
+      /** Update the points of an active cell and list those outside it, of
+       * which there are so many. */
+      template <typename Number>
+      CAISSON_INLINE unsigned int
+      update_points(const PointsView     &points,
+                    const unsigned int    active,
+                    const CellUpdate     &update,
+                    const Material       *materials,
+                    const UpdateSettings &settings,
+                    UpdateSums<Number>   &sums,
+                    LeavingPoints        &leaving)
+      {
+        const unsigned int cell   = points.active_cells[active];
+        const unsigned int before = leaving.n;
+        for (int block = points.first_block[cell]; block >= 0;)
+          {
+            const BlockHeader header = points.headers[block];
+            prefetch(points, header.next, active);
+            unsigned int    outside = 0, limited = 0;
+            const Material &material = materials[header.material];
+            with_law(material,
+                     [&](auto law, const auto &parameters) CAISSON_LAMBDA {
+                       outside = update_block<decltype(law), Number>(
+                         points.blocks[block],
+                         update,
+                         settings,
+                         material.initial_void_ratio,
+                         parameters,
+                         limited,
+                         sums);
+                     });
+            const unsigned int real = (1u << header.count) - 1u;
+            leaving.n_limited += __builtin_popcount(limited & real);
+            for (outside &= real; outside != 0; outside &= outside - 1)
+              {
+                if (leaving.n < leaving.capacity)
+                  leaving.points[leaving.n] = {cell,
+                                               block,
+                                               __builtin_ctz(outside)};
+                ++leaving.n;
+              }
+            block = header.next;
+          }
+        return leaving.n - before;
+      }
+
+      /** The mean divergence of each cell of a group, from the strain fields of
+       * @p update [group.n]. */
+      template <typename Number>
+      CAISSON_INLINE void
+      find_mean_divergence(const CellGroup<Number> &group,
+                           const CellMap<Number>   &map,
+                           const double             axisymmetric,
+                           CellUpdate              *update)
+      {
+        const auto lanes = [&](const auto &value) {
+          return make_lanes<Number>([&](const int i) {
+            return value(update[i < group.n ? i : 0].strain);
+          });
+        };
+        CellField<Number> strain;
+        for (int k = 0; k < 4; ++k)
+          {
+            strain.r[k] = lanes([=](const CellField<> &v) { return v.r[k]; });
+            strain.z[k] = lanes([=](const CellField<> &v) { return v.z[k]; });
+          }
+        const Number mean = mean_divergence(map, axisymmetric, strain);
+        for (int i = 0; i < group.n; ++i)
+          update[i].mean_divergence = mean[i];
       }
 
       template <typename Number>
       void
-      grid_to_points(const PointsView     &points,
-                     const GridView       &grid,
-                     const GridView       &moved,
-                     const Material       *materials,
-                     const CellMoments    *moments,
-                     const UpdateSettings &settings,
-                     const NodalFields    &fields,
-                     LeavingPoints        &leaving)
+      grid_to_points(const PointsView          &points,
+                     const GridView            &grid,
+                     const GridView            &moved,
+                     const Material            *materials,
+                     const UpdateSettings      &settings,
+                     const IntegrationSettings &next,
+                     const NodalFields         &fields,
+                     CellMoments               *moments,
+                     LeavingPoints             &leaving)
       {
+        constexpr int width = Number::width;
         leaving.n = leaving.n_limited = 0;
         leaving.stress_work           = 0.;
-        for (unsigned int i = 0; i < points.n_active_cells; ++i)
+        for (unsigned int begin = 0; begin < points.n_active_cells;
+             begin += width)
           {
-            const unsigned int cell   = points.active_cells[i];
-            const CellUpdate   update = prepare_cell<Number>(
-              cell, moments[i], grid, moved, settings, fields);
-            StressWork<Number> stress_work;
-            for (int block = points.first_block[cell]; block >= 0;
-                 block     = points.headers[block].next)
+            const CellGroup<Number> group(points, begin);
+            const CellMap<Number>   map = group.map(grid.geometry);
+            CellUpdate              update[width];
+            Number                  mass[6];
+            for (int k = 0; k < 6; ++k)
+              mass[k] = group.lanes(
+                [&](const unsigned int c) { return moments[c].mass[k]; });
+            for (int i = 0; i < group.n; ++i)
+              prepare_cell(group.cell[i],
+                           moments[group.cell[i]],
+                           grid,
+                           moved,
+                           settings,
+                           fields,
+                           update[i]);
+            if (settings.mean_volume_change)
+              find_mean_divergence(group, map, grid.axisymmetric, update);
+
+            double sums_of[width][4];
+            for (int i = 0; i < group.n; ++i)
               {
-                    const BlockHeader header  = points.headers[block];
-                    unsigned int      outside = 0, limited = 0;
-                    const Material   &material = materials[header.material];
-                    with_law(material,
-                         [&](auto law, const auto &parameters) CAISSON_LAMBDA {
-                           outside = update_block<decltype(law), Number>(
-                             points.blocks[block],
-                             update,
-                             settings,
-                             material.initial_void_ratio,
-                             parameters,
-                             limited,
-                             stress_work);
-                         });
-                    const unsigned int real = (1u << header.count) - 1u;
-                    leaving.n_limited += __builtin_popcount(limited & real);
-                    for (outside &= real; outside != 0; outside &= outside - 1)
-                  {
-                        if (leaving.n < leaving.capacity)
-                      leaving.points[leaving.n] = {cell,
-                                                       block,
-                                                       __builtin_ctz(outside)};
-                    ++leaving.n;
-                  }
+                const unsigned int cell = group.cell[i];
+                UpdateSums<Number> own;
+                own.clear();
+                const unsigned int n_leaving = update_points(points,
+                                                             begin + i,
+                                                             update[i],
+                                                             materials,
+                                                             settings,
+                                                             own,
+                                                             leaving);
+                own.store(sums_of[i]);
+                // while they are in the cache, and if they stay as they are
+                if (n_leaving == 0)
+                  sum_points<Number>(
+                    points, moved, materials, next, cell, moments[cell]);
               }
-            leaving.stress_work +=
-              update.full ?
-                stress_work.in_full_cell(moments[i].mass,
-                                         update.map.volume(grid.axisymmetric)) :
-                sum(stress_work.value);
+            const auto sum = [&](const int k) {
+              return make_lanes<Number>(
+                [&](const int i) { return sums_of[i < group.n ? i : 0][k]; });
+            };
+            const Number work[3] = {sum(0), sum(1), sum(2)};
+            const Number in_full =
+              work_in_full_cells(work, mass, map.volume(grid.axisymmetric));
+            for (int i = 0; i < group.n; ++i)
+              {
+                leaving.stress_work +=
+                  update[i].full ? in_full[i] : sums_of[i][0];
+                points.filled_volume[group.cell[i]] = sums_of[i][3];
+              }
           }
       }
     } // namespace CAISSON_KERNEL_ISA

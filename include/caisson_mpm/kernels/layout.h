@@ -98,15 +98,24 @@ namespace CaissonMPM
       double value[2];
     };
 
-    /** What points_to_grid leaves of each cell for the rest of the step. */
-    struct CellMoments
+    /** The sums over the MPs of a cell, and what follows from them. */
+    struct alignas(64) CellMoments
     {
       // integrals of 1, xi, eta, xi eta, xi2, eta2, xi2 eta, xi eta2, xi2 eta2
       // over the mass: the consistent mass matrix in nine numbers
       double mass[9];
-      // the fit of a full cell: per component value, slope in x, slope in y
-      double fit[12];
-      bool   full;
+      // integrals of 1, xi, eta, xi eta over the momentum in r, then in z
+      double momentum[8];
+      union
+      {
+        // sums for the internal force (kernels/moments.h), which
+        // points_to_grid replaces by
+        double internal[16];
+        // the fit of a full cell: per component value, slope in x, slope in y
+        double fit[12];
+      };
+      bool full; // takes Gauss points
+      bool several_materials;
     };
 
     struct PointsView
@@ -116,6 +125,9 @@ namespace CaissonMPM
       const int          *first_block;  // [n_cells]
       const unsigned int *active_cells; // [n_active_cells] cells with MPs
       unsigned int        n_active_cells;
+      double             *filled_volume; // [n_cells], of the MPs in it
+      unsigned char *changed; // [n_cells], whether MPs came or went: the cell's
+                              // moments are not those of its MPs
     };
 
     struct GridView
@@ -182,7 +194,8 @@ namespace CaissonMPM
 
       /**
        * Sum mass, momentum, internal and body force of all MPs to the nodes.
-       * @p sums [n_nodes] must be zero on entry; @p moments [n_active_cells].
+       * @p sums [n_nodes] must be zero on entry; @p moments [n_cells], those
+       * left by grid_to_points but in changed cells.
        */
       void (*points_to_grid)(const PointsView &,
                              const GridView &,
@@ -202,16 +215,18 @@ namespace CaissonMPM
                          NodalVector       *out);
 
       /**
-       * Update velocity, stress, volume and position of all MPs, and list
-       * those outside their cell as @p moved grid has it.
+       * Update velocity, stress, volume and position of all MPs, list those
+       * outside their cell as @p moved grid has it, and renew the moments for
+       * the next step, in which the force is integrated as @p next says.
        */
       void (*grid_to_points)(const PointsView &,
                              const GridView &,
                              const GridView &moved,
                              const Material *,
-                             const CellMoments *,
                              const UpdateSettings &,
+                             const IntegrationSettings &next,
                              const NodalFields &,
+                             CellMoments *,
                              LeavingPoints &);
     };
   } // namespace Kernels

@@ -151,6 +151,23 @@ namespace CaissonMPM
                  2. * s.cohesion * s.cos_phi;
         }
 
+        /**
+         * Whether no lane yields, even with a bound for the radius of Mohr's
+         * circle in its place: most soil is far from yield, and this spares it
+         * the square root.
+         */
+        static CAISSON_INLINE bool
+        is_surely_elastic(const StressState<Number> &sigma,
+                          const Strength            &strength)
+        {
+          const Number center = 0.5 * (sigma.rr + sigma.zz),
+                       bound = abs(0.5 * (sigma.rr - sigma.zz)) + abs(sigma.rz);
+          const Number major = max(sigma.tt, center + bound),
+                       minor = min(sigma.tt, center - bound);
+          return !any((yield_function(major, minor, strength) > Number(0.)) |
+                      (major > Number(strength.tension_cutoff)));
+        }
+
         /** Step 1 of the file's head. Admissible stresses do not change. */
         static CAISSON_INLINE Stress
         to_cone(const Stress &trial, const Number yield, const Strength &);
@@ -402,6 +419,8 @@ namespace CaissonMPM
         const Strength                &strength)
       {
         add_elastic_increment(sigma, de, elastic.lambda, elastic.mu);
+        if (is_surely_elastic(sigma, strength))
+          return;
 
         const PrincipalFrame<Number> frame(sigma);
         const Stress                 trial = frame.principal_stresses();

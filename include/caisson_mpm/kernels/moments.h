@@ -2,6 +2,10 @@
 //
 // The sums over the points of a cell that the transfer needs: moments of mass,
 // momentum and force, and the affine fit of the stress with its Gauss points.
+//
+// Points lie in the lanes while the sums are made, cells after that: what
+// follows from the sums is computed for as many cells at once as there are
+// lanes.
 #ifndef caisson_mpm_kernels_moments_h
 #define caisson_mpm_kernels_moments_h
 
@@ -14,7 +18,14 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** Sums over points, lane by lane; sum_lanes() brings them together. */
+      template <typename Number>
+      CAISSON_INLINE double
+      sum_of_lanes(const Number x)
+      {
+        return sum(x);
+      }
+
+      /** n sums, over points lane by lane, or of one cell in each lane. */
       template <typename Number, int n>
       struct LaneSums
       {
@@ -27,16 +38,125 @@ namespace CaissonMPM
           for (int i = 0; i < n; ++i)
             sum[i] = Number(0.);
         }
+
+        /** The sums over all lanes, into out[n]. */
+        CAISSON_INLINE void
+        store(double *out) const
+        {
+          constexpr int width = Number::width;
+          for (int i = 0; i + width <= n; i += width)
+            sum_each(sum + i).store(out + i);
+          for (int i = n - n % width; i < n; ++i)
+            out[i] = sum_of_lanes(sum[i]);
+        }
+
+        /** Lane i into row i of the first @p n_rows, each n numbers. */
+        CAISSON_INLINE void
+        store_lanes(const int n_rows, double *const *rows) const
+        {
+          constexpr int width = Number::width;
+          static_assert(n % width == 0);
+          for (int i = 0; i < n; i += width)
+            {
+              Number out[width];
+              transpose(sum + i, out);
+              for (int k = 0; k < n_rows; ++k)
+                out[k].store(rows[k] + i);
+            }
+        }
+
+        /** Row i of @p rows [width], each n numbers, into lane i. */
+        CAISSON_INLINE void
+        load_lanes(const double *const *rows)
+        {
+          constexpr int width = Number::width;
+          for (int i = 0; i + width <= n; i += width)
+            {
+              Number in[width];
+              for (int k = 0; k < width; ++k)
+                in[k] = Number::load(rows[k] + i);
+              transpose(in, sum + i);
+            }
+          for (int i = n - n % width; i < n; ++i)
+            sum[i] =
+              make_lanes<Number>([&](const int k) { return rows[k][i]; });
+        }
       };
 
-      /** Moments of the MPs of one cell and one material. */
-      template <typename Number>
-      struct PointSums : LaneSums<Number, 24>
+      /**
+       * Ask for the block that comes after those of an active cell that end
+       * before @p block: the blocks of a cell need not lie side by side.
+       */
+      CAISSON_INLINE void
+      prefetch(const PointsView &points, int block, const unsigned int active)
       {
-        // mass: 1, xi, eta, xi eta, xi2, eta2, xi2 eta, xi eta2, xi2 eta2;
-        // then momentum r and z: 1, xi, eta, xi eta
+        constexpr int n_fields = 12; // those that a step reads
+        if (block < 0 && active + 1 < points.n_active_cells)
+          block = points.first_block[points.active_cells[active + 1]];
+        if (block < 0)
+          return;
+        const double *const fields =
+          reinterpret_cast<const double *>(points.blocks + block);
+        for (int i = 0; i < n_fields; ++i)
+          __builtin_prefetch(fields + i * block_size);
+      }
+
+      /** Consecutive active cells, one in each lane; lanes beyond the end
+       * repeat the last one. */
+      template <typename Number>
+      struct CellGroup
+      {
+        int          n; // cells
+        unsigned int cell[Number::width];
+
+        CAISSON_INLINE
+        CellGroup(const PointsView &points, const unsigned int begin)
+        {
+          const unsigned int left = points.n_active_cells - begin;
+          n = left < Number::width ? static_cast<int>(left) : Number::width;
+          for (int i = 0; i < Number::width; ++i)
+            cell[i] = points.active_cells[begin + (i < n ? i : n - 1)];
+        }
+
+        /** Lane i: value(number of its cell). */
+        template <typename Value>
+        CAISSON_INLINE Number
+        lanes(const Value &value) const
+        {
+          return make_lanes<Number>(
+            [&](const int i) { return value(cell[i]); });
+        }
+
+        CAISSON_INLINE CellMap<Number>
+                       map(const CellGeometry *geometry) const
+        {
+          CellMap<Number> m;
+          const auto      of = [&](const auto &value) {
+            return lanes(
+              [&](const unsigned int c) { return value(geometry[c]); });
+          };
+          m.left   = of([](const CellGeometry &g) { return g.left; });
+          m.width  = of([](const CellGeometry &g) { return g.width; });
+          m.bottom = of([](const CellGeometry &g) { return g.bottom_left; });
+          m.bottom_slope = of([](const CellGeometry &g) {
+            return g.bottom_right - g.bottom_left;
+          });
+          m.height = of([](const CellGeometry &g) { return g.height_left; });
+          m.height_slope  = of([](const CellGeometry &g) {
+            return g.height_right - g.height_left;
+          });
+          m.inverse_width = Number(1.) / m.width;
+          return m;
+        }
+      };
+
+      /** Moments of mass and momentum. */
+      template <typename Number>
+      struct PointSums : LaneSums<Number, 17>
+      {
+        // in the order of CellMoments::mass and momentum
         static constexpr int momentum = 9;
-        using LaneSums<Number, 24>::sum;
+        using LaneSums<Number, 17>::sum;
 
         CAISSON_INLINE void
         add(const LocalPoint<Number> &p,
@@ -78,7 +198,7 @@ namespace CaissonMPM
 
         CAISSON_INLINE void
         add(const LocalPoint<Number>  &p,
-            const double               inverse_width,
+            const Number               inverse_width,
             const Number               inverse_r, // 0 in plane strain
             const Number               volume,
             const StressState<Number> &stress)
@@ -100,7 +220,7 @@ namespace CaissonMPM
          */
         CAISSON_INLINE void
         add_stiffness(const LocalPoint<Number> &p,
-                      const double              inverse_width,
+                      const Number              inverse_width,
                       const Number              inverse_r,
                       const Number              volume_times_modulus)
         {
@@ -110,9 +230,9 @@ namespace CaissonMPM
           for (int i = 0; i < 4; ++i)
             {
               const Number d_dxi =
-                Number(i % 2 ? inverse_width : -inverse_width) * y[i / 2];
+                (i % 2 ? inverse_width : -inverse_width) * y[i / 2];
               const Number d_deta = (i / 2 ? x[i % 2] : -x[i % 2]);
-              norm[i] = abs(d_dxi - d_deta * p.slope * Number(inverse_width)) +
+              norm[i] = abs(d_dxi - d_deta * p.slope * inverse_width) +
                         abs(d_deta * p.inverse_height) +
                         x[i % 2] * y[i / 2] * inverse_r;
               total += norm[i];
@@ -125,12 +245,12 @@ namespace CaissonMPM
         static CAISSON_INLINE void
         add_component(Number                   *s,
                       const LocalPoint<Number> &p,
-                      const double              inverse_width,
+                      const Number              inverse_width,
                       const Number              volume,
                       const Number              stress_r,
                       const Number              stress_z)
         {
-          const Number a = volume * stress_r * Number(inverse_width);
+          const Number a = volume * stress_r * inverse_width;
           const Number b = volume * stress_z * p.inverse_height - a * p.slope;
           s[0] += a;
           s[1] += a * p.eta;
@@ -142,42 +262,37 @@ namespace CaissonMPM
       /** Moments of the stress for the affine fit in x = xi - 1/2 and
        * y = (z - z_center) / mean height, weighted by mass. */
       template <typename Number>
-      struct FitSums : LaneSums<Number, 24>
+      struct FitSums : LaneSums<Number, 16>
       {
-        // m x, m y, m x2, m x y, m y2; then per component s, s x, s y
-        static constexpr int stress = 5;
-        using LaneSums<Number, 24>::sum;
+        // per component m s, m s x, m s y; padded to the size of ForceSums
+        using LaneSums<Number, 16>::sum;
 
         CAISSON_INLINE void
         add(const Number x, const Number y, const Number mass, const Number *s)
         {
           const Number m_x = mass * x, m_y = mass * y;
-          sum[0] += m_x;
-          sum[1] += m_y;
-          sum[2] += m_x * x;
-          sum[3] += m_x * y;
-          sum[4] += m_y * y;
           for (int c = 0; c < 4; ++c)
             {
-              sum[stress + 3 * c] += mass * s[c];
-              sum[stress + 3 * c + 1] += m_x * s[c];
-              sum[stress + 3 * c + 2] += m_y * s[c];
+              sum[3 * c] += mass * s[c];
+              sum[3 * c + 1] += m_x * s[c];
+              sum[3 * c + 2] += m_y * s[c];
             }
         }
       };
 
       /** The affine function with the coefficients fit[0 .. 2]. */
-      template <typename Number>
+      template <typename Real, typename Number>
       CAISSON_INLINE Number
-      evaluate_fit(const double *fit, const Number x, const Number y)
+      evaluate_fit(const Real *fit, const Number x, const Number y)
       {
         return Number(fit[0]) + Number(fit[1]) * x + Number(fit[2]) * y;
       }
 
       /** A symmetric 2 x 2 matrix. */
+      template <typename Number>
       struct SymmetricMatrix
       {
-        double xx, xy, yy;
+        Number xx, xy, yy;
       };
 
       /**
@@ -189,48 +304,86 @@ namespace CaissonMPM
        * slope in this direction is thus reduced in proportion, down to none for
        * points on a line.
        */
-      CAISSON_INLINE SymmetricMatrix
-      inverse_covariance(const double mass,
-                         const double xx,
-                         const double xy,
-                         const double yy)
+      template <typename Number>
+      CAISSON_INLINE SymmetricMatrix<Number>
+                     inverse_covariance(const Number mass,
+                                        const Number xx,
+                                        const Number xy,
+                                        const Number yy)
       {
-        constexpr double smallest_variance = .02;
-        const auto       bounded           = [](const double variance) {
-          return variance > smallest_variance ? variance : smallest_variance;
-        };
-        const double center = .5 * (xx + yy), half = .5 * (xx - yy),
-                     radius = __builtin_sqrt(half * half + xy * xy);
-        const double major  = 1. / (mass * bounded(center + radius)),
-                     minor  = 1. / (mass * bounded(center - radius));
-        const double mean   = .5 * (major + minor),
-                     turn   = radius > 0. ? .5 * (major - minor) / radius : 0.;
+        const Number smallest_variance(.02), one(1.), half_of(.5);
+        const Number center = half_of * (xx + yy), half = half_of * (xx - yy),
+                     radius = sqrt(half * half + xy * xy);
+        const Number major =
+                       one / (mass * max(center + radius, smallest_variance)),
+                     minor =
+                       one / (mass * max(center - radius, smallest_variance));
+        const Number mean = half_of * (major + minor),
+                     turn =
+                       half_of * (major - minor) / max(radius, Number(1e-300));
         return {mean + turn * half, turn * xy, mean - turn * half};
       }
 
+      /** Moments of mass with y = (z - z_center) / mean height. */
+      template <typename Number>
+      struct MassOverHeight
+      {
+        Number y, xi_y, y2;
+
+        /** From the moments in xi and eta, @p m [9]: y is bilinear. */
+        CAISSON_INLINE
+        MassOverHeight(const CellMap<Number> &map, const Number *m)
+        {
+          const Number inverse = Number(1.) / map.mean_height();
+          const Number a0      = (map.bottom - map.center_z()) * inverse,
+                       a1      = map.bottom_slope * inverse,
+                       a2      = map.height * inverse,
+                       a3      = map.height_slope * inverse;
+          const auto times_y   = [=](const Number q,
+                                   const Number q_xi,
+                                   const Number q_eta,
+                                   const Number q_xi_eta) {
+            return a0 * q + a1 * q_xi + a2 * q_eta + a3 * q_xi_eta;
+          };
+          y                     = times_y(m[0], m[1], m[2], m[3]);
+          xi_y                  = times_y(m[1], m[4], m[3], m[6]);
+          const Number eta_y    = times_y(m[2], m[3], m[5], m[7]),
+                       xi_eta_y = times_y(m[3], m[6], m[7], m[8]);
+          y2                    = times_y(y, xi_y, eta_y, xi_eta_y);
+        }
+      };
+
       /**
        * The affine stress of a cell, into fit[12] (see CellMoments): the
-       * least-squares fit. With @p mean_pressure the mean stress keeps its mean
-       * only. In a cell whose rows rise by @p rise (over its mean height, from
-       * left to right) the slopes are found along them, in x and y - rise x.
+       * least-squares fit to the sums @p s of FitSums, with the moments of mass
+       * @p m [9]. With @p mean_pressure the mean stress keeps its mean only. In
+       * a cell whose rows rise (over its mean height, from left to right) the
+       * slopes are found along them, in x and y - rise x.
        */
+      template <typename Number>
       CAISSON_INLINE void
-      fit_stress(const double  mass,
-                 const double *s,
-                 const double  rise,
-                 const bool    mean_pressure,
-                 double       *fit)
+      fit_stress(const CellMap<Number> &map,
+                 const Number          *m,
+                 const Number          *s,
+                 const bool             mean_pressure,
+                 Number                *fit)
       {
-        const double x = s[0] / mass, y = s[1] / mass;
-        const double xx = s[2] / mass - x * x, plain_xy = s[3] / mass - x * y,
-                     xy    = plain_xy - rise * xx,
-                     yy    = s[4] / mass - y * y - rise * (plain_xy + xy);
-        const auto inverse = inverse_covariance(mass, xx, xy, yy);
-        double     slope[2][4], trace[2] = {0., 0.};
+        const MassOverHeight<Number> over_height(map, m);
+        const Number inverse_mass = Number(1.) / m[0], rise = map.rise(),
+                     half(.5);
+        const Number xi = m[1] * inverse_mass, x = xi - half,
+                     y        = over_height.y * inverse_mass;
+        const Number xx       = m[4] * inverse_mass - xi * xi,
+                     plain_xy = over_height.xi_y * inverse_mass - xi * y,
+                     xy       = plain_xy - rise * xx,
+                     yy       = over_height.y2 * inverse_mass - y * y -
+                          rise * (plain_xy + xy);
+        const auto inverse = inverse_covariance(m[0], xx, xy, yy);
+        Number     slope[2][4], trace[2] = {Number(0.), Number(0.)};
         for (int c = 0; c < 4; ++c)
           {
-            const double *const t = s + FitSums<Lanes<1>>::stress + 3 * c;
-            const double sx = t[1] - t[0] * x, sy = t[2] - t[0] * y - rise * sx;
+            const Number *const t = s + 3 * c;
+            const Number sx = t[1] - t[0] * x, sy = t[2] - t[0] * y - rise * sx;
             slope[1][c] = inverse.xy * sx + inverse.yy * sy;
             slope[0][c] =
               inverse.xx * sx + inverse.xy * sy - rise * slope[1][c];
@@ -240,42 +393,34 @@ namespace CaissonMPM
         for (int c = 0; c < 4; ++c)
           {
             for (int d = 0; d < 2; ++d)
-              fit[3 * c + 1 + d] =
-                slope[d][c] - (mean_pressure && c < 3 ? trace[d] / 3. : 0.);
-            const double mean = s[FitSums<Lanes<1>>::stress + 3 * c] / mass;
-            fit[3 * c]        = mean - fit[3 * c + 1] * x - fit[3 * c + 2] * y;
+              fit[3 * c + 1 + d] = mean_pressure && c < 3 ?
+                                     slope[d][c] - trace[d] * Number(1. / 3.) :
+                                     slope[d][c];
+            fit[3 * c] =
+              s[3 * c] * inverse_mass - fit[3 * c + 1] * x - fit[3 * c + 2] * y;
           }
       }
 
-      /** The 2 x 2 Gauss points, padded to eight lanes of weight 0. */
-      struct GaussPoints
-      {
-        static constexpr double a = .21132486540518712, b = .78867513459481288;
-        static constexpr double xi[8]     = {a, b, a, b, .5, .5, .5, .5};
-        static constexpr double eta[8]    = {a, a, b, b, .5, .5, .5, .5};
-        static constexpr double weight[8] = {.25, .25, .25, .25, 0, 0, 0, 0};
-        static constexpr int    n         = 4;
-      };
-
-      /** A group of Gauss points of a cell. */
+      /** One of the 2 x 2 Gauss points of a cell. */
       template <typename Number>
-      struct GaussLanes
+      struct GaussPoint
       {
+        static constexpr int n = 4;
+
         LocalPoint<Number> point;
         Number             inverse_r; // 0 in plane strain
         Number             volume;
 
         CAISSON_INLINE
-        GaussLanes(const CellMap &map,
-                   const double   axisymmetric,
-                   const int      lane)
+        GaussPoint(const CellMap<Number> &map,
+                   const double           axisymmetric,
+                   const int              i)
         {
-          point = map.at_reference(Number::load(GaussPoints::xi + lane),
-                                   Number::load(GaussPoints::eta + lane));
-          const Number r = Number(map.left) + Number(map.width) * point.xi;
+          constexpr double x[2] = {.21132486540518712, .78867513459481288};
+          point          = map.at_reference(Number(x[i % 2]), Number(x[i / 2]));
+          const Number r = map.left + map.width * point.xi;
           inverse_r      = Number(axisymmetric) / r;
-          volume         = Number::load(GaussPoints::weight + lane) *
-                   Number(map.width) * point.height *
+          volume         = Number(.25) * map.width * point.height *
                    (Number(axisymmetric) * r + Number(1. - axisymmetric));
         }
       };

@@ -23,170 +23,163 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** All that one cell adds to its four corners. */
+      /** What cells add to their corners, one cell in each lane. */
+      template <typename Number>
       struct CellContribution
       {
-        double mass[9]        = {};
-        double momentum[2][4] = {};
-        double force[2][4]    = {};
-        double stiffness[4]   = {};
+        Number mass[4], momentum[2][4], force[2][4], stiffness[4];
 
-        CAISSON_INLINE void
-        add_points(const double *sums, const double *body_force)
+        CAISSON_INLINE
+        CellContribution(const LaneSums<Number, 17> &sums,
+                         const Number               *body_force)
         {
-          double corner[4];
-          for (int i = 0; i < 9; ++i)
-            mass[i] += sums[i];
-          moments_to_corners(sums, corner);
-          for (int c = 0; c < 2; ++c)
-            for (int i = 0; i < 4; ++i)
-              force[c][i] += corner[i] * body_force[c];
+          moments_to_corners(sums.sum, mass);
           for (int c = 0; c < 2; ++c)
             {
-              moments_to_corners(sums + 9 + 4 * c, corner);
+              moments_to_corners(sums.sum + PointSums<Number>::momentum + 4 * c,
+                                 momentum[c]);
               for (int i = 0; i < 4; ++i)
-                momentum[c][i] += corner[i];
+                force[c][i] = mass[i] * body_force[c];
             }
         }
 
         CAISSON_INLINE void
-        add_forces(const double *sums)
+        add_forces(const LaneSums<Number, 16> &sums)
         {
-          double corner[4];
-          moments_to_corners(sums, corner);
+          Number corner[4];
+          moments_to_corners(sums.sum, corner);
           for (int i = 0; i < 4; ++i)
             force[0][i] -= corner[i];
           for (int c = 0; c < 2; ++c)
             {
-              gradient_moments_to_corners(sums + 4 + 4 * c, corner);
+              gradient_moments_to_corners(sums.sum + 4 + 4 * c, corner);
               for (int i = 0; i < 4; ++i)
                 force[c][i] -= corner[i];
             }
           for (int i = 0; i < 4; ++i)
-            stiffness[i] += sums[ForceSums<Lanes<1>>::stiffness + i];
+            stiffness[i] = sums.sum[ForceSums<Number>::stiffness + i];
         }
 
         CAISSON_INLINE void
-        scatter(const CellNodes &cell, NodalSums *nodes) const
+        scatter(const CellGroup<Number> &group,
+                const CellNodes         *nodes_of,
+                NodalSums               *nodes) const
         {
-          double corner_mass[4];
-          moments_to_corners(mass, corner_mass);
-          for (int i = 0; i < 4; ++i)
+          for (int k = 0; k < 4; ++k)
             {
-              NodalSums &node = nodes[cell.node[i]];
-              node.mass += corner_mass[i];
-              for (int c = 0; c < 2; ++c)
+              // in the order of NodalSums
+              constexpr int      n_sums      = 6;
+              const Number       all[n_sums] = {mass[k],
+                                                momentum[0][k],
+                                                momentum[1][k],
+                                                force[0][k],
+                                                force[1][k],
+                                                stiffness[k]};
+              alignas(64) double value[n_sums][Number::width];
+              for (int j = 0; j < n_sums; ++j)
+                all[j].store(value[j]);
+              for (int i = 0; i < group.n; ++i)
                 {
-                  node.momentum[c] += momentum[c][i];
-                  node.force[c] += force[c][i];
+                  NodalSums &node = nodes[nodes_of[group.cell[i]].node[k]];
+                  node.mass += value[0][i];
+                  node.momentum[0] += value[1][i];
+                  node.momentum[1] += value[2][i];
+                  node.force[0] += value[3][i];
+                  node.force[1] += value[4][i];
+                  node.stiffness += value[5][i];
                 }
-              node.stiffness += stiffness[i];
             }
         }
       };
 
       /**
-       * The bound of sum_J |K_IJ| of a full cell, from the gradients at its
+       * The bound of sum_J |K_IJ| of full cells, from the gradients at the
        * center: sharp for lumped mass on a regular grid, where the floor that
        * follows from it is below the mass for any Courant number below one.
        */
-      inline void
-      add_full_stiffness(const CellMap &map,
-                         const double   axisymmetric,
-                         const double   modulus,
-                         double        *stiffness)
-      {
-        const double inverse_height = 1. / map.mean_height();
-        const double slope          = map.rise();
-        const double hoop = .25 * axisymmetric / (map.left + .5 * map.width);
-        double       norm[4], total = 0.;
-        for (int i = 0; i < 4; ++i)
-          {
-            const double half_r = i % 2 ? .5 : -.5, half_z = i / 2 ? .5 : -.5;
-            const double g_r = (half_r - half_z * slope) * map.inverse_width,
-                         g_z = half_z * inverse_height;
-            norm[i] = __builtin_sqrt(g_r * g_r + g_z * g_z + hoop * hoop);
-            total += norm[i];
-          }
-        const double scale = modulus * map.volume(axisymmetric) * total;
-        for (int i = 0; i < 4; ++i)
-          stiffness[i] += scale * norm[i];
-      }
-
-      /**
-       * The internal force of a full cell, from the fitted stress and the
-       * surrounding pressure, and the stiffness bound for the given modulus
-       * where that is not 0.
-       */
       template <typename Number>
       CAISSON_INLINE void
-      integrate_full_cell(const CellMap    &map,
-                          const double      axisymmetric,
-                          const double     *fit,
-                          const double      modulus,
-                          const double      surrounding_pressure,
-                          CellContribution &contribution)
+      find_full_stiffness(const CellMap<Number> &map,
+                          const double           axisymmetric,
+                          const Number           modulus,
+                          Number                *stiffness)
       {
-        ForceSums<Number> forces;
-        forces.clear();
-        const double inverse_mean_height = 1. / map.mean_height();
-        const Number pressure(surrounding_pressure);
-        for (int lane = 0; lane < GaussPoints::n; lane += Number::width)
+        const Number inverse_height = Number(1.) / map.mean_height();
+        const Number slope          = map.rise();
+        const Number hoop =
+          Number(.25 * axisymmetric) / (map.left + Number(.5) * map.width);
+        Number total(0.);
+        for (int i = 0; i < 4; ++i)
           {
-            const GaussLanes<Number> gauss(map, axisymmetric, lane);
-            const Number             z = Number(map.bottom) +
-                             Number(map.bottom_slope) * gauss.point.xi +
-                             gauss.point.height * gauss.point.eta;
-            const Number x = gauss.point.xi - Number(.5),
-                         y = (z - Number(map.center_z())) *
-                             Number(inverse_mean_height);
-            forces.add(
-              gauss.point,
-              map.inverse_width,
-              gauss.inverse_r,
-              gauss.volume,
-              StressState<Number>{evaluate_fit(fit, x, y) + pressure,
-                                  evaluate_fit(fit + 3, x, y) + pressure,
-                                  evaluate_fit(fit + 6, x, y) + pressure,
-                                  evaluate_fit(fit + 9, x, y)});
+            const Number half_r(i % 2 ? .5 : -.5), half_z(i / 2 ? .5 : -.5);
+            const Number g_r = (half_r - half_z * slope) * map.inverse_width,
+                         g_z = half_z * inverse_height;
+            stiffness[i]     = sqrt(g_r * g_r + g_z * g_z + hoop * hoop);
+            total += stiffness[i];
           }
-        double sums[ForceSums<Number>::size];
-        sum_lanes<ForceSums<Number>::size>(forces.sum, sums);
-        contribution.add_forces(sums);
-        if (modulus > 0.)
-          add_full_stiffness(map,
-                             axisymmetric,
-                             modulus,
-                             contribution.stiffness);
+        const Number scale = modulus * map.volume(axisymmetric) * total;
+        for (int i = 0; i < 4; ++i)
+          stiffness[i] *= scale;
       }
 
-      /** The sums of one run of blocks (same cell, same material). */
-      template <typename Number, bool full>
-      CAISSON_INLINE int
-      add_run(const PointsView          &points,
-              const Material            *materials,
-              const IntegrationSettings &settings,
-              const CellMap             &map,
-              const double               axisymmetric,
-              int                        block,
-              CellContribution          &contribution,
-              double                    *fit_sums)
+      /** The internal force of full cells, from the fitted stress and the
+       * surrounding pressure. */
+      template <typename Number>
+      CAISSON_INLINE void
+      integrate_full_cells(const CellMap<Number> &map,
+                           const double           axisymmetric,
+                           const Number          *fit,
+                           const Number           surrounding_pressure,
+                           ForceSums<Number>     &forces)
       {
-        PointSums<Number> point_sums;
-        ForceSums<Number> force_sums;
-        FitSums<Number>   fit;
-        point_sums.clear();
-        force_sums.clear();
-        fit.clear();
-        const int       material_id         = points.headers[block].material;
-        const Material &material            = materials[material_id];
-        const double    center_z            = map.center_z();
-        const double    inverse_mean_height = 1. / map.mean_height();
-        const Number    pressure(settings.surrounding_pressure);
-        for (; block >= 0 && points.headers[block].material == material_id;
-             block = points.headers[block].next)
+        forces.clear();
+        const Number inverse_mean_height = Number(1.) / map.mean_height();
+        for (int i = 0; i < GaussPoint<Number>::n; ++i)
           {
-            const PointBlock &b = points.blocks[block];
+            const GaussPoint<Number> gauss(map, axisymmetric, i);
+            const Number z = map.bottom + map.bottom_slope * gauss.point.xi +
+                             gauss.point.height * gauss.point.eta;
+            const Number x = gauss.point.xi - Number(.5),
+                         y = (z - map.center_z()) * inverse_mean_height;
+            forces.add(gauss.point,
+                       map.inverse_width,
+                       gauss.inverse_r,
+                       gauss.volume,
+                       StressState<Number>{
+                         evaluate_fit(fit, x, y) + surrounding_pressure,
+                         evaluate_fit(fit + 3, x, y) + surrounding_pressure,
+                         evaluate_fit(fit + 6, x, y) + surrounding_pressure,
+                         evaluate_fit(fit + 9, x, y)});
+          }
+      }
+
+      /** The sums over the points of a cell into its moments: FitSums, or
+       * ForceSums for a cell that is not full. */
+      template <typename InternalSums, typename Number>
+      CAISSON_INLINE void
+      sum_points(const PointsView          &points,
+                 const CellMap<>           &map,
+                 const double               axisymmetric,
+                 const Material            *materials,
+                 const IntegrationSettings &settings,
+                 const int                  first_block,
+                 CellMoments               &moments)
+      {
+        constexpr bool    full     = __is_same(InternalSums, FitSums<Number>);
+        const double      center_z = map.center_z();
+        const double      inverse_mean_height = 1. / map.mean_height();
+        const Number      pressure(settings.surrounding_pressure);
+        const short       material = points.headers[first_block].material;
+        bool              several  = false;
+        int               block    = first_block;
+        PointSums<Number> sums;
+        InternalSums      internal;
+        sums.clear();
+        internal.clear();
+        do // a cell with moments has points
+          {
+            const BlockHeader header = points.headers[block];
+            const PointBlock &b      = points.blocks[block];
             for (int lane = 0; lane < block_size; lane += Number::width)
               {
                 const auto load = [lane](const double *field) {
@@ -195,63 +188,131 @@ namespace CaissonMPM
                 const Number             r = load(b.r), z = load(b.z);
                 const LocalPoint<Number> p    = map.at_position(r, z);
                 const Number             mass = load(b.mass);
-                point_sums.add(p, mass, load(b.velocity_r), load(b.velocity_z));
+                sums.add(p, mass, load(b.velocity_r), load(b.velocity_z));
                 const Number s[4] = {load(b.stress[0]),
                                      load(b.stress[1]),
                                      load(b.stress[2]),
                                      load(b.stress[3])};
                 if constexpr (full)
-                  fit.add(p.xi - Number(.5),
-                          (z - Number(center_z)) * Number(inverse_mean_height),
-                          mass,
-                          s);
+                  internal.add(p.xi - Number(.5),
+                               (z - Number(center_z)) *
+                                 Number(inverse_mean_height),
+                               mass,
+                               s);
                 else
                   {
                     const Number inverse_r = Number(axisymmetric) / r;
                     const Number volume    = load(b.volume);
-                    force_sums.add(p,
-                                   map.inverse_width,
-                                   inverse_r,
-                                   volume,
-                                   StressState<Number>{s[0] + pressure,
-                                                       s[1] + pressure,
-                                                       s[2] + pressure,
-                                                       s[3]});
+                    internal.add(p,
+                                 Number(map.inverse_width),
+                                 inverse_r,
+                                 volume,
+                                 StressState<Number>{s[0] + pressure,
+                                                     s[1] + pressure,
+                                                     s[2] + pressure,
+                                                     s[3]});
                     if (settings.floor_mass)
-                      force_sums.add_stiffness(
+                      internal.add_stiffness(
                         p,
-                        map.inverse_width,
+                        Number(map.inverse_width),
                         inverse_r,
-                        volume * Number(material.p_wave_modulus));
+                        volume *
+                          Number(materials[header.material].p_wave_modulus));
                   }
               }
+            several |= header.material != material;
+            block = header.next;
           }
-        double sums[24];
-        sum_lanes<24>(point_sums.sum, sums);
-        contribution.add_points(sums, material.body_force);
-        if constexpr (full)
-          {
-            sum_lanes<24>(fit.sum, sums);
-            for (int i = 0; i < 24; ++i)
-              fit_sums[i] += sums[i];
-          }
-        else
-          {
-            sum_lanes<ForceSums<Number>::size>(force_sums.sum, sums);
-            contribution.add_forces(sums);
-          }
-        return block;
+        while (block >= 0);
+        sums.store(moments.mass);
+        internal.store(moments.internal);
+        moments.several_materials = several;
       }
 
+      /** The sums as the cell is integrated, over Gauss points or points. */
       template <typename Number>
-      CAISSON_INLINE double
-      volume_of_points(const PointsView &points, int block)
+      void
+      sum_points(const PointsView          &points,
+                 const GridView            &grid,
+                 const Material            *materials,
+                 const IntegrationSettings &settings,
+                 const unsigned int         cell,
+                 CellMoments               &moments)
       {
-        Number volume(0.);
-        for (; block >= 0; block = points.headers[block].next)
-          for (int lane = 0; lane < block_size; lane += Number::width)
-            volume += Number::load(points.blocks[block].volume + lane);
-        return sum(volume);
+        const CellMap<> map(grid.geometry[cell]);
+        const int       first = points.first_block[cell];
+        if (moments.full)
+          sum_points<FitSums<Number>, Number>(points,
+                                              map,
+                                              grid.axisymmetric,
+                                              materials,
+                                              settings,
+                                              first,
+                                              moments);
+        else
+          sum_points<ForceSums<Number>, Number>(points,
+                                                map,
+                                                grid.axisymmetric,
+                                                materials,
+                                                settings,
+                                                first,
+                                                moments);
+      }
+
+      /** In a cell of several materials, what the body force of each adds to
+       * that of the first. */
+      template <typename Number>
+      void
+      add_other_body_forces(const PointsView  &points,
+                            const GridView    &grid,
+                            const Material    *materials,
+                            const unsigned int cell,
+                            NodalSums         *nodes)
+      {
+        const CellMap<> map(grid.geometry[cell]);
+        const int       first     = points.first_block[cell];
+        const Material &reference = materials[points.headers[first].material];
+        for (int block = first; block >= 0; block = points.headers[block].next)
+          {
+            const PointBlock &b   = points.blocks[block];
+            const Material   &own = materials[points.headers[block].material];
+            PointSums<Number> sums;
+            sums.clear();
+            for (int lane = 0; lane < block_size; lane += Number::width)
+              sums.add(map.at_position(Number::load(b.r + lane),
+                                       Number::load(b.z + lane)),
+                       Number::load(b.mass + lane),
+                       Number(0.),
+                       Number(0.));
+            double moments[4], corner[4];
+            for (int i = 0; i < 4; ++i)
+              moments[i] = sum(sums.sum[i]);
+            moments_to_corners(moments, corner);
+            for (int c = 0; c < 2; ++c)
+              for (int i = 0; i < 4; ++i)
+                nodes[grid.nodes[cell].node[i]].force[c] +=
+                  corner[i] * (own.body_force[c] - reference.body_force[c]);
+          }
+      }
+
+      /** The largest modulus among the materials of a cell. */
+      CAISSON_INLINE double
+      largest_modulus(const PointsView  &points,
+                      const Material    *materials,
+                      const unsigned int cell,
+                      const CellMoments &moments)
+      {
+        int    block  = points.first_block[cell];
+        double result = 0.;
+        do
+          {
+            const double own =
+              materials[points.headers[block].material].p_wave_modulus;
+            result = own > result ? own : result;
+            block  = points.headers[block].next;
+          }
+        while (moments.several_materials && block >= 0);
+        return result;
       }
 
       /**
@@ -279,6 +340,35 @@ namespace CaissonMPM
         return true;
       }
 
+      /** Renew the moments of the cells of a group where they are out of date.
+       * */
+      template <typename Number>
+      CAISSON_INLINE void
+      renew_moments(const CellGroup<Number>   &group,
+                    const CellMap<Number>     &map,
+                    const PointsView          &points,
+                    const GridView            &grid,
+                    const Material            *materials,
+                    const IntegrationSettings &settings,
+                    CellMoments               *moments)
+      {
+        const Number fraction = group.lanes([&](const unsigned int c) {
+          return points.filled_volume[c];
+        }) / map.volume(grid.axisymmetric);
+        for (int i = 0; i < group.n; ++i)
+          {
+            const unsigned int cell = group.cell[i];
+            const bool         full =
+              is_full(points, grid, settings, cell, fraction[i]);
+            if (!points.changed[cell] && full == moments[cell].full)
+              continue;
+            moments[cell].full = full;
+            sum_points<Number>(
+              points, grid, materials, settings, cell, moments[cell]);
+            points.changed[cell] = false;
+          }
+      }
+
       template <typename Number>
       void
       points_to_grid(const PointsView          &points,
@@ -288,61 +378,70 @@ namespace CaissonMPM
                      NodalSums                 *nodes,
                      CellMoments               *moments)
       {
-        for (unsigned int i = 0; i < points.n_active_cells; ++i)
+        constexpr int width = Number::width;
+        for (unsigned int begin = 0; begin < points.n_active_cells;
+             begin += width)
           {
-            const unsigned int cell  = points.active_cells[i];
-            const int          first = points.first_block[cell];
-            const CellMap      map(grid.geometry[cell]);
-            CellContribution   contribution;
-            const bool         full = moments[i].full =
-              is_full(points,
-                      grid,
-                      settings,
-                      cell,
-                      volume_of_points<Number>(points, first) /
-                        map.volume(grid.axisymmetric));
-            if (full)
+            const CellGroup<Number> group(points, begin);
+            const CellMap<Number>   map = group.map(grid.geometry);
+            renew_moments(
+              group, map, points, grid, materials, settings, moments);
+
+            double *rows[width], *internal_rows[width];
+            for (int i = 0; i < width; ++i)
               {
-                double fit[24] = {}, modulus = 0.;
-                for (int block = first; block >= 0;)
-                  {
-                    const double own =
-                      materials[points.headers[block].material].p_wave_modulus;
-                    modulus = own > modulus ? own : modulus;
-                    block   = add_run<Number, true>(points,
-                                                  materials,
-                                                  settings,
-                                                  map,
-                                                  grid.axisymmetric,
-                                                  block,
-                                                  contribution,
-                                                  fit);
-                  }
-                fit_stress(contribution.mass[0],
-                           fit,
-                           map.rise(),
-                           settings.mean_pressure,
-                           moments[i].fit);
-                integrate_full_cell<Number>(map,
-                                            grid.axisymmetric,
-                                            moments[i].fit,
-                                            settings.floor_mass ? modulus : 0.,
-                                            settings.surrounding_pressure,
-                                            contribution);
+                rows[i]          = moments[group.cell[i]].mass;
+                internal_rows[i] = moments[group.cell[i]].internal;
               }
-            else
-              for (int block = first; block >= 0;)
-                block = add_run<Number, false>(points,
-                                               materials,
-                                               settings,
-                                               map,
-                                               grid.axisymmetric,
-                                               block,
-                                               contribution,
-                                               nullptr);
-            contribution.scatter(grid.nodes[cell], nodes);
-            for (int k = 0; k < 9; ++k)
-              moments[i].mass[k] = contribution.mass[k];
+            LaneSums<Number, 17> sums;
+            LaneSums<Number, 16> internal;
+            sums.load_lanes(rows);
+            internal.load_lanes(internal_rows);
+            const auto first = [&](const unsigned int c) -> const Material & {
+              return materials[points.headers[points.first_block[c]].material];
+            };
+            const Number body_force[2] = {
+              group.lanes(
+                [&](const unsigned int c) { return first(c).body_force[0]; }),
+              group.lanes(
+                [&](const unsigned int c) { return first(c).body_force[1]; })};
+            CellContribution<Number> contribution(sums, body_force);
+            const auto full = group.lanes([&](const unsigned int c) {
+              return moments[c].full ? 1. : 0.;
+            }) > Number(0.);
+            if (any(full))
+              {
+                LaneSums<Number, 16> fit;
+                fit.clear();
+                fit_stress(
+                  map, sums.sum, internal.sum, settings.mean_pressure, fit.sum);
+                fit.store_lanes(group.n, internal_rows);
+                ForceSums<Number> forces;
+                integrate_full_cells(map,
+                                     grid.axisymmetric,
+                                     fit.sum,
+                                     Number(settings.surrounding_pressure),
+                                     forces);
+                if (settings.floor_mass)
+                  find_full_stiffness(map,
+                                      grid.axisymmetric,
+                                      group.lanes([&](const unsigned int c) {
+                                        return largest_modulus(points,
+                                                               materials,
+                                                               c,
+                                                               moments[c]);
+                                      }),
+                                      forces.sum + forces.stiffness);
+                for (int k = 0; k < forces.size; ++k)
+                  internal.sum[k] =
+                    select(full, forces.sum[k], internal.sum[k]);
+              }
+            contribution.add_forces(internal);
+            contribution.scatter(group, grid.nodes, nodes);
+            for (int i = 0; i < group.n; ++i)
+              if (moments[group.cell[i]].several_materials)
+                add_other_body_forces<Number>(
+                  points, grid, materials, group.cell[i], nodes);
           }
       }
 
@@ -359,10 +458,10 @@ namespace CaissonMPM
         using Pair = Lanes<2>;
         for (unsigned int i = 0; i < points.n_active_cells; ++i)
           {
-            const unsigned int *const node =
-              grid.nodes[points.active_cells[i]].node;
-            const double *const m    = moments[i].mass;
-            const auto          load = [&](const int k) {
+            const unsigned int        cell = points.active_cells[i];
+            const unsigned int *const node = grid.nodes[cell].node;
+            const double *const       m    = moments[cell].mass;
+            const auto                load = [&](const int k) {
               return Pair::load(x[node[k]].value);
             };
             const Pair v0 = load(0), v1 = load(1), v2 = load(2), v3 = load(3);

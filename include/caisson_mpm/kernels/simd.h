@@ -406,6 +406,90 @@ namespace CaissonMPM
         double value;
       };
 
+      /** Lane i holds value(i). */
+      template <typename Number, typename Value>
+      CAISSON_INLINE Number
+      make_lanes(const Value &value)
+      {
+        alignas(64) double lanes[Number::width];
+        for (int i = 0; i < Number::width; ++i)
+          lanes[i] = value(i);
+        return Number::load(lanes);
+      }
+
+#define CAISSON_SHUFFLE(a, b, ...) \
+  Number(__builtin_shufflevector((a).get(), (b).get(), __VA_ARGS__))
+
+      /** Lane i of out[k] is lane k of in[i]. */
+      template <typename Number>
+      CAISSON_INLINE void
+      transpose(const Number *in, Number *out)
+      {
+        if constexpr (Number::width == 8)
+          {
+            Number pair[8], quad[8];
+            for (int k = 0; k < 8; k += 2)
+              {
+                pair[k] =
+                  CAISSON_SHUFFLE(in[k], in[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+                pair[k + 1] =
+                  CAISSON_SHUFFLE(in[k], in[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+              }
+            for (int k = 0; k < 8; k += 4)
+              for (int j = 0; j < 2; ++j)
+                {
+                  const Number x = pair[k + j], y = pair[k + j + 2];
+                  quad[k + j] = CAISSON_SHUFFLE(x, y, 0, 1, 8, 9, 4, 5, 12, 13);
+                  quad[k + j + 2] =
+                    CAISSON_SHUFFLE(x, y, 2, 3, 10, 11, 6, 7, 14, 15);
+                }
+            for (int k = 0; k < 4; ++k)
+              {
+                out[k] = CAISSON_SHUFFLE(
+                  quad[k], quad[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+                out[k + 4] = CAISSON_SHUFFLE(
+                  quad[k], quad[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+              }
+          }
+        else if constexpr (Number::width == 4)
+          {
+            Number pair[4];
+            for (int k = 0; k < 4; k += 2)
+              {
+                pair[k]     = CAISSON_SHUFFLE(in[k], in[k + 1], 0, 4, 2, 6);
+                pair[k + 1] = CAISSON_SHUFFLE(in[k], in[k + 1], 1, 5, 3, 7);
+              }
+            for (int k = 0; k < 2; ++k)
+              {
+                out[k]     = CAISSON_SHUFFLE(pair[k], pair[k + 2], 0, 1, 4, 5);
+                out[k + 2] = CAISSON_SHUFFLE(pair[k], pair[k + 2], 2, 3, 6, 7);
+              }
+          }
+        else if constexpr (Number::width == 2)
+          {
+            const Number first = in[0];
+            out[0]             = CAISSON_SHUFFLE(first, in[1], 0, 2);
+            out[1]             = CAISSON_SHUFFLE(first, in[1], 1, 3);
+          }
+        else
+          out[0] = in[0];
+      }
+
+      /** Lane i of the result is the sum over all lanes of a[i]. */
+      template <typename Number>
+      CAISSON_INLINE Number
+      sum_each(const Number *a)
+      {
+        Number columns[Number::width];
+        transpose(a, columns);
+        for (int half = Number::width / 2; half > 0; half /= 2)
+          for (int k = 0; k < half; ++k)
+            columns[k] += columns[k + half];
+        return columns[0];
+      }
+
+#undef CAISSON_SHUFFLE
+
       /** The widest number type of the instruction set being compiled for. */
 #if defined(__AVX512F__)
       using NativeLanes = Lanes<8>;

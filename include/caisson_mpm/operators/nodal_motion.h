@@ -102,12 +102,16 @@ namespace CaissonMPM
     Kernels::NodalFields
     fields() const;
 
-    /** What collect() found in each active cell. */
-    const Kernels::CellMoments *
-    cell_moments() const
+    /** [n_cells], as collect() left them. */
+    Kernels::CellMoments *
+    cell_moments()
     {
       return moments.data();
     }
+
+    /** With a surrounding pressure [Pa]. */
+    Kernels::IntegrationSettings
+    integration_settings(const double pressure_around) const;
 
     Kernels::UpdateSettings
     update_settings(const double dt) const;
