@@ -2,6 +2,7 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/time/time_step.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
 
 #include <algorithm>
@@ -54,7 +55,7 @@ namespace CaissonMPM
     const bool             is_first = limit == 0.;
     if (is_first || ++age == interval)
       {
-        find_moduli(points, soil, materials);
+        find_moduli(grid.communicator(), points, soil, materials);
         find_limit(grid, points, soil, materials);
       }
     if (fixed_step == 0.)
@@ -74,7 +75,8 @@ namespace CaissonMPM
   }
 
   void
-  TimeStep::find_moduli(const MaterialPoints           &points,
+  TimeStep::find_moduli(const MPI_Comm                  communicator,
+                        const MaterialPoints           &points,
                         const Soil                     &soil,
                         std::vector<Kernels::Material> &materials)
   {
@@ -99,6 +101,7 @@ namespace CaissonMPM
                          p.stress,
                          p.void_ratio(soil.layer(p.material).void_ratio())));
     });
+    Utilities::MPI::max(found, communicator, found);
     for (unsigned int i = 0; i < materials.size(); ++i)
       if (found[i] > 0.) // else no point is of this material
         materials[i].p_wave_modulus = margin * found[i];
@@ -138,8 +141,9 @@ namespace CaissonMPM
             limiting = view.active_cells[i];
           }
       }
-    limit = 1. / (speed * std::sqrt(worst));
-    age   = 0;
+    const auto of_all = Utilities::MPI::min_max_avg(worst, grid.communicator());
+    limit             = 1. / (speed * std::sqrt(of_all.max));
+    age               = 0;
 
     const char *const  names[] = {"moving", "compressing", "upper"};
     const auto        &g       = grid.geometry(limiting);
@@ -149,6 +153,7 @@ namespace CaissonMPM
       << " zone, " << g.width << " m x "
       << std::min(g.height_left, g.height_right) << " m, wave speed " << speed
       << " m/s";
-    limiting_cell = s.str();
+    limiting_cell =
+      Utilities::MPI::broadcast(grid.communicator(), s.str(), of_all.max_index);
   }
 } // namespace CaissonMPM
