@@ -190,6 +190,7 @@ namespace CaissonMPM
     set_up_part();
     points.redistribute(traveling);
     // a part is made of whole cells: it may be impossible to do better
+    ++n_repartitions;
     accepted_imbalance = std::max(1.1, 1.05 * imbalance(points.cell_costs()));
   }
 
@@ -448,8 +449,8 @@ namespace CaissonMPM
       {
         advance();
         output();
-        if (step % 200 == 0)
-          balance();
+        if (grid.n_ranks() > 1 && step % 200 == 0)
+          timed("balance", [this]() { balance(); });
         const std::string reason = reason_to_stop();
         if (!reason.empty())
           {

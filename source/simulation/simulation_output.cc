@@ -325,6 +325,7 @@ namespace CaissonMPM
     s.instruction_set    = kernels->name;
     s.status             = status;
     s.ranks              = grid.n_ranks();
+    s.repartitions       = n_repartitions;
     s.material_points    = sum(static_cast<unsigned long>(points.n_points()));
     s.cells              = grid.n_global_cells();
     s.body_points        = sum(body_points.size());

@@ -22,6 +22,7 @@ namespace CaissonMPM
     /** How the run ended, e.g. "finished". */
     std::string   status;
     unsigned int  ranks                  = 1;
+    unsigned int  repartitions           = 0; // to even out the work of ranks
     unsigned long material_points        = 0;
     unsigned long cells                  = 0;
     unsigned long body_points            = 0;

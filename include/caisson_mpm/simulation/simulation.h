@@ -179,10 +179,13 @@ namespace CaissonMPM
     double              checkpoint_interval = 600.;
 
     // state
-    double        accepted_imbalance = 1.1; // largest over mean work of ranks
     double        time = 0., dt = 0.;
     unsigned long step = 0, n_limited = 0;
     EnergyBalance energy;
+
+    // of several ranks
+    double       accepted_imbalance = 1.1; // largest over mean work
+    unsigned int n_repartitions     = 0;
 
     // output
     std::unique_ptr<Console>       console;
