@@ -107,6 +107,24 @@ namespace CaissonMPM
         materials[i].p_wave_modulus = margin * found[i];
   }
 
+  namespace
+  {
+    std::string
+    describe(const BackgroundGrid &grid,
+             const unsigned int    cell,
+             const double          speed)
+    {
+      const char *const  names[] = {"moving", "compressing", "upper"};
+      const auto        &g       = grid.geometry(cell);
+      std::ostringstream s;
+      s << "the cell at r = " << g.left << " m, z = " << g.bottom_left
+        << " m of the " << names[static_cast<int>(grid.zone(cell))] << " zone, "
+        << g.width << " m x " << std::min(g.height_left, g.height_right)
+        << " m, wave speed " << speed << " m/s";
+      return s.str();
+    }
+  } // namespace
+
   void
   TimeStep::find_limit(const BackgroundGrid                 &grid,
                        MaterialPoints                       &points,
@@ -145,15 +163,11 @@ namespace CaissonMPM
     limit             = 1. / (speed * std::sqrt(of_all.max));
     age               = 0;
 
-    const char *const  names[] = {"moving", "compressing", "upper"};
-    const auto        &g       = grid.geometry(limiting);
-    std::ostringstream s;
-    s << "the cell at r = " << g.left << " m, z = " << g.bottom_left
-      << " m of the " << names[static_cast<int>(grid.zone(limiting))]
-      << " zone, " << g.width << " m x "
-      << std::min(g.height_left, g.height_right) << " m, wave speed " << speed
-      << " m/s";
+    std::string text;
+    if (of_all.max_index ==
+        Utilities::MPI::this_mpi_process(grid.communicator()))
+      text = describe(grid, limiting, speed);
     limiting_cell =
-      Utilities::MPI::broadcast(grid.communicator(), s.str(), of_all.max_index);
+      Utilities::MPI::broadcast(grid.communicator(), text, of_all.max_index);
   }
 } // namespace CaissonMPM
