@@ -40,6 +40,7 @@ namespace CaissonMPM
     , fe(1)
     , dof_handler(triangulation)
     , n_ranks_(Utilities::MPI::n_mpi_processes(communicator))
+    , rank(Utilities::MPI::this_mpi_process(communicator))
   {
     const Patterns::Double positive(1e-9), not_negative(0.);
     add_parameter("Geometry",

@@ -247,17 +247,16 @@ namespace CaissonMPM
   void
   Simulation::print_header(const std::string &scene_file)
   {
-    double mass = 0.;
+    double own_mass = 0.;
     for (const BodyPoint &p : body_points)
-      mass += p.mass;
-    const auto sum = [this](const auto value) {
-      return Utilities::MPI::sum(value, grid.communicator());
-    };
+      own_mass += p.mass;
+    const MPI_Comm      communicator = grid.communicator();
+    const double        mass = Utilities::MPI::sum(own_mass, communicator);
     const unsigned long n_points =
-                          sum(static_cast<unsigned long>(points.n_points())),
-                        n_body_points = sum(body_points.size());
-    mass                              = sum(mass);
-    const auto text                   = [](const auto &value) {
+      Utilities::MPI::sum<unsigned long>(points.n_points(), communicator);
+    const unsigned long n_body_points =
+      Utilities::MPI::sum<unsigned long>(body_points.size(), communicator);
+    const auto text = [](const auto &value) {
       std::ostringstream s;
       s << value;
       return s.str();
@@ -270,6 +269,7 @@ namespace CaissonMPM
        {"output", directory},
        {"kernels",
         std::string(kernels->name) + ", " + text(kernels->width) + " lanes"},
+       {"ranks", text(grid.n_ranks())},
        {"limit of the step", time_step.reason()}});
     console->summary(
       {{"title", title},

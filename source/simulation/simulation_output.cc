@@ -326,7 +326,8 @@ namespace CaissonMPM
     s.status             = status;
     s.ranks              = grid.n_ranks();
     s.repartitions       = n_repartitions;
-    s.material_points    = sum(static_cast<unsigned long>(points.n_points()));
+    s.material_points    = Utilities::MPI::sum<unsigned long>(points.n_points(),
+                                                           grid.communicator());
     s.cells              = grid.n_global_cells();
     s.body_points        = sum(body_points.size());
     s.steps              = step - first_step;

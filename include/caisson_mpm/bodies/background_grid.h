@@ -159,7 +159,7 @@ namespace CaissonMPM
     bool
     is_first_rank() const
     {
-      return triangulation.locally_owned_subdomain() == 0;
+      return rank == 0;
     }
 
     unsigned int
@@ -193,7 +193,7 @@ namespace CaissonMPM
     bool
     is_owned(const unsigned int cell) const
     {
-      return owners[cell] == triangulation.locally_owned_subdomain();
+      return owners[cell] == rank;
     }
     unsigned int
     global_number(const unsigned int cell) const
@@ -440,7 +440,7 @@ namespace CaissonMPM
     std::vector<unsigned char>                       rigid, flags;
     std::vector<Zone>                                zones;
 
-    unsigned int n_ranks_ = 1;
+    const unsigned int n_ranks_, rank;
 
     std::array<std::vector<Kernels::CellGeometry>, 2> geometries;
     unsigned int                                      current = 0;
