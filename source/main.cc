@@ -2,6 +2,7 @@
 #include <caisson_mpm/base/command_line.h>
 #include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/failure_report.h>
 #include <caisson_mpm/base/parameter_file.h>
 #include <caisson_mpm/simulation/simulation.h>
 
@@ -10,6 +11,7 @@
 #include <deal.II/base/revision.h>
 
 #include <iostream>
+#include <string>
 
 namespace
 {
@@ -18,13 +20,16 @@ namespace
   ExitStatus
   run(const int argc, const char *const *argv)
   {
+    std::ostream out(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) ==
+                         0 ?
+                       std::cout.rdbuf() :
+                       nullptr);
     const CommandLine command_line = parse_command_line(argc, argv);
     if (command_line.help || command_line.version)
       {
-        std::cout << (command_line.help ? usage() :
-                                          "caisson_mpm " CAISSON_MPM_VERSION
-                                          " (deal.II " DEAL_II_PACKAGE_VERSION
-                                          ")\n");
+        out << (command_line.help ? usage() :
+                                    "caisson_mpm " CAISSON_MPM_VERSION
+                                    " (deal.II " DEAL_II_PACKAGE_VERSION ")\n");
         return ExitStatus::success;
       }
     Simulation simulation(MPI_COMM_WORLD);
@@ -32,17 +37,17 @@ namespace
     const auto origins =
       read_parameters(prm, command_line.parameter_file, command_line.overrides);
     for (const std::string &text : origins.warnings())
-      std::cout << "warning: " << text << std::endl;
+      out << "warning: " << text << std::endl;
     if (command_line.print_parameters)
       {
-        std::cout << describe_parameters(prm);
+        out << describe_parameters(prm);
         return ExitStatus::success;
       }
     dealii::ParameterAcceptor::parse_all_parameters();
     if (command_line.validate)
       {
         simulation.validate();
-        std::cout << command_line.parameter_file << " is valid" << std::endl;
+        out << command_line.parameter_file << " is valid" << std::endl;
         return ExitStatus::success;
       }
     return simulation.run(command_line.parameter_file,
@@ -54,19 +59,20 @@ namespace
 int
 main(int argc, char *argv[])
 {
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  FailureReport                            failure(MPI_COMM_WORLD);
   try
     {
-      dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
       return static_cast<int>(run(argc, argv));
     }
   catch (const BadInput &error)
     {
-      std::cerr << "bad input: " << error.what() << std::endl;
-      return static_cast<int>(ExitStatus::bad_input);
+      return failure.end(ExitStatus::bad_input,
+                         std::string("bad input: ") + error.what());
     }
   catch (const std::exception &error)
     {
-      std::cerr << "failure: " << error.what() << std::endl;
-      return static_cast<int>(ExitStatus::failure);
+      return failure.end(ExitStatus::failure,
+                         std::string("failure: ") + error.what());
     }
 }

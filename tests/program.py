@@ -594,6 +594,126 @@ def test_stop_restart_is_refused():
     jack(path, SUCCESS, '--restart')
 
 
+# ---------------------------------------------------------------- ranks
+
+def on_ranks(n, status, *options, **entries):
+    """Run the program on n ranks, expect the status, return its output."""
+    environment = {'OMPI_ALLOW_RUN_AS_ROOT': '1',
+                   'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1',
+                   'OMPI_MCA_mpi_yield_when_idle': '1', **os.environ}
+    done = subprocess.run(
+        ['mpirun', '--oversubscribe', '--bind-to', 'none', '-np', str(n),
+         *command(*options, **entries)],
+        text=True, timeout=100, env=environment, stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT)
+    expect(done.returncode == status, n, 'ranks: status', done.returncode,
+           'instead of', status, '\n', done.stdout)
+    return done.stdout
+
+
+def same_on_ranks(one, several):
+    """The histories differ by rounding: 1e-9 of the largest value of a column,
+    or of the work for what is a difference of works."""
+    expect(len(one) == len(several), 'rows:', len(one), len(several))
+    work = max(row['external_work_J'] for row in one)
+    for key in one[0]:
+        scale = max(abs(row[key]) for row in one)
+        if key in ('gravity_work_J', 'energy_residual_J'):
+            scale = max(scale, work)
+        elif key == 'energy_residual':
+            scale = 1.
+        error = max(abs(a[key] - b[key]) for a, b in zip(one, several))
+        expect(error <= 1e-9 * scale, key, 'differs by', error, 'of', scale)
+
+
+def test_ranks_agree():
+    """The caisson travels over several rows, so that points change their
+    ranks, and the parts are cut anew."""
+    entries = {'Time/End penetration': 1}
+    paths = {n: directory(f'ranks_{n}') for n in (1, 2, 4)}
+    jack(paths[1], **entries)
+    expect(summary(paths[1])['steps'] >= 1000, 'too few steps')
+    for n in (2, 4):
+        text = on_ranks(n, SUCCESS, scene('jack'), '--output-directory',
+                        paths[n], **entries)
+        expect(text.count('100 %') == 1, 'all ranks print', text)
+        same_on_ranks(history(paths[1]), history(paths[n]))
+        one, several = summary(paths[1]), summary(paths[n])
+        for key in ('material_points', 'body_points', 'cells', 'steps',
+                    'held_back', 'limiter_count', 'points_lost'):
+            expect(one[key] == several[key], key, several[key], 'instead of',
+                   one[key])
+        expect(several['ranks'] == n, several['ranks'], 'ranks')
+        expect(several['repartitions'] >= 2, 'only', several['repartitions'],
+               'repartitions')
+
+
+def test_ranks_restart():
+    """A checkpoint of two ranks is continued on one and on three."""
+    whole, stopped = directory('ranks_whole'), directory('ranks_stopped')
+    entries = {'Output/Record interval': 0.05}
+    jack(whole, **entries)
+    on_ranks(2, STOPPED, scene('jack'), '--output-directory', stopped,
+             **entries, **{'Run control/Wall time limit': 0.6})
+    for n in (1, 3):
+        path = directory(f'ranks_restart_{n}')
+        shutil.copytree(stopped, path)
+        on_ranks(n, SUCCESS, scene('jack'), '--output-directory', path,
+                 '--restart', **entries)
+        same_history(history(whole), history(path), 1e-6)
+        expect(summary(path)['material_points'] ==
+               summary(whole)['material_points'], 'points')
+
+
+def test_ranks_verification():
+    paths = [directory(f'ranks_verify_{n}') for n in (1, 2)]
+    run(SUCCESS, scene('wave_series'), '--output-directory', paths[0])
+    on_ranks(2, SUCCESS, scene('wave_series'), '--output-directory', paths[1])
+    checks = []
+    for path in paths:
+        with open(os.path.join(path, 'verification.json'),
+                  encoding='utf-8') as file:
+            checks.append(json.load(file))
+    expect(len(checks[0]) == len(checks[1]) > 5, 'checks')
+    for a, b in zip(*checks):
+        for key in a:
+            same = (abs(a[key] - b[key]) < 1e-9
+                    if isinstance(a[key], float) else a[key] == b[key])
+            expect(same, key, 'is', b[key], 'instead of', a[key])
+    for a, b in zip(*[history(path, 'observations') for path in paths]):
+        for key in a:
+            expect(abs(a[key] - b[key]) < 1e-9, key, a[key], b[key])
+    on_ranks(2, FAILURE, scene('wave_series'), '--output-directory', paths[1],
+             **{'Verification/Checks': 'final half : -4 : 0.03'})
+
+
+def test_ranks_without_cells():
+    """More ranks than cells."""
+    text = on_ranks(8, SUCCESS, scene('two_fields'), '--output-directory',
+                    directory('ranks_without_cells'),
+                    **{'Grid/Cell width': 1, 'Grid/Cell height': 1,
+                       'Verification/Checks': ''})
+    expect('100 %' in text, text)
+
+
+def test_ranks_failure_ends_all():
+    """One rank loses a point, and does not leave the others waiting."""
+    text = on_ranks(2, FAILURE, scene('block_slides'), '--output-directory',
+                    directory('ranks_lost'),
+                    **{'Time/End time': 2, 'Output/Record interval': 0.1,
+                       'Boundary conditions/Side': 'free'})
+    expect(text.count('failure: material point') == 1, text)
+
+
+def test_ranks_bad_input_is_told_once():
+    text = on_ranks(2, BAD_INPUT, scene('jack'),
+                    **{'Soil/Layer 1/Frction angle': 31})
+    expect(text.count('bad input') == 1 and 'Friction angle' in text, text)
+    text = on_ranks(2, BAD_INPUT, scene('jack'), '--output-directory',
+                    directory('ranks_bad'), **{'Time/Time step': 1})
+    expect(text.count('bad input') == 1 and 'stability limit' in text, text)
+
+
 # ---------------------------------------------------------------- user scenes
 
 def at_rest(name, **entries):

@@ -39,6 +39,8 @@ namespace CaissonMPM
     , triangulation(communicator)
     , fe(1)
     , dof_handler(triangulation)
+    , n_ranks_(Utilities::MPI::n_mpi_processes(communicator))
+    , rank(Utilities::MPI::this_mpi_process(communicator))
   {
     const Patterns::Double positive(1e-9), not_negative(0.);
     add_parameter("Geometry",
@@ -517,15 +519,32 @@ namespace CaissonMPM
   BackgroundGrid::create_mesh()
   {
     create_triangulation();
+    set_up_part();
+  }
+
+  void
+  BackgroundGrid::set_up_part()
+  {
     dof_handler.distribute_dofs(fe);
     partitioner = std::make_shared<const Utilities::MPI::Partitioner>(
       dof_handler.locally_owned_dofs(),
       Compat::locally_relevant_dofs(dof_handler),
-      triangulation.get_communicator());
+      communicator());
+    partitioners.clear();
     collect_cells();
     number_nodes();
     prepare_motion(0.);
     advance();
+  }
+
+  void
+  BackgroundGrid::repartition(const std::vector<unsigned int> &costs)
+  {
+    const auto connection = triangulation.signals.weight.connect(
+      [&costs](const auto &cell, const auto) { return costs[cell->index()]; });
+    triangulation.repartition();
+    connection.disconnect();
+    set_up_part();
   }
 
   void
@@ -550,22 +569,20 @@ namespace CaissonMPM
         }
     triangulation.create_triangulation(vertices, cells, SubCellData());
     for (const auto &cell : triangulation.active_cell_iterators())
-      if (!cell->is_artificial())
-        for (const unsigned int face : cell->face_indices())
-          if (cell->face(face)->at_boundary())
-            cell->face(face)->set_boundary_id(face);
+      for (const unsigned int face : cell->face_indices())
+        if (cell->face(face)->at_boundary())
+          cell->face(face)->set_boundary_id(face);
   }
 
   void
   BackgroundGrid::collect_cells()
   {
-    local_numbers.assign(triangulation.n_active_cells(),
-                         numbers::invalid_unsigned_int);
+    local_numbers.assign(n_global_cells(), numbers::invalid_unsigned_int);
     iterators.clear();
     for (const auto &cell : triangulation.active_cell_iterators())
       if (!cell->is_artificial())
         {
-          local_numbers[cell->active_cell_index()] = iterators.size();
+          local_numbers[cell->index()] = iterators.size();
           iterators.push_back(cell);
         }
     const unsigned int n = iterators.size();
@@ -574,14 +591,16 @@ namespace CaissonMPM
     rigid.assign(n, 0);
     flags.assign(n, 0);
     zones.assign(n, Zone::moving);
-    coarse_index.resize(n);
+    global_numbers.resize(n);
+    owners.resize(n);
     for (auto &g : geometries)
       g.resize(n);
     std::vector<types::global_dof_index> dofs(4);
     for (unsigned int c = 0; c < n; ++c)
       {
-        const auto &cell = iterators[c];
-        coarse_index[c]  = cell->index(); // a CellId numbers the trees of p4est
+        const auto &cell  = iterators[c];
+        global_numbers[c] = cell->index(); // a CellId numbers p4est's trees
+        owners[c]         = cell->subdomain_id();
         DoFHandler<dim>::active_cell_iterator(&triangulation,
                                               cell->level(),
                                               cell->index(),
@@ -589,7 +608,7 @@ namespace CaissonMPM
           ->get_dof_indices(dofs);
         for (unsigned int k = 0; k < 4; ++k)
           nodes[c].node[k] = partitioner->global_to_local(dofs[k]);
-        rigid[c] = cell->material_id() == 1;
+        rigid[c] = is_body_cell(global_numbers[c]);
         if (rows[row_of(c)] < zone_bottom - 1e-9)
           zones[c] = Zone::compressing;
         else if (rows[row_of(c)] >= zone_top - 1e-9 &&
@@ -599,7 +618,7 @@ namespace CaissonMPM
           if (!cell->at_boundary(face) &&
               !cell->neighbor(face)->is_artificial())
             neighbors[4 * c + face] =
-              local_numbers[cell->neighbor(face)->active_cell_index()];
+              local_number(cell->neighbor(face)->index());
       }
     soil_neighbors = neighbors;
     for (int &neighbor : soil_neighbors)
@@ -666,7 +685,7 @@ namespace CaissonMPM
         scaled = std::make_shared<const Utilities::MPI::Partitioner>(
           scale(partitioner->locally_owned_range()),
           scale(partitioner->ghost_indices()),
-          triangulation.get_communicator());
+          communicator());
       }
     vector.reinit(scaled);
   }
@@ -726,12 +745,31 @@ namespace CaissonMPM
     return result;
   }
 
-  double
-  BackgroundGrid::smallest_height_met(const unsigned int cell) const
+  Kernels::CellGeometry
+  BackgroundGrid::initial_geometry(const unsigned int global_number) const
   {
-    const unsigned int i = column_of(cell), j = row_of(cell);
+    const unsigned int i = global_number % n_columns(),
+                       j = global_number / n_columns();
+    const double left    = reference_height(i, j),
+                 right   = reference_height(i + 1, j);
+    return {columns[i],
+            columns[i + 1] - columns[i],
+            left,
+            right,
+            reference_height(i, j + 1) - left,
+            reference_height(i + 1, j + 1) - right};
+  }
+
+  double
+  BackgroundGrid::smallest_height_met(const unsigned int global_number) const
+  {
+    const unsigned int i = global_number % n_columns(),
+                       j = global_number / n_columns();
     if (!node_shift.empty()) // nothing moves
-      return std::max(geometry(cell).height_left, geometry(cell).height_right);
+      {
+        const auto g = initial_geometry(global_number);
+        return std::max(g.height_left, g.height_right);
+      }
     const auto line = [&](const unsigned int row, const double travel) {
       // the side of the column with the deeper dip has the lower cells
       const unsigned int side = !dip.empty() && dip[i] > dip[i + 1] ? i : i + 1;
@@ -763,9 +801,9 @@ namespace CaissonMPM
   }
 
   double
-  BackgroundGrid::smallest_width_met(const unsigned int cell) const
+  BackgroundGrid::smallest_width_met(const unsigned int global_number) const
   {
-    const unsigned int i         = column_of(cell);
+    const unsigned int i         = global_number % n_columns();
     const double       r0        = columns[i];
     double             smallest  = columns[i + 1] - r0;
     const unsigned int n_samples = expanding_radius > 0. ? 100 : 0;

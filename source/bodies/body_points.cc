@@ -11,7 +11,7 @@ namespace CaissonMPM
   {
     std::vector<BodyPoint> points;
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
-      if (grid.is_rigid(cell))
+      if (grid.is_rigid(cell) && grid.is_owned(cell))
         {
           const auto  &g           = grid.geometry(cell);
           const double r           = g.left + .5 * g.width;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <sstream>
 
 namespace CaissonMPM
@@ -127,12 +128,6 @@ namespace CaissonMPM
   void
   MaterialPoints::add(const unsigned int cell, const MaterialPoint &point)
   {
-    if (first_block.size() != grid.n_cells())
-      {
-        first_block.resize(grid.n_cells(), -1);
-        filled_volume.resize(grid.n_cells(), 0.);
-        changed.resize(grid.n_cells(), true);
-      }
     filled_volume[cell] += point.volume;
     changed[cell]        = true;
     const short material = point.material;
@@ -191,7 +186,7 @@ namespace CaissonMPM
   {
     active_cells.clear();
     for (unsigned int c = 0; c < first_block.size(); ++c)
-      if (first_block[c] >= 0)
+      if (first_block[c] >= 0 && grid.is_owned(c))
         active_cells.push_back(c);
     active_cells_changed = false;
   }
@@ -309,10 +304,62 @@ namespace CaissonMPM
         moving.emplace_back(l.cell, get(l.block, l.lane));
         remove(l.cell, l.block, l.lane);
       }
-    for (auto &entry : moving)
-      add(find_cell(entry.first, entry.second), entry.second);
+    std::map<unsigned int, std::vector<TravelingPoint>> abroad;
+    for (auto &[cell, point] : moving)
+      {
+        cell = find_cell(cell, point);
+        if (grid.is_owned(cell))
+          add(cell, point);
+        else
+          abroad[grid.owner_of(cell)].push_back(
+            {grid.global_number(cell), point});
+      }
+    if (grid.n_ranks() > 1)
+      {
+        for (const TravelingPoint &p : point_exchange.exchange(abroad))
+          add(grid.local_number(p.cell), p.point);
+        point_exchange.update_occupied(first_block);
+      }
+    if (active_cells_changed)
+      collect_active_cells();
     if (++n_relocations % 200 == 0)
       put_blocks_in_order();
+  }
+
+  std::vector<unsigned int>
+  MaterialPoints::cell_costs() const
+  {
+    std::vector<unsigned int> costs(grid.n_global_cells(), 0);
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (grid.is_owned(cell))
+        {
+          unsigned int &cost = costs[grid.global_number(cell)];
+          cost               = 1;
+          for (int b = first_block[cell]; b >= 0; b = headers[b].next)
+            cost += 2;
+        }
+    return costs;
+  }
+
+  std::vector<TravelingPoint>
+  MaterialPoints::take_all()
+  {
+    std::vector<TravelingPoint> result;
+    result.reserve(n_points_);
+    for_each([&](const MaterialPoint &point, const unsigned int cell) {
+      result.push_back({grid.global_number(cell), point});
+    });
+    clear_blocks();
+    return result;
+  }
+
+  void
+  MaterialPoints::redistribute(const std::vector<TravelingPoint> &traveling)
+  {
+    clear_blocks();
+    for (const TravelingPoint &p : send_to_owners(grid, traveling))
+      add(grid.local_number(p.cell), p.point);
+    after_moving();
   }
 
   namespace
@@ -357,7 +404,8 @@ namespace CaissonMPM
               double &coordinate = x[face / 2];
               if (grid.neighbor(cell, face) >= 0)
                 ++n_held_back_;
-              else if (coordinate < -tolerance || coordinate > 1. + tolerance)
+              else if (coordinate < -tolerance || coordinate > 1. + tolerance ||
+                       !grid.at_side(cell, face))
                 report_lost(point);
               coordinate = std::clamp(coordinate, margin, 1. - margin);
             }
@@ -435,7 +483,7 @@ namespace CaissonMPM
   }
 
   void
-  MaterialPoints::load()
+  MaterialPoints::clear_blocks()
   {
     blocks.clear();
     headers.clear();
@@ -445,6 +493,22 @@ namespace CaissonMPM
     changed.assign(grid.n_cells(), true);
     n_points_            = 0;
     active_cells_changed = true;
+  }
+
+  void
+  MaterialPoints::after_moving()
+  {
+    collect_active_cells();
+    if (grid.n_ranks() == 1)
+      return;
+    point_exchange.set_up(grid);
+    point_exchange.update_occupied(first_block);
+  }
+
+  void
+  MaterialPoints::load()
+  {
+    clear_blocks();
     for (const auto &particle : handler)
       {
         const auto    d = particle.get_properties();
@@ -469,6 +533,6 @@ namespace CaissonMPM
             p);
       }
     handler.clear_particles();
-    collect_active_cells();
+    after_moving();
   }
 } // namespace CaissonMPM

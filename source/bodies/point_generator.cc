@@ -175,13 +175,18 @@ namespace CaissonMPM
     std::vector<StateVariables> states;
     for (unsigned int i = 0; i < soil.n_layers(); ++i)
       states.push_back(soil.layer(i).start_of_state());
-    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+    // Every rank goes through all cells, so that a point's number and random
+    // position do not depend on the number of ranks.
+    for (unsigned int cell = 0; cell < grid.n_global_cells(); ++cell)
       {
-        const auto  &g        = grid.geometry(cell);
+        const auto   g        = grid.initial_geometry(cell);
         const double center_z = g.bottom_left + .5 * g.height_left;
-        if (grid.is_rigid(cell) || center_z > region_top ||
+        if (grid.is_body_cell(cell) || center_z > region_top ||
             center_z < region_bottom)
           continue;
+        const unsigned int local = grid.local_number(cell);
+        const bool         owned =
+          local != numbers::invalid_unsigned_int && grid.is_owned(local);
         const unsigned int n =
           points_per_direction(g, body, grid.total_travel());
         const unsigned int n_r =
@@ -211,6 +216,9 @@ namespace CaissonMPM
                     (!in_region.empty() &&
                      !(in_region(Point<2>(r, z), 0.) > 0.)))
                   continue;
+                const double number = id++;
+                if (!owned)
+                  continue;
                 MaterialPoint p;
                 p.position = p.initial_position = Point<2>(r, z);
                 p.material                      = soil.layer_at(z);
@@ -222,8 +230,8 @@ namespace CaissonMPM
                 p.volume = p.initial_volume = moments[k] / n_z;
                 p.mass =
                   mass_scaling * soil.inertial_density(p.material) * p.volume;
-                p.id = id++;
-                points.insert(cell, p);
+                p.id = number;
+                points.insert(local, p);
               }
           }
       }

@@ -75,6 +75,8 @@ namespace CaissonMPM
     region                     = parse_region();
     velocity                   = parse_velocity();
     circumference              = grid.circumference();
+    n_owned_nodes              = grid.n_owned_nodes();
+    prescribed.clear();
     fixed[0].clear();
     fixed[1].clear();
     for (unsigned int node = 0; node < grid.n_nodes(); ++node)
@@ -117,6 +119,8 @@ namespace CaissonMPM
     double work = 0.;
     for (const Prescribed &p : prescribed)
       {
+        if (p.node >= n_owned_nodes)
+          continue;
         const double impulse = circumference * mass[p.node] *
                                (p.velocity - v[p.node].value[p.component]);
         impulse_[p.component] += impulse;

@@ -66,6 +66,7 @@ namespace CaissonMPM
   {
     corner_normals = body.corner_normals;
     circumference  = grid.circumference();
+    n_owned_nodes  = grid.n_owned_nodes();
     on_body.assign(grid.n_nodes(), false);
     std::map<unsigned int, Node> found;
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
@@ -190,7 +191,6 @@ namespace CaissonMPM
         result         = find_contact(node, w);
         if (result.state == State::apart)
           continue;
-        ++n_touching;
         const double  into    = std::min(0., w * result.normal);
         const Vector2 tangent = w - into * result.normal;
         const double  speed   = tangent.norm();
@@ -200,11 +200,14 @@ namespace CaissonMPM
         Vector2 left; // of the relative velocity
         if (result.state == State::sliding)
           left = tangent * (1. - limit / speed);
-        else
-          ++n_sticking;
         result.impulse = m * (w - left);
-        impulses[node.surface] += circumference * result.impulse;
-        total += circumference * result.impulse;
+        if (node.node < n_owned_nodes)
+          {
+            ++n_touching;
+            n_sticking += result.state == State::sticking;
+            impulses[node.surface] += circumference * result.impulse;
+            total += circumference * result.impulse;
+          }
         for (unsigned int d = 0; d < 2; ++d)
           u[d] = velocity[d] + left[d];
       }
@@ -219,7 +222,7 @@ namespace CaissonMPM
   {
     double heat = 0.;
     for (unsigned int i = 0; i < nodes.size(); ++i)
-      if (results[i].state != State::apart)
+      if (results[i].state != State::apart && nodes[i].node < n_owned_nodes)
         for (unsigned int d = 0; d < 2; ++d)
           heat += results[i].impulse[d] *
                   (mean_velocity[nodes[i].node].value[d] - velocity[d]);

@@ -123,6 +123,7 @@ namespace CaissonMPM
                          &work[1]})
       grid.reinit(*v, 2);
     mass.assign(grid.n_nodes(), 0.);
+    n_owned_nodes = grid.n_owned_nodes();
     circumference = grid.circumference();
   }
 
@@ -194,7 +195,8 @@ namespace CaissonMPM
             continue;
           }
         mass[i] = std::max(node->mass, .25 * dt * dt * node->stiffness);
-        added_mass += mass[i] - node->mass;
+        if (i < n_owned_nodes)
+          added_mass += mass[i] - node->mass;
         const double share =
           damped && !contact.is_contact_node(i) ? damping : 0.;
         for (unsigned int d = 0; d < 2; ++d)
@@ -284,7 +286,7 @@ namespace CaissonMPM
       transfer[i] = v[i] - keep * old[i];
     if (filter_order() > 1)
       {
-        work[0] = old_velocity;
+        std::copy_n(old, n, work[0].begin());
         hold(data(work[0]));
         for (unsigned int k = 1; k < filter_order(); ++k)
           {
@@ -322,7 +324,7 @@ namespace CaissonMPM
   {
     // the old velocity held to what holds the new one
     NodalData &held = work[0];
-    held            = old_velocity;
+    std::copy_n(old_velocity.begin(), 2 * mass.size(), held.begin());
     hold_to(contact, boundary_conditions, data(held));
 
     NodalWork   result;
@@ -330,19 +332,20 @@ namespace CaissonMPM
     const double *const v0 = old_velocity.begin(), *h = held.begin(),
                         *v = new_velocity.begin(), *s = fields().strain->value;
     const bool damped = damping > 0.;
-    for (unsigned int i = 0; i < mass.size(); ++i, ++node)
+    for (unsigned int i = 0; i < n_owned_nodes; ++i, ++node)
       for (unsigned int d = 0; d < 2; ++d)
         {
           const unsigned int k = 2 * i + d;
           const double       f = dt * node->force[d], mean = .5 * (h[k] + v[k]);
           result.forces += f * .5 * (h[k] + s[k]);
-          if (!load.empty())
-            result.load += dt * load[k] * .5 * (h[k] + s[k]);
           result.floor +=
             (mass[i] - std::max(0., node->mass)) * (v[k] - v0[k]) * mean;
           if (damped && !contact.is_contact_node(i))
             result.damping += damping * std::abs(f) * sign(v0[k]) * mean;
         }
+    // the load is what this rank's points bring, to all of their nodes
+    for (unsigned int k = 0; k < load.size(); ++k)
+      result.load += dt * load[k] * .5 * (h[k] + s[k]);
     for (unsigned int k = 0; k < 2 * mass.size(); ++k)
       held.begin()[k] = .5 * (h[k] + v[k]);
     for (double *sum :

@@ -254,12 +254,13 @@ namespace CaissonMPM
                    const CheckpointState &state,
                    const std::string     &fingerprint)
   {
-    const MPI_Comm communicator = grid.triangulation.get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     Info           info;
-    info.files =
-      parse_info(read_text(info_file(directory))).files == "checkpoint-a" ?
-        "checkpoint-b" :
-        "checkpoint-a";
+    const bool     a_is_valid =
+      parse_info(read_text(info_file(directory))).files == "checkpoint-a";
+    info.files = Utilities::MPI::broadcast(communicator, a_is_valid ? 1 : 0) ?
+                   "checkpoint-b" :
+                   "checkpoint-a";
     info.n_points =
       Utilities::MPI::sum<unsigned long>(points.n_points(), communicator);
     info.state       = state;
@@ -297,8 +298,10 @@ namespace CaissonMPM
     check_fingerprint(directory, info.fingerprint, fingerprint);
 
     points.clear_handler();
-    // the mesh is never refined, so that cells and vertices stay in place
+    // The mesh is never refined, so that cells and vertices stay in place; but
+    // ranks may be more or fewer than before.
     grid.triangulation.load(directory + "/" + info.files);
+    grid.set_up_part();
     grid.prepare_motion(info.state.travel);
     grid.advance();
     grid.write_vertices();
@@ -307,7 +310,7 @@ namespace CaissonMPM
 
     const unsigned long n_points =
       Utilities::MPI::sum<unsigned long>(points.n_points(),
-                                         grid.triangulation.get_communicator());
+                                         grid.communicator());
     if (n_points != info.n_points)
       throw BadInput("the checkpoint in " + directory + " has " +
                      std::to_string(n_points) + " material points instead of " +

@@ -50,6 +50,20 @@ namespace CaissonMPM
 
 
 
+  std::vector<double *>
+  EnergyBalance::works()
+  {
+    return {&work_of_body,
+            &force_work,
+            &load_work,
+            &stress_work,
+            &friction_heat,
+            &damping,
+            &floor};
+  }
+
+
+
   const std::vector<double EnergyBalance::*> &
   EnergyBalance::sums()
   {

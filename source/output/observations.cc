@@ -101,13 +101,13 @@ namespace CaissonMPM
     }
 
     double
-    at_point(const Observation &o, const MaterialPoints &points)
+    at_point(const Observation &o, const AllPoints &points)
     {
       // initial positions do not change: the same point at all times, also
       // after a restart; of two at the same distance the first
       MaterialPoint nearest;
       double        distance = std::numeric_limits<double>::infinity();
-      points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      points.for_each([&](const MaterialPoint &p) {
         const double d = p.initial_position.distance(o.place);
         if (d < distance || (d == distance && p.id < nearest.id))
           {
@@ -119,12 +119,10 @@ namespace CaissonMPM
     }
 
     Samples
-    sample(const Observation    &o,
-           const MaterialPoints &points,
-           const double          time)
+    sample(const Observation &o, const AllPoints &points, const double time)
     {
       Samples samples;
-      points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      points.for_each([&](const MaterialPoint &p) {
         if (!o.region.empty() && o.region(p.initial_position, time) == 0.)
           return;
         samples.value.push_back(o.quantity(p));
@@ -308,7 +306,7 @@ namespace CaissonMPM
 
 
   std::vector<double>
-  Observations::values(const MaterialPoints &points, const double time) const
+  Observations::values(const AllPoints &points, const double time) const
   {
     std::vector<double> result;
     for (const Observation &o : observations)

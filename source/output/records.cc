@@ -64,16 +64,16 @@ namespace CaissonMPM
 
 
   void
-  Records::append(const HistoryRow &row, const MaterialPoints &points)
+  Records::append(const HistoryRow &row, const std::vector<double> &observed)
   {
     std::vector<double> values = history_values(row);
     history.append(values);
     if (observed_file)
       {
-        std::vector<double> more = observations.values(points, row.time);
-        values.insert(values.end(), more.begin(), more.end());
+        std::vector<double> more = observed;
         more.insert(more.begin(), row.time);
         observed_file->append(more);
+        values.insert(values.end(), observed.begin(), observed.end());
       }
     rows.push_back(values);
   }

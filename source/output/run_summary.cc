@@ -16,6 +16,7 @@ namespace CaissonMPM
       {"fingerprint", Json::text(s.fingerprint)},
       {"status", Json::text(s.status)},
       {"ranks", Json::integer(s.ranks)},
+      {"repartitions", Json::integer(s.repartitions)},
       {"material_points", Json::integer(s.material_points)},
       {"cells", Json::integer(s.cells)},
       {"body_points", Json::integer(s.body_points)},

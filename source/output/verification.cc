@@ -187,16 +187,16 @@ namespace CaissonMPM
     }
 
     PointSamples
-    sample_points(const Check          &check,
-                  const MaterialPoints &points,
-                  const double          time)
+    sample_points(const Check     &check,
+                  const AllPoints &points,
+                  const double     time)
     {
       const std::string place = place_of(check.head);
       const Expression  exact(check.exact, place);
       const Expression region(check.region.empty() ? "1" : check.region, place);
       const PointQuantity value = point_quantities().at(check.name);
       PointSamples        samples;
-      points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      points.for_each([&](const MaterialPoint &p) {
         if (region(p.initial_position, time) == 0.)
           return;
         samples.computed.push_back(value(p));
@@ -227,10 +227,10 @@ namespace CaissonMPM
     }
 
     Comparison
-    compare(const Check          &check,
-            const MaterialPoints &points,
-            const Records        &records,
-            const double          time)
+    compare(const Check     &check,
+            const AllPoints &points,
+            const Records   &records,
+            const double     time)
     {
       const auto mode = point_modes().find(check.mode);
       return mode != point_modes().end() ?
@@ -329,11 +329,11 @@ namespace CaissonMPM
 
 
   bool
-  Verification::run(const MaterialPoints &points,
-                    const Records        &records,
-                    const double          time,
-                    const std::string    &directory,
-                    Console              &console) const
+  Verification::run(const AllPoints   &points,
+                    const Records     &records,
+                    const double       time,
+                    const std::string &directory,
+                    Console           &console) const
   {
     const bool full     = console.get_verbosity() == Console::Verbosity::full;
     bool       all_pass = true;

@@ -120,6 +120,7 @@ namespace CaissonMPM
       void
       add_soil(const MaterialPoints &points, const Soil &soil)
       {
+        n_points                   = number_of_first(points.n_points());
         const double circumference = grid.circumference();
         points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
           add(p.position, properties_of(p, soil, circumference), cell);
@@ -132,6 +133,7 @@ namespace CaissonMPM
                const double                  travel,
                const double                  time)
       {
+        n_points = number_of_first(points.size());
         for (const BodyPoint &p : points)
           {
             const Point<2>     position = body.moved(p.position, travel);
@@ -164,6 +166,25 @@ namespace CaissonMPM
       }
 
     private:
+      /** The number of the first of @p n points of this rank, behind those of
+       * the ranks before it and what was numbered so far. */
+      types::particle_index
+      number_of_first(const types::particle_index n)
+      {
+        const MPI_Comm        communicator = grid.communicator();
+        types::particle_index before       = 0;
+        const int             error        = MPI_Exscan(&n,
+                                     &before,
+                                     1,
+                                     DEAL_II_PARTICLE_INDEX_MPI_TYPE,
+                                     MPI_SUM,
+                                     communicator);
+        AssertThrowMPI(error);
+        const types::particle_index start = n_numbered;
+        n_numbered += Utilities::MPI::sum(n, communicator);
+        return start + (grid.is_first_rank() ? 0 : before);
+      }
+
       void
       add(const Tensor<1, 2> &position,
           const Properties   &values,
@@ -180,7 +201,7 @@ namespace CaissonMPM
 
       const BackgroundGrid         &grid;
       Particles::ParticleHandler<2> handler;
-      types::particle_index         n_points = 0;
+      types::particle_index         n_points = 0, n_numbered = 0;
     };
 
     /** The cells with their data; the vertices must have been written. */
@@ -348,7 +369,7 @@ namespace CaissonMPM
     // after a restart the frame of this time may be there already
     drop_frames_from(time);
     const unsigned int number       = next_number();
-    const MPI_Comm     communicator = grid.triangulation.get_communicator();
+    const MPI_Comm     communicator = grid.communicator();
 
     PointCloud cloud(grid);
     cloud.add_soil(points, soil);
@@ -365,7 +386,7 @@ namespace CaissonMPM
 
     point_frames.emplace_back(time, point_file);
     grid_frames.emplace_back(time, grid_file);
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+    if (grid.is_first_rank())
       {
         write_series("points.pvd", point_frames);
         write_series("grid.pvd", grid_frames);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 namespace CaissonMPM
@@ -20,8 +21,6 @@ namespace CaissonMPM
     , grid(communicator)
     , points(grid)
   {
-    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
-      throw BadInput("this version runs on one rank; start it without mpirun.");
     const Patterns::Double not_negative(0.);
     add_parameter("Title", title, "What the scene is. Units: none.");
     enter_subsection("Method");
@@ -135,20 +134,18 @@ namespace CaissonMPM
       directory = output_directory;
     prepare_output_directory(directory);
     console = std::make_unique<Console>(
-      terminal == "full"  ? Console::Verbosity::full :
-      terminal == "plain" ? Console::Verbosity::plain :
-                            Console::Verbosity::silent);
+      !grid.is_first_rank() ? Console::Verbosity::silent :
+      terminal == "full"    ? Console::Verbosity::full :
+      terminal == "plain"   ? Console::Verbosity::plain :
+                              Console::Verbosity::silent);
     records       = std::make_unique<Records>(directory, observations);
     visualization = std::make_unique<Visualization>(directory);
     stop_request.arm(directory);
     kernels = Kernels::select_kernels(instruction_set.c_str());
 
     grid.create_mesh();
-    body_points = generate_body_points(grid, body);
-    contact.initialize(grid, body);
-    boundary_conditions.initialize(grid);
+    set_up_part();
     loads.initialize(time_step.mass_scaling);
-    nodal_motion.initialize(grid);
     materials = soil.kernel_materials(time_step.mass_scaling);
 
     wrong_error_bar = error_bar.read(scene, fingerprint_of(changed_physics()));
@@ -162,6 +159,39 @@ namespace CaissonMPM
       ++next_frame;
     first_step   = step;
     start_of_run = time;
+  }
+
+  void
+  Simulation::set_up_part()
+  {
+    body_points = generate_body_points(grid, body);
+    contact.initialize(grid, body);
+    boundary_conditions.initialize(grid);
+    nodal_motion.initialize(grid);
+    grid.prepare_motion(body.travel(time));
+    grid.advance();
+  }
+
+  void
+  Simulation::balance()
+  {
+    if (grid.n_ranks() == 1)
+      return;
+    const auto imbalance = [this](const std::vector<unsigned int> &costs) {
+      const auto work = Utilities::MPI::min_max_avg(
+        std::accumulate(costs.begin(), costs.end(), 0.), grid.communicator());
+      return work.max / work.avg;
+    };
+    const auto costs = points.cell_costs();
+    if (imbalance(costs) <= accepted_imbalance)
+      return;
+    const auto traveling = points.take_all();
+    grid.repartition(costs);
+    set_up_part();
+    points.redistribute(traveling);
+    // a part is made of whole cells: it may be impossible to do better
+    ++n_repartitions;
+    accepted_imbalance = std::max(1.1, 1.05 * imbalance(points.cell_costs()));
   }
 
   void
@@ -187,9 +217,11 @@ namespace CaissonMPM
   Simulation::start()
   {
     generator.generate(grid, body, soil, time_step.mass_scaling, points);
+    balance();
     energy.start(point_energies());
     choose_step(); // refuses a fixed step that is too large
-    records->create();
+    if (grid.is_first_rank())
+      records->create();
     next_record = record_interval;
   }
 
@@ -198,21 +230,32 @@ namespace CaissonMPM
   {
     const CheckpointState state =
       read_checkpoint(directory, grid, points, fingerprint());
-    time      = state.time;
-    step      = state.step;
-    n_limited = state.limiter_count;
-    points.set_n_held_back(state.held_back);
-    resume_record(state.more);
-    records->resume(time);
+    time = state.time;
+    step = state.step;
+    set_up_part();
+    balance();
+    next_record = state.more.at(0);
+    last_record = state.more.at(1);
+    if (grid.is_first_rank())
+      {
+        resume_sums(state);
+        records->resume(time);
+      }
     visualization->resume(time);
   }
 
   void
   Simulation::print_header(const std::string &scene_file)
   {
-    double mass = 0.;
+    double own_mass = 0.;
     for (const BodyPoint &p : body_points)
-      mass += p.mass;
+      own_mass += p.mass;
+    const MPI_Comm      communicator = grid.communicator();
+    const double        mass = Utilities::MPI::sum(own_mass, communicator);
+    const unsigned long n_points =
+      Utilities::MPI::sum<unsigned long>(points.n_points(), communicator);
+    const unsigned long n_body_points =
+      Utilities::MPI::sum<unsigned long>(body_points.size(), communicator);
     const auto text = [](const auto &value) {
       std::ostringstream s;
       s << value;
@@ -226,13 +269,14 @@ namespace CaissonMPM
        {"output", directory},
        {"kernels",
         std::string(kernels->name) + ", " + text(kernels->width) + " lanes"},
+       {"ranks", text(grid.n_ranks())},
        {"limit of the step", time_step.reason()}});
     console->summary(
       {{"title", title},
        {"grid", grid.description()},
        {"material points",
-        text(points.n_points()) + ", and " + text(body_points.size()) +
-          " of the body (" + text(mass / 1000.) + " t)"},
+        text(n_points) + ", and " + text(n_body_points) + " of the body (" +
+          text(mass / 1000.) + " t)"},
        {"method", nodal_motion.description()},
        {"time step",
         text(dt) + " s, mass scaling " + text(time_step.mass_scaling)},
@@ -360,6 +404,34 @@ namespace CaissonMPM
 
   // ------------------------------------------------------------ the run
 
+  std::string
+  Simulation::reason_to_stop()
+  {
+    if (grid.n_ranks() == 1)
+      return stop_request.reason();
+    if (step % 20 != 0)
+      return "";
+    const std::string  reason = stop_request.reason();
+    const unsigned int rank =
+      Utilities::MPI::min(reason.empty() ? grid.n_ranks() :
+                                           Utilities::MPI::this_mpi_process(
+                                             grid.communicator()),
+                          grid.communicator());
+    return rank == grid.n_ranks() ?
+             "" :
+             Utilities::MPI::broadcast(grid.communicator(), reason, rank);
+  }
+
+  bool
+  Simulation::verify()
+  {
+    const AllPoints all_points(points, grid.communicator());
+    const bool      passed =
+      !grid.is_first_rank() ||
+      verification.run(all_points, *records, time, directory, *console);
+    return Utilities::MPI::min(passed ? 1 : 0, grid.communicator()) == 1;
+  }
+
   ExitStatus
   Simulation::run(const std::string &scene_file,
                   const std::string &output_directory,
@@ -379,7 +451,9 @@ namespace CaissonMPM
       {
         advance();
         output();
-        const std::string reason = stop_request.reason();
+        if (grid.n_ranks() > 1 && step % 200 == 0)
+          timed("balance", [this]() { balance(); });
+        const std::string reason = reason_to_stop();
         if (!reason.empty())
           {
             save_checkpoint();
@@ -388,9 +462,7 @@ namespace CaissonMPM
             return ExitStatus::stopped;
           }
       }
-    const bool passed =
-      verification.empty() ||
-      verification.run(points, *records, time, directory, *console);
+    const bool passed = verification.empty() || verify();
     write_summary(passed ? "finished" : "verification failed");
     print_counts();
     print_energies();

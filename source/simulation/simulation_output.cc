@@ -31,29 +31,78 @@ namespace CaissonMPM
         write_frame();
         ++next_frame;
       }
-    if (checkpoint_interval > 0. &&
-        seconds_running() - next_checkpoint > checkpoint_interval)
+    if (checkpoint_is_due())
       {
         save_checkpoint();
         next_checkpoint = seconds_running();
       }
   }
 
+  bool
+  Simulation::checkpoint_is_due()
+  {
+    const bool due = checkpoint_interval > 0. &&
+                     seconds_running() - next_checkpoint > checkpoint_interval;
+    if (grid.n_ranks() == 1 || checkpoint_interval == 0.)
+      return due;
+    // clocks differ
+    return step % 20 == 0 &&
+           Utilities::MPI::max(due ? 1 : 0, grid.communicator()) == 1;
+  }
+
+  void
+  Simulation::bring_sums_to_first_rank()
+  {
+    if (grid.n_ranks() == 1)
+      return;
+    SurfaceForces on_body = contact.impulse();
+    Vector2       on_soil = boundary_conditions.impulse();
+    double        limited = n_limited, held_back = points.n_held_back();
+
+    std::vector<double *> sums = energy.works();
+    for (Vector2 &impulse : on_body)
+      sums.insert(sums.end(), {&impulse[0], &impulse[1]});
+    sums.insert(sums.end(),
+                {&on_soil[0], &on_soil[1], &limited, &held_back, &point_steps});
+    std::vector<double> values;
+    for (const double *sum : sums)
+      values.push_back(*sum);
+    Utilities::MPI::sum(values, grid.communicator(), values);
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      *sums[i] = grid.is_first_rank() ? values[i] : 0.;
+
+    contact.reset_impulse(on_body);
+    boundary_conditions.reset_impulse(on_soil);
+    n_limited = limited;
+    points.set_n_held_back(held_back);
+  }
+
   void
   Simulation::record()
   {
+    bring_sums_to_first_rank();
     HistoryRow row;
-    row.time           = time;
-    row.penetration    = body.initial_depth() + body.travel(time);
-    row.step           = step;
-    row.time_step      = dt;
-    row.limiter_count  = n_limited;
-    row.held_back      = points.n_held_back();
-    row.contact_nodes  = contact.n_touching;
-    row.sticking_nodes = contact.n_sticking;
+    row.time          = time;
+    row.penetration   = body.initial_depth() + body.travel(time);
+    row.step          = step;
+    row.time_step     = dt;
+    row.limiter_count = n_limited;
+    row.held_back     = points.n_held_back();
+    row.contact_nodes =
+      Utilities::MPI::sum(contact.n_touching, grid.communicator());
+    row.sticking_nodes =
+      Utilities::MPI::sum(contact.n_sticking, grid.communicator());
     add_forces(row);
     add_sums_over_points(row);
-    records->append(row, points);
+    std::vector<double> observed;
+    if (!observations.names().empty())
+      {
+        const AllPoints all_points(points, grid.communicator());
+        if (grid.is_first_rank())
+          observed = observations.values(all_points, time);
+      }
+    if (grid.is_first_rank())
+      records->append(row, observed);
     print_record(row);
     warn_of_lid(row);
   }
@@ -110,12 +159,16 @@ namespace CaissonMPM
         std::max(row.max_speed, std::hypot(p.velocity[0], p.velocity[1]));
       row.points_in_body += body.contains(p.position, travel);
     });
+    const MPI_Comm communicator = grid.communicator();
+    row.max_speed      = Utilities::MPI::max(row.max_speed, communicator);
+    row.points_in_body = Utilities::MPI::sum(row.points_in_body, communicator);
     energy.close(energies);
     row.kinetic_energy = energies.kinetic;
     row.external_work  = energy.work_of_body;
     row.energy         = energy;
-    row.added_mass     = grid.circumference() * nodal_motion.added_mass;
-    max_in_body        = std::max(max_in_body, row.points_in_body);
+    row.added_mass     = grid.circumference() *
+                     Utilities::MPI::sum(nodal_motion.added_mass, communicator);
+    max_in_body = std::max(max_in_body, row.points_in_body);
   }
 
   PointEnergies
@@ -134,6 +187,8 @@ namespace CaissonMPM
           result.weight += std::abs(term);
         }
     });
+    for (double *sum : {&result.kinetic, &result.potential, &result.weight})
+      *sum = Utilities::MPI::sum(*sum, grid.communicator());
     return result;
   }
 
@@ -221,6 +276,7 @@ namespace CaissonMPM
   void
   Simulation::save_checkpoint()
   {
+    bring_sums_to_first_rank();
     CheckpointState state;
     state.time          = time;
     state.travel        = body.travel(time);
@@ -240,11 +296,12 @@ namespace CaissonMPM
   }
 
   void
-  Simulation::resume_record(const std::vector<double> &numbers)
+  Simulation::resume_sums(const CheckpointState &state)
   {
-    next_record = numbers.at(0);
-    last_record = numbers.at(1);
-    SurfaceForces impulse;
+    n_limited = state.limiter_count;
+    points.set_n_held_back(state.held_back);
+    const std::vector<double> &numbers = state.more;
+    SurfaceForces              impulse;
     for (unsigned int i = 0; i < 2 * n_surfaces; ++i)
       impulse[i / 2][i % 2] = numbers.at(2 + i);
     contact.reset_impulse(impulse);
@@ -256,32 +313,39 @@ namespace CaissonMPM
   void
   Simulation::write_summary(const std::string &status)
   {
-    error_bar.write(directory);
+    bring_sums_to_first_rank();
+    const auto sum = [this](const auto value) {
+      return Utilities::MPI::sum(value, grid.communicator());
+    };
     RunSummary s;
-    s.fingerprint            = fingerprint_of(changed_physics());
-    s.version                = CAISSON_MPM_VERSION;
-    s.dealii_version         = DEAL_II_PACKAGE_VERSION;
-    s.scene_file             = scene;
-    s.instruction_set        = kernels->name;
-    s.status                 = status;
-    s.ranks                  = 1;
-    s.material_points        = points.n_points();
-    s.cells                  = grid.n_cells();
-    s.body_points            = body_points.size();
-    s.steps                  = step - first_step;
-    s.limiter_count          = n_limited;
-    s.held_back              = points.n_held_back();
-    s.points_lost            = 0; // a lost point ends the run
-    s.max_points_in_body     = max_in_body;
-    s.wall_time_s            = seconds_running();
+    s.fingerprint        = fingerprint_of(changed_physics());
+    s.version            = CAISSON_MPM_VERSION;
+    s.dealii_version     = DEAL_II_PACKAGE_VERSION;
+    s.scene_file         = scene;
+    s.instruction_set    = kernels->name;
+    s.status             = status;
+    s.ranks              = grid.n_ranks();
+    s.repartitions       = n_repartitions;
+    s.material_points    = Utilities::MPI::sum<unsigned long>(points.n_points(),
+                                                           grid.communicator());
+    s.cells              = grid.n_global_cells();
+    s.body_points        = sum(body_points.size());
+    s.steps              = step - first_step;
+    s.limiter_count      = n_limited;
+    s.held_back          = points.n_held_back();
+    s.points_lost        = 0; // a lost point ends the run
+    s.max_points_in_body = max_in_body;
+    s.wall_time_s        = seconds_running();
     s.point_steps_per_second = point_steps / seconds_running();
-    s.peak_memory_bytes      = peak_memory_bytes();
+    s.peak_memory_bytes      = sum(peak_memory_bytes());
     s.body_mass_kg           = 0.;
     for (const BodyPoint &p : body_points)
       s.body_mass_kg += p.mass;
+    s.body_mass_kg = sum(s.body_mass_kg);
     points.for_each([&](const MaterialPoint &p, const unsigned int) {
       s.soil_mass_kg += grid.circumference() * p.mass;
     });
+    s.soil_mass_kg    = sum(s.soil_mass_kg);
     s.time_step_s     = dt;
     s.time_step_limit = time_step.reason();
     s.energies        = energy.entries();
@@ -299,7 +363,11 @@ namespace CaissonMPM
                  {"friction_angle_deg", soil.layer(0).friction_angle()},
                  {"wall_friction_angle_deg", body.friction_angle[outer_wall]},
                  {"K0", soil.layer(0).earth_pressure_at_rest()}};
-    write_run_summary(directory + "/run.json", s);
+    if (grid.is_first_rank())
+      {
+        error_bar.write(directory);
+        write_run_summary(directory + "/run.json", s);
+      }
   }
 
   void

@@ -2,6 +2,7 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/time/time_step.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
 
 #include <algorithm>
@@ -54,7 +55,7 @@ namespace CaissonMPM
     const bool             is_first = limit == 0.;
     if (is_first || ++age == interval)
       {
-        find_moduli(points, soil, materials);
+        find_moduli(grid.communicator(), points, soil, materials);
         find_limit(grid, points, soil, materials);
       }
     if (fixed_step == 0.)
@@ -74,7 +75,8 @@ namespace CaissonMPM
   }
 
   void
-  TimeStep::find_moduli(const MaterialPoints           &points,
+  TimeStep::find_moduli(const MPI_Comm                  communicator,
+                        const MaterialPoints           &points,
                         const Soil                     &soil,
                         std::vector<Kernels::Material> &materials)
   {
@@ -99,10 +101,29 @@ namespace CaissonMPM
                          p.stress,
                          p.void_ratio(soil.layer(p.material).void_ratio())));
     });
+    Utilities::MPI::max(found, communicator, found);
     for (unsigned int i = 0; i < materials.size(); ++i)
       if (found[i] > 0.) // else no point is of this material
         materials[i].p_wave_modulus = margin * found[i];
   }
+
+  namespace
+  {
+    std::string
+    describe(const BackgroundGrid &grid,
+             const unsigned int    cell,
+             const double          speed)
+    {
+      const char *const  names[] = {"moving", "compressing", "upper"};
+      const auto        &g       = grid.geometry(cell);
+      std::ostringstream s;
+      s << "the cell at r = " << g.left << " m, z = " << g.bottom_left
+        << " m of the " << names[static_cast<int>(grid.zone(cell))] << " zone, "
+        << g.width << " m x " << std::min(g.height_left, g.height_right)
+        << " m, wave speed " << speed << " m/s";
+      return s.str();
+    }
+  } // namespace
 
   void
   TimeStep::find_limit(const BackgroundGrid                 &grid,
@@ -138,17 +159,15 @@ namespace CaissonMPM
             limiting = view.active_cells[i];
           }
       }
-    limit = 1. / (speed * std::sqrt(worst));
-    age   = 0;
+    const auto of_all = Utilities::MPI::min_max_avg(worst, grid.communicator());
+    limit             = 1. / (speed * std::sqrt(of_all.max));
+    age               = 0;
 
-    const char *const  names[] = {"moving", "compressing", "upper"};
-    const auto        &g       = grid.geometry(limiting);
-    std::ostringstream s;
-    s << "the cell at r = " << g.left << " m, z = " << g.bottom_left
-      << " m of the " << names[static_cast<int>(grid.zone(limiting))]
-      << " zone, " << g.width << " m x "
-      << std::min(g.height_left, g.height_right) << " m, wave speed " << speed
-      << " m/s";
-    limiting_cell = s.str();
+    std::string text;
+    if (of_all.max_index ==
+        Utilities::MPI::this_mpi_process(grid.communicator()))
+      text = describe(grid, limiting, speed);
+    limiting_cell =
+      Utilities::MPI::broadcast(grid.communicator(), text, of_all.max_index);
   }
 } // namespace CaissonMPM

@@ -53,8 +53,13 @@ namespace CaissonMPM
   /**
    * The mesh, its dofs and its motion.
    *
-   * Cells and nodes are known by local numbers: cells in the order of the
-   * active cells of the triangulation, nodes by the local index of their dof.
+   * A rank knows the cells that it owns and the ghost cells around them, and
+   * the nodes of both, by local numbers: cells in the order of the active cells
+   * of the triangulation, nodes by the local index of their dof, those that it
+   * owns first. Lines, and thus the place of every cell, are known to all. The
+   * global number of a cell is the same on all ranks and for any number of
+   * them.
+   *
    * deal.II owns the mesh; the geometry that the kernels read is kept here and
    * is current after advance(), while the triangulation's own vertices follow
    * only when write_vertices() is called, before deal.II reads them.
@@ -102,6 +107,19 @@ namespace CaissonMPM
     void
     create_mesh();
 
+    /** Number the cells and nodes of this rank's part of the mesh, at the start
+     * of the travel: after each change of the parts. Collective. */
+    void
+    set_up_part();
+
+    /**
+     * Give each rank a part of about the same costs, and number it anew by
+     * set_up_part(). @p costs [n_global_cells] are used of the cells that this
+     * rank owns. Collective.
+     */
+    void
+    repartition(const std::vector<unsigned int> &costs);
+
     /** Compute the geometry at @p travel, which next() gives until advance(). */
     void
     prepare_motion(const double travel);
@@ -128,15 +146,59 @@ namespace CaissonMPM
     void
     reinit(NodalData &vector, const unsigned int components) const;
 
+    MPI_Comm
+    communicator() const
+    {
+      return triangulation.get_communicator();
+    }
+    unsigned int
+    n_ranks() const
+    {
+      return n_ranks_;
+    }
+    bool
+    is_first_rank() const
+    {
+      return rank == 0;
+    }
+
     unsigned int
     n_cells() const
     {
       return nodes.size();
     }
     unsigned int
+    n_global_cells() const
+    {
+      return n_columns() * n_rows();
+    }
+    unsigned int
     n_nodes() const
     {
       return node_r.size();
+    }
+    /** The nodes below this number belong to this rank. What is summed over
+     * the nodes of all ranks must be summed over these. */
+    unsigned int
+    n_owned_nodes() const
+    {
+      return partitioner->locally_owned_size();
+    }
+    /** The rank that a cell belongs to. */
+    unsigned int
+    owner_of(const unsigned int cell) const
+    {
+      return owners[cell];
+    }
+    bool
+    is_owned(const unsigned int cell) const
+    {
+      return owners[cell] == rank;
+    }
+    unsigned int
+    global_number(const unsigned int cell) const
+    {
+      return global_numbers[cell];
     }
     bool
     is_rigid(const unsigned int cell) const
@@ -154,11 +216,20 @@ namespace CaissonMPM
     {
       return zones[cell];
     }
-    /** The cell beyond face 0 (left), 1, 2 (below), 3, or -1. */
+    /** The cell beyond face 0 (left), 1, 2 (below), 3; -1 where there is none,
+     * or none that this rank knows. */
     int
     neighbor(const unsigned int cell, const unsigned int face) const
     {
       return neighbors[4 * cell + face];
+    }
+    /** Whether the face lies on a side of the domain. */
+    bool
+    at_side(const unsigned int cell, const unsigned int face) const
+    {
+      const unsigned int line = face < 2 ? column_of(cell) : row_of(cell);
+      return line ==
+             (face % 2 == 0 ? 0 : (face < 2 ? n_columns() : n_rows()) - 1);
     }
     const Kernels::CellGeometry &
     geometry(const unsigned int cell) const
@@ -173,12 +244,12 @@ namespace CaissonMPM
     unsigned int
     column_of(const unsigned int cell) const
     {
-      return coarse_index[cell] % n_columns();
+      return global_numbers[cell] % n_columns();
     }
     unsigned int
     row_of(const unsigned int cell) const
     {
-      return coarse_index[cell] / n_columns();
+      return global_numbers[cell] / n_columns();
     }
     unsigned int
     n_columns() const
@@ -190,11 +261,17 @@ namespace CaissonMPM
     {
       return rows.size() - 1;
     }
-    /** The local number of a locally relevant active cell. */
+    /** The local number of a cell, or numbers::invalid_unsigned_int where this
+     * rank does not know it. */
+    unsigned int
+    local_number(const unsigned int global_number) const
+    {
+      return local_numbers[global_number];
+    }
     unsigned int
     local_number(const Triangulation::active_cell_iterator &cell) const
     {
-      return local_numbers[cell->active_cell_index()];
+      return local_number(cell->index());
     }
     const Triangulation::active_cell_iterator &
     cell_iterator(const unsigned int cell) const
@@ -218,21 +295,34 @@ namespace CaissonMPM
       return node_z[node];
     }
 
+    /** The geometry at the start of the cell with this global number. */
+    Kernels::CellGeometry
+    initial_geometry(const unsigned int global_number) const;
+
+    /** Whether the cell with this global number is one of the body. */
+    bool
+    is_body_cell(const unsigned int global_number) const
+    {
+      return inside_body(global_number % n_columns(),
+                         global_number / n_columns());
+    }
+
     /**
      * The smallest height that any cell takes of those that contain soil of
-     * cell @p cell at some time of the travel. Units: m. Used for the spacing
-     * of material points.
+     * the cell with this global number at some time of the travel. Units: m.
+     * Used for the spacing of material points.
      */
     double
-    smallest_height_met(const unsigned int cell) const;
+    smallest_height_met(const unsigned int global_number) const;
 
     /**
      * Around an expanding cylinder: the smallest width, as seen at the start,
-     * of the columns that soil of this cell will meet if it flows without
-     * change of volume; else the width of the cell. Units: m.
+     * of the columns that soil of the cell with this global number will meet
+     * if it flows without change of volume; else the width of the cell. Units:
+     * m.
      */
     double
-    smallest_width_met(const unsigned int cell) const;
+    smallest_width_met(const unsigned int global_number) const;
 
     bool
     axisymmetric() const
@@ -341,13 +431,16 @@ namespace CaissonMPM
     std::vector<double> dip; // [columns] depth of the tip below the shoulder
 
     std::vector<Triangulation::active_cell_iterator> iterators;
-    std::vector<unsigned int>                        coarse_index;
-    std::vector<unsigned int>                        local_numbers;
+    std::vector<unsigned int>                        global_numbers;
+    std::vector<unsigned int>                        local_numbers; // by global
+    std::vector<unsigned int>                        owners;
     std::vector<Kernels::CellNodes>                  nodes;
     std::vector<int>                                 neighbors;
     std::vector<int>                                 soil_neighbors;
     std::vector<unsigned char>                       rigid, flags;
     std::vector<Zone>                                zones;
+
+    const unsigned int n_ranks_, rank;
 
     std::array<std::vector<Kernels::CellGeometry>, 2> geometries;
     unsigned int                                      current = 0;

@@ -4,10 +4,10 @@
 #ifndef caisson_mpm_bodies_material_points_h
 #define caisson_mpm_bodies_material_points_h
 
-#include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/bodies/background_grid.h>
+#include <caisson_mpm/bodies/material_point.h>
+#include <caisson_mpm/bodies/point_exchange.h>
 #include <caisson_mpm/kernels/layout.h>
-#include <caisson_mpm/materials/soil.h>
 
 #include <deal.II/particles/particle_handler.h>
 
@@ -15,28 +15,6 @@
 
 namespace CaissonMPM
 {
-  /** One material point, as the code outside the kernels sees it. */
-  struct MaterialPoint
-  {
-    dealii::Point<2> position;
-    double           velocity[2]        = {0., 0.};
-    Stress           stress             = {{0., 0., 0., 0.}};
-    double           mass               = 0.; // scaled, kg per radian
-    double           volume             = 0.; // m3 per radian
-    double           plastic_deviatoric = 0., plastic_volumetric = 0.;
-    StateVariables   state = {}; // of the material law
-    dealii::Point<2> initial_position;
-    double           initial_volume = 0.;
-    double           id             = 0.;
-    unsigned int     material       = 0;
-
-    double
-    void_ratio(const double initial_void_ratio) const
-    {
-      return (1. + initial_void_ratio) * volume / initial_volume - 1.;
-    }
-  };
-
   /**
    * All material points of the soil.
    *
@@ -47,9 +25,10 @@ namespace CaissonMPM
    * class and the kernels know the blocks.
    *
    * Invariants: of the blocks of one cell and material all but the last are
-   * full; every point lies in the cell that owns its block, up to round-off;
-   * cells of the body hold none. The blocks of a cell may lie anywhere; now and
-   * then they are put in the order of the cells.
+   * full; every point lies in the cell that owns its block, up to round-off,
+   * and on the rank that owns this cell; cells of the body hold none. The
+   * blocks of a cell may lie anywhere; now and then they are put in the order
+   * of the cells.
    */
   class MaterialPoints
   {
@@ -77,6 +56,7 @@ namespace CaissonMPM
     void
     store();
 
+    /** Points of this rank. */
     unsigned int
     n_points() const
     {
@@ -92,14 +72,33 @@ namespace CaissonMPM
     leaving();
 
     /**
-     * Bring the points listed in leaving() to the cells that they are in now.
-     * A point that would enter the body is held back at its surface. Throws
-     * RunFailure for a point that left the mesh or is not finite.
+     * Bring the points listed in leaving() to the cells that they are in now,
+     * and to the ranks that own these. A point that would enter the body is
+     * held back at its surface. Throws RunFailure for a point that left the
+     * mesh or is not finite. Collective.
      */
     void
     relocate();
 
-    /** Points that were held back at the body's surface, since the start. */
+    /**
+     * What the cells of this rank cost in a step, by their global number; 0 for
+     * all others. A block costs as much as the work at two cells without
+     * points. [n_global_cells]
+     */
+    std::vector<unsigned int>
+    cell_costs() const;
+
+    /** Take all points out, before the parts of the mesh change. */
+    std::vector<TravelingPoint>
+    take_all();
+
+    /** Bring the points of take_all() to the ranks that own their cells now.
+     * Collective. */
+    void
+    redistribute(const std::vector<TravelingPoint> &traveling);
+
+    /** Points that this rank held back at the body's surface, since the start.
+     */
     unsigned long
     n_held_back() const
     {
@@ -113,7 +112,8 @@ namespace CaissonMPM
       n_held_back_ = n;
     }
 
-    /** Call action(const MaterialPoint &, cell) for every point. */
+    /** Call action(const MaterialPoint &, cell) for every point of this rank.
+     */
     template <typename Action>
     void
     for_each(const Action &action) const
@@ -150,6 +150,10 @@ namespace CaissonMPM
     remove(const unsigned int cell, const int block, const int lane);
     unsigned int
     find_cell(unsigned int cell, MaterialPoint &point);
+    void
+    clear_blocks();
+    void
+    after_moving();
     [[noreturn]] void
     report_lost(const MaterialPoint &point) const;
     void
@@ -159,10 +163,12 @@ namespace CaissonMPM
     void
     put_blocks_in_order();
 
-    BackgroundGrid                    &grid;
-    std::vector<Kernels::PointBlock>   blocks;
-    std::vector<Kernels::BlockHeader>  headers;
-    std::vector<int>                   free_blocks;
+    BackgroundGrid                   &grid;
+    PointExchange                     point_exchange;
+    std::vector<Kernels::PointBlock>  blocks;
+    std::vector<Kernels::BlockHeader> headers;
+    std::vector<int>                  free_blocks;
+    // by cell, -1: none; of a ghost cell 0 where its owner has points in it
     std::vector<int>                   first_block;
     std::vector<unsigned int>          active_cells;
     std::vector<double>                filled_volume; // of the cells

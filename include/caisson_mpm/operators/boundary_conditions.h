@@ -40,7 +40,7 @@ namespace CaissonMPM
      * Set the fixed and the prescribed components of the new velocities @p v
      * [n_nodes], and add the impulse on the soil at prescribed nodes to
      * impulse(). @p mass [n_nodes] is the mass that accelerates.
-     * Returns the work on the soil there. Units: J.
+     * Returns the work on the soil there, of the nodes of this rank. Units: J.
      */
     double
     apply(const std::vector<double> &mass, Kernels::NodalVector *v);
@@ -53,8 +53,8 @@ namespace CaissonMPM
     void
     constrain_difference(Kernels::NodalVector *v) const;
 
-    /** The impulse on the soil at prescribed nodes since the last reset. Units:
-     * N s, whole circumference (per metre in plane strain). */
+    /** The impulse on the soil at this rank's prescribed nodes since the last
+     * reset. Units: N s, whole circumference (per metre in plane strain). */
     const dealii::Tensor<1, 2> &
     impulse() const
     {
@@ -88,6 +88,7 @@ namespace CaissonMPM
     std::vector<Prescribed>   prescribed; // in this step
     dealii::Tensor<1, 2>      impulse_;
     double                    circumference = 2. * pi;
+    unsigned int              n_owned_nodes = 0;
   };
 } // namespace CaissonMPM
 

@@ -31,11 +31,16 @@ namespace CaissonMPM
    * nodes of the body's surface to which soil has brought mass. The grid moves
    * with the body, so that normals never change, nor do areas (but for an
    * expanding cylinder, which has no adhesion).
+   *
+   * Every rank treats all nodes that it knows. It knows the whole surroundings
+   * of those at cells that it owns; what it finds at the others is not used.
+   * What is summed are the nodes that it owns. Not collective.
    */
   class Contact
   {
   public:
-    /** Collect the surface nodes of the body from the grid's rigid cells. */
+    /** Collect the surface nodes of the body from the grid's rigid cells. The
+     * impulses stay. */
     void
     initialize(const BackgroundGrid &grid, const RigidBody &body);
 
@@ -49,7 +54,8 @@ namespace CaissonMPM
      * Correct the new nodal velocities @p v for the body's velocity, and add
      * the impulse on the body to impulse(). @p mass [n_nodes] is the mass that
      * accelerates; a node without soil has mass 0.
-     * Returns the work that the body does on the soil. Units: J.
+     * Returns the work that the body does on the soil, of the nodes of this
+     * rank. Units: J.
      */
     double
     apply(const Vector2             &body_velocity,
@@ -68,7 +74,7 @@ namespace CaissonMPM
     /**
      * The heat of friction of the last apply(): the work of the body less the
      * work of the contact forces on the nodes, whose mean velocity in the step
-     * is @p mean_velocity. Units: J.
+     * is @p mean_velocity, of the nodes of this rank. Units: J.
      */
     double
     friction_heat(const Kernels::NodalVector *mean_velocity) const;
@@ -87,8 +93,9 @@ namespace CaissonMPM
       return on_body[node];
     }
 
-    /** The impulse on the body since the last reset, per surface. Units: N s,
-     * whole circumference (per metre in plane strain). */
+    /** The impulse on the body since the last reset, per surface, of the nodes
+     * of this rank. Units: N s, whole circumference (per metre in plane
+     * strain). */
     const SurfaceForces &
     impulse() const
     {
@@ -97,7 +104,8 @@ namespace CaissonMPM
     void
     reset_impulse(const SurfaceForces &start = SurfaceForces());
 
-    /** Nodes in contact, and of them those that stick, in the last step. */
+    /** Nodes of this rank in contact, and of them those that stick, in the last
+     * step. */
     unsigned int n_touching = 0, n_sticking = 0;
 
   private:
@@ -136,6 +144,7 @@ namespace CaissonMPM
     Vector2                  velocity;
     SurfaceForces            impulses;
     double                   circumference = 2. * pi;
+    unsigned int             n_owned_nodes = 0;
   };
 } // namespace CaissonMPM
 

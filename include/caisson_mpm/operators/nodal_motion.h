@@ -51,7 +51,9 @@ namespace CaissonMPM
 
   /**
    * Nodal sums and velocities of one step. The functions are called in the
-   * order in which they stand here. Collective over MPI.
+   * order in which they stand here. Collective over MPI: what the points of all
+   * ranks bring to a node is summed, and from then on every rank works on all
+   * nodes that it knows.
    */
   class NodalMotion : public dealii::ParameterAcceptor
   {
@@ -93,7 +95,7 @@ namespace CaissonMPM
                      const BoundaryConditions   &boundary_conditions,
                      const Contact              &contact);
 
-    /** The works of this step. */
+    /** The works of this step, of the nodes of this rank. */
     NodalWork
     work_of_step(const double              dt,
                  const BoundaryConditions &boundary_conditions,
@@ -116,8 +118,8 @@ namespace CaissonMPM
     Kernels::UpdateSettings
     update_settings(const double dt) const;
 
-    /** Mass that the floor added in the last step, of all nodes, in the units
-     * of the scaled mass. Units: kg per radian. */
+    /** Mass that the floor added in the last step at the nodes of this rank, in
+     * the units of the scaled mass. Units: kg per radian. */
     double added_mass = 0.;
 
     /** Whether all nodal velocities of the last step are finite. */
@@ -178,9 +180,10 @@ namespace CaissonMPM
 
     std::vector<double> load; // nodal body force of Loads, or empty
 
-    double circumference = 2. * pi;
-    double work_of_body = 0., work_of_prescribed = 0.; // in this step
-    std::vector<double>               mass;            // that accelerates
+    unsigned int n_owned_nodes = 0;
+    double       circumference = 2. * pi;
+    double       work_of_body = 0., work_of_prescribed = 0.; // in this step
+    std::vector<double>               mass;                  // that accelerates
     std::vector<Kernels::CellMoments> moments;
     NodalData sums, old_velocity, new_velocity, transfer_velocity,
       strain_velocity, work[2];

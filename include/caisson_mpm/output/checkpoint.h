@@ -18,7 +18,8 @@
 
 namespace CaissonMPM
 {
-  /** What the run must know besides the material points. SI units. */
+  /** What the run must know besides the material points: values of all ranks,
+   * of which the first one's are written. SI units. */
   struct CheckpointState
   {
     double        time          = 0.;
@@ -48,7 +49,9 @@ namespace CaissonMPM
   /**
    * Bring the points and the grid to the state of the checkpoint, and return
    * it. The mesh of the same scene must have been created, and @p points must
-   * be empty or are replaced. Throws BadInput where there is no checkpoint, it
+   * be empty or are replaced. The parts of the ranks are new: all else that
+   * knows cells or nodes must be set up again. Throws BadInput where there is
+   * no checkpoint, it
    * is damaged, or @p fingerprint differs from the one it was written with,
    * naming the first line that differs. Collective.
    */

@@ -29,7 +29,8 @@ namespace CaissonMPM
 
   /**
    * The balance of a run. add() is called in every step, close() at records;
-   * the values are those of the last record. Not collective.
+   * the values are those of the last record. Not collective: of several ranks
+   * each adds its own works, which are summed on one of them before close().
    */
   class EnergyBalance
   {
@@ -45,6 +46,10 @@ namespace CaissonMPM
     /** Draw up the balance for this state of the points. */
     void
     close(const PointEnergies &points);
+
+    /** What add() sums. */
+    std::vector<double *>
+    works();
 
     /** All that a continued run needs, and back. */
     std::vector<double>

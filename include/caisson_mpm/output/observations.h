@@ -16,7 +16,7 @@
 #define caisson_mpm_output_observations_h
 
 #include <caisson_mpm/base/expression.h>
-#include <caisson_mpm/bodies/material_points.h>
+#include <caisson_mpm/bodies/all_points.h>
 #include <caisson_mpm/output/point_quantities.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -47,7 +47,8 @@ namespace CaissonMPM
    * end
    * @endcode
    *
-   * The values are those of all points of one rank; not collective.
+   * The values are those of the points of all ranks, on the first one; not
+   * collective.
    */
   class Observations : public dealii::ParameterAcceptor
   {
@@ -66,7 +67,7 @@ namespace CaissonMPM
     /** The value of each observation. Throws RunFailure where a region has no
      * points. */
     std::vector<double>
-    values(const MaterialPoints &points, const double time) const;
+    values(const AllPoints &points, const double time) const;
 
   private:
     std::string              entry;

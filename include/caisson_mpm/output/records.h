@@ -41,9 +41,9 @@ namespace CaissonMPM
     void
     resume(const double time);
 
-    /** Add the record of this row and the state of the points. */
+    /** Add the record of this row, and the values of the observations. */
     void
-    append(const HistoryRow &row, const MaterialPoints &points);
+    append(const HistoryRow &row, const std::vector<double> &observed);
 
     /** The names of all columns but the time; @p observed are those of the
      * observations. */

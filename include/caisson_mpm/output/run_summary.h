@@ -22,6 +22,7 @@ namespace CaissonMPM
     /** How the run ended, e.g. "finished". */
     std::string   status;
     unsigned int  ranks                  = 1;
+    unsigned int  repartitions           = 0; // to even out the work of ranks
     unsigned long material_points        = 0;
     unsigned long cells                  = 0;
     unsigned long body_points            = 0;
@@ -32,13 +33,13 @@ namespace CaissonMPM
     unsigned long max_points_in_body     = 0;
     double        wall_time_s            = 0.;
     double        point_steps_per_second = 0.;
-    double        peak_memory_bytes      = 0.;
+    double        peak_memory_bytes      = 0.; // of all ranks together
     double        body_mass_kg           = 0.;
     double        soil_mass_kg           = 0.; // scaled, as added_mass_kg
     double        time_step_s            = 0.;
     /** What limits the time step. */
     std::string time_step_limit;
-    /** Seconds in each section of the time step. */
+    /** Seconds in each section of the time step, of the first rank. */
     std::vector<std::pair<std::string, double>> sections;
     /** The energy balance at the end: external_work_J, ... */
     std::vector<std::pair<std::string, double>> energies;

@@ -7,7 +7,7 @@
 #define caisson_mpm_output_verification_h
 
 #include <caisson_mpm/base/console.h>
-#include <caisson_mpm/bodies/material_points.h>
+#include <caisson_mpm/bodies/all_points.h>
 #include <caisson_mpm/output/records.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -32,7 +32,8 @@ namespace CaissonMPM
    * end
    * @endcode
    *
-   * The values are those of all points of one rank; not collective.
+   * The values are those of the points of all ranks, on the first one; not
+   * collective.
    */
   class Verification : public dealii::ParameterAcceptor
   {
@@ -55,11 +56,11 @@ namespace CaissonMPM
      * a check finds no point or record.
      */
     bool
-    run(const MaterialPoints &points,
-        const Records        &records,
-        const double          time,
-        const std::string    &directory,
-        Console              &console) const;
+    run(const AllPoints   &points,
+        const Records     &records,
+        const double       time,
+        const std::string &directory,
+        Console           &console) const;
 
   private:
     std::string entry;

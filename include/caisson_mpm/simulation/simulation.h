@@ -43,7 +43,11 @@ namespace CaissonMPM
    *
    * Construct it, fill the parameters (ParameterAcceptor::initialize or
    * parse_all_parameters), and call run(). advance() is one time step and reads
-   * in the order of the method. Collective over MPI; one rank so far.
+   * in the order of the method. Collective over MPI.
+   *
+   * Each rank works on the cells that it owns and the points in them. Sums over
+   * nodes, points and steps are of one rank until bring_sums_to_first_rank();
+   * the first rank prints and writes.
    */
   class Simulation : public dealii::ParameterAcceptor
   {
@@ -68,6 +72,12 @@ namespace CaissonMPM
   private:
     void
     set_up(const std::string &output_directory, const bool restart);
+    /** Set up what knows the cells or nodes of this rank. */
+    void
+    set_up_part();
+    /** Even out the work of the ranks if it differs much. */
+    void
+    balance();
     void
     schedule_frames();
     void
@@ -90,9 +100,17 @@ namespace CaissonMPM
     update_points(const Kernels::GridView &view);
     void
     report_not_finite() const;
+    std::string
+    reason_to_stop();
+    bool
+    verify();
 
     void
     output();
+    bool
+    checkpoint_is_due();
+    void
+    bring_sums_to_first_rank();
     void
     record();
     void
@@ -110,7 +128,7 @@ namespace CaissonMPM
     void
     save_checkpoint();
     void
-    resume_record(const std::vector<double> &numbers);
+    resume_sums(const CheckpointState &state);
     void
     write_summary(const std::string &status);
     void
@@ -164,6 +182,10 @@ namespace CaissonMPM
     double        time = 0., dt = 0.;
     unsigned long step = 0, n_limited = 0;
     EnergyBalance energy;
+
+    // of several ranks
+    double       accepted_imbalance = 1.1; // largest over mean work
+    unsigned int n_repartitions     = 0;
 
     // output
     std::unique_ptr<Console>       console;

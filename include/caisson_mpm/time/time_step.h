@@ -30,6 +30,7 @@ namespace CaissonMPM
      * The step of the current geometry. The limit is found anew every few
      * steps only: the mesh moves slowly. So is the p-wave modulus of
      * @p materials whose stiffness varies, with a margin for the steps between.
+     * The same on all ranks; collective.
      */
     double
     choose(const BackgroundGrid           &grid,
@@ -52,7 +53,8 @@ namespace CaissonMPM
 
   private:
     void
-    find_moduli(const MaterialPoints           &points,
+    find_moduli(const MPI_Comm                  communicator,
+                const MaterialPoints           &points,
                 const Soil                     &soil,
                 std::vector<Kernels::Material> &materials);
     void
