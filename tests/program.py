@@ -651,10 +651,10 @@ def test_ranks_agree():
 def test_ranks_restart():
     """A checkpoint of two ranks is continued on one and on three."""
     whole, stopped = directory('ranks_whole'), directory('ranks_stopped')
-    entries = {'Output/Record interval': 0.05}
+    entries = {'Output/Record interval': 0.05, 'Time/End penetration': 1}
     jack(whole, **entries)
     on_ranks(2, STOPPED, scene('jack'), '--output-directory', stopped,
-             **entries, **{'Run control/Wall time limit': 0.6})
+             **entries, **{'Run control/Wall time limit': 0.2})
     for n in (1, 3):
         path = directory(f'ranks_restart_{n}')
         shutil.copytree(stopped, path)
