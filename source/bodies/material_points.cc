@@ -115,6 +115,7 @@ namespace CaissonMPM
           {
             // by a quarter: a million points take gigabytes
             blocks.reserve(blocks.size() + blocks.size() / 4 + 64);
+            headers.reserve(blocks.capacity());
             use_large_pages();
           }
         free_blocks.push_back(blocks.size());
@@ -369,7 +370,7 @@ namespace CaissonMPM
     clear_blocks();
     for (const TravelingPoint &p : send_to_owners(grid, traveling))
       add(grid.local_number(p.cell), p.point);
-    after_moving();
+    settle();
   }
 
   // ------------------------------------------------------------ splitting
@@ -698,7 +699,16 @@ namespace CaissonMPM
   }
 
   void
-  MaterialPoints::after_moving()
+  MaterialPoints::reset(const unsigned long n_blocks)
+  {
+    clear_blocks();
+    blocks.reserve(n_blocks);
+    headers.reserve(n_blocks);
+    use_large_pages();
+  }
+
+  void
+  MaterialPoints::settle()
   {
     collect_active_cells();
     if (grid.n_ranks() == 1)
@@ -737,6 +747,6 @@ namespace CaissonMPM
             p);
       }
     handler.clear_particles();
-    after_moving();
+    settle();
   }
 } // namespace CaissonMPM

@@ -173,6 +173,48 @@ namespace CaissonMPM
     };
   } // namespace
 
+  std::array<unsigned int, 2>
+  PointGenerator::number_of_parts(const BackgroundGrid &grid,
+                                  const RigidBody      &body,
+                                  const unsigned int    cell) const
+  {
+    const auto         g = grid.initial_geometry(cell);
+    const unsigned int n = points_per_direction(g, body, grid.total_travel());
+    if (adaptive)
+      return {{n, n}};
+    const double height = std::max(g.height_left, g.height_right);
+    return {{static_cast<unsigned int>(
+               std::ceil(n * g.width / grid.smallest_width_met(cell) - 1e-6)),
+             static_cast<unsigned int>(
+               std::ceil(n * height / grid.smallest_height_met(cell) - 1e-6))}};
+  }
+
+  bool
+  PointGenerator::may_hold_soil(const BackgroundGrid &grid,
+                                const unsigned int    cell) const
+  {
+    const auto   g        = grid.initial_geometry(cell);
+    const double center_z = g.bottom_left + .5 * g.height_left;
+    return !grid.is_body_cell(cell) && center_z <= region_top &&
+           center_z >= region_bottom;
+  }
+
+  void
+  PointGenerator::reserve(const BackgroundGrid &grid,
+                          const RigidBody      &body,
+                          MaterialPoints       &points) const
+  {
+    unsigned long n_blocks = 0;
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (grid.is_owned(cell) && may_hold_soil(grid, grid.global_number(cell)))
+        {
+          const auto n = number_of_parts(grid, body, grid.global_number(cell));
+          n_blocks +=
+            (n[0] * n[1] + Kernels::block_size - 1) / Kernels::block_size;
+        }
+    points.reset(n_blocks + n_blocks / 16);
+  }
+
   void
   PointGenerator::generate(const BackgroundGrid &grid,
                            const RigidBody      &body,
@@ -180,7 +222,7 @@ namespace CaissonMPM
                            const double          mass_scaling,
                            MaterialPoints       &points) const
   {
-    points.clear_handler();
+    reserve(grid, body, points);
     const Expression       in_region = parse_region();
     const VectorExpression velocity  = soil.initial_velocity();
     RandomNumbers          random(seed);
@@ -194,25 +236,14 @@ namespace CaissonMPM
     // position do not depend on the number of ranks.
     for (unsigned int cell = 0; cell < grid.n_global_cells(); ++cell)
       {
-        const auto   g        = grid.initial_geometry(cell);
-        const double center_z = g.bottom_left + .5 * g.height_left;
-        if (grid.is_body_cell(cell) || center_z > region_top ||
-            center_z < region_bottom)
+        if (!may_hold_soil(grid, cell))
           continue;
+        const auto         g     = grid.initial_geometry(cell);
         const unsigned int local = grid.local_number(cell);
         const bool         owned =
           local != numbers::invalid_unsigned_int && grid.is_owned(local);
-        const unsigned int n =
-          points_per_direction(g, body, grid.total_travel());
-        const unsigned int n_r =
-          adaptive ?
-            n :
-            std::ceil(n * g.width / grid.smallest_width_met(cell) - 1e-6);
-        const double       height = std::max(g.height_left, g.height_right);
-        const unsigned int n_z =
-          adaptive ?
-            n :
-            std::ceil(n * height / grid.smallest_height_met(cell) - 1e-6);
+        const auto         parts = number_of_parts(grid, body, cell);
+        const unsigned int n_r = parts[radial], n_z = parts[vertical];
         for (unsigned int i = 0; i < n_r; ++i)
           {
             const auto moments =
@@ -248,11 +279,12 @@ namespace CaissonMPM
                 p.state  = states[p.material];
                 p.volume = p.initial_volume = moments[k] / n_z;
                 p.size[radial]              = g.width / n_r;
-                p.size[vertical]            = height / n_z;
+                p.size[vertical] =
+                  std::max(g.height_left, g.height_right) / n_z;
                 p.mass =
                   mass_scaling * soil.inertial_density(p.material) * p.volume;
                 p.id = number;
-                points.insert(local, p);
+                points.add(local, p);
               }
           }
       }
@@ -260,7 +292,6 @@ namespace CaissonMPM
       throw BadInput("No material point lies in the region of the soil: check "
                      "Material points/Region left, right, bottom and top, and "
                      "Region, against the mesh.");
-    points.handler.update_cached_numbers();
-    points.load();
+    points.settle();
   }
 } // namespace CaissonMPM

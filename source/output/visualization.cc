@@ -117,13 +117,19 @@ namespace CaissonMPM
         , handler(grid.triangulation, grid.mapping, n_written)
       {}
 
+      /** The points of this rank from number begin to end. */
       void
-      add_soil(const MaterialPoints &points, const Soil &soil)
+      add_soil(const MaterialPoints    &points,
+               const Soil              &soil,
+               const unsigned long long begin,
+               const unsigned long long end)
       {
-        n_points                   = number_of_first(points.n_points());
-        const double circumference = grid.circumference();
+        const double       circumference = grid.circumference();
+        unsigned long long i             = 0;
         points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
-          add(p.position, properties_of(p, soil, circumference), cell);
+          if (i >= begin && i < end)
+            add(p.position, properties_of(p, soil, circumference), cell);
+          ++i;
         });
       }
 
@@ -133,7 +139,6 @@ namespace CaissonMPM
                const double                  travel,
                const double                  time)
       {
-        n_points = number_of_first(points.size());
         for (const BodyPoint &p : points)
           {
             const Point<2>     position = body.moved(p.position, travel);
@@ -166,25 +171,6 @@ namespace CaissonMPM
       }
 
     private:
-      /** The number of the first of @p n points of this rank, behind those of
-       * the ranks before it and what was numbered so far. */
-      types::particle_index
-      number_of_first(const types::particle_index n)
-      {
-        const MPI_Comm        communicator = grid.communicator();
-        types::particle_index before       = 0;
-        const int             error        = MPI_Exscan(&n,
-                                     &before,
-                                     1,
-                                     DEAL_II_PARTICLE_INDEX_MPI_TYPE,
-                                     MPI_SUM,
-                                     communicator);
-        AssertThrowMPI(error);
-        const types::particle_index start = n_numbered;
-        n_numbered += Utilities::MPI::sum(n, communicator);
-        return start + (grid.is_first_rank() ? 0 : before);
-      }
-
       void
       add(const Tensor<1, 2> &position,
           const Properties   &values,
@@ -201,7 +187,7 @@ namespace CaissonMPM
 
       const BackgroundGrid         &grid;
       Particles::ParticleHandler<2> handler;
-      types::particle_index         n_points = 0, n_numbered = 0;
+      types::particle_index         n_points = 0; // numbers are not written
     };
 
     /** The cells with their data; the vertices must have been written. */
@@ -224,15 +210,17 @@ namespace CaissonMPM
         });
       }
 
-      void
-      build_patches(const BackgroundGrid &grid, DataOut<2> &data_out) const
+      DataOut<2>
+      patches(const BackgroundGrid &grid) const
       {
+        DataOut<2> data_out;
         const auto cells = DataOut<2>::DataVectorType::type_cell_data;
         data_out.attach_triangulation(grid.triangulation);
         data_out.add_data_vector(material_id, "material_id", cells);
         data_out.add_data_vector(zone, "zone", cells);
         data_out.add_data_vector(material_points, "material_points", cells);
         data_out.build_patches(grid.mapping);
+        return data_out;
       }
 
     private:
@@ -246,42 +234,53 @@ namespace CaissonMPM
     };
 
     /**
-     * Write "<name>.vtu", or with several ranks one piece each and
-     * "<name>.pvtu", and return the name of what the series shall list. All
-     * ranks throw if one cannot write.
+     * Write "<name>.vtu", or several pieces and "<name>.pvtu" where there are
+     * several ranks or pieces of a rank, and return the name of what the series
+     * shall list. make(i) gives the i-th piece of this rank, of @p n_pieces on
+     * each; one at a time is in memory. All ranks throw if one cannot write.
      */
-    template <int dim>
+    template <typename MakePiece>
     std::string
-    write_vtu(DataOutInterface<dim, 2> &data_out,
-              const std::string        &directory,
-              const std::string        &name,
-              const double              time,
-              const MPI_Comm            communicator)
+    write_vtu(const std::string &directory,
+              const std::string &name,
+              const double       time,
+              const MPI_Comm     communicator,
+              const unsigned int n_pieces,
+              const MakePiece   &make)
     {
-      const unsigned int rank  = Utilities::MPI::this_mpi_process(communicator);
-      const unsigned int size  = Utilities::MPI::n_mpi_processes(communicator);
-      const auto         piece = [&](const unsigned int i) {
-        return name + (size > 1 ? "." + std::to_string(i) : "") + ".vtu";
+      const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+      const unsigned int n =
+        n_pieces * Utilities::MPI::n_mpi_processes(communicator);
+      const auto file = [&](const unsigned int i) {
+        return name + (n > 1 ? "." + std::to_string(i) : "") + ".vtu";
       };
-      std::ostringstream text;
-      data_out.set_flags(Compat::vtk_flags(time));
-      data_out.write_vtu(text);
-      int error = try_to_write(directory + "/" + piece(rank), text.str());
-      if (size > 1 && rank == 0 && error == 0)
+      int error = 0;
+      for (unsigned int i = 0; i < n_pieces; ++i)
         {
-          std::vector<std::string> pieces;
-          for (unsigned int i = 0; i < size; ++i)
-            pieces.push_back(piece(i));
-          std::ostringstream record;
-          data_out.write_pvtu_record(record, pieces);
-          error = try_to_write(directory + "/" + name + ".pvtu", record.str());
+          auto               piece = make(i);
+          std::ostringstream text;
+          piece.set_flags(Compat::vtk_flags(time));
+          piece.write_vtu(text);
+          if (error == 0)
+            error = try_to_write(directory + "/" + file(rank * n_pieces + i),
+                                 text.str());
+          if (n > 1 && rank == 0 && i == 0 && error == 0)
+            {
+              std::vector<std::string> pieces;
+              for (unsigned int k = 0; k < n; ++k)
+                pieces.push_back(file(k));
+              std::ostringstream record;
+              piece.write_pvtu_record(record, pieces);
+              error =
+                try_to_write(directory + "/" + name + ".pvtu", record.str());
+            }
         }
       error = Utilities::MPI::max(error, communicator);
       if (error != 0)
-        report_unwritable(directory + "/" + piece(rank),
+        report_unwritable(directory + "/" + file(rank * n_pieces),
                           error,
                           "the frames so far are kept");
-      return size > 1 ? name + ".pvtu" : piece(0);
+      return n > 1 ? name + ".pvtu" : file(0);
     }
 
 
@@ -371,18 +370,37 @@ namespace CaissonMPM
     const unsigned int number       = next_number();
     const MPI_Comm     communicator = grid.communicator();
 
-    PointCloud cloud(grid);
-    cloud.add_soil(points, soil);
-    cloud.add_body(body_points, body, travel, time);
-    Particles::DataOut<2> point_output = cloud.build();
-    const std::string     point_file   = write_vtu(
-      point_output, directory, numbered("points", number), time, communicator);
+    // deal.II takes about a kilobyte for each point that it writes
+    constexpr unsigned long long points_per_piece = 100000;
+    const unsigned int           n_pieces =
+      Utilities::MPI::max(static_cast<unsigned int>(
+                            points.n_points() / points_per_piece + 1),
+                          communicator);
+    const std::string point_file =
+      write_vtu(directory,
+                numbered("points", number),
+                time,
+                communicator,
+                n_pieces,
+                [&](const unsigned int i) {
+                  PointCloud cloud(grid);
+                  cloud.add_soil(points,
+                                 soil,
+                                 i * points_per_piece,
+                                 (i + 1) * points_per_piece);
+                  if (i == 0)
+                    cloud.add_body(body_points, body, travel, time);
+                  return cloud.build();
+                });
 
-    const CellFields cells(grid, points);
-    DataOut<2>       grid_output;
-    cells.build_patches(grid, grid_output);
-    const std::string grid_file = write_vtu(
-      grid_output, directory, numbered("grid", number), time, communicator);
+    const CellFields  cells(grid, points);
+    const std::string grid_file =
+      write_vtu(directory,
+                numbered("grid", number),
+                time,
+                communicator,
+                1,
+                [&](const unsigned int) { return cells.patches(grid); });
 
     point_frames.emplace_back(time, point_file);
     grid_frames.emplace_back(time, grid_file);

@@ -42,6 +42,19 @@ namespace CaissonMPM
 
     explicit MaterialPoints(BackgroundGrid &grid);
 
+    /** Forget all points; make room for so many blocks of eight. */
+    void
+    reset(const unsigned long n_blocks);
+
+    /** Add a point to a cell of this rank in which it lies; settle() must
+     * follow. */
+    void
+    add(const unsigned int cell, const MaterialPoint &point);
+
+    /** Make view() complete after add(). Collective. */
+    void
+    settle();
+
     /** Make the handler empty and ready for insert(). */
     void
     clear_handler();
@@ -172,8 +185,6 @@ namespace CaissonMPM
     // with a cell in or near which it lies
     using PlacedPoint = std::pair<unsigned int, MaterialPoint>;
 
-    void
-    add(const unsigned int cell, const MaterialPoint &point);
     MaterialPoint
     get(const int block, const int lane) const;
     void
@@ -208,8 +219,6 @@ namespace CaissonMPM
     find_cell(unsigned int cell, MaterialPoint &point);
     void
     clear_blocks();
-    void
-    after_moving();
     [[noreturn]] void
     report_lost(const MaterialPoint &point) const;
     void
