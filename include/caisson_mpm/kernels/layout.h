@@ -50,11 +50,12 @@ namespace CaissonMPM
     };
 
     /** A trapezoid with vertical sides; heights of its left and right side. */
-    struct CellGeometry
+    struct alignas(64) CellGeometry
     {
       double left, width;
       double bottom_left, bottom_right;
       double height_left, height_right;
+      double padding[2] = {}; // a cache line
     };
 
     /** The dofs of a cell's corners (0,0), (1,0), (0,1), (1,1). */
@@ -83,7 +84,7 @@ namespace CaissonMPM
     };
 
     /** The nodal sums of points_to_grid, interleaved per node. */
-    struct NodalSums
+    struct alignas(64) NodalSums
     {
       double mass;        // kg per radian
       double momentum[2]; // kg m/s per radian
@@ -115,8 +116,9 @@ namespace CaissonMPM
         // the fit of a full cell: per component value, slope in x, slope in y
         double fit[12];
       };
-      bool full; // takes Gauss points
-      bool several_materials;
+      bool  full; // takes Gauss points
+      bool  several_materials;
+      short material; // of the first MP
     };
 
     struct PointsView

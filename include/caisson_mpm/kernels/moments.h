@@ -130,21 +130,18 @@ namespace CaissonMPM
         CAISSON_INLINE CellMap<Number>
                        map(const CellGeometry *geometry) const
         {
+          const double *rows[Number::width];
+          for (int i = 0; i < Number::width; ++i)
+            rows[i] = &geometry[cell[i]].left;
+          LaneSums<Number, 8> g; // in the order of CellGeometry
+          g.load_lanes(rows);
           CellMap<Number> m;
-          const auto      of = [&](const auto &value) {
-            return lanes(
-              [&](const unsigned int c) { return value(geometry[c]); });
-          };
-          m.left   = of([](const CellGeometry &g) { return g.left; });
-          m.width  = of([](const CellGeometry &g) { return g.width; });
-          m.bottom = of([](const CellGeometry &g) { return g.bottom_left; });
-          m.bottom_slope = of([](const CellGeometry &g) {
-            return g.bottom_right - g.bottom_left;
-          });
-          m.height = of([](const CellGeometry &g) { return g.height_left; });
-          m.height_slope  = of([](const CellGeometry &g) {
-            return g.height_right - g.height_left;
-          });
+          m.left          = g.sum[0];
+          m.width         = g.sum[1];
+          m.bottom        = g.sum[2];
+          m.bottom_slope  = g.sum[3] - g.sum[2];
+          m.height        = g.sum[4];
+          m.height_slope  = g.sum[5] - g.sum[4];
           m.inverse_width = Number(1.) / m.width;
           return m;
         }

@@ -65,28 +65,29 @@ namespace CaissonMPM
                 const CellNodes         *nodes_of,
                 NodalSums               *nodes) const
         {
+          constexpr int width = Number::width, n_sums = 8;
+          static_assert(sizeof(NodalSums) == n_sums * sizeof(double));
           for (int k = 0; k < 4; ++k)
             {
               // in the order of NodalSums
-              constexpr int      n_sums      = 6;
-              const Number       all[n_sums] = {mass[k],
-                                                momentum[0][k],
-                                                momentum[1][k],
-                                                force[0][k],
-                                                force[1][k],
-                                                stiffness[k]};
-              alignas(64) double value[n_sums][Number::width];
-              for (int j = 0; j < n_sums; ++j)
-                all[j].store(value[j]);
-              for (int i = 0; i < group.n; ++i)
+              const Number all[n_sums] = {mass[k],
+                                          momentum[0][k],
+                                          momentum[1][k],
+                                          force[0][k],
+                                          force[1][k],
+                                          stiffness[k],
+                                          Number(0.),
+                                          Number(0.)};
+              for (int j = 0; j < n_sums; j += width)
                 {
-                  NodalSums &node = nodes[nodes_of[group.cell[i]].node[k]];
-                  node.mass += value[0][i];
-                  node.momentum[0] += value[1][i];
-                  node.momentum[1] += value[2][i];
-                  node.force[0] += value[3][i];
-                  node.force[1] += value[4][i];
-                  node.stiffness += value[5][i];
+                  Number of_cell[width];
+                  transpose(all + j, of_cell);
+                  for (int i = 0; i < group.n; ++i)
+                    {
+                      double *const node =
+                        &nodes[nodes_of[group.cell[i]].node[k]].mass + j;
+                      (Number::load(node) + of_cell[i]).store(node);
+                    }
                 }
             }
         }
@@ -227,6 +228,7 @@ namespace CaissonMPM
         sums.store(moments.mass);
         internal.store(moments.internal);
         moments.several_materials = several;
+        moments.material          = material;
       }
 
       /** The sums as the cell is integrated, over Gauss points or points. */
@@ -302,16 +304,15 @@ namespace CaissonMPM
                       const unsigned int cell,
                       const CellMoments &moments)
       {
-        int    block  = points.first_block[cell];
-        double result = 0.;
-        do
-          {
-            const double own =
-              materials[points.headers[block].material].p_wave_modulus;
-            result = own > result ? own : result;
-            block  = points.headers[block].next;
-          }
-        while (moments.several_materials && block >= 0);
+        double result = materials[moments.material].p_wave_modulus;
+        if (moments.several_materials)
+          for (int block = points.first_block[cell]; block >= 0;
+               block     = points.headers[block].next)
+            {
+                  const double own =
+                    materials[points.headers[block].material].p_wave_modulus;
+                  result = own > result ? own : result;
+            }
         return result;
       }
 
@@ -397,14 +398,13 @@ namespace CaissonMPM
             LaneSums<Number, 16> internal;
             sums.load_lanes(rows);
             internal.load_lanes(internal_rows);
-            const auto first = [&](const unsigned int c) -> const Material & {
-              return materials[points.headers[points.first_block[c]].material];
-            };
             const Number body_force[2] = {
-              group.lanes(
-                [&](const unsigned int c) { return first(c).body_force[0]; }),
-              group.lanes(
-                [&](const unsigned int c) { return first(c).body_force[1]; })};
+              group.lanes([&](const unsigned int c) {
+                return materials[moments[c].material].body_force[0];
+              }),
+              group.lanes([&](const unsigned int c) {
+                return materials[moments[c].material].body_force[1];
+              })};
             CellContribution<Number> contribution(sums, body_force);
             const auto full = group.lanes([&](const unsigned int c) {
               return moments[c].full ? 1. : 0.;
