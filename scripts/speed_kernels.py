@@ -6,6 +6,8 @@ import math
 import statistics
 import subprocess
 
+import numpy as np
+
 from speed_report import COLORS, Report, panels
 from speed_runs import INSTRUCTION_SETS, KERNELS, ROOT
 
@@ -74,6 +76,14 @@ def sets_in(rates):
     return [s for s in INSTRUCTION_SETS if any(key[0] == s for key in rates)]
 
 
+def cost_of_cell_and_block(rates, s, shear, kernel):
+    """ns, by least squares of the time per cell over its number of blocks."""
+    blocks = [math.ceil(n / 8) for n in POINTS_PER_CELL]
+    per_cell = [1e3 * n / rates[s, n, shear, kernel] for n in POINTS_PER_CELL]
+    per_block, rest = np.polyfit(blocks, per_cell, 1)
+    return float(rest), float(per_block)
+
+
 def draw_kernels(rates):
     figure, axes = panels(3)
     names = ["points_to_grid", "grid_to_points", "both_transfers"]
@@ -111,13 +121,24 @@ def measure_kernels(options):
                     + [statistics.median(a / b for a, b in zip(v, value[0]))
                        for v in value[1:]])
     report.say(f"`kernel_benchmark {points}`: million points per second on one "
-               f"core, medians of {options.repeats} rounds of its best times. "
+               f"core, medians of the rounds ({options.repeats}) of its best times. "
                "Mohr-Coulomb sand, at rest or sheared so that every point "
                "yields in every step. Moments that the last step has left make "
                "points to grid cheap: it does not touch the points.")
     report.table("kernels",
                  ["kernel", "sand", "points per cell"] + sets
                  + [f"{s} / {sets[0]}" for s in sets[1:]], rows)
+    report.say("Time per cell as that of the cell itself and of each of its "
+               "blocks of eight, by least squares over the four numbers of "
+               "points (ns):")
+    report.table("kernels_cell_and_block",
+                 ["both transfers"] + [f"{s}, {what}" for s in sets
+                                       for what in ("cell", "block")],
+                 [[sand] + [cost for s in sets for cost in
+                            cost_of_cell_and_block(rates, s, shear,
+                                                   "both_transfers")]
+                  for sand, shear in (("elastic", AT_REST),
+                                      ("yielding", YIELDING))])
     report.picture(draw_kernels(rates), "Kernels")
     report.write()
 

@@ -53,7 +53,7 @@ def measure_step(options):
     one = results[sets[0]][0]
     report.say(f"`prm/jack.prm` with {one.points:,} points, all as it is there, "
                f"pushed for {until:g} s ({one.steps} steps), one core, medians "
-               f"of {options.repeats} rounds.")
+               f"of the rounds ({options.repeats}).")
     report.table(
         "step", ["instruction set", "ns per point-step",
                  "million point-steps/s", "the same with set-up",
@@ -317,8 +317,9 @@ def measure_needs(options):
              median_ratio(r, base, step), median_ratio(r, base, point)]
             for name, r in results.items()]
     report.say("`prm/jack.prm` with one thing changed, without output, medians "
-               f"of the ratios in each of {options.repeats} rounds. A scene "
-               "pays for what it takes only where the ratio is below one.")
+               f"of the ratios in each round ({options.repeats}). A scene pays "
+               "only for what it takes: what it leaves out has a ratio below "
+               "one, and cells without points one of one.")
     report.table("needs", ["changed", "points", "ms per step",
                            "per step, over default",
                            "per point-step, over default"], rows)

@@ -123,8 +123,8 @@ def measure_refinement(options):
                  ["meshes"] + [f"at t/{across}" for across in meshes]
                  + ["at equal error", "error (%)"], ratios)
     report.say("The whole installation, `prm/jack.prm`, with uniform cells of "
-               "0.05 m and 3 x 3 points would cost per step (the number of "
-               "steps is the same):")
+               "0.05 m and 3 x 3 points would cost per step, of which there are "
+               "about as many:")
     report.table("refinement_jack", ["mesh", "points", "ms per step"],
                  whole_caisson(options.quick))
     report.write()

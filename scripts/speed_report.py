@@ -4,7 +4,7 @@ import csv
 
 from matplotlib.figure import Figure
 
-from speed_runs import RESULTS
+from speed_runs import RESULTS, machine
 
 COLORS = {"SSE2": "#8c8c8c", "AVX2": "#3b7dd8", "AVX-512": "#d1495b"}
 
@@ -23,7 +23,7 @@ class Report:
         with open(RESULTS / f"{name}.csv", "w", encoding="utf-8",
                   newline="") as file:
             csv.writer(file).writerows([columns] + rows)
-        lines = [" | ".join(columns), "|".join("---" for _ in columns)]
+        lines = [" | ".join(columns), " | ".join("---" for _ in columns)]
         lines += [" | ".join(shown(cell) for cell in row) for row in rows]
         self.parts.append("\n".join(f"| {line} |" for line in lines))
 
@@ -33,7 +33,7 @@ class Report:
         self.parts.append(f"![{caption}](pictures/{name})")
 
     def write(self):
-        text = "\n\n".join(self.parts) + "\n"
+        text = "\n\n".join(self.parts + [f"{machine()}."]) + "\n"
         (RESULTS / f"{self.name}.md").write_text(text, encoding="utf-8")
         print(text, flush=True)
 
