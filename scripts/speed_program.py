@@ -10,8 +10,8 @@ OUTPUT = ["output"]
 NO_RECORDS = {"Output/Record interval": 1000}
 FORCES = ["tip_force_N", "inner_friction_N", "outer_friction_N",
           "total_force_N"]
-ENERGIES = ["kinetic_energy_J", "external_work_J", "stress_work_J",
-            "friction_heat_J"]
+ENERGIES = ["kinetic_energy_J", "external_work_J", "gravity_work_J",
+            "stress_work_J", "friction_heat_J"]
 
 
 def sets_of_this_cpu():
@@ -101,9 +101,9 @@ def measure_size(options):
     refinements = [1, 2] if options.quick else [1, 2, 3, 4, 6, 9]
     runs = [size_run("size, wall 0.4 m", {"Rigid body/Wall thickness": 0.4},
                      .5 if options.quick else 2)]
-    for r in refinements:  # a hundred steps or more
+    for r in refinements:  # some hundred steps, or nearly
         runs.append(size_run(f"size, refinement {r}", {"Grid/Refinement": r},
-                             .5 if options.quick else max(2., .15 * r * r)))
+                             .5 if options.quick else max(2., .1 * r * r)))
     results = interleave(runs, min(options.repeats, 3))
     base = results[runs[1].name]
     cost = lambda r: r.ns_per_point_step(OUTPUT)
@@ -156,7 +156,7 @@ def draw_ranks(rows):
 
 def measure_ranks(options):
     report = Report("ranks", "Ranks")
-    seconds = 1 if options.quick else 6
+    seconds = 1 if options.quick else 5
     sizes = [1, 2] if options.quick else [3, 4, 6]
     entries = {r: {"Grid/Refinement": r} for r in sizes}
     runs = []
@@ -302,7 +302,7 @@ def draw_needs(rows):
 
 def measure_needs(options):
     report = Report("needs", "What a scene does not need")
-    until = .3 if options.quick else 2.5
+    until = .3 if options.quick else 2.
     # without a body steps are longer, and until then they would be few
     runs = ([Run("default", until=until)]
             + [Run(name, entries, until=until)

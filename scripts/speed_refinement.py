@@ -11,10 +11,10 @@ WALL = 0.2  # m
 START = 0.5  # m of penetration
 PARTS = np.array([.3, .5, .7, .9])  # of the way, where forces are compared
 SPLIT = "Split and merge"
+SPLITTING = "graded, points split and merge"
 KINDS = {
     "graded": lambda h: {},
-    "graded, points split and merge":
-        lambda h: {f"Material points/{SPLIT}": "true"},
+    SPLITTING: lambda h: {},
     "uniform": lambda h: {"Grid/Cell width": h, "Grid/Cell height": h,
                           "Grid/Growth ratio": 1.001,
                           "Material points/Per direction near": 3,
@@ -22,10 +22,13 @@ KINDS = {
 
 
 def mesh_run(kind, across, end):
-    return Run(f"{kind}, t/{across}", {
-        "Rigid body/Cells across the wall": across,
-        "Time/End penetration": end, "Output/Record interval": 0.05,
-        **KINDS[kind](WALL / across)}, scene=SCENE)
+    entries = {"Rigid body/Cells across the wall": across,
+               "Time/End penetration": end, "Output/Record interval": 0.05,
+               **KINDS[kind](WALL / across)}
+    if knows_entry(SPLIT):
+        entries[f"Material points/{SPLIT}"] = (
+            "true" if kind == SPLITTING else "false")
+    return Run(f"{kind}, t/{across}", entries, scene=SCENE)
 
 
 def tip_forces(result):
@@ -85,8 +88,8 @@ def measure_refinement(options):
     end = 0.55 if options.quick else 1.
     meshes = [2, 4] if options.quick else [2, 4, 6]
     finest = meshes[-1] + 2
-    kinds = [kind for kind in KINDS if "split" not in kind or
-             knows_entry(SPLIT)]
+    kinds = [kind for kind in KINDS
+             if kind != SPLITTING or knows_entry(SPLIT)]
     reference = tip_forces(mesh_run("graded", finest, end).execute())
     curves, rows = {}, []
     for kind in kinds:
