@@ -559,6 +559,85 @@ check_handler()
   verdict("store and load: error", error, 1e-12);
 }
 
+/** Mass, its first moments, momentum, volume, and the integral of stress. */
+std::array<double, 10>
+resultants(const MaterialPoints &points)
+{
+  std::array<double, 10> sums = {};
+  points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    sums[0] += p.mass;
+    sums[1] += p.volume;
+    for (unsigned int d = 0; d < 2; ++d)
+      {
+        sums[2 + d] += p.mass * p.position[d];
+        sums[4 + d] += p.mass * p.velocity[d];
+      }
+    for (unsigned int c = 0; c < 4; ++c)
+      sums[6 + c] += p.volume * p.stress[c];
+  });
+  return sums;
+}
+
+double
+change(const std::array<double, 10> &a, const std::array<double, 10> &b)
+{
+  double worst = 0.;
+  for (unsigned int i = 0; i < a.size(); ++i)
+    worst = std::max(worst, std::abs(a[i] - b[i]) / (1. + std::abs(b[i])));
+  return worst;
+}
+
+/** Points split for cells of half their size, and merge for larger ones. */
+void
+check_split_and_merge()
+{
+  Scene s(caisson +
+          "subsection Soil\n set Initial velocity = r*z; z-2*r\nend\n");
+  s.generator.generate(s.grid, s.body, s.soil, 1., s.points);
+  const auto n          = s.points.n_points();
+  const auto before     = resultants(s.points);
+  double     largest[2] = {0., 0.};
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    for (unsigned int d = 0; d < 2; ++d)
+      largest[d] = std::max(largest[d], p.size[d]);
+  });
+  // in steps: halves are halved again
+  for (unsigned int k = 0; k < 6; ++k)
+    s.points.adapt([&](const unsigned int) {
+      return std::array<double, 2>{{.5 * largest[0], .5 * largest[1]}};
+    });
+  const auto   split     = s.points.n_points();
+  unsigned int too_large = 0, outside = 0;
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
+    const auto x = to_reference(s.grid.geometry(cell), p.position);
+    outside += !(x[0] >= 0. && x[0] <= 1. && x[1] >= 0. && x[1] <= 1.) ||
+               s.grid.is_rigid(cell);
+    for (unsigned int d = 0; d < 2; ++d)
+      too_large += p.size[d] > .6 * largest[d];
+  });
+  std::printf("points split: %s\n", s.points.n_split > n / 10 ? "many" : "few");
+  verdict("halves of the largest points left whole", too_large, 0.);
+  verdict("halves outside their cell", outside, 0.);
+  verdict("splitting changes mass, moments, momentum, volume, stress by",
+          change(resultants(s.points), before),
+          1e-12);
+  for (unsigned int k = 0; k < 6; ++k)
+    s.points.adapt([&](const unsigned int) {
+      return std::array<double, 2>{{1e3 * largest[0], 1e3 * largest[1]}};
+    });
+  std::printf("points merged: %s\n",
+              s.points.n_points() < split / 2 ? "most" : "few");
+  verdict("merging changes mass, moments, momentum, volume, stress by",
+          change(resultants(s.points), before),
+          1e-12);
+  double volume = 0.;
+  for (unsigned int c = 0; c < s.grid.n_cells(); ++c)
+    volume += s.points.view().filled_volume[c];
+  verdict("volume kept by cell, error",
+          std::abs(volume / before[1] - 1.),
+          1e-12);
+}
+
 /** Refinement and distortion: sides, surface and layers stay where they are. */
 void
 check_distortion()
@@ -779,6 +858,7 @@ main(int argc, char *argv[])
   check_points();
   check_spacing();
   check_handler();
+  check_split_and_merge();
   check_distortion();
   check_point_options();
   check_boundary_conditions();

@@ -626,35 +626,49 @@ def same_on_ranks(one, several):
         expect(error <= 1e-9 * scale, key, 'differs by', error, 'of', scale)
 
 
-def test_ranks_agree():
-    """The caisson travels over several rows, so that points change their
-    ranks, and the parts are cut anew."""
-    entries = {'Time/End penetration': 1}
-    paths = {n: directory(f'ranks_{n}') for n in (1, 2, 4)}
+def compare_ranks(name, numbers, least_repartitions, **entries):
+    """The same scene on one rank and on others; >= 1,000 steps."""
+    paths = {n: directory(f'{name}_{n}') for n in (1, *numbers)}
     jack(paths[1], **entries)
     expect(summary(paths[1])['steps'] >= 1000, 'too few steps')
-    for n in (2, 4):
+    for n in numbers:
         text = on_ranks(n, SUCCESS, scene('jack'), '--output-directory',
                         paths[n], **entries)
         expect(text.count('100 %') == 1, 'all ranks print', text)
         same_on_ranks(history(paths[1]), history(paths[n]))
         one, several = summary(paths[1]), summary(paths[n])
         for key in ('material_points', 'body_points', 'cells', 'steps',
-                    'held_back', 'limiter_count', 'points_lost'):
+                    'held_back', 'limiter_count', 'points_lost',
+                    'points_split', 'points_merged'):
             expect(one[key] == several[key], key, several[key], 'instead of',
                    one[key])
         expect(several['ranks'] == n, several['ranks'], 'ranks')
-        expect(several['repartitions'] >= 2, 'only', several['repartitions'],
-               'repartitions')
+        expect(several['repartitions'] >= least_repartitions, 'only',
+               several['repartitions'], 'repartitions')
+    return summary(paths[1])
+
+
+def test_ranks_agree():
+    """The caisson travels over several rows, so that points change their
+    ranks, and the parts are cut anew."""
+    compare_ranks('ranks', (2, 4), 2, **{'Time/End penetration': 1})
+
+
+def test_ranks_split_and_merge():
+    one = compare_ranks('ranks_split', (2,), 1,
+                        **{'Time/End penetration': 1,
+                           'Material points/Split and merge': 'true'})
+    expect(one['points_split'] > 100 and one['points_merged'] > 100,
+           one['points_split'], 'split,', one['points_merged'], 'merged')
 
 
 def test_ranks_restart():
     """A checkpoint of two ranks is continued on one and on three."""
     whole, stopped = directory('ranks_whole'), directory('ranks_stopped')
-    entries = {'Output/Record interval': 0.05}
+    entries = {'Output/Record interval': 0.05, 'Time/End penetration': 1}
     jack(whole, **entries)
     on_ranks(2, STOPPED, scene('jack'), '--output-directory', stopped,
-             **entries, **{'Run control/Wall time limit': 0.6})
+             **entries, **{'Run control/Wall time limit': 0.2})
     for n in (1, 3):
         path = directory(f'ranks_restart_{n}')
         shutil.copytree(stopped, path)

@@ -40,6 +40,8 @@ namespace CaissonMPM
     p.initial_position = Point<2>(b.initial_r[lane], b.initial_z[lane]);
     p.initial_volume   = b.initial_volume[lane];
     p.id               = b.id[lane];
+    p.size[0]          = b.size_r[lane];
+    p.size[1]          = b.size_z[lane];
     p.material         = headers[block].material;
     return p;
   }
@@ -64,6 +66,8 @@ namespace CaissonMPM
     b.initial_z[lane]      = p.initial_position[1];
     b.initial_volume[lane] = p.initial_volume;
     b.id[lane]             = p.id;
+    b.size_r[lane]         = p.size[0];
+    b.size_z[lane]         = p.size[1];
   }
 
   // ------------------------------------------------------------ blocks
@@ -296,7 +300,7 @@ namespace CaissonMPM
   {
     // The kernel lists points in the order of their blocks: going backward, the
     // point that fills a gap is never one that is still to be taken out.
-    std::vector<std::pair<unsigned int, MaterialPoint>> moving;
+    std::vector<PlacedPoint> moving;
     moving.reserve(leaving_view.n);
     for (unsigned int i = leaving_view.n; i-- > 0;)
       {
@@ -304,6 +308,14 @@ namespace CaissonMPM
         moving.emplace_back(l.cell, get(l.block, l.lane));
         remove(l.cell, l.block, l.lane);
       }
+    bring_to_cells(moving);
+    if (++n_relocations % 200 == 0)
+      put_blocks_in_order();
+  }
+
+  void
+  MaterialPoints::bring_to_cells(std::vector<PlacedPoint> &moving)
+  {
     std::map<unsigned int, std::vector<TravelingPoint>> abroad;
     for (auto &[cell, point] : moving)
       {
@@ -322,8 +334,6 @@ namespace CaissonMPM
       }
     if (active_cells_changed)
       collect_active_cells();
-    if (++n_relocations % 200 == 0)
-      put_blocks_in_order();
   }
 
   std::vector<unsigned int>
@@ -362,6 +372,174 @@ namespace CaissonMPM
     after_moving();
   }
 
+  // ------------------------------------------------------------ splitting
+
+  namespace
+  {
+    constexpr double too_large = 1.05, too_small = .45; // times the wanted size
+
+    bool
+    is_too_large(const double size, const double wanted)
+    {
+      return size > too_large * wanted;
+    }
+
+    bool
+    is_too_small(const double size, const double wanted)
+    {
+      return size > 0. && size < too_small * wanted;
+    }
+
+    /** Half of the point, from the middle to one side of it. */
+    MaterialPoint
+    half_of(const MaterialPoint &point,
+            const unsigned int   direction,
+            const double         side) // -1 or 1
+    {
+      MaterialPoint half  = point;
+      const double  shift = .25 * side * point.size[direction];
+      half.position[direction] += shift;
+      half.initial_position[direction] += shift;
+      half.mass *= .5;
+      half.volume *= .5;
+      half.initial_volume *= .5;
+      half.size[direction] *= .5;
+      return half;
+    }
+
+    /** Whether two points lie side by side in a direction. */
+    bool
+    are_neighbors(const MaterialPoint &a,
+                  const MaterialPoint &b,
+                  const unsigned int   direction)
+    {
+      const unsigned int across = 1 - direction;
+      const auto         distance =
+                   std::abs(a.position[direction] - b.position[direction]),
+                 aside = std::abs(a.position[across] - b.position[across]);
+      return a.material == b.material &&
+             distance < .75 * (a.size[direction] + b.size[direction]) &&
+             aside < .375 * (a.size[across] + b.size[across]);
+    }
+
+    /** Make one point of two that lie side by side in a direction. */
+    MaterialPoint
+    one_of(const MaterialPoint &a,
+           const MaterialPoint &b,
+           const unsigned int   direction)
+    {
+      MaterialPoint result   = a;
+      result.mass            = a.mass + b.mass;
+      result.volume          = a.volume + b.volume;
+      const double by_mass   = b.mass / result.mass,
+                   by_volume = b.volume / result.volume;
+      const auto mix = [](double &x, const double y, const double share) {
+        x += share * (y - x);
+      };
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          mix(result.position[d], b.position[d], by_mass);
+          mix(result.initial_position[d], b.initial_position[d], by_mass);
+          mix(result.velocity[d], b.velocity[d], by_mass);
+          mix(result.size[d], b.size[d], by_mass);
+        }
+      for (unsigned int c = 0; c < 4; ++c)
+        mix(result.stress[c], b.stress[c], by_volume);
+      mix(result.plastic_deviatoric, b.plastic_deviatoric, by_mass);
+      mix(result.plastic_volumetric, b.plastic_volumetric, by_mass);
+      for (int i = 0; i < n_state_variables; ++i)
+        mix(result.state[i], b.state[i], by_mass);
+      result.initial_volume += b.initial_volume;
+      result.size[direction] = a.size[direction] + b.size[direction];
+      result.id              = std::min(a.id, b.id);
+      return result;
+    }
+  } // namespace
+
+  std::vector<MaterialPoints::PlacedPoint>
+  MaterialPoints::take_out_of_size(const unsigned int           cell,
+                                   const std::array<double, 2> &wanted)
+  {
+    std::vector<std::pair<int, int>> places;
+    for (int b = first_block[cell]; b >= 0; b = headers[b].next)
+      for (int lane = 0; lane < headers[b].count; ++lane)
+        {
+          const double size[2] = {blocks[b].size_r[lane],
+                                  blocks[b].size_z[lane]};
+          bool         is_out  = false;
+          for (unsigned int d = 0; d < 2; ++d)
+            is_out |= is_too_large(size[d], wanted[d]) ||
+                      is_too_small(size[d], wanted[d]);
+          if (is_out)
+            places.emplace_back(b, lane);
+        }
+    std::vector<PlacedPoint> result;
+    // backward: see relocate()
+    for (auto place = places.rbegin(); place != places.rend(); ++place)
+      {
+        result.emplace_back(cell, get(place->first, place->second));
+        remove(cell, place->first, place->second);
+      }
+    return result;
+  }
+
+  void
+  MaterialPoints::split(const std::array<double, 2> &wanted,
+                        std::vector<PlacedPoint>    &points)
+  {
+    for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int i = 0; i < points.size(); ++i)
+        {
+          const unsigned int  cell  = points[i].first;
+          const MaterialPoint whole = points[i].second;
+          if (!is_too_large(whole.size[d], wanted[d]))
+            continue;
+          const MaterialPoint lower = half_of(whole, d, -1.),
+                              upper = half_of(whole, d, 1.);
+          // beside the body or the end of the mesh it waits
+          if (!is_in_soil(cell, lower.position) ||
+              !is_in_soil(cell, upper.position))
+            continue;
+          points[i].second = lower;
+          points.emplace_back(cell, upper);
+          ++n_split;
+        }
+  }
+
+  void
+  MaterialPoints::merge(const std::array<double, 2> &wanted,
+                        std::vector<PlacedPoint>    &points)
+  {
+    for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int i = 0; i < points.size(); ++i)
+        for (unsigned int j = i + 1; j < points.size(); ++j)
+          {
+            MaterialPoint &a = points[i].second, &b = points[j].second;
+            if (!is_too_small(a.size[d], wanted[d]))
+              break;
+            if (!is_too_small(b.size[d], wanted[d]) || !are_neighbors(a, b, d))
+              continue;
+            a = one_of(a, b, d);
+            points.erase(points.begin() + j);
+            ++n_merged;
+          }
+  }
+
+  void
+  MaterialPoints::adapt(const WantedSize &wanted)
+  {
+    std::vector<PlacedPoint> moving;
+    for (const unsigned int cell : active_cells)
+      {
+        const auto size   = wanted(cell);
+        auto       points = take_out_of_size(cell, size);
+        merge(size, points);
+        split(size, points);
+        moving.insert(moving.end(), points.begin(), points.end());
+      }
+    bring_to_cells(moving);
+  }
+
   namespace
   {
     /** The face to cross in one direction, or -1 if none. */
@@ -370,49 +548,71 @@ namespace CaissonMPM
     {
       return x < 0. ? 2 * direction : x > 1. ? 2 * direction + 1 : -1;
     }
+
+    std::array<int, 2>
+    faces_to_cross(const BackgroundGrid &grid,
+                   const unsigned int    cell,
+                   const Point<2>       &position)
+    {
+      const Point<2> x = to_reference(grid.geometry(cell), position);
+      return {{face_to_cross(x[0], 0), face_to_cross(x[1], 1)}};
+    }
   } // namespace
 
   unsigned int
-  MaterialPoints::find_cell(unsigned int cell, MaterialPoint &point)
+  MaterialPoints::walk(unsigned int cell, const Point<2> &position) const
   {
-    // points may leave a side of the domain by round-off only
-    constexpr double margin = 1e-10, tolerance = 1e-2;
     for (unsigned int n_crossed = 0; n_crossed < 100; ++n_crossed)
       {
-        Point<2> x = to_reference(grid.geometry(cell), point.position);
-        if (!std::isfinite(x[0]) || !std::isfinite(x[1]))
-          report_lost(point);
-        const int faces[2] = {face_to_cross(x[0], 0), face_to_cross(x[1], 1)};
-        int       next     = -1;
-        for (const int face : faces)
+        int next = -1;
+        for (const int face : faces_to_cross(grid, cell, position))
           if (face >= 0 && next < 0)
             {
               const int neighbor = grid.neighbor(cell, face);
               if (neighbor >= 0 && !grid.is_rigid(neighbor))
                 next = neighbor;
             }
-        if (next >= 0)
-          {
-            cell = next;
-            continue;
-          }
-        if (faces[0] < 0 && faces[1] < 0)
-          return cell;
-        for (const int face : faces)
-          if (face >= 0)
-            {
-              double &coordinate = x[face / 2];
-              if (grid.neighbor(cell, face) >= 0)
-                ++n_held_back_;
-              else if (coordinate < -tolerance || coordinate > 1. + tolerance ||
-                       !grid.at_side(cell, face))
-                report_lost(point);
-              coordinate = std::clamp(coordinate, margin, 1. - margin);
-            }
-        point.position = to_position(grid.geometry(cell), x);
-        return cell;
+        if (next < 0)
+          break;
+        cell = next;
       }
-    report_lost(point);
+    return cell;
+  }
+
+  bool
+  MaterialPoints::is_in_soil(const unsigned int cell,
+                             const Point<2>    &position) const
+  {
+    const auto faces = faces_to_cross(grid, walk(cell, position), position);
+    return faces[0] < 0 && faces[1] < 0;
+  }
+
+  unsigned int
+  MaterialPoints::find_cell(unsigned int cell, MaterialPoint &point)
+  {
+    // points may leave a side of the domain by round-off only
+    constexpr double margin = 1e-10, tolerance = 1e-2;
+    if (!std::isfinite(point.position[0]) || !std::isfinite(point.position[1]))
+      report_lost(point);
+    cell             = walk(cell, point.position);
+    const auto faces = faces_to_cross(grid, cell, point.position);
+    if (faces[0] < 0 && faces[1] < 0)
+      return cell;
+    Point<2> x = to_reference(grid.geometry(cell), point.position);
+    for (const int face : faces)
+      if (face >= 0)
+        {
+          double   &coordinate = x[face / 2];
+          const int neighbor   = grid.neighbor(cell, face);
+          if (neighbor >= 0 && grid.is_rigid(neighbor))
+            ++n_held_back_;
+          else if (neighbor >= 0 || coordinate < -tolerance ||
+                   coordinate > 1. + tolerance || !grid.at_side(cell, face))
+            report_lost(point);
+          coordinate = std::clamp(coordinate, margin, 1. - margin);
+        }
+    point.position = to_position(grid.geometry(cell), x);
+    return cell;
   }
 
   void
@@ -461,9 +661,11 @@ namespace CaissonMPM
                                  p.initial_position[1],
                                  p.initial_volume,
                                  p.id,
-                                 static_cast<double>(p.material)};
+                                 static_cast<double>(p.material),
+                                 p.size[0],
+                                 p.size[1]};
     for (int i = 0; i < n_state_variables; ++i)
-      data[15 + i] = p.state[i];
+      data[17 + i] = p.state[i];
     const Point<2> x = to_reference(grid.geometry(cell), p.position);
     handler.insert_particle(p.position,
                             x,
@@ -525,8 +727,10 @@ namespace CaissonMPM
         p.initial_volume     = d[12];
         p.id                 = d[13];
         p.material           = static_cast<unsigned int>(d[14]);
+        p.size[0]            = d[15];
+        p.size[1]            = d[16];
         for (int i = 0; i < n_state_variables; ++i)
-          p.state[i] = d[15 + i];
+          p.state[i] = d[17 + i];
         add(grid.local_number(
               typename BackgroundGrid::Triangulation::active_cell_iterator(
                 particle.get_surrounding_cell())),

@@ -81,6 +81,12 @@ namespace CaissonMPM
                   "Equal seeds give equal random positions. Units: none.",
                   prm,
                   Patterns::Integer(0));
+    add_parameter("Split and merge",
+                  adaptive,
+                  "Begin with the points that the mesh needs at the start, "
+                  "split those that come into smaller cells and merge those "
+                  "that come into larger ones; else begin with all that the "
+                  "smallest cells on the way will need. Units: none.");
   }
 
   Expression
@@ -110,6 +116,15 @@ namespace CaissonMPM
         g.bottom_left + g.height_left > body.bottom() - travel - path_below)
       return in_path;
     return distance < near_distance ? near : far;
+  }
+
+  std::array<double, 2>
+  PointGenerator::wanted_size(const Kernels::CellGeometry &g,
+                              const RigidBody             &body,
+                              const double                 travel) const
+  {
+    const unsigned int n = points_per_direction(g, body, travel);
+    return {{g.width / n, .5 * (g.height_left + g.height_right) / n}};
   }
 
   namespace
@@ -190,10 +205,14 @@ namespace CaissonMPM
         const unsigned int n =
           points_per_direction(g, body, grid.total_travel());
         const unsigned int n_r =
-          std::ceil(n * g.width / grid.smallest_width_met(cell) - 1e-6);
+          adaptive ?
+            n :
+            std::ceil(n * g.width / grid.smallest_width_met(cell) - 1e-6);
         const double       height = std::max(g.height_left, g.height_right);
         const unsigned int n_z =
-          std::ceil(n * height / grid.smallest_height_met(cell) - 1e-6);
+          adaptive ?
+            n :
+            std::ceil(n * height / grid.smallest_height_met(cell) - 1e-6);
         for (unsigned int i = 0; i < n_r; ++i)
           {
             const auto moments =
@@ -228,6 +247,8 @@ namespace CaissonMPM
                     p.velocity[d] = velocity[d](p.position, 0.);
                 p.state  = states[p.material];
                 p.volume = p.initial_volume = moments[k] / n_z;
+                p.size[radial]              = g.width / n_r;
+                p.size[vertical]            = height / n_z;
                 p.mass =
                   mass_scaling * soil.inertial_density(p.material) * p.volume;
                 p.id = number;

@@ -21,7 +21,7 @@ namespace CaissonMPM
 
   namespace
   {
-    const std::string format_name = "caisson_mpm-checkpoint-4";
+    const std::string format_name = "caisson_mpm-checkpoint-5";
 
     // a particle in the file: its id, location, reference location, properties
     constexpr unsigned long bytes_per_point =

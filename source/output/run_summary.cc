@@ -25,6 +25,9 @@ namespace CaissonMPM
       {"held_back", Json::integer(s.held_back)},
       {"points_lost", Json::integer(s.points_lost)},
       {"max_points_in_body", Json::integer(s.max_points_in_body)},
+      {"points_split", Json::integer(s.points_split)},
+      {"points_merged", Json::integer(s.points_merged)},
+      {"point_steps", Json::number(s.point_steps)},
       {"wall_time_s", Json::number(s.wall_time_s)},
       {"point_steps_per_second", Json::number(s.point_steps_per_second)},
       {"peak_memory_bytes", Json::number(s.peak_memory_bytes)},
@@ -32,6 +35,7 @@ namespace CaissonMPM
       {"soil_mass_kg", Json::number(s.soil_mass_kg)},
       {"time_step_s", Json::number(s.time_step_s)},
       {"time_step_limit", Json::text(s.time_step_limit)},
+      {"time_step_limits_s", Json::object(Json::numbers(s.zone_limits), 2)},
       {"energies", Json::object(Json::numbers(s.energies), 2)},
       {"sections", Json::object(Json::numbers(s.sections), 2)},
       {"scene", Json::object(Json::numbers(s.scene), 2)}};

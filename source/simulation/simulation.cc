@@ -334,9 +334,20 @@ namespace CaissonMPM
       grid.advance();
       points.relocate();
     });
+    if (generator.splits_and_merges() && step % steps_between_adaptions == 0)
+      timed("split and merge", [&]() { adapt_points(); });
     energy.add(work, grid.circumference() * points.leaving().stress_work);
     time += dt;
     ++step;
+  }
+
+  void
+  Simulation::adapt_points()
+  {
+    const double travel = grid.total_travel();
+    points.adapt([&](const unsigned int cell) {
+      return generator.wanted_size(grid.geometry(cell), body, travel);
+    });
   }
 
   template <typename Action>

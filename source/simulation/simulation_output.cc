@@ -152,13 +152,17 @@ namespace CaissonMPM
   void
   Simulation::add_sums_over_points(HistoryRow &row)
   {
-    const double        travel   = body.travel(time);
-    const PointEnergies energies = point_energies();
-    points.for_each([&](const MaterialPoint &p, const unsigned int) {
-      row.max_speed =
-        std::max(row.max_speed, std::hypot(p.velocity[0], p.velocity[1]));
-      row.points_in_body += body.contains(p.position, travel);
+    const double        travel     = body.travel(time);
+    const PointEnergies energies   = point_energies();
+    double              max_square = 0.;
+    points.for_each_motion([&](const Point<2> &position,
+                               const Vector2  &velocity,
+                               const double,
+                               const unsigned int) {
+      max_square = std::max(max_square, velocity.norm_square());
+      row.points_in_body += body.contains(position, travel);
     });
+    row.max_speed               = std::sqrt(max_square);
     const MPI_Comm communicator = grid.communicator();
     row.max_speed      = Utilities::MPI::max(row.max_speed, communicator);
     row.points_in_body = Utilities::MPI::sum(row.points_in_body, communicator);
@@ -175,14 +179,16 @@ namespace CaissonMPM
   Simulation::point_energies() const
   {
     PointEnergies result;
-    points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    points.for_each_motion([&](const Point<2>    &position,
+                               const Vector2     &velocity,
+                               const double       mass,
+                               const unsigned int material) {
       for (unsigned int d = 0; d < 2; ++d)
         {
           result.kinetic +=
-            .5 * grid.circumference() * p.mass * p.velocity[d] * p.velocity[d];
-          const double term = -grid.circumference() * p.mass *
-                              materials[p.material].body_force[d] *
-                              p.position[d];
+            .5 * grid.circumference() * mass * velocity[d] * velocity[d];
+          const double term = -grid.circumference() * mass *
+                              materials[material].body_force[d] * position[d];
           result.potential += term;
           result.weight += std::abs(term);
         }
@@ -335,6 +341,9 @@ namespace CaissonMPM
     s.held_back          = points.n_held_back();
     s.points_lost        = 0; // a lost point ends the run
     s.max_points_in_body = max_in_body;
+    s.points_split       = sum(points.n_split);
+    s.points_merged      = sum(points.n_merged);
+    s.point_steps        = point_steps;
     s.wall_time_s        = seconds_running();
     s.point_steps_per_second = point_steps / seconds_running();
     s.peak_memory_bytes      = sum(peak_memory_bytes());
@@ -348,6 +357,7 @@ namespace CaissonMPM
     s.soil_mass_kg    = sum(s.soil_mass_kg);
     s.time_step_s     = dt;
     s.time_step_limit = time_step.reason();
+    s.zone_limits     = time_step.zone_limits();
     s.energies        = energy.entries();
     s.energies.insert(s.energies.begin(),
                       {"external_work_J", energy.work_of_body});

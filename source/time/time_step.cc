@@ -109,16 +109,45 @@ namespace CaissonMPM
 
   namespace
   {
+    /** The largest of the wave speeds squared of what lies in a cell. */
+    double
+    square_of_speed(const Kernels::PointsView &points,
+                    const unsigned int         cell,
+                    const std::vector<double> &squares)
+    {
+      double largest = 0.;
+      for (int b = points.first_block[cell]; b >= 0; b = points.headers[b].next)
+        largest = std::max(largest, squares[points.headers[b].material]);
+      return largest;
+    }
+
+    /**
+     * A bound of the largest frequency in a cell, squared, over (2 c)^2. The
+     * gradient in the unit cell is J^-T, and the largest frequency of linear
+     * cells at most 2 c |J^-1|: 1/dr^2 + 1/dz^2 where rows are level, more
+     * where they are bent.
+     */
+    double
+    inverse_square_of_size(const Kernels::CellGeometry &g)
+    {
+      const double h   = std::min(g.height_left, g.height_right);
+      const double top = g.bottom_right + g.height_right - g.bottom_left -
+                         g.height_left,
+                   rise = std::max(std::abs(g.bottom_right - g.bottom_left),
+                                   std::abs(top)) /
+                          g.width;
+      return 1. / (g.width * g.width) + (1. + rise * rise) / (h * h);
+    }
+
     std::string
     describe(const BackgroundGrid &grid,
              const unsigned int    cell,
              const double          speed)
     {
-      const char *const  names[] = {"moving", "compressing", "upper"};
-      const auto        &g       = grid.geometry(cell);
+      const auto        &g = grid.geometry(cell);
       std::ostringstream s;
       s << "the cell at r = " << g.left << " m, z = " << g.bottom_left
-        << " m of the " << names[static_cast<int>(grid.zone(cell))] << " zone, "
+        << " m of the " << BackgroundGrid::name_of(grid.zone(cell)) << " zone, "
         << g.width << " m x " << std::min(g.height_left, g.height_right)
         << " m, wave speed " << speed << " m/s";
       return s.str();
@@ -131,43 +160,53 @@ namespace CaissonMPM
                        const Soil                           &soil,
                        const std::vector<Kernels::Material> &materials)
   {
-    double speed = 0.;
+    std::vector<double> squares;
     for (unsigned int i = 0; i < soil.n_layers(); ++i)
-      speed = std::max(speed,
-                       std::sqrt(materials[i].p_wave_modulus /
-                                 (mass_scaling * soil.inertial_density(i))));
-    const auto   view     = points.view();
-    unsigned int limiting = 0;
-    double       worst    = 0.;
+      squares.push_back(materials[i].p_wave_modulus /
+                        (mass_scaling * soil.inertial_density(i)));
+    const auto          view     = points.view();
+    unsigned int        limiting = 0;
+    double              worst = 0., speed = 0.; // 1 / s2, m/s
+    std::vector<double> worst_of_zone(BackgroundGrid::n_zones, 0.);
     for (unsigned int i = 0; i < view.n_active_cells; ++i)
       {
-        const auto  &g = grid.geometry(view.active_cells[i]);
-        const double h = std::min(g.height_left, g.height_right);
-        // The gradient in the unit cell is J^-T, and the largest frequency of
-        // linear cells at most 2 c |J^-1|: 1/dr^2 + 1/dz^2 where rows are
-        // level, more where they are bent.
-        const double top = g.bottom_right + g.height_right - g.bottom_left -
-                           g.height_left,
-                     rise = std::max(std::abs(g.bottom_right - g.bottom_left),
-                                     std::abs(top)) /
-                            g.width;
-        const double inverse =
-          1. / (g.width * g.width) + (1. + rise * rise) / (h * h);
-        if (inverse > worst)
+        const unsigned int cell   = view.active_cells[i];
+        const double       square = square_of_speed(view, cell, squares),
+                     frequency =
+                       square * inverse_square_of_size(grid.geometry(cell));
+        double &of_zone = worst_of_zone[static_cast<int>(grid.zone(cell))];
+        of_zone         = std::max(of_zone, frequency);
+        if (frequency > worst)
           {
-            worst    = inverse;
-            limiting = view.active_cells[i];
+            worst    = frequency;
+            limiting = cell;
+            speed    = std::sqrt(square);
           }
       }
-    const auto of_all = Utilities::MPI::min_max_avg(worst, grid.communicator());
-    limit             = 1. / (speed * std::sqrt(of_all.max));
+    const MPI_Comm communicator = grid.communicator();
+    Utilities::MPI::max(worst_of_zone, communicator, worst_of_zone);
+    for (unsigned int zone = 0; zone < BackgroundGrid::n_zones; ++zone)
+      limit_of_zone[zone] = 1. / std::sqrt(worst_of_zone[zone]);
+    const auto of_all = Utilities::MPI::min_max_avg(worst, communicator);
+    limit             = 1. / std::sqrt(of_all.max);
     age               = 0;
 
     std::string text;
-    if (of_all.max_index ==
-        Utilities::MPI::this_mpi_process(grid.communicator()))
+    if (of_all.max_index == Utilities::MPI::this_mpi_process(communicator))
       text = describe(grid, limiting, speed);
     limiting_cell =
-      Utilities::MPI::broadcast(grid.communicator(), text, of_all.max_index);
+      Utilities::MPI::broadcast(communicator, text, of_all.max_index);
+  }
+
+  std::vector<std::pair<std::string, double>>
+  TimeStep::zone_limits() const
+  {
+    std::vector<std::pair<std::string, double>> result;
+    for (unsigned int zone = 0; zone < BackgroundGrid::n_zones; ++zone)
+      if (std::isfinite(limit_of_zone[zone]))
+        result.emplace_back(BackgroundGrid::name_of(
+                              static_cast<BackgroundGrid::Zone>(zone)),
+                            limit_of_zone[zone]);
+    return result;
   }
 } // namespace CaissonMPM

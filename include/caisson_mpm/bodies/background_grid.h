@@ -77,6 +77,15 @@ namespace CaissonMPM
       upper
     };
 
+    static constexpr unsigned int n_zones = 3;
+    /** "moving", "compressing" or "upper". */
+    static const char *
+    name_of(const Zone zone)
+    {
+      constexpr const char *names[n_zones] = {"moving", "compressing", "upper"};
+      return names[static_cast<unsigned int>(zone)];
+    }
+
     /** The four sides of the domain, which are also its boundary ids. */
     enum Side : unsigned int
     {

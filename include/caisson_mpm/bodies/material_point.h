@@ -24,6 +24,7 @@ namespace CaissonMPM
     StateVariables   state = {}; // of the material law
     dealii::Point<2> initial_position;
     double           initial_volume = 0.;
+    double           size[2]        = {0., 0.}; // in r and z when it was made
     double           id             = 0.;
     unsigned int     material       = 0;
 

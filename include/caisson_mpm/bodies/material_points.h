@@ -11,6 +11,9 @@
 
 #include <deal.II/particles/particle_handler.h>
 
+#include <array>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace CaissonMPM
@@ -35,7 +38,7 @@ namespace CaissonMPM
   public:
     /** The properties of a particle in the handler, in this order. */
     static constexpr unsigned int n_properties =
-      15 + Kernels::n_state_variables;
+      17 + Kernels::n_state_variables;
 
     explicit MaterialPoints(BackgroundGrid &grid);
 
@@ -112,6 +115,41 @@ namespace CaissonMPM
       n_held_back_ = n;
     }
 
+    /** The size that points are to have in a cell, in r and z. Units: m. */
+    using WantedSize =
+      std::function<std::array<double, 2>(const unsigned int cell)>;
+
+    /**
+     * Split the points that are more than 1.5 times as large as wanted in their
+     * cell, and merge those below 0.6 with a neighbor. Both keep mass,
+     * momentum, volume, the integral of stress over it, and the center of mass.
+     * Halves and pairs keep the number of the (first) point. Collective.
+     */
+    void
+    adapt(const WantedSize &wanted);
+
+    /** Points that were split and pairs that were merged, since the start. */
+    unsigned long n_split = 0, n_merged = 0;
+
+    /** Call action(position, velocity, mass, material) for every point: less
+     * work than for_each(). */
+    template <typename Action>
+    void
+    for_each_motion(const Action &action) const
+    {
+      for (const unsigned int cell : active_cells)
+        for (int b = first_block[cell]; b >= 0; b = headers[b].next)
+          for (int lane = 0; lane < headers[b].count; ++lane)
+            {
+              const Kernels::PointBlock &p = blocks[b];
+              action(dealii::Point<2>(p.r[lane], p.z[lane]),
+                     dealii::Tensor<1, 2>(
+                       {p.velocity_r[lane], p.velocity_z[lane]}),
+                     p.mass[lane],
+                     headers[b].material);
+            }
+    }
+
     /** Call action(const MaterialPoint &, cell) for every point of this rank.
      */
     template <typename Action>
@@ -131,6 +169,9 @@ namespace CaissonMPM
     dealii::Particles::ParticleHandler<2> handler;
 
   private:
+    // with a cell in or near which it lies
+    using PlacedPoint = std::pair<unsigned int, MaterialPoint>;
+
     void
     add(const unsigned int cell, const MaterialPoint &point);
     MaterialPoint
@@ -148,6 +189,21 @@ namespace CaissonMPM
     new_block(const unsigned int cell, const int after, const short material);
     void
     remove(const unsigned int cell, const int block, const int lane);
+    std::vector<PlacedPoint>
+    take_out_of_size(const unsigned int           cell,
+                     const std::array<double, 2> &wanted);
+    void
+    split(const std::array<double, 2> &wanted,
+          std::vector<PlacedPoint>    &points);
+    void
+    merge(const std::array<double, 2> &wanted,
+          std::vector<PlacedPoint>    &points);
+    void
+    bring_to_cells(std::vector<PlacedPoint> &moving);
+    unsigned int
+    walk(unsigned int cell, const dealii::Point<2> &position) const;
+    bool
+    is_in_soil(const unsigned int cell, const dealii::Point<2> &position) const;
     unsigned int
     find_cell(unsigned int cell, MaterialPoint &point);
     void

@@ -44,6 +44,22 @@ namespace CaissonMPM
              const double          mass_scaling,
              MaterialPoints       &points) const;
 
+    /**
+     * The size that points are to have in a cell of the current mesh, in r and
+     * z, where splits_and_merges(): the cell's over the number per direction.
+     * Units: m.
+     */
+    std::array<double, 2>
+    wanted_size(const Kernels::CellGeometry &g,
+                const RigidBody             &body,
+                const double                 travel) const;
+
+    bool
+    splits_and_merges() const
+    {
+      return adaptive;
+    }
+
   private:
     unsigned int
     points_per_direction(const Kernels::CellGeometry &g,
@@ -61,6 +77,7 @@ namespace CaissonMPM
     std::string  region;
     double       randomness = 0.;
     unsigned int seed       = 1;
+    bool         adaptive   = false;
   };
 } // namespace CaissonMPM
 

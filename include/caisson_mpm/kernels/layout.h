@@ -38,6 +38,7 @@ namespace CaissonMPM
       double initial_r[block_size], initial_z[block_size];
       double initial_volume[block_size];
       double id[block_size];
+      double size_r[block_size], size_z[block_size]; // when it was made
     };
 
     /** What is known of a block without touching it. */

@@ -31,6 +31,9 @@ namespace CaissonMPM
     unsigned long held_back              = 0;
     unsigned long points_lost            = 0;
     unsigned long max_points_in_body     = 0;
+    unsigned long points_split           = 0;
+    unsigned long points_merged          = 0; // pairs
+    double        point_steps            = 0.;
     double        wall_time_s            = 0.;
     double        point_steps_per_second = 0.;
     double        peak_memory_bytes      = 0.; // of all ranks together
@@ -39,6 +42,8 @@ namespace CaissonMPM
     double        time_step_s            = 0.;
     /** What limits the time step. */
     std::string time_step_limit;
+    /** The limit of the step in each zone of the mesh. */
+    std::vector<std::pair<std::string, double>> zone_limits;
     /** Seconds in each section of the time step, of the first rank. */
     std::vector<std::pair<std::string, double>> sections;
     /** The energy balance at the end: external_work_J, ... */

@@ -16,7 +16,9 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CaissonMPM
@@ -45,6 +47,10 @@ namespace CaissonMPM
       return limiting_cell;
     }
 
+    /** The limit of each zone that has points, by its name. Units: s. */
+    std::vector<std::pair<std::string, double>>
+    zone_limits() const;
+
     /** Warnings where the choices are known to change the answer. */
     std::vector<std::string>
     known_limits() const;
@@ -63,10 +69,12 @@ namespace CaissonMPM
                const Soil                           &soil,
                const std::vector<Kernels::Material> &materials);
 
-    double       courant    = 0.5;
-    double       fixed_step = 0.;
-    double       limit      = 0.;
-    unsigned int age        = 0; // steps since the limit was found
+    double courant    = 0.5;
+    double fixed_step = 0.;
+    double limit      = 0.;
+    // of all ranks; infinite where a zone has no points
+    std::array<double, BackgroundGrid::n_zones> limit_of_zone;
+    unsigned int age = 0; // steps since the limit was found
     std::string  limiting_cell;
   };
 } // namespace CaissonMPM
