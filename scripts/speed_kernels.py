@@ -121,7 +121,8 @@ def measure_kernels(options):
                     + [statistics.median(a / b for a, b in zip(v, value[0]))
                        for v in value[1:]])
     report.say(f"`kernel_benchmark {points}`: million points per second on one "
-               f"core, medians of the rounds ({options.repeats}) of its best times. "
+               f"core, medians of the rounds ({options.repeats}) of its best "
+               "times. "
                "Mohr-Coulomb sand, at rest or sheared so that every point "
                "yields in every step. Moments that the last step has left make "
                "points to grid cheap: it does not touch the points.")

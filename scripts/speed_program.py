@@ -2,7 +2,7 @@
 """The sections of scripts/speed on the whole program."""
 import numpy as np
 
-from speed_report import COLORS, Report, panels
+from speed_report import Report, panels
 from speed_runs import (INSTRUCTION_SETS, ROOT, Measured, Run, interleave,
                         largest_difference, median, median_ratio)
 
