@@ -1,20 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The section of scripts/speed on meshes: error of the tip force against time of
-graded and uniform meshes."""
+"""The section of scripts/speed on meshes: error of the tip force against time
+of graded and uniform meshes."""
 import numpy as np
 
 from speed_report import Report, panels
-from speed_runs import ROOT, Run, knows_entry
+from speed_runs import ROOT, Run
 
 SCENE = ROOT / "tests/jack.prm"
 WALL = 0.2  # m
 START = 0.5  # m of penetration
 PARTS = np.array([.3, .5, .7, .9])  # of the way, where forces are compared
-SPLIT = "Split and merge"
-SPLITTING = "graded, points split and merge"
 KINDS = {
     "graded": lambda h: {},
-    SPLITTING: lambda h: {},
+    "graded, points split and merge":
+        lambda h: {"Material points/Split and merge": "true"},
     "uniform": lambda h: {"Grid/Cell width": h, "Grid/Cell height": h,
                           "Grid/Growth ratio": 1.001,
                           "Material points/Per direction near": 3,
@@ -25,9 +24,6 @@ def mesh_run(kind, across, end):
     entries = {"Rigid body/Cells across the wall": across,
                "Time/End penetration": end, "Output/Record interval": 0.05,
                **KINDS[kind](WALL / across)}
-    if knows_entry(SPLIT):
-        entries[f"Material points/{SPLIT}"] = (
-            "true" if kind == SPLITTING else "false")
     return Run(f"{kind}, t/{across}", entries, scene=SCENE)
 
 
@@ -88,11 +84,9 @@ def measure_refinement(options):
     end = 0.55 if options.quick else 1.
     meshes = [2, 4] if options.quick else [2, 4, 6]
     finest = meshes[-1] + 2
-    kinds = [kind for kind in KINDS
-             if kind != SPLITTING or knows_entry(SPLIT)]
     reference = tip_forces(mesh_run("graded", finest, end).execute())
     curves, rows = {}, []
-    for kind in kinds:
+    for kind in KINDS:
         curves[kind] = []
         for across in meshes:
             result = mesh_run(kind, across, end).execute()
@@ -113,7 +107,7 @@ def measure_refinement(options):
     report.picture(draw(curves), "Error against time of the meshes")
     short = {k: [(s, e) for s, e, _ in c] for k, c in curves.items()}
     ratios = []
-    for kind in kinds[1:]:
+    for kind in list(KINDS)[1:]:
         ratio, error = ratio_at_equal_error(short[kind], short["graded"])
         ratios.append([f"{kind} / graded"]
                       + [a[0] / b[0]

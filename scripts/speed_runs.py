@@ -152,14 +152,6 @@ def largest_difference(a, b, columns):
                for column in columns)
 
 
-def knows_entry(entry):
-    """Whether the program has an entry of this name."""
-    text = subprocess.run([str(PROGRAM), str(JACK), "--print-parameters"],
-                          capture_output=True, text=True, check=True).stdout
-    return re.search(rf"^ *set {re.escape(entry)} *=", text,
-                     re.MULTILINE) is not None
-
-
 def machine():
     """The commit and the processor, which a number must stand with."""
     commit = subprocess.run(["git", "describe", "--always", "--dirty"],
