@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// How fast the kernels are on their own: Mohr-Coulomb sand at rest under its
-// weight in a block of square cells, the points in order. For each instruction
-// set of this CPU and each number of points per cell and direction, a line
-//   instruction set, points, points per cell, kernel, million points per second
-// with the best of several repetitions.
+// How fast the kernels are on their own: Mohr-Coulomb sand under its weight in
+// a block of square cells, the points in order, at rest or sheared so that it
+// yields. For each instruction set of this CPU, each number of points per cell
+// and direction and both rates of shear, lines
+//   instruction set, points, points per cell, shear rate, kernel, million
+//   points per second
+// with the best of several repetitions. Two rows name what bounds the kernels
+// (limits.h): "stream" the points of which the fields come and go, and
+// "multiply_and_add" million multiplications per second, each with an addition.
 //
 // Usage: kernel_benchmark [POINTS [REPETITIONS]]
 #include <caisson_mpm/kernels/dispatch.h>
@@ -15,8 +19,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <vector>
+
+#include "limits.h"
 
 namespace
 {
@@ -145,7 +152,7 @@ namespace
           const unsigned int wanted,
           const unsigned int per_direction,
           const unsigned int repetitions,
-          const double       strain_rate)
+          const double       shear_rate)
   {
     const KernelTable *const kernels = select_kernels(instruction_set);
     if (kernels == nullptr)
@@ -153,18 +160,19 @@ namespace
     Soil                      s(wanted, per_direction);
     std::vector<NodalSums>    sums(s.n_nodes, NodalSums());
     std::vector<CellMoments>  moments(s.active.size());
-    std::vector<NodalVector>  v(s.n_nodes), out(s.n_nodes);
+    std::vector<NodalVector>  rest(s.n_nodes), v(s.n_nodes), out(s.n_nodes);
     std::vector<LeavingPoint> leaving_points(s.n_points);
     LeavingPoints leaving = {leaving_points.data(), s.n_points, 0, 0, 0.};
     for (unsigned int c = 0; c < s.active.size(); ++c)
       for (int k = 0; k < 4; ++k)
         {
           const double z = s.geometry[c].bottom_left + (k / 2) * cell_size;
-          v[s.nodes[c].node[k]] = {{0., -strain_rate * z}};
+          v[s.nodes[c].node[k]] = {{shear_rate * z, 0.}};
         }
     const IntegrationSettings integration = {.9, .5, true, false, 0.};
     const UpdateSettings      settings    = {1e-6, .9, true, 0., .01, 0.};
-    const NodalFields         fields      = {v.data(), v.data(), v.data()};
+    // the points stay where they are, and their stresses change
+    const NodalFields fields = {rest.data(), rest.data(), v.data()};
 
     const double to_grid   = best_time(repetitions, [&]() {
       kernels->points_to_grid(s.view(),
@@ -194,7 +202,7 @@ namespace
                   instruction_set,
                   s.n_points,
                   per_direction * per_direction,
-                  strain_rate,
+                  shear_rate,
                   kernel,
                   1e-6 * s.n_points / seconds);
     };
@@ -202,18 +210,48 @@ namespace
     print("apply_mass", mass);
     print("grid_to_points", to_points);
     print("both_transfers", to_grid + to_points);
+    print("stream", best_time(repetitions, [&]() {
+            limits_of(instruction_set).stream(s.blocks.data(), s.blocks.size());
+          }));
+  }
+
+  void
+  measure_arithmetic(const char        *instruction_set,
+                     const unsigned int repetitions)
+  {
+    if (select_kernels(instruction_set) == nullptr)
+      return;
+    constexpr unsigned long n       = 10000000;
+    volatile double         result  = 0.; // or nothing would be computed
+    const double            seconds = best_time(repetitions, [&]() {
+      result = limits_of(instruction_set).multiply_and_add(n);
+    });
+    std::printf("%s,0,0,0,multiply_and_add,%.2f\n",
+                instruction_set,
+                1e-6 * n / seconds);
   }
 } // namespace
+
+const Limits &
+CaissonMPM::Kernels::limits_of(const char *instruction_set)
+{
+  return std::strcmp(instruction_set, "SSE2") == 0 ? limits_x86_64() :
+         std::strcmp(instruction_set, "AVX2") == 0 ? limits_x86_64_v3() :
+                                                     limits_x86_64_v4();
+}
 
 int
 main(const int argc, char **argv)
 {
   const unsigned int points      = argc > 1 ? std::atoi(argv[1]) : 50000,
                      repetitions = argc > 2 ? std::atoi(argv[2]) : 100;
-  std::printf("instruction_set,points,points_per_cell,strain_rate_per_s,kernel,"
+  std::printf("instruction_set,points,points_per_cell,shear_rate_per_s,kernel,"
               "million_points_per_s\n");
   for (const char *const set : {"SSE2", "AVX2", "AVX-512"})
-    for (const unsigned int per_direction : {2, 3, 4, 5})
-      for (const double rate : {0., 100.})
-        measure(set, points, per_direction, repetitions, rate);
+    {
+      for (const unsigned int per_direction : {2, 3, 4, 5})
+        for (const double rate : {0., 1e4})
+          measure(set, points, per_direction, repetitions, rate);
+      measure_arithmetic(set, repetitions);
+    }
 }
