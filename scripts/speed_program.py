@@ -51,7 +51,7 @@ def measure_step(options):
     results = interleave([Run(s, {"Method/Instruction set": s}, until=until)
                           for s in sets], options.repeats)
     one = results[sets[0]][0]
-    report.say(f"`prm/jack.prm` with {one.points:,} points, all as it is there, "
+    report.say(f"`prm/jack.prm` with {one.points:,} points, all from the start, "
                f"pushed for {until:g} s ({one.steps} steps), one core, medians "
                f"of the rounds ({options.repeats}).")
     report.table(
