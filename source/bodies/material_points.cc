@@ -276,14 +276,6 @@ namespace CaissonMPM
             changed.data()};
   }
 
-  double
-  MaterialPoints::memory_consumption() const
-  {
-    return blocks.capacity() * sizeof(PointBlock) +
-           headers.capacity() * sizeof(BlockHeader) +
-           leaving_storage.capacity() * sizeof(LeavingPoint);
-  }
-
   // ------------------------------------------------------------ relocation
 
   LeavingPoints &
@@ -299,19 +291,27 @@ namespace CaissonMPM
   void
   MaterialPoints::relocate()
   {
-    // The kernel lists points in the order of their blocks: going backward, the
-    // point that fills a gap is never one that is still to be taken out.
-    std::vector<PlacedPoint> moving;
-    moving.reserve(leaving_view.n);
-    for (unsigned int i = leaving_view.n; i-- > 0;)
-      {
-        const LeavingPoint &l = leaving_view.points[i];
-        moving.emplace_back(l.cell, get(l.block, l.lane));
-        remove(l.cell, l.block, l.lane);
-      }
+    // the kernel lists points in the order of their blocks
+    auto moving = take_out(leaving_view.points, leaving_view.n);
     bring_to_cells(moving);
     if (++n_relocations % 200 == 0)
       put_blocks_in_order();
+  }
+
+  std::vector<MaterialPoints::PlacedPoint>
+  MaterialPoints::take_out(const LeavingPoint *places, const unsigned int n)
+  {
+    // Going backward, the point that fills a gap is never one that is still to
+    // be taken out.
+    std::vector<PlacedPoint> result;
+    result.reserve(n);
+    for (unsigned int i = n; i-- > 0;)
+      {
+        const LeavingPoint &p = places[i];
+        result.emplace_back(p.cell, get(p.block, p.lane));
+        remove(p.cell, p.block, p.lane);
+      }
+    return result;
   }
 
   void
@@ -461,27 +461,17 @@ namespace CaissonMPM
   MaterialPoints::take_out_of_size(const unsigned int           cell,
                                    const std::array<double, 2> &wanted)
   {
-    std::vector<std::pair<int, int>> places;
-    for (int b = first_block[cell]; b >= 0; b = headers[b].next)
-      for (int lane = 0; lane < headers[b].count; ++lane)
-        {
-          const double size[2] = {blocks[b].size_r[lane],
-                                  blocks[b].size_z[lane]};
-          bool         is_out  = false;
-          for (unsigned int d = 0; d < 2; ++d)
-            is_out |= is_too_large(size[d], wanted[d]) ||
-                      is_too_small(size[d], wanted[d]);
-          if (is_out)
-            places.emplace_back(b, lane);
-        }
-    std::vector<PlacedPoint> result;
-    // backward: see relocate()
-    for (auto place = places.rbegin(); place != places.rend(); ++place)
-      {
-        result.emplace_back(cell, get(place->first, place->second));
-        remove(cell, place->first, place->second);
-      }
-    return result;
+    std::vector<LeavingPoint> places;
+    for_each_lane(cell, [&](const int b, const int lane) {
+      const double size[2] = {blocks[b].size_r[lane], blocks[b].size_z[lane]};
+      bool         is_out  = false;
+      for (unsigned int d = 0; d < 2; ++d)
+        is_out |=
+          is_too_large(size[d], wanted[d]) || is_too_small(size[d], wanted[d]);
+      if (is_out)
+        places.push_back({cell, b, lane});
+    });
+    return take_out(places.data(), places.size());
   }
 
   void

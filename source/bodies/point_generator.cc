@@ -173,46 +173,33 @@ namespace CaissonMPM
     };
   } // namespace
 
-  std::array<unsigned int, 2>
-  PointGenerator::number_of_parts(const BackgroundGrid &grid,
-                                  const RigidBody      &body,
-                                  const unsigned int    cell) const
-  {
-    const auto         g = grid.initial_geometry(cell);
-    const unsigned int n = points_per_direction(g, body, grid.total_travel());
-    if (adaptive)
-      return {{n, n}};
-    const double height = std::max(g.height_left, g.height_right);
-    return {{static_cast<unsigned int>(
-               std::ceil(n * g.width / grid.smallest_width_met(cell) - 1e-6)),
-             static_cast<unsigned int>(
-               std::ceil(n * height / grid.smallest_height_met(cell) - 1e-6))}};
-  }
-
   bool
   PointGenerator::may_hold_soil(const BackgroundGrid &grid,
-                                const unsigned int    cell) const
+                                const unsigned int    global_cell) const
   {
-    const auto   g        = grid.initial_geometry(cell);
+    const auto   g        = grid.initial_geometry(global_cell);
     const double center_z = g.bottom_left + .5 * g.height_left;
-    return !grid.is_body_cell(cell) && center_z <= region_top &&
+    return !grid.is_body_cell(global_cell) && center_z <= region_top &&
            center_z >= region_bottom;
   }
 
-  void
-  PointGenerator::reserve(const BackgroundGrid &grid,
-                          const RigidBody      &body,
-                          MaterialPoints       &points) const
+  PointGenerator::Parts
+  PointGenerator::number_of_parts(const BackgroundGrid &grid,
+                                  const RigidBody      &body,
+                                  const unsigned int    global_cell) const
   {
-    unsigned long n_blocks = 0;
-    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
-      if (grid.is_owned(cell) && may_hold_soil(grid, grid.global_number(cell)))
-        {
-          const auto n = number_of_parts(grid, body, grid.global_number(cell));
-          n_blocks +=
-            (n[0] * n[1] + Kernels::block_size - 1) / Kernels::block_size;
-        }
-    points.reset(n_blocks + n_blocks / 16);
+    if (!may_hold_soil(grid, global_cell))
+      return {{0, 0}};
+    const auto         g = grid.initial_geometry(global_cell);
+    const unsigned int n = points_per_direction(g, body, grid.total_travel());
+    if (adaptive)
+      return {{n, n}};
+    const auto parts = [n](const double size, const double smallest) {
+      return static_cast<unsigned int>(std::ceil(n * size / smallest - 1e-6));
+    };
+    return {{parts(g.width, grid.smallest_width_met(global_cell)),
+             parts(std::max(g.height_left, g.height_right),
+                   grid.smallest_height_met(global_cell))}};
   }
 
   void
@@ -222,7 +209,22 @@ namespace CaissonMPM
                            const double          mass_scaling,
                            MaterialPoints       &points) const
   {
-    reserve(grid, body, points);
+    const unsigned int n_cells  = grid.n_global_cells();
+    const auto         is_owned = [&grid](const unsigned int cell) {
+      const unsigned int local = grid.local_number(cell);
+      return local != numbers::invalid_unsigned_int && grid.is_owned(local);
+    };
+    std::vector<Parts> parts;
+    unsigned long      n_blocks = 0;
+    for (unsigned int cell = 0; cell < n_cells; ++cell)
+      {
+        parts.push_back(number_of_parts(grid, body, cell));
+        const unsigned int n = parts[cell][radial] * parts[cell][vertical];
+        if (is_owned(cell))
+          n_blocks += (n + Kernels::block_size - 1) / Kernels::block_size;
+      }
+    points.reset(n_blocks + n_blocks / 16);
+
     const Expression       in_region = parse_region();
     const VectorExpression velocity  = soil.initial_velocity();
     RandomNumbers          random(seed);
@@ -234,16 +236,13 @@ namespace CaissonMPM
       states.push_back(soil.layer(i).start_of_state());
     // Every rank goes through all cells, so that a point's number and random
     // position do not depend on the number of ranks.
-    for (unsigned int cell = 0; cell < grid.n_global_cells(); ++cell)
+    for (unsigned int cell = 0; cell < n_cells; ++cell)
       {
-        if (!may_hold_soil(grid, cell))
-          continue;
         const auto         g     = grid.initial_geometry(cell);
         const unsigned int local = grid.local_number(cell);
-        const bool         owned =
-          local != numbers::invalid_unsigned_int && grid.is_owned(local);
-        const auto         parts = number_of_parts(grid, body, cell);
-        const unsigned int n_r = parts[radial], n_z = parts[vertical];
+        const bool         owned = is_owned(cell);
+        const unsigned int n_r   = parts[cell][radial],
+                           n_z   = parts[cell][vertical];
         for (unsigned int i = 0; i < n_r; ++i)
           {
             const auto moments =

@@ -50,36 +50,30 @@ namespace CaissonMPM
 
 
 
-  std::vector<double *>
+  const EnergyBalance::Members &
   EnergyBalance::works()
   {
-    return {&work_of_body,
-            &force_work,
-            &load_work,
-            &stress_work,
-            &friction_heat,
-            &damping,
-            &floor};
+    using E                    = EnergyBalance;
+    static const Members works = {&E::work_of_body,
+                                  &E::force_work,
+                                  &E::load_work,
+                                  &E::stress_work,
+                                  &E::friction_heat,
+                                  &E::damping,
+                                  &E::floor};
+    return works;
   }
 
 
 
-  const std::vector<double EnergyBalance::*> &
-  EnergyBalance::sums()
+  EnergyBalance::Members
+  EnergyBalance::state_members()
   {
-    using E                                                 = EnergyBalance;
-    static const std::vector<double EnergyBalance::*> found = {
-      &E::work_of_body,
-      &E::force_work,
-      &E::load_work,
-      &E::stress_work,
-      &E::friction_heat,
-      &E::damping,
-      &E::floor,
-      &E::initial_kinetic,
-      &E::initial_potential,
-      &E::largest};
-    return found;
+    using E        = EnergyBalance;
+    Members result = works();
+    result.insert(result.end(),
+                  {&E::initial_kinetic, &E::initial_potential, &E::largest});
+    return result;
   }
 
 
@@ -88,8 +82,8 @@ namespace CaissonMPM
   EnergyBalance::state() const
   {
     std::vector<double> state;
-    for (const auto sum : sums())
-      state.push_back(this->*sum);
+    for (const auto member : state_members())
+      state.push_back(this->*member);
     return state;
   }
 
@@ -99,8 +93,8 @@ namespace CaissonMPM
   EnergyBalance::resume(const std::vector<double> &state)
   {
     unsigned int i = 0;
-    for (const auto sum : sums())
-      this->*sum = state.at(i++);
+    for (const auto member : state_members())
+      this->*member = state.at(i++);
   }
 
 

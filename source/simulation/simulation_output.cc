@@ -59,7 +59,9 @@ namespace CaissonMPM
     Vector2       on_soil = boundary_conditions.impulse();
     double        limited = n_limited, held_back = points.n_held_back();
 
-    std::vector<double *> sums = energy.works();
+    std::vector<double *> sums;
+    for (const auto work : EnergyBalance::works())
+      sums.push_back(&(energy.*work));
     for (Vector2 &impulse : on_body)
       sums.insert(sums.end(), {&impulse[0], &impulse[1]});
     sums.insert(sums.end(),

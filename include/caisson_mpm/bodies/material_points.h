@@ -141,7 +141,7 @@ namespace CaissonMPM
     void
     adapt(const WantedSize &wanted);
 
-    /** Points that were split and pairs that were merged, since the start. */
+    /** Points that were split and pairs that were merged by this process. */
     unsigned long n_split = 0, n_merged = 0;
 
     /** Call action(position, velocity, mass, material) for every point: less
@@ -151,16 +151,13 @@ namespace CaissonMPM
     for_each_motion(const Action &action) const
     {
       for (const unsigned int cell : active_cells)
-        for (int b = first_block[cell]; b >= 0; b = headers[b].next)
-          for (int lane = 0; lane < headers[b].count; ++lane)
-            {
-              const Kernels::PointBlock &p = blocks[b];
-              action(dealii::Point<2>(p.r[lane], p.z[lane]),
-                     dealii::Tensor<1, 2>(
-                       {p.velocity_r[lane], p.velocity_z[lane]}),
-                     p.mass[lane],
-                     headers[b].material);
-            }
+        for_each_lane(cell, [&](const int b, const int lane) {
+          const Kernels::PointBlock &p = blocks[b];
+          action(dealii::Point<2>(p.r[lane], p.z[lane]),
+                 dealii::Tensor<1, 2>({p.velocity_r[lane], p.velocity_z[lane]}),
+                 p.mass[lane],
+                 headers[b].material);
+        });
     }
 
     /** Call action(const MaterialPoint &, cell) for every point of this rank.
@@ -170,20 +167,30 @@ namespace CaissonMPM
     for_each(const Action &action) const
     {
       for (const unsigned int cell : active_cells)
-        for (int b = first_block[cell]; b >= 0; b = headers[b].next)
-          for (int lane = 0; lane < headers[b].count; ++lane)
-            action(get(b, lane), cell);
+        for_each_lane(cell, [&](const int b, const int lane) {
+          action(get(b, lane), cell);
+        });
     }
-
-    /** Bytes that the points take, room for growth included. */
-    double
-    memory_consumption() const;
 
     dealii::Particles::ParticleHandler<2> handler;
 
   private:
     // with a cell in or near which it lies
     using PlacedPoint = std::pair<unsigned int, MaterialPoint>;
+
+    /** Call action(block, lane) for every point of a cell. */
+    template <typename Action>
+    void
+    for_each_lane(const unsigned int cell, const Action &action) const
+    {
+      for (int b = first_block[cell]; b >= 0; b = headers[b].next)
+        for (int lane = 0; lane < headers[b].count; ++lane)
+          action(b, lane);
+    }
+
+    /** Take out @p n points, listed in the order of their blocks. */
+    std::vector<PlacedPoint>
+    take_out(const Kernels::LeavingPoint *places, const unsigned int n);
 
     MaterialPoint
     get(const int block, const int lane) const;

@@ -65,17 +65,15 @@ namespace CaissonMPM
     points_per_direction(const Kernels::CellGeometry &g,
                          const RigidBody             &body,
                          const double                 travel) const;
-    // of the parts of a cell, by its global number, in r and z
-    std::array<unsigned int, 2>
+    // of the parts of a cell, in r and z; 0 without soil
+    using Parts = std::array<unsigned int, 2>;
+    Parts
     number_of_parts(const BackgroundGrid &grid,
                     const RigidBody      &body,
-                    const unsigned int    cell) const;
+                    const unsigned int    global_cell) const;
     bool
-    may_hold_soil(const BackgroundGrid &grid, const unsigned int cell) const;
-    void
-    reserve(const BackgroundGrid &grid,
-            const RigidBody      &body,
-            MaterialPoints       &points) const;
+    may_hold_soil(const BackgroundGrid &grid,
+                  const unsigned int    global_cell) const;
     Expression
     parse_region() const;
 

@@ -125,12 +125,6 @@ namespace CaissonMPM
     /** Whether all nodal velocities of the last step are finite. */
     bool is_finite = true;
 
-    bool
-    uses_limiter() const
-    {
-      return limiter_on;
-    }
-
     const NodalData &
     velocity() const
     {

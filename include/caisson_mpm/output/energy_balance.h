@@ -47,8 +47,10 @@ namespace CaissonMPM
     void
     close(const PointEnergies &points);
 
+    using Members = std::vector<double EnergyBalance::*>;
+
     /** What add() sums. */
-    std::vector<double *>
+    static const Members &
     works();
 
     /** All that a continued run needs, and back. */
@@ -86,8 +88,8 @@ namespace CaissonMPM
 
   private:
     /** What state() consists of. */
-    static const std::vector<double EnergyBalance::*> &
-    sums();
+    static Members
+    state_members();
 
     double force_work = 0., initial_kinetic = 0., initial_potential = 0.,
            largest = 0.;

@@ -148,22 +148,22 @@ namespace CaissonMPM
     double
     seconds_running() const;
 
-    // in the order of their sections in a .prm file
-    BackgroundGrid grid;
-    Soil           soil;
-    RigidBody      body;
-    PointGenerator generator;
-
     // the mesh moves less than the finest cell in so many steps
     static constexpr unsigned int steps_between_adaptions = 25;
-    BoundaryConditions            boundary_conditions;
-    Loads                         loads;
-    NodalMotion                   nodal_motion;
-    TimeStep                      time_step;
-    Observations                  observations;
-    Verification                  verification;
-    ErrorBar                      error_bar;
-    StopRequest                   stop_request;
+
+    // in the order of their sections in a .prm file
+    BackgroundGrid     grid;
+    Soil               soil;
+    RigidBody          body;
+    PointGenerator     generator;
+    BoundaryConditions boundary_conditions;
+    Loads              loads;
+    NodalMotion        nodal_motion;
+    TimeStep           time_step;
+    Observations       observations;
+    Verification       verification;
+    ErrorBar           error_bar;
+    StopRequest        stop_request;
 
     MaterialPoints                 points;
     std::vector<BodyPoint>         body_points;
