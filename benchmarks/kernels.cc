@@ -44,6 +44,7 @@ namespace
     std::vector<double>        filled;
     std::vector<unsigned char> changed;
     std::vector<PointBlock>    blocks;
+    std::vector<PointHistory>  histories;
     std::vector<BlockHeader>   headers;
     Material                   material = {};
     unsigned int               n_nodes = 0, n_points = 0;
@@ -89,6 +90,7 @@ namespace
               (k == 0 ? (first_block.push_back(block), first_block.back()) :
                         headers.back().next) = block;
               blocks.emplace_back();
+              histories.emplace_back();
               headers.push_back({-1, 0, 0});
             }
           PointBlock  &b    = blocks.back();
@@ -105,7 +107,7 @@ namespace
               b.stress[1][l]                  = zz;
               b.volume[l]                     = real ? r * h * h / (n * n) : 0.;
               b.mass[l]                       = density * b.volume[l];
-              b.initial_volume[l]             = b.volume[l];
+              histories.back().initial_volume[l] = b.volume[l];
             }
           filled.back() += b.volume[lane];
         }
@@ -122,6 +124,7 @@ namespace
     view()
     {
       return {blocks.data(),
+              histories.data(),
               headers.data(),
               first_block.data(),
               active.data(),

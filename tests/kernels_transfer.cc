@@ -97,6 +97,7 @@ struct Scene
   std::vector<unsigned char> flags;
   std::vector<Point>         points;
   std::vector<PointBlock>    blocks;
+  std::vector<PointHistory>  histories;
   std::vector<BlockHeader>   headers;
   std::vector<int>           first;
   std::vector<unsigned int>  active;
@@ -116,7 +117,9 @@ struct Scene
   PointsView
   view()
   {
+    histories.resize(blocks.size());
     return {blocks.data(),
+            histories.data(),
             headers.data(),
             first.data(),
             active.data(),

@@ -24,8 +24,9 @@ namespace CaissonMPM
   MaterialPoint
   MaterialPoints::get(const int block, const int lane) const
   {
-    const PointBlock &b = blocks[block];
-    MaterialPoint     p;
+    const PointBlock   &b = blocks[block];
+    const PointHistory &h = histories[block];
+    MaterialPoint       p;
     p.position    = Point<2>(b.r[lane], b.z[lane]);
     p.velocity[0] = b.velocity_r[lane];
     p.velocity[1] = b.velocity_z[lane];
@@ -36,12 +37,12 @@ namespace CaissonMPM
     p.plastic_deviatoric = b.plastic_deviatoric[lane];
     p.plastic_volumetric = b.plastic_volumetric[lane];
     for (int i = 0; i < n_state_variables; ++i)
-      p.state[i] = b.state[i][lane];
-    p.initial_position = Point<2>(b.initial_r[lane], b.initial_z[lane]);
-    p.initial_volume   = b.initial_volume[lane];
-    p.id               = b.id[lane];
-    p.size[0]          = b.size_r[lane];
-    p.size[1]          = b.size_z[lane];
+      p.state[i] = h.state[i][lane];
+    p.initial_position = Point<2>(h.initial_r[lane], h.initial_z[lane]);
+    p.initial_volume   = h.initial_volume[lane];
+    p.id               = h.id[lane];
+    p.size[0]          = h.size_r[lane];
+    p.size[1]          = h.size_z[lane];
     p.material         = headers[block].material;
     return p;
   }
@@ -49,7 +50,8 @@ namespace CaissonMPM
   void
   MaterialPoints::set(const int block, const int lane, const MaterialPoint &p)
   {
-    PointBlock &b      = blocks[block];
+    PointBlock   &b    = blocks[block];
+    PointHistory &h    = histories[block];
     b.r[lane]          = p.position[0];
     b.z[lane]          = p.position[1];
     b.velocity_r[lane] = p.velocity[0];
@@ -61,25 +63,31 @@ namespace CaissonMPM
     b.plastic_deviatoric[lane] = p.plastic_deviatoric;
     b.plastic_volumetric[lane] = p.plastic_volumetric;
     for (int i = 0; i < n_state_variables; ++i)
-      b.state[i][lane] = p.state[i];
-    b.initial_r[lane]      = p.initial_position[0];
-    b.initial_z[lane]      = p.initial_position[1];
-    b.initial_volume[lane] = p.initial_volume;
-    b.id[lane]             = p.id;
-    b.size_r[lane]         = p.size[0];
-    b.size_z[lane]         = p.size[1];
+      h.state[i][lane] = p.state[i];
+    h.initial_r[lane]      = p.initial_position[0];
+    h.initial_z[lane]      = p.initial_position[1];
+    h.initial_volume[lane] = p.initial_volume;
+    h.id[lane]             = p.id;
+    h.size_r[lane]         = p.size[0];
+    h.size_z[lane]         = p.size[1];
   }
 
   // ------------------------------------------------------------ blocks
 
   namespace
   {
-    constexpr unsigned int n_fields = sizeof(PointBlock) / sizeof(double[8]);
-
-    double *
-    field(PointBlock &block, const unsigned int i)
+    /** Block is a PointBlock or a PointHistory: an array of fields. */
+    template <typename Block>
+    void
+    copy_fields(const Block &from,
+                const int    from_lane,
+                Block       &to,
+                const int    lane)
     {
-      return reinterpret_cast<double *>(&block) + i * block_size;
+      using Field = double[block_size];
+      for (unsigned int i = 0; i < sizeof(Block) / sizeof(Field); ++i)
+        reinterpret_cast<Field *>(&to)[i][lane] =
+          reinterpret_cast<const Field *>(&from)[i][from_lane];
     }
   } // namespace
 
@@ -89,8 +97,8 @@ namespace CaissonMPM
                             const int to,
                             const int lane)
   {
-    for (unsigned int i = 0; i < n_fields; ++i)
-      field(blocks[to], i)[lane] = field(blocks[from], i)[from_lane];
+    copy_fields(blocks[from], from_lane, blocks[to], lane);
+    copy_fields(histories[from], from_lane, histories[to], lane);
   }
 
   void
@@ -114,12 +122,11 @@ namespace CaissonMPM
         if (blocks.size() == blocks.capacity())
           {
             // by a quarter: a million points take gigabytes
-            blocks.reserve(blocks.size() + blocks.size() / 4 + 64);
-            headers.reserve(blocks.capacity());
-            use_large_pages();
+            reserve(blocks.size() + blocks.size() / 4 + 64);
           }
         free_blocks.push_back(blocks.size());
         blocks.emplace_back();
+        histories.emplace_back();
         headers.push_back({-1, 0, 0});
       }
     const int block = free_blocks.back();
@@ -196,19 +203,56 @@ namespace CaissonMPM
     active_cells_changed = false;
   }
 
-  void
-  MaterialPoints::use_large_pages()
+  namespace
   {
+    /** Ask for pages of 2 MiB inside the storage; only a hint. */
+    template <typename Block>
+    void
+    use_large_pages(std::vector<Block> &storage)
+    {
 #ifdef MADV_HUGEPAGE
-    // whole pages of 2 MiB inside the storage; only a hint
-    constexpr std::uintptr_t page = 1u << 21;
-    const auto begin = reinterpret_cast<std::uintptr_t>(blocks.data()),
-               end   = begin + blocks.capacity() * sizeof(PointBlock),
-               first = (begin + page - 1) / page * page,
-               last  = end / page * page;
-    if (first < last)
-      madvise(reinterpret_cast<void *>(first), last - first, MADV_HUGEPAGE);
+      constexpr std::uintptr_t page = 1u << 21;
+      const auto begin = reinterpret_cast<std::uintptr_t>(storage.data()),
+                 end   = begin + storage.capacity() * sizeof(Block),
+                 first = (begin + page - 1) / page * page,
+                 last  = end / page * page;
+      if (first < last)
+        madvise(reinterpret_cast<void *>(first), last - first, MADV_HUGEPAGE);
 #endif
+    }
+
+    /** Bring storage[source[i]] to i, for a permutation. */
+    template <typename Block>
+    void
+    permute(std::vector<Block> &storage, std::vector<int> source)
+    {
+      // cycle by cycle, with room for one
+      for (unsigned int start = 0; start < storage.size(); ++start)
+        {
+          if (source[start] == static_cast<int>(start))
+            continue;
+          const Block  first = storage[start];
+          unsigned int i     = start;
+          for (unsigned int next = source[i]; next != start; next = source[i])
+            {
+              storage[i] = storage[next];
+              source[i]  = i;
+              i          = next;
+            }
+          storage[i] = first;
+          source[i]  = i;
+        }
+    }
+  } // namespace
+
+  void
+  MaterialPoints::reserve(const unsigned long n_blocks)
+  {
+    blocks.reserve(n_blocks);
+    histories.reserve(n_blocks);
+    headers.reserve(n_blocks);
+    use_large_pages(blocks);
+    use_large_pages(histories);
   }
 
   void
@@ -235,7 +279,7 @@ namespace CaissonMPM
           ordered[i].next = i + 1;
       }
     std::copy(ordered.begin(), ordered.end(), headers.begin());
-    // the free blocks are the rest; then cycle by cycle, with room for one
+    // the free blocks are the rest
     std::vector<bool> used(blocks.size(), false);
     for (const int block : source)
       used[block] = true;
@@ -245,21 +289,8 @@ namespace CaissonMPM
     free_blocks.clear();
     for (unsigned int i = blocks.size(); i-- > n;)
       free_blocks.push_back(i);
-    for (unsigned int start = 0; start < blocks.size(); ++start)
-      {
-        if (source[start] == static_cast<int>(start))
-          continue;
-        const PointBlock first = blocks[start];
-        unsigned int     i     = start;
-        for (unsigned int next = source[i]; next != start; next = source[i])
-          {
-            blocks[i] = blocks[next];
-            source[i] = i;
-            i         = next;
-          }
-        blocks[i] = first;
-        source[i] = i;
-      }
+    permute(blocks, source);
+    permute(histories, source);
   }
 
   PointsView
@@ -268,6 +299,7 @@ namespace CaissonMPM
     if (active_cells_changed)
       collect_active_cells();
     return {blocks.data(),
+            histories.data(),
             headers.data(),
             first_block.data(),
             active_cells.data(),
@@ -463,7 +495,8 @@ namespace CaissonMPM
   {
     std::vector<LeavingPoint> places;
     for_each_lane(cell, [&](const int b, const int lane) {
-      const double size[2] = {blocks[b].size_r[lane], blocks[b].size_z[lane]};
+      const double size[2] = {histories[b].size_r[lane],
+                              histories[b].size_z[lane]};
       bool         is_out  = false;
       for (unsigned int d = 0; d < 2; ++d)
         is_out |=
@@ -679,6 +712,7 @@ namespace CaissonMPM
   MaterialPoints::clear_blocks()
   {
     blocks.clear();
+    histories.clear();
     headers.clear();
     free_blocks.clear();
     first_block.assign(grid.n_cells(), -1);
@@ -692,9 +726,7 @@ namespace CaissonMPM
   MaterialPoints::reset(const unsigned long n_blocks)
   {
     clear_blocks();
-    blocks.reserve(n_blocks);
-    headers.reserve(n_blocks);
-    use_large_pages();
+    reserve(n_blocks);
   }
 
   void

@@ -231,15 +231,16 @@ namespace CaissonMPM
     void
     collect_active_cells();
     void
-    use_large_pages();
+    reserve(const unsigned long n_blocks);
     void
     put_blocks_in_order();
 
-    BackgroundGrid                   &grid;
-    PointExchange                     point_exchange;
-    std::vector<Kernels::PointBlock>  blocks;
-    std::vector<Kernels::BlockHeader> headers;
-    std::vector<int>                  free_blocks;
+    BackgroundGrid                    &grid;
+    PointExchange                      point_exchange;
+    std::vector<Kernels::PointBlock>   blocks;
+    std::vector<Kernels::PointHistory> histories; // of the blocks
+    std::vector<Kernels::BlockHeader>  headers;
+    std::vector<int>                   free_blocks;
     // by cell, -1: none; of a ghost cell 0 where its owner has points in it
     std::vector<int>                   first_block;
     std::vector<unsigned int>          active_cells;

@@ -28,14 +28,18 @@ namespace CaissonMPM
         CAISSON_INLINE
         CellField(const NodalVector *field, const CellNodes &cell)
         {
-          double vr[4], vz[4];
+          using Pair = Lanes<2>; // both components of a node
+          Pair corner[4], coefficient[4];
           for (int i = 0; i < 4; ++i)
+            corner[i] = Pair::load(field[cell.node[i]].value);
+          coefficients(corner, coefficient);
+          for (int i = 0; i < 4; i += 2)
             {
-              vr[i] = field[cell.node[i]].value[0];
-              vz[i] = field[cell.node[i]].value[1];
+              Pair component[2];
+              transpose(coefficient + i, component);
+              component[0].store(r + i);
+              component[1].store(z + i);
             }
-          coefficients(vr, r);
-          coefficients(vz, z);
         }
       };
 
@@ -119,6 +123,7 @@ namespace CaissonMPM
       template <typename Law, typename Number>
       CAISSON_INLINE Number
       update_stress(PointBlock                     &b,
+                    PointHistory                   &history,
                     const int                       lane,
                     const LocalPoint<Number>       &p,
                     const CellUpdate               &cell,
@@ -175,10 +180,10 @@ namespace CaissonMPM
         const Number volume      = load(b.volume);
         if (Law::uses_void_ratio)
           state.void_ratio = Number(1. + initial_void_ratio) *
-                               (volume / load(b.initial_volume)) -
+                               (volume / load(history.initial_volume)) -
                              Number(1.);
         for (int i = 0; i < Law::n_state; ++i)
-          state.variable[i] = load(b.state[i]);
+          state.variable[i] = load(history.state[i]);
         const StressState<Number> old = stress;
         Law::update(stress, strain, state, parameters);
         stress.rr.store(b.stress[0] + lane);
@@ -188,7 +193,7 @@ namespace CaissonMPM
         state.plastic_deviatoric.store(b.plastic_deviatoric + lane);
         state.plastic_volumetric.store(b.plastic_volumetric + lane);
         for (int i = 0; i < Law::n_state; ++i)
-          state.variable[i].store(b.state[i] + lane);
+          state.variable[i].store(history.state[i] + lane);
         (volume * (Number(1.) + volume_change)).store(b.volume + lane);
         const Number twice_power =
           (old.rr + stress.rr) * strain.rr + (old.zz + stress.zz) * strain.zz +
@@ -250,6 +255,7 @@ namespace CaissonMPM
       template <typename Law, typename Number>
       CAISSON_INLINE unsigned int
       update_block(PointBlock                     &b,
+                   PointHistory                   &history,
                    const CellUpdate               &cell,
                    const UpdateSettings           &settings,
                    const double                    initial_void_ratio,
@@ -266,11 +272,16 @@ namespace CaissonMPM
             const LocalPoint<Number> p = cell.map.at_position(r, z);
             const Number             weight =
               Number::load((cell.full ? b.mass : b.volume) + lane);
-            sums.add_work(
-              p,
-              weight,
-              update_stress<Law>(
-                b, lane, p, cell, settings, initial_void_ratio, parameters));
+            sums.add_work(p,
+                          weight,
+                          update_stress<Law>(b,
+                                             history,
+                                             lane,
+                                             p,
+                                             cell,
+                                             settings,
+                                             initial_void_ratio,
+                                             parameters));
             sums.sum[3] += Number::load(b.volume + lane);
 
             const Number keep(settings.keep_velocity);
@@ -357,6 +368,7 @@ namespace CaissonMPM
                      [&](auto law, const auto &parameters) CAISSON_LAMBDA {
                        outside = update_block<decltype(law), Number>(
                          points.blocks[block],
+                         points.histories[block],
                          update,
                          settings,
                          material.initial_void_ratio,
@@ -388,16 +400,16 @@ namespace CaissonMPM
                            const double             axisymmetric,
                            CellUpdate              *update)
       {
-        const auto lanes = [&](const auto &value) {
-          return make_lanes<Number>([&](const int i) {
-            return value(update[i < group.n ? i : 0].strain);
-          });
-        };
+        const double *rows[Number::width];
+        for (int i = 0; i < Number::width; ++i)
+          rows[i] = update[i < group.n ? i : 0].strain.r; // and then z
+        LaneSums<Number, 8> fields;
+        fields.load_lanes(rows);
         CellField<Number> strain;
         for (int k = 0; k < 4; ++k)
           {
-            strain.r[k] = lanes([=](const CellField<> &v) { return v.r[k]; });
-            strain.z[k] = lanes([=](const CellField<> &v) { return v.z[k]; });
+            strain.r[k] = fields.sum[k];
+            strain.z[k] = fields.sum[4 + k];
           }
         const Number mean = mean_divergence(map, axisymmetric, strain);
         for (int i = 0; i < group.n; ++i)
@@ -425,10 +437,11 @@ namespace CaissonMPM
             const CellGroup<Number> group(points, begin);
             const CellMap<Number>   map = group.map(grid.geometry);
             CellUpdate              update[width];
-            Number                  mass[6];
-            for (int k = 0; k < 6; ++k)
-              mass[k] = group.lanes(
-                [&](const unsigned int c) { return moments[c].mass[k]; });
+            const double           *mass_rows[width];
+            for (int i = 0; i < width; ++i)
+              mass_rows[i] = moments[group.cell[i]].mass;
+            LaneSums<Number, 8> mass;
+            mass.load_lanes(mass_rows);
             for (int i = 0; i < group.n; ++i)
               prepare_cell(group.cell[i],
                            moments[group.cell[i]],
@@ -440,7 +453,11 @@ namespace CaissonMPM
             if (settings.mean_volume_change)
               find_mean_divergence(group, map, grid.axisymmetric, update);
 
-            double sums_of[width][4];
+            constexpr int n_sums = UpdateSums<Number>::size;
+            Number        of_points[n_sums][width];
+            for (int i = 0; i < width; ++i)
+              for (int k = 0; k < n_sums; ++k)
+                of_points[k][i] = Number(0.);
             for (int i = 0; i < group.n; ++i)
               {
                 const unsigned int cell = group.cell[i];
@@ -453,24 +470,22 @@ namespace CaissonMPM
                                                              settings,
                                                              own,
                                                              leaving);
-                own.store(sums_of[i]);
+                for (int k = 0; k < n_sums; ++k)
+                  of_points[k][i] = own.sum[k];
                 // while they are in the cache, and if they stay as they are
                 if (n_leaving == 0)
                   sum_points<Number>(
                     points, moved, materials, next, cell, moments[cell]);
               }
-            const auto sum = [&](const int k) {
-              return make_lanes<Number>(
-                [&](const int i) { return sums_of[i < group.n ? i : 0][k]; });
-            };
-            const Number work[3] = {sum(0), sum(1), sum(2)};
+            Number sums[n_sums];
+            for (int k = 0; k < n_sums; ++k)
+              sums[k] = sum_each(of_points[k]);
             const Number in_full =
-              work_in_full_cells(work, mass, map.volume(grid.axisymmetric));
+              work_in_full_cells(sums, mass.sum, map.volume(grid.axisymmetric));
             for (int i = 0; i < group.n; ++i)
               {
-                leaving.stress_work +=
-                  update[i].full ? in_full[i] : sums_of[i][0];
-                points.filled_volume[group.cell[i]] = sums_of[i][3];
+                leaving.stress_work += update[i].full ? in_full[i] : sums[0][i];
+                points.filled_volume[group.cell[i]] = sums[3][i];
               }
           }
       }

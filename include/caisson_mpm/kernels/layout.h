@@ -7,7 +7,8 @@
 // a block belongs to one cell and one material, and the blocks of a cell form
 // a singly linked list. Lanes beyond the count of a block are padding: they
 // repeat a valid point with mass and volume zero, so that kernels may compute
-// on all lanes.
+// on all lanes. What a step of most laws leaves alone lies apart, in the
+// PointHistory of the same number.
 //
 // A cell is a trapezoid whose two sides are vertical: r depends on xi only,
 //   r = left + width xi,   z = bottom(xi) + height(xi) eta,
@@ -33,8 +34,13 @@ namespace CaissonMPM
       double stress[4][block_size];
       double mass[block_size], volume[block_size];
       double plastic_deviatoric[block_size], plastic_volumetric[block_size];
+    };
+
+    /** What a block keeps of the past of its MPs. SI units, volume per
+     * radian. */
+    struct alignas(64) PointHistory
+    {
       double state[n_state_variables][block_size]; // of the law
-      // read only during a step
       double initial_r[block_size], initial_z[block_size];
       double initial_volume[block_size];
       double id[block_size];
@@ -124,6 +130,7 @@ namespace CaissonMPM
     struct PointsView
     {
       PointBlock         *blocks;
+      PointHistory       *histories; // of the blocks
       const BlockHeader  *headers;
       const int          *first_block;  // [n_cells]
       const unsigned int *active_cells; // [n_active_cells] cells with MPs

@@ -90,7 +90,7 @@ namespace CaissonMPM
       CAISSON_INLINE void
       prefetch(const PointsView &points, int block, const unsigned int active)
       {
-        constexpr int n_fields = 12; // those that a step reads
+        constexpr int n_fields = sizeof(PointBlock) / sizeof(double[8]);
         if (block < 0 && active + 1 < points.n_active_cells)
           block = points.first_block[points.active_cells[active + 1]];
         if (block < 0)

@@ -420,75 +420,90 @@ namespace CaissonMPM
 #define CAISSON_SHUFFLE(a, b, ...) \
   Number(__builtin_shufflevector((a).get(), (b).get(), __VA_ARGS__))
 
-      /** Lane i of out[k] is lane k of in[i]. */
-      template <typename Number>
+      /**
+       * Of the runs of @p length lanes of a and b: the even ones of both into
+       * even, the odd ones into odd, in turn from a and b.
+       */
+      template <int length, typename Number>
       CAISSON_INLINE void
-      transpose(const Number *in, Number *out)
+      exchange_runs(const Number a, const Number b, Number &even, Number &odd)
       {
-        if constexpr (Number::width == 8)
+        if constexpr (Number::width == 8 && length == 1)
           {
-            Number pair[8], quad[8];
-            for (int k = 0; k < 8; k += 2)
-              {
-                pair[k] =
-                  CAISSON_SHUFFLE(in[k], in[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
-                pair[k + 1] =
-                  CAISSON_SHUFFLE(in[k], in[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
-              }
-            for (int k = 0; k < 8; k += 4)
-              for (int j = 0; j < 2; ++j)
-                {
-                  const Number x = pair[k + j], y = pair[k + j + 2];
-                  quad[k + j] = CAISSON_SHUFFLE(x, y, 0, 1, 8, 9, 4, 5, 12, 13);
-                  quad[k + j + 2] =
-                    CAISSON_SHUFFLE(x, y, 2, 3, 10, 11, 6, 7, 14, 15);
-                }
-            for (int k = 0; k < 4; ++k)
-              {
-                out[k] = CAISSON_SHUFFLE(
-                  quad[k], quad[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
-                out[k + 4] = CAISSON_SHUFFLE(
-                  quad[k], quad[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
-              }
+            even = CAISSON_SHUFFLE(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+            odd  = CAISSON_SHUFFLE(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+          }
+        else if constexpr (Number::width == 8 && length == 2)
+          {
+            even = CAISSON_SHUFFLE(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+            odd  = CAISSON_SHUFFLE(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+          }
+        else if constexpr (Number::width == 8)
+          {
+            even = CAISSON_SHUFFLE(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
+            odd  = CAISSON_SHUFFLE(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
+          }
+        else if constexpr (Number::width == 4 && length == 1)
+          {
+            even = CAISSON_SHUFFLE(a, b, 0, 4, 2, 6);
+            odd  = CAISSON_SHUFFLE(a, b, 1, 5, 3, 7);
           }
         else if constexpr (Number::width == 4)
           {
-            Number pair[4];
-            for (int k = 0; k < 4; k += 2)
-              {
-                pair[k]     = CAISSON_SHUFFLE(in[k], in[k + 1], 0, 4, 2, 6);
-                pair[k + 1] = CAISSON_SHUFFLE(in[k], in[k + 1], 1, 5, 3, 7);
-              }
-            for (int k = 0; k < 2; ++k)
-              {
-                out[k]     = CAISSON_SHUFFLE(pair[k], pair[k + 2], 0, 1, 4, 5);
-                out[k + 2] = CAISSON_SHUFFLE(pair[k], pair[k + 2], 2, 3, 6, 7);
-              }
-          }
-        else if constexpr (Number::width == 2)
-          {
-            const Number first = in[0];
-            out[0]             = CAISSON_SHUFFLE(first, in[1], 0, 2);
-            out[1]             = CAISSON_SHUFFLE(first, in[1], 1, 3);
+            even = CAISSON_SHUFFLE(a, b, 0, 1, 4, 5);
+            odd  = CAISSON_SHUFFLE(a, b, 2, 3, 6, 7);
           }
         else
-          out[0] = in[0];
-      }
-
-      /** Lane i of the result is the sum over all lanes of a[i]. */
-      template <typename Number>
-      CAISSON_INLINE Number
-      sum_each(const Number *a)
-      {
-        Number columns[Number::width];
-        transpose(a, columns);
-        for (int half = Number::width / 2; half > 0; half /= 2)
-          for (int k = 0; k < half; ++k)
-            columns[k] += columns[k + half];
-        return columns[0];
+          {
+            even = CAISSON_SHUFFLE(a, b, 0, 2);
+            odd  = CAISSON_SHUFFLE(a, b, 1, 3);
+          }
       }
 
 #undef CAISSON_SHUFFLE
+
+      /** Lane i of out[k] is lane k of in[i]. */
+      template <typename Number, int length = 1>
+      CAISSON_INLINE void
+      transpose(const Number *in, Number *out)
+      {
+        constexpr int width = Number::width;
+        if constexpr (length < width)
+          {
+            Number next[width];
+            for (int k = 0; k < width; ++k)
+              if ((k & length) == 0)
+                exchange_runs<length>(in[k],
+                                      in[k + length],
+                                      next[k],
+                                      next[k + length]);
+            transpose<Number, 2 * length>(next, out);
+          }
+        else
+          for (int k = 0; k < width; ++k)
+            out[k] = in[k];
+      }
+
+      /** Lane i of the result is the sum over all lanes of a[i]. */
+      template <typename Number, int length = 1>
+      CAISSON_INLINE Number
+      sum_each(const Number *a)
+      {
+        constexpr int n = Number::width / length;
+        if constexpr (n > 1)
+          {
+            Number next[n / 2];
+            for (int k = 0; k < n; k += 2)
+              {
+                Number even, odd;
+                exchange_runs<length>(a[k], a[k + 1], even, odd);
+                next[k / 2] = even + odd;
+              }
+            return sum_each<Number, 2 * length>(next);
+          }
+        else
+          return a[0];
+      }
 
       /** The widest number type of the instruction set being compiled for. */
 #if defined(__AVX512F__)
