@@ -137,7 +137,7 @@ def say_memory(report, refinement):
     report.say(f"Peak memory of {points:,} points: {1e-6 * much:.0f} MB, "
                f"{(much - base) / (points - few):.0f} bytes per point above a "
                f"run on the same mesh with {few:,} ({1e-6 * base:.0f} MB). The "
-               "peak is reached while a frame or checkpoint is written.")
+               "peak includes a frame and a checkpoint.")
 
 
 # ------------------------------------------------------------ ranks

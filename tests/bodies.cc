@@ -531,34 +531,6 @@ check_spacing()
   verdict("cells with less than two points", few, 0.);
 }
 
-/** The points come back from the handler as they went in. */
-void
-check_handler()
-{
-  Scene s(caisson);
-  s.generator.generate(s.grid, s.body, s.soil, 1., s.points);
-  const auto sum = [&s]() {
-    std::array<double, 4> result = {{0., 0., 0., 0.}};
-    s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
-      result[0] += p.id * p.position[0];
-      result[1] += p.id * p.stress[0];
-      result[2] += p.id * p.mass;
-      result[3] += p.id * cell;
-    });
-    return result;
-  };
-  const auto before = sum();
-  const auto n      = s.points.n_points();
-  s.points.store();
-  std::printf("in the handler: %s\n",
-              s.points.handler.n_global_particles() == n ? "all" : "not all");
-  s.points.load();
-  double error = 0.;
-  for (unsigned int i = 0; i < 4; ++i)
-    error = std::max(error, std::abs(sum()[i] / before[i] - 1.));
-  verdict("store and load: error", error, 1e-12);
-}
-
 /** Mass, its first moments, momentum, volume, and the integral of stress. */
 std::array<double, 10>
 resultants(const MaterialPoints &points)
@@ -857,7 +829,6 @@ main(int argc, char *argv[])
   check_cylinder();
   check_points();
   check_spacing();
-  check_handler();
   check_split_and_merge();
   check_distortion();
   check_point_options();

@@ -574,6 +574,18 @@ def test_stop_file():
     expect(not os.path.exists(os.path.join(path, 'stop')), 'the file is left')
 
 
+def flip_a_bit(path):
+    """In the middle of the checkpoint that is valid."""
+    with open(os.path.join(path, 'checkpoint.info'), encoding='utf-8') as info:
+        name = re.search(r'^file (.*)$', info.read(), re.M).group(1)
+    with open(os.path.join(path, name), 'r+b') as file:
+        middle = file.seek(0, os.SEEK_END) // 2
+        file.seek(middle)
+        byte = file.read(1)[0]
+        file.seek(middle)
+        file.write(bytes([byte ^ 1]))
+
+
 def test_stop_restart_is_refused():
     path = directory('none')
     text = jack(path, BAD_INPUT, '--restart')
@@ -591,6 +603,10 @@ def test_stop_restart_is_refused():
     text = jack(path, BAD_INPUT, '--restart',
                 **{'Soil/Layer 1/Friction angle': 31})
     expect('Friction angle' in text, text)
+    flip_a_bit(path)
+    text = jack(path, BAD_INPUT, '--restart')
+    expect('is damaged' in text and 'HDF5' not in text, text)
+    flip_a_bit(path)
     jack(path, SUCCESS, '--restart')
 
 
@@ -677,6 +693,10 @@ def test_ranks_restart():
         same_history(history(whole), history(path), 1e-6)
         expect(summary(path)['material_points'] ==
                summary(whole)['material_points'], 'points')
+    flip_a_bit(stopped)
+    text = on_ranks(2, BAD_INPUT, scene('jack'), '--output-directory', stopped,
+                    '--restart', **entries)
+    expect(text.count('is damaged') == 1, text)
 
 
 def test_ranks_verification():

@@ -659,54 +659,7 @@ namespace CaissonMPM
     throw RunFailure(s.str());
   }
 
-  // ------------------------------------------------------------ deal.II
-
-  void
-  MaterialPoints::clear_handler()
-  {
-    handler.initialize(grid.triangulation, grid.mapping, n_properties);
-    handler.clear_particles();
-  }
-
-  void
-  MaterialPoints::insert(const unsigned int cell, const MaterialPoint &p)
-  {
-    double data[n_properties] = {p.velocity[0],
-                                 p.velocity[1],
-                                 p.stress[rr],
-                                 p.stress[zz],
-                                 p.stress[tt],
-                                 p.stress[rz],
-                                 p.mass,
-                                 p.volume,
-                                 p.plastic_deviatoric,
-                                 p.plastic_volumetric,
-                                 p.initial_position[0],
-                                 p.initial_position[1],
-                                 p.initial_volume,
-                                 p.id,
-                                 static_cast<double>(p.material),
-                                 p.size[0],
-                                 p.size[1]};
-    for (int i = 0; i < n_state_variables; ++i)
-      data[17 + i] = p.state[i];
-    const Point<2> x = to_reference(grid.geometry(cell), p.position);
-    handler.insert_particle(p.position,
-                            x,
-                            static_cast<types::particle_index>(p.id),
-                            grid.cell_iterator(cell),
-                            ArrayView<const double>(data, n_properties));
-  }
-
-  void
-  MaterialPoints::store()
-  {
-    clear_handler();
-    for_each([this](const MaterialPoint &p, const unsigned int cell) {
-      insert(cell, p);
-    });
-    handler.update_cached_numbers();
-  }
+  // ------------------------------------------------------------ all points
 
   void
   MaterialPoints::clear_blocks()
@@ -737,38 +690,5 @@ namespace CaissonMPM
       return;
     point_exchange.set_up(grid);
     point_exchange.update_occupied(first_block);
-  }
-
-  void
-  MaterialPoints::load()
-  {
-    clear_blocks();
-    for (const auto &particle : handler)
-      {
-        const auto    d = particle.get_properties();
-        MaterialPoint p;
-        p.position           = particle.get_location();
-        p.velocity[0]        = d[0];
-        p.velocity[1]        = d[1];
-        p.stress             = {{d[2], d[3], d[4], d[5]}};
-        p.mass               = d[6];
-        p.volume             = d[7];
-        p.plastic_deviatoric = d[8];
-        p.plastic_volumetric = d[9];
-        p.initial_position   = Point<2>(d[10], d[11]);
-        p.initial_volume     = d[12];
-        p.id                 = d[13];
-        p.material           = static_cast<unsigned int>(d[14]);
-        p.size[0]            = d[15];
-        p.size[1]            = d[16];
-        for (int i = 0; i < n_state_variables; ++i)
-          p.state[i] = d[17 + i];
-        add(grid.local_number(
-              typename BackgroundGrid::Triangulation::active_cell_iterator(
-                particle.get_surrounding_cell())),
-            p);
-      }
-    handler.clear_particles();
-    settle();
   }
 } // namespace CaissonMPM

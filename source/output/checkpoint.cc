@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/output/checkpoint.h>
+#include <caisson_mpm/output/point_file.h>
 #include <caisson_mpm/output/text_file.h>
 
 #include <deal.II/base/mpi.h>
@@ -8,10 +9,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <sstream>
 
 namespace CaissonMPM
@@ -21,12 +25,10 @@ namespace CaissonMPM
 
   namespace
   {
-    const std::string format_name = "caisson_mpm-checkpoint-5";
+    const std::string format_name = "caisson_mpm-checkpoint-6";
 
-    // a particle in the file: its id, location, reference location, properties
-    constexpr unsigned long bytes_per_point =
-      sizeof(types::particle_index) +
-      sizeof(double) * (2 + 2 + MaterialPoints::n_properties);
+    // what a rank has in memory at a time besides its own
+    constexpr unsigned long points_per_piece = 20000;
 
     std::string
     info_file(const std::string &directory)
@@ -37,9 +39,10 @@ namespace CaissonMPM
     /** What checkpoint.info says. */
     struct Info
     {
-      std::string     files; // checkpoint-a or checkpoint-b
+      std::string     file; // checkpoint-a.h5 or checkpoint-b.h5
       unsigned long   n_points = 0;
-      unsigned long   n_bytes  = 0; // of all files
+      unsigned long   n_bytes  = 0; // of the file
+      std::uint64_t   checksum = 0; // of the points
       CheckpointState state;
       std::string     fingerprint;
     };
@@ -52,12 +55,12 @@ namespace CaissonMPM
       };
       const CheckpointState &s = info.state;
       std::ostringstream     out;
-      out << "format " << format_name << "\nfiles " << info.files << "\npoints "
-          << info.n_points << "\nbytes " << info.n_bytes << "\ntime "
-          << exact(s.time) << "\ntravel " << exact(s.travel) << "\nstep "
-          << s.step << "\nlimiter_count " << s.limiter_count << "\nheld_back "
-          << s.held_back << "\nexternal_work " << exact(s.external_work)
-          << "\nmore";
+      out << "format " << format_name << "\nfile " << info.file << "\npoints "
+          << info.n_points << "\nbytes " << info.n_bytes << "\nchecksum "
+          << info.checksum << "\ntime " << exact(s.time) << "\ntravel "
+          << exact(s.travel) << "\nstep " << s.step << "\nlimiter_count "
+          << s.limiter_count << "\nheld_back " << s.held_back
+          << "\nexternal_work " << exact(s.external_work) << "\nmore";
       for (const double value : s.more)
         out << ' ' << exact(value);
       out << "\nfingerprint\n" << info.fingerprint;
@@ -89,9 +92,10 @@ namespace CaissonMPM
       Info info;
       if (entry("format") != format_name)
         return info;
-      info.files    = entry("files");
+      info.file     = entry("file");
       info.n_points = count("points");
       info.n_bytes  = count("bytes");
+      info.checksum = count("checksum");
       info.state    = {real("time"),
                        real("travel"),
                        count("step"),
@@ -111,29 +115,12 @@ namespace CaissonMPM
 
     // ---------------------------------------------------------- files
 
-    /** The files that deal.II wrote under this name. */
-    std::vector<fs::path>
-    files_of(const std::string &directory, const std::string &name)
-    {
-      std::vector<fs::path> result;
-      std::error_code       error;
-      for (const auto &entry : fs::directory_iterator(directory, error))
-        if (entry.path().filename().string().compare(0, name.size(), name) == 0)
-          result.push_back(entry.path());
-      return result;
-    }
-
     unsigned long
-    total_size(const std::vector<fs::path> &files)
+    size_of(const fs::path &file)
     {
-      unsigned long   sum = 0;
       std::error_code error;
-      for (const fs::path &file : files)
-        {
-          const auto size = fs::file_size(file, error);
-          sum += error ? 0 : size;
-        }
-      return sum;
+      const auto      size = fs::file_size(file, error);
+      return error ? 0 : size;
     }
 
     /** Bring the file to the disk; 0 or an errno. */
@@ -148,36 +135,49 @@ namespace CaissonMPM
       return error;
     }
 
+    bool
+    has_space(const std::string &directory, const unsigned long n_bytes)
+    {
+      std::error_code error; // then it is the largest number
+      return fs::space(directory, error).available >= n_bytes;
+    }
+
+    /** Whether a file can become as large as that; 0 or an errno. HDF5 must not
+     * find out: if it cannot close a file, it crashes when the program ends. */
+    int
+    look_for_room(const fs::path &file, const unsigned long n_bytes)
+    {
+      const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT, 0666);
+      if (descriptor < 0)
+        return errno;
+      int error = fallocate(descriptor, 0, 0, n_bytes) == 0 ? 0 : errno;
+      if (error == EOPNOTSUPP) // by this file system
+        error = has_space(file.parent_path(), n_bytes) ? 0 : ENOSPC;
+      close(descriptor);
+      std::error_code ignored;
+      fs::remove(file, ignored);
+      return error;
+    }
+
     /**
-     * Remove what is left of an older checkpoint of this name, and see that
-     * there is room for the new one: p4est aborts the program where a disk is
-     * full. Returns 0 or an errno.
+     * Remove what is left of an older checkpoint of this name, with all files
+     * of earlier formats, and see that there is room for the new one. Returns 0
+     * or an errno.
      */
     int
     make_room(const std::string  &directory,
-              const std::string  &name,
+              const std::string  &file,
               const unsigned long n_bytes)
     {
-      std::error_code error;
-      for (const fs::path &file : files_of(directory, name))
-        fs::remove(file, error);
-      const auto space = fs::space(directory, error);
-      if (error)
-        return error.value();
-      return space.available < n_bytes ? ENOSPC : 0;
-    }
-
-    /** See that all was written: deal.II and MPI may pass over a full disk. */
-    int
-    make_durable(const std::string  &directory,
-                 const std::string  &name,
-                 const unsigned long n_points)
-    {
-      const auto files = files_of(directory, name);
-      for (const fs::path &file : files)
-        if (const int error = synchronize(file))
-          return error;
-      return total_size(files) < n_points * bytes_per_point ? ENOSPC : 0;
+      const std::string     name = fs::path(file).stem().string();
+      std::vector<fs::path> old;
+      std::error_code       error;
+      for (const auto &entry : fs::directory_iterator(directory, error))
+        if (entry.path().filename().string().compare(0, name.size(), name) == 0)
+          old.push_back(entry.path());
+      for (const fs::path &path : old)
+        fs::remove(path, error);
+      return look_for_room(directory + "/" + file, n_bytes);
     }
 
     /** Call action() on the first rank; all throw where it returns an errno. */
@@ -193,6 +193,81 @@ namespace CaissonMPM
         report_unwritable("the checkpoint in " + directory,
                           error,
                           "the one before it, if any, is still valid");
+    }
+
+
+
+    // ---------------------------------------------------------- points
+
+    /** Close the file. The checksum of all ranks' rows, unless one has failed.
+     * Collective. */
+    std::optional<std::uint64_t>
+    finish(PointFile &file, const MPI_Comm communicator)
+    {
+      const bool succeeded =
+        Utilities::MPI::min(file.close() ? 1 : 0, communicator) == 1;
+      const auto sum = Utilities::MPI::sum(file.checksum(), communicator);
+      return succeeded ? std::make_optional(sum) : std::nullopt;
+    }
+
+    /** Write the points of all ranks, one rank's after the other's, each in the
+     * order of its cells. Returns as finish(). Collective. */
+    std::optional<std::uint64_t>
+    write_points(const std::string    &path,
+                 const BackgroundGrid &grid,
+                 const MaterialPoints &points)
+    {
+      const MPI_Comm communicator = grid.communicator();
+      const auto     n            = Utilities::MPI::all_gather(
+        communicator, static_cast<unsigned long>(points.n_points()));
+      const auto own =
+        n.begin() + Utilities::MPI::this_mpi_process(communicator);
+      unsigned long               row = std::accumulate(n.begin(), own, 0ul);
+      PointFile                   file(path,
+                     PointFile::Access::create,
+                     std::accumulate(n.begin(), n.end(), 0ul),
+                     communicator);
+      std::vector<TravelingPoint> piece;
+      piece.reserve(std::min(*own, points_per_piece));
+      const auto write_piece = [&]() {
+        file.write(row, piece);
+        row += piece.size();
+        piece.clear();
+      };
+      points.for_each([&](const MaterialPoint &point, const unsigned int cell) {
+        piece.push_back({grid.global_number(cell), point});
+        if (piece.size() == points_per_piece)
+          write_piece();
+      });
+      write_piece();
+      return finish(file, communicator);
+    }
+
+    /**
+     * Read all points and call action(points) for each piece, as often on all
+     * ranks: the pieces of all of them, one rank's after the other's, are the
+     * next rows of the file. Returns as finish(). Collective.
+     */
+    template <typename Action>
+    std::optional<std::uint64_t>
+    read_points(const std::string  &path,
+                const unsigned long n_points,
+                const MPI_Comm      communicator,
+                const Action       &action)
+    {
+      PointFile  file(path, PointFile::Access::read, n_points, communicator);
+      const auto n_ranks = Utilities::MPI::n_mpi_processes(communicator),
+                 rank    = Utilities::MPI::this_mpi_process(communicator);
+      for (unsigned long row = 0; row < n_points;
+           row += n_ranks * points_per_piece)
+        {
+          const unsigned long begin = std::min(n_points,
+                                               row + rank * points_per_piece),
+                              end =
+                                std::min(n_points, begin + points_per_piece);
+          action(file.read(begin, end - begin));
+        }
+      return finish(file, communicator);
     }
 
 
@@ -226,6 +301,14 @@ namespace CaissonMPM
                      "\nSet it back, or run without --restart.");
     }
 
+    [[noreturn]] void
+    report_damaged(const std::string &directory)
+    {
+      throw BadInput("the checkpoint in " + directory +
+                     " is damaged, or was written by another version. Run "
+                     "without --restart.");
+    }
+
     Info
     read_info(const std::string &directory)
     {
@@ -236,12 +319,25 @@ namespace CaissonMPM
                        "output directory of the run that was stopped, or run "
                        "without --restart.");
       const Info info = parse_info(text);
-      if (info.files.empty() ||
-          total_size(files_of(directory, info.files)) != info.n_bytes)
-        throw BadInput("the checkpoint in " + directory +
-                       " is damaged, or was written by another version. Run "
-                       "without --restart.");
+      if (info.file.empty() ||
+          size_of(directory + "/" + info.file) != info.n_bytes)
+        report_damaged(directory);
       return info;
+    }
+
+    /** The blocks that the points of this rank need, from the number of points
+     * in each cell. [n_global_cells] */
+    unsigned long
+    count_blocks(const BackgroundGrid            &grid,
+                 const std::vector<unsigned int> &n_in_cell)
+    {
+      unsigned long n_blocks = 0;
+      for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+        if (grid.is_owned(cell))
+          n_blocks +=
+            (n_in_cell[grid.global_number(cell)] + Kernels::block_size - 1) /
+            Kernels::block_size;
+      return n_blocks;
     }
   } // namespace
 
@@ -249,39 +345,47 @@ namespace CaissonMPM
 
   void
   write_checkpoint(const std::string     &directory,
-                   BackgroundGrid        &grid,
-                   MaterialPoints        &points,
+                   const BackgroundGrid  &grid,
+                   const MaterialPoints  &points,
                    const CheckpointState &state,
                    const std::string     &fingerprint)
   {
     const MPI_Comm communicator = grid.communicator();
     Info           info;
     const bool     a_is_valid =
-      parse_info(read_text(info_file(directory))).files == "checkpoint-a";
-    info.files = Utilities::MPI::broadcast(communicator, a_is_valid ? 1 : 0) ?
-                   "checkpoint-b" :
-                   "checkpoint-a";
+      parse_info(read_text(info_file(directory))).file == "checkpoint-a.h5";
+    info.file = Utilities::MPI::broadcast(communicator, a_is_valid ? 1 : 0) ?
+                  "checkpoint-b.h5" :
+                  "checkpoint-a.h5";
     info.n_points =
       Utilities::MPI::sum<unsigned long>(points.n_points(), communicator);
-    info.state       = state;
-    info.fingerprint = fingerprint;
+    info.state                     = state;
+    info.fingerprint               = fingerprint;
+    const std::string   path       = directory + "/" + info.file;
+    const unsigned long n_bytes    = info.n_points * PointFile::bytes_per_point;
+    const auto          on_failure = [&]() {
+      const int       error = has_space(directory, n_bytes) ? EIO : ENOSPC;
+      std::error_code ignored;
+      fs::remove(path, ignored);
+      return error;
+    };
     on_first_rank(communicator, directory, [&]() {
-      const unsigned long expected =
-        info.n_points * bytes_per_point +
-        200 * grid.triangulation.n_global_active_cells();
-      return make_room(directory, info.files, expected + expected / 10);
+      return make_room(directory, info.file, n_bytes + 10000);
     });
 
-    grid.write_vertices();
-    points.store();
-    points.handler.prepare_for_serialization();
-    grid.triangulation.save(directory + "/" + info.files);
-    points.clear_handler();
-
+    const auto written = write_points(path, grid, points);
     on_first_rank(communicator, directory, [&]() {
-      if (const int error = make_durable(directory, info.files, info.n_points))
-        return error;
-      info.n_bytes = total_size(files_of(directory, info.files));
+      return written ? synchronize(path) : on_failure();
+    });
+
+    // see that all is there: a full disk is not always reported
+    const auto found =
+      read_points(path, info.n_points, communicator, [](const auto &) {});
+    on_first_rank(communicator, directory, [&]() {
+      if (found != written)
+        return on_failure();
+      info.n_bytes  = size_of(path);
+      info.checksum = *written;
       return try_to_write(info_file(directory), to_text(info));
     });
   }
@@ -296,26 +400,36 @@ namespace CaissonMPM
   {
     const Info info = read_info(directory);
     check_fingerprint(directory, info.fingerprint, fingerprint);
+    const MPI_Comm communicator   = grid.communicator();
+    const auto     for_each_piece = [&](const auto &action) {
+      if (read_points(directory + "/" + info.file,
+                      info.n_points,
+                      communicator,
+                      action) != info.checksum)
+        report_damaged(directory);
+    };
 
-    points.clear_handler();
-    // The mesh is never refined, so that cells and vertices stay in place; but
-    // ranks may be more or fewer than before.
-    grid.triangulation.load(directory + "/" + info.files);
-    grid.set_up_part();
+    // first see that all is there, and how many points go where
+    std::vector<unsigned int> n_in_cell(grid.n_global_cells(), 0);
+    for_each_piece([&](const std::vector<TravelingPoint> &piece) {
+      for (const TravelingPoint &p : piece)
+        if (p.cell < n_in_cell.size())
+          ++n_in_cell[p.cell];
+    });
+    Utilities::MPI::sum(n_in_cell, communicator, n_in_cell);
+    if (std::accumulate(n_in_cell.begin(), n_in_cell.end(), 0ul) !=
+        info.n_points)
+      report_damaged(directory);
+
+    const unsigned long n_blocks = count_blocks(grid, n_in_cell);
+    points.reset(n_blocks + n_blocks / 16);
+    for_each_piece([&](const std::vector<TravelingPoint> &piece) {
+      for (const TravelingPoint &p : send_to_owners(grid, piece))
+        points.add(grid.local_number(p.cell), p.point);
+    });
+    points.settle();
     grid.prepare_motion(info.state.travel);
     grid.advance();
-    grid.write_vertices();
-    points.handler.deserialize();
-    points.load();
-
-    const unsigned long n_points =
-      Utilities::MPI::sum<unsigned long>(points.n_points(),
-                                         grid.communicator());
-    if (n_points != info.n_points)
-      throw BadInput("the checkpoint in " + directory + " has " +
-                     std::to_string(n_points) + " material points instead of " +
-                     std::to_string(info.n_points) +
-                     ": it is damaged. Run without --restart.");
     return info.state;
   }
 } // namespace CaissonMPM

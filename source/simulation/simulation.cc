@@ -232,7 +232,6 @@ namespace CaissonMPM
       read_checkpoint(directory, grid, points, fingerprint());
     time = state.time;
     step = state.step;
-    set_up_part();
     balance();
     next_record = state.more.at(0);
     last_record = state.more.at(1);

@@ -116,15 +116,10 @@ namespace CaissonMPM
     void
     create_mesh();
 
-    /** Number the cells and nodes of this rank's part of the mesh, at the start
-     * of the travel: after each change of the parts. Collective. */
-    void
-    set_up_part();
-
     /**
-     * Give each rank a part of about the same costs, and number it anew by
-     * set_up_part(). @p costs [n_global_cells] are used of the cells that this
-     * rank owns. Collective.
+     * Give each rank a part of about the same costs, and number its cells and
+     * nodes anew, at the start of the travel. @p costs [n_global_cells] are used
+     * of the cells that this rank owns. Collective.
      */
     void
     repartition(const std::vector<unsigned int> &costs);
@@ -277,11 +272,6 @@ namespace CaissonMPM
     {
       return local_numbers[global_number];
     }
-    unsigned int
-    local_number(const Triangulation::active_cell_iterator &cell) const
-    {
-      return local_number(cell->index());
-    }
     const Triangulation::active_cell_iterator &
     cell_iterator(const unsigned int cell) const
     {
@@ -376,6 +366,10 @@ namespace CaissonMPM
     dealii::MappingQ1<dim>  mapping;
 
   private:
+    /** Number the cells and nodes of this rank's part of the mesh, at the start
+     * of the travel: after each change of the parts. Collective. */
+    void
+    set_up_part();
     void
     place_columns(const RigidBody &body);
     void

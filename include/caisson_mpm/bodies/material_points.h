@@ -9,8 +9,6 @@
 #include <caisson_mpm/bodies/point_exchange.h>
 #include <caisson_mpm/kernels/layout.h>
 
-#include <deal.II/particles/particle_handler.h>
-
 #include <array>
 #include <functional>
 #include <utility>
@@ -21,11 +19,9 @@ namespace CaissonMPM
   /**
    * All material points of the soil.
    *
-   * deal.II's Particles::ParticleHandler generates, stores and writes them.
-   * Between those moments they lie in blocks of eight per cell and material
-   * (kernels/layout.h), and the handler is empty or out of date: load() brings
-   * the points from the handler to the blocks, and store() back. Only this
-   * class and the kernels know the blocks.
+   * They lie in blocks of eight per cell and material (kernels/layout.h), which
+   * only this class and the kernels know; others see one point at a time as a
+   * MaterialPoint.
    *
    * Invariants: of the blocks of one cell and material all but the last are
    * full; every point lies in the cell that owns its block, up to round-off,
@@ -36,10 +32,6 @@ namespace CaissonMPM
   class MaterialPoints
   {
   public:
-    /** The properties of a particle in the handler, in this order. */
-    static constexpr unsigned int n_properties =
-      17 + Kernels::n_state_variables;
-
     explicit MaterialPoints(BackgroundGrid &grid);
 
     /** Forget all points; make room for so many blocks of eight. */
@@ -54,23 +46,6 @@ namespace CaissonMPM
     /** Make view() complete after add(). Collective. */
     void
     settle();
-
-    /** Make the handler empty and ready for insert(). */
-    void
-    clear_handler();
-
-    /** Insert a point of the given cell into the handler. */
-    void
-    insert(const unsigned int cell, const MaterialPoint &point);
-
-    /** Bring all particles of the handler into blocks. Collective. */
-    void
-    load();
-
-    /** Bring all points into the handler. The grid's vertices must be written.
-     * Collective. */
-    void
-    store();
 
     /** Points of this rank. */
     unsigned int
@@ -171,8 +146,6 @@ namespace CaissonMPM
           action(get(b, lane), cell);
         });
     }
-
-    dealii::Particles::ParticleHandler<2> handler;
 
   private:
     // with a cell in or near which it lies

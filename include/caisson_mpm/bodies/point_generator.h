@@ -34,8 +34,8 @@ namespace CaissonMPM
     check_parameters() const;
 
     /**
-     * Create all points in the handler of @p points, with the soil's initial
-     * stress, and load them. Collective.
+     * Create all points, with the soil's initial stress. Those that @p points
+     * has are forgotten. Collective.
      */
     void
     generate(const BackgroundGrid &grid,

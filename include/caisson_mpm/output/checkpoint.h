@@ -2,11 +2,13 @@
 //
 // The state of a run on disk, from which it can go on.
 //
-// Files in the output directory: the mesh and the particles as deal.II saves
-// them, under the names checkpoint-a or checkpoint-b in turn, and the text
-// checkpoint.info, which says which of the two is valid. It is replaced last
-// and at once, so that a run that is killed at any time leaves one complete
-// checkpoint.
+// Files in the output directory: the points in checkpoint-a.h5 or
+// checkpoint-b.h5 in turn (point_file.h), and the text checkpoint.info, which
+// says which of the two is valid and has the rest of the state. The points are
+// read back before, and the text is replaced last and at once, so that a run
+// that is killed at any time leaves one complete checkpoint. The mesh follows
+// from the parameters and the travel. Memory: some megabytes, however many
+// points there are.
 #ifndef caisson_mpm_output_checkpoint_h
 #define caisson_mpm_output_checkpoint_h
 
@@ -35,25 +37,23 @@ namespace CaissonMPM
   /**
    * Write the points and the state. @p fingerprint is the text of all
    * parameters that must be the same when the run goes on, one per line.
-   * Throws RunFailure where there is no room; the previous checkpoint is valid
-   * until then. Uses the handler of @p points; their blocks stay as they are.
-   * Collective.
+   * Throws RunFailure where there is no room or the file is not as it should
+   * be; the previous checkpoint is still valid then. Collective.
    */
   void
   write_checkpoint(const std::string     &directory,
-                   BackgroundGrid        &grid,
-                   MaterialPoints        &points,
+                   const BackgroundGrid  &grid,
+                   const MaterialPoints  &points,
                    const CheckpointState &state,
                    const std::string     &fingerprint);
 
   /**
    * Bring the points and the grid to the state of the checkpoint, and return
-   * it. The mesh of the same scene must have been created, and @p points must
-   * be empty or are replaced. The parts of the ranks are new: all else that
-   * knows cells or nodes must be set up again. Throws BadInput where there is
-   * no checkpoint, it
-   * is damaged, or @p fingerprint differs from the one it was written with,
-   * naming the first line that differs. Collective.
+   * it. The mesh of the same scene must have been created, on as many ranks as
+   * you like; @p points are replaced. Points of a cell keep their order. Throws
+   * BadInput where there is no checkpoint, it is damaged, or @p fingerprint
+   * differs from the one it was written with, naming the first line that
+   * differs. Collective.
    */
   CheckpointState
   read_checkpoint(const std::string &directory,
