@@ -51,7 +51,8 @@ def measure_step(options):
     results = interleave([Run(s, {"Method/Instruction set": s}, until=until)
                           for s in sets], options.repeats)
     one = results[sets[0]][0]
-    report.say(f"`prm/jack.prm` with {one.points:,} points, all from the start, "
+    report.say(f"`prm/jack.prm` with two cells across the wall and {one.points:,} "
+               "points, all from the start, "
                f"pushed for {until:g} s ({one.steps} steps), one core, medians "
                f"of the rounds ({options.repeats}).")
     report.table(
@@ -113,7 +114,8 @@ def measure_size(options):
              1e-6 * median(results[run.name],
                            lambda r: r.summary["peak_memory_bytes"])]
             for run in runs]
-    report.say("`prm/jack.prm` with a wall of 0.2 m (the smallest: 0.4 m) and "
+    report.say("`prm/jack.prm` with two cells across a wall of 0.2 m (the "
+               "smallest: 0.4 m) and "
                "`Grid/Refinement` from 1, so that points per cell stay the "
                "same; the beginning of the push, without records; time of the "
                "steps only, set-up left out. The largest costs per point "
@@ -317,7 +319,8 @@ def measure_needs(options):
     rows = [[name, r[0].points, 1e3 * median(r, step),
              median_ratio(r, base, step), median_ratio(r, base, point)]
             for name, r in results.items()]
-    report.say("`prm/jack.prm` with one thing changed, without output, medians "
+    report.say("`prm/jack.prm` with two cells across the wall and one thing "
+               "changed, without output, medians "
                f"of the ratios in each round ({options.repeats}). A scene pays "
                "only for what it takes: what it leaves out has a ratio below "
                "one, and cells without points one of one.")

@@ -119,7 +119,8 @@ def measure_refinement(options):
     report.table("refinement_ratios",
                  ["meshes"] + [f"at t/{across}" for across in meshes]
                  + ["at equal error", "error (%)"], ratios)
-    report.say("The whole installation, `prm/jack.prm`, with uniform cells of "
+    report.say("The whole installation, `prm/jack.prm` with two cells across the "
+               "wall, with uniform cells of "
                "0.05 m and 3 x 3 points would cost per step, of which there are "
                "about as many:")
     report.table("refinement_jack", ["mesh", "points", "ms per step"],

@@ -788,13 +788,15 @@ def test_scenes_jack_at_rest():
     at_rest('jack', **{'Time/End time': 4})
 
 
-def test_scenes_warn_of_four_cells():
-    text = run(SUCCESS, os.path.join(arguments.scenes, 'jack.prm'),
-               '--output-directory', directory('four_cells'),
-               **{'Rigid body/Cells across the wall': 4,
-                  'Time/End penetration': 0.502, 'Output/Error bar': '',
-                  'Output/Frame penetrations': ''})
-    expect(text.count('warning:') == 1 and 'break loose' in text, text)
+def test_scenes_warn_of_few_points():
+    for points, warnings in (5, 1), (7, 0):
+        text = run(SUCCESS, os.path.join(arguments.scenes, 'jack.prm'),
+                   '--output-directory', directory('few_points'),
+                   **{'Material points/Per direction in path': points,
+                      'Time/End penetration': 0.502, 'Output/Error bar': '',
+                      'Output/Frame penetrations': ''})
+        expect(text.count('warning:') == warnings ==
+               text.count('break loose'), text)
 
 
 # ---------------------------------------------------------------- main

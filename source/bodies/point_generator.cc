@@ -173,6 +173,18 @@ namespace CaissonMPM
     };
   } // namespace
 
+  std::vector<std::string>
+  PointGenerator::known_limits(const RigidBody &body) const
+  {
+    if (body.kind() == RigidBody::Kind::caisson && body.cells_across > 3 &&
+        in_path < 7)
+      return {"with four cells or more across the wall and fewer than seven "
+              "points per direction in the path, the tip has been seen to "
+              "break loose: set Material points/Per direction in path = 7; see "
+              "doc/limitations.md, Snaps"};
+    return {};
+  }
+
   bool
   PointGenerator::may_hold_soil(const BackgroundGrid &grid,
                                 const unsigned int    global_cell) const

@@ -240,16 +240,6 @@ namespace CaissonMPM
         "penetration, or increase Skirt length.");
   }
 
-  std::vector<std::string>
-  RigidBody::known_limits() const
-  {
-    if (kind_ == Kind::caisson && cells_across > 3)
-      return {"with four cells across the wall the tip has been seen to break "
-              "loose below 2 m: see doc/limitations.md, Snaps; two are as "
-              "accurate"};
-    return {};
-  }
-
   double
   RigidBody::left() const
   {
@@ -323,7 +313,8 @@ namespace CaissonMPM
       return z < top_of_body() - round_off &&
              z > lower_face_of_lid() + round_off;
     return p[0] > left() + round_off && p[0] < right() - round_off &&
-           z < top_of_body() - round_off && z > lower_surface(p[0]) + round_off;
+           z < top_of_body() - round_off && z > bottom() + round_off &&
+           z > lower_surface(p[0]) + round_off;
   }
 
   Tensor<1, 2>

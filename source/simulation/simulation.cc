@@ -284,7 +284,7 @@ namespace CaissonMPM
       console->warning(wrong_error_bar);
     for (const auto &limits : {soil.known_limits(),
                                nodal_motion.known_limits(),
-                               body.known_limits(),
+                               generator.known_limits(body),
                                time_step.known_limits()})
       for (const std::string &limit : limits)
         console->warning(limit);

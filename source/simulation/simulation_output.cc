@@ -185,18 +185,16 @@ namespace CaissonMPM
                                const Vector2     &velocity,
                                const double       mass,
                                const unsigned int material) {
-      for (unsigned int d = 0; d < 2; ++d)
-        {
-          result.kinetic +=
-            .5 * grid.circumference() * mass * velocity[d] * velocity[d];
-          const double term = -grid.circumference() * mass *
-                              materials[material].body_force[d] * position[d];
-          result.potential += term;
-          result.weight += std::abs(term);
-        }
+      const double *const force   = materials[material].body_force;
+      const double        rise[2] = {-mass * force[0] * position[0],
+                                     -mass * force[1] * position[1]};
+      result.kinetic += .5 * mass * velocity.norm_square();
+      result.potential += rise[0] + rise[1];
+      result.weight += std::abs(rise[0]) + std::abs(rise[1]);
     });
     for (double *sum : {&result.kinetic, &result.potential, &result.weight})
-      *sum = Utilities::MPI::sum(*sum, grid.communicator());
+      *sum =
+        grid.circumference() * Utilities::MPI::sum(*sum, grid.communicator());
     return result;
   }
 

@@ -33,6 +33,10 @@ namespace CaissonMPM
     void
     check_parameters() const;
 
+    /** What is known to go wrong with these entries, for a warning. */
+    std::vector<std::string>
+    known_limits(const RigidBody &body) const;
+
     /**
      * Create all points, with the soil's initial stress. Those that @p points
      * has are forgotten. Collective.

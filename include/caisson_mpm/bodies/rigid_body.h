@@ -70,10 +70,6 @@ namespace CaissonMPM
       return kind_;
     }
 
-    /** Warnings where the mesh of the body is known to fail. */
-    std::vector<std::string>
-    known_limits() const;
-
     /** Initial extent in r and z: of the skirt of a caisson, else of the whole
      * body. Units: m. */
     double
