@@ -170,20 +170,23 @@ namespace CaissonMPM
 
 
 
-  template <typename Transfer>
+  template <typename Rows, typename Operation>
   void
   PointFile::transfer(const unsigned long first_row,
-                      const unsigned long n,
-                      const Transfer     &action)
+                      Rows               &rows,
+                      const Operation    &operation)
   {
-    if (n == 0)
+    if (rows.empty())
       return;
-    const hsize_t start[2] = {first_row, 0}, count[2] = {n, n_columns};
-    const hid_t   memory = check(H5Screate_simple(2, count, nullptr));
+    const hsize_t start[2] = {first_row, 0},
+                  count[2] = {rows.size() / n_columns, n_columns};
+    const hid_t memory     = check(H5Screate_simple(2, count, nullptr));
     check(H5Sselect_hyperslab(
       dataspace, H5S_SELECT_SET, start, nullptr, count, nullptr));
-    check(action(memory));
+    check(operation(
+      dataset, H5T_NATIVE_DOUBLE, memory, dataspace, H5P_DEFAULT, rows.data()));
     check(H5Sclose(memory));
+    sum_of_rows += checksum_of(first_row, rows);
   }
 
 
@@ -198,15 +201,7 @@ namespace CaissonMPM
       for_each_column(p, [&](const char *, const double *values, const int n) {
         rows.insert(rows.end(), values, values + n);
       });
-    transfer(first_row, points.size(), [&](const hid_t memory) {
-      return H5Dwrite(dataset,
-                      H5T_NATIVE_DOUBLE,
-                      memory,
-                      dataspace,
-                      H5P_DEFAULT,
-                      rows.data());
-    });
-    sum_of_rows += checksum_of(first_row, rows);
+    transfer(first_row, rows, H5Dwrite);
   }
 
 
@@ -215,15 +210,7 @@ namespace CaissonMPM
   PointFile::read(const unsigned long first_row, const unsigned long n)
   {
     std::vector<double> rows(n * n_columns);
-    transfer(first_row, n, [&](const hid_t memory) {
-      return H5Dread(dataset,
-                     H5T_NATIVE_DOUBLE,
-                     memory,
-                     dataspace,
-                     H5P_DEFAULT,
-                     rows.data());
-    });
-    sum_of_rows += checksum_of(first_row, rows);
+    transfer(first_row, rows, H5Dread);
     std::vector<TravelingPoint> points(n);
     const double               *next = rows.data();
     for (TravelingPoint &p : points)

@@ -82,11 +82,12 @@ namespace CaissonMPM
     open(const std::string &path, const hid_t access, const hsize_t n_points);
     void
     name_columns();
-    template <typename Transfer>
+    /** Write or read rows by H5Dwrite or H5Dread, and add their checksum. */
+    template <typename Rows, typename Operation>
     void
     transfer(const unsigned long first_row,
-             const unsigned long n,
-             const Transfer     &action);
+             Rows               &rows,
+             const Operation    &operation);
 
     /** Remember a failure. Returns what HDF5 returned. */
     hid_t
