@@ -59,7 +59,10 @@ namespace
 int
 main(int argc, char *argv[])
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // PETSc, which deal.II starts, sees the program's name alone: version 3.22
+  // complains on stdout of options that it does not know.
+  int                                      n_names = 1;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, argv, 1);
   FailureReport                            failure(MPI_COMM_WORLD);
   try
     {

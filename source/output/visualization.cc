@@ -159,12 +159,12 @@ namespace CaissonMPM
       Particles::DataOut<2>
       build()
       {
-        using namespace DataComponentInterpretation;
+        namespace Interpretation = DataComponentInterpretation;
         handler.update_cached_numbers();
-        std::vector<DataComponentInterpretation::DataComponentInterpretation>
-          interpretation(n_written, component_is_scalar);
+        std::vector<Interpretation::DataComponentInterpretation> interpretation(
+          n_written, Interpretation::component_is_scalar);
         for (unsigned int i = velocity_r; i <= displacement_z; ++i)
-          interpretation[i] = component_is_part_of_vector;
+          interpretation[i] = Interpretation::component_is_part_of_vector;
         Particles::DataOut<2> data_out;
         data_out.build_patches(handler, property_names, interpretation);
         return data_out;
