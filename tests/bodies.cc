@@ -2,7 +2,7 @@
 //
 // The floor of the bodies: graded lines, the rigid body's motion and shape, the
 // mesh that moves with it, the generated points, and the boundary conditions.
-#include <caisson_mpm/bodies/graded_lines.h>
+#include <caisson_mpm/domain/graded_lines.h>
 
 #include <deal.II/base/mpi.h>
 

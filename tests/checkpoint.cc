@@ -2,9 +2,9 @@
 //
 // Checkpoints: every digit of the points comes back, in the same order; damage
 // and a file that cannot be written are noticed, and what was there is kept.
-#include <caisson_mpm/output/checkpoint.h>
-#include <caisson_mpm/output/point_file.h>
 #include <caisson_mpm/output/text_file.h>
+#include <caisson_mpm/restart/checkpoint.h>
+#include <caisson_mpm/restart/point_file.h>
 
 #include <deal.II/base/mpi.h>
 

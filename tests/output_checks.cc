@@ -3,9 +3,9 @@
 // The errors of output/comparisons.h on numbers that can be worked out by hand,
 // the fit of a damped wave, and the messages about what cannot be understood.
 #include <caisson_mpm/base/exceptions.h>
-#include <caisson_mpm/output/comparisons.h>
-#include <caisson_mpm/output/damped_wave.h>
-#include <caisson_mpm/output/verification.h>
+#include <caisson_mpm/checks/comparisons.h>
+#include <caisson_mpm/checks/damped_wave.h>
+#include <caisson_mpm/checks/verification.h>
 
 #include <cmath>
 #include <cstdio>

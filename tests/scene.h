@@ -6,11 +6,11 @@
 #define caisson_mpm_tests_scene_h
 
 #include <caisson_mpm/base/exceptions.h>
-#include <caisson_mpm/bodies/background_grid.h>
-#include <caisson_mpm/bodies/body_points.h>
-#include <caisson_mpm/bodies/material_points.h>
-#include <caisson_mpm/bodies/point_generator.h>
 #include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/domain/background_grid.h>
+#include <caisson_mpm/domain/body_points.h>
+#include <caisson_mpm/domain/material_points.h>
+#include <caisson_mpm/domain/point_generator.h>
 #include <caisson_mpm/materials/soil.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/operators/contact.h>

@@ -6,7 +6,7 @@
 #define caisson_mpm_operators_boundary_conditions_h
 
 #include <caisson_mpm/base/expression.h>
-#include <caisson_mpm/bodies/background_grid.h>
+#include <caisson_mpm/domain/background_grid.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/tensor.h>

@@ -11,8 +11,8 @@
 #ifndef caisson_mpm_operators_contact_h
 #define caisson_mpm_operators_contact_h
 
-#include <caisson_mpm/bodies/background_grid.h>
 #include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/domain/background_grid.h>
 
 #include <deal.II/base/tensor.h>
 

@@ -18,8 +18,8 @@
 #define caisson_mpm_operators_loads_h
 
 #include <caisson_mpm/base/expression.h>
-#include <caisson_mpm/bodies/background_grid.h>
-#include <caisson_mpm/bodies/material_points.h>
+#include <caisson_mpm/domain/background_grid.h>
+#include <caisson_mpm/domain/material_points.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

@@ -20,8 +20,8 @@
 #ifndef caisson_mpm_operators_nodal_motion_h
 #define caisson_mpm_operators_nodal_motion_h
 
-#include <caisson_mpm/bodies/background_grid.h>
-#include <caisson_mpm/bodies/material_points.h>
+#include <caisson_mpm/domain/background_grid.h>
+#include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/operators/contact.h>

@@ -4,7 +4,7 @@
 #ifndef caisson_mpm_output_history_h
 #define caisson_mpm_output_history_h
 
-#include <caisson_mpm/output/energy_balance.h>
+#include <caisson_mpm/operators/energy_balance.h>
 
 #include <functional>
 #include <string>

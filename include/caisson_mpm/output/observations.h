@@ -16,7 +16,7 @@
 #define caisson_mpm_output_observations_h
 
 #include <caisson_mpm/base/expression.h>
-#include <caisson_mpm/bodies/all_points.h>
+#include <caisson_mpm/domain/all_points.h>
 #include <caisson_mpm/output/point_quantities.h>
 
 #include <deal.II/base/parameter_acceptor.h>

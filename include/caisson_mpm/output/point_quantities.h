@@ -4,7 +4,7 @@
 #ifndef caisson_mpm_output_point_quantities_h
 #define caisson_mpm_output_point_quantities_h
 
-#include <caisson_mpm/bodies/material_points.h>
+#include <caisson_mpm/domain/material_points.h>
 
 #include <map>
 #include <string>

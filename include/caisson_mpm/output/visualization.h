@@ -12,10 +12,10 @@
 #ifndef caisson_mpm_output_visualization_h
 #define caisson_mpm_output_visualization_h
 
-#include <caisson_mpm/bodies/background_grid.h>
-#include <caisson_mpm/bodies/body_points.h>
-#include <caisson_mpm/bodies/material_points.h>
 #include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/domain/background_grid.h>
+#include <caisson_mpm/domain/body_points.h>
+#include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/materials/soil.h>
 
 #include <string>

@@ -9,25 +9,25 @@
 #include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/base/stop_request.h>
 #include <caisson_mpm/base/timing.h>
-#include <caisson_mpm/bodies/background_grid.h>
-#include <caisson_mpm/bodies/body_points.h>
-#include <caisson_mpm/bodies/material_points.h>
-#include <caisson_mpm/bodies/point_generator.h>
 #include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/checks/verification.h>
+#include <caisson_mpm/domain/background_grid.h>
+#include <caisson_mpm/domain/body_points.h>
+#include <caisson_mpm/domain/material_points.h>
+#include <caisson_mpm/domain/point_generator.h>
 #include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/materials/soil.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/operators/contact.h>
+#include <caisson_mpm/operators/energy_balance.h>
 #include <caisson_mpm/operators/loads.h>
 #include <caisson_mpm/operators/nodal_motion.h>
-#include <caisson_mpm/output/checkpoint.h>
-#include <caisson_mpm/output/energy_balance.h>
+#include <caisson_mpm/operators/time_step.h>
 #include <caisson_mpm/output/error_bar.h>
 #include <caisson_mpm/output/observations.h>
 #include <caisson_mpm/output/records.h>
-#include <caisson_mpm/output/verification.h>
 #include <caisson_mpm/output/visualization.h>
-#include <caisson_mpm/time/time_step.h>
+#include <caisson_mpm/restart/checkpoint.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The errors that a check can ask for.
+//
+// With the computed values v and the exact ones e at all points:
+//   max:       max |v - e| / max |e|,
+//   pointwise: max (|v - e| / |e|),
+//   mean:      |<v> - <e>| / |<e>|,  <.> the mean weighted with the volume,
+//   rms:       sqrt(<(v - e)^2>) / max |e|,
+//   spread:    (max v - min v) / |<v>|.
+// With the computed series v and the exact one e at all records:
+//   trace:     max |v - e| / max |e|,
+//   final:     |v - e| / |e| at the last record,
+//   average:   |<v> - <e>| / |<e>|,  <.> the mean over the records,
+//   frequency, amplitude: of w and of exp(-g T) after two periods T, by the fit
+//              c + exp(-g t) (a cos(w t) + b sin(w t)),
+//   drift:     max |v - v(first)| / max |v|,
+//   below, above, between: by how much the last v is outside its bounds.
+// Where the number that would be divided by is 0 the error is absolute.
+#ifndef caisson_mpm_checks_comparisons_h
+#define caisson_mpm_checks_comparisons_h
+
+#include <caisson_mpm/output/records.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** The two values that are compared, and their relative difference. */
+  struct Comparison
+  {
+    double computed = 0.;
+    double exact    = 0.;
+    double error    = 0.;
+  };
+
+  /** What all points have: [n_points] each. */
+  struct PointSamples
+  {
+    std::vector<double> computed, exact, volume;
+  };
+
+  /** What all records have: [n_records] each. For between, exact and upper are
+   * the bounds. */
+  struct SeriesSamples
+  {
+    Series              computed;
+    std::vector<double> exact, upper;
+  };
+
+  using PointMode  = Comparison (*)(const PointSamples &);
+  using SeriesMode = Comparison (*)(const SeriesSamples &);
+
+  const std::map<std::string, PointMode> &
+  point_modes();
+
+  const std::map<std::string, SeriesMode> &
+  series_modes();
+} // namespace CaissonMPM
+
+#endif

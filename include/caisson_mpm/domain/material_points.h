@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The material points of the soil.
+#ifndef caisson_mpm_domain_material_points_h
+#define caisson_mpm_domain_material_points_h
+
+#include <caisson_mpm/domain/background_grid.h>
+#include <caisson_mpm/domain/material_point.h>
+#include <caisson_mpm/domain/point_exchange.h>
+#include <caisson_mpm/kernels/layout.h>
+
+#include <array>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /**
+   * All material points of the soil.
+   *
+   * They lie in blocks of eight per cell and material (kernels/layout.h), which
+   * only this class and the kernels know; others see one point at a time as a
+   * MaterialPoint.
+   *
+   * Invariants: of the blocks of one cell and material all but the last are
+   * full; every point lies in the cell that owns its block, up to round-off,
+   * and on the rank that owns this cell; cells of the body hold none. The
+   * blocks of a cell may lie anywhere; now and then they are put in the order
+   * of the cells.
+   */
+  class MaterialPoints
+  {
+  public:
+    explicit MaterialPoints(BackgroundGrid &grid);
+
+    /** Forget all points; make room for so many blocks of eight. */
+    void
+    reset(const unsigned long n_blocks);
+
+    /** Add a point to a cell of this rank in which it lies; settle() must
+     * follow. */
+    void
+    add(const unsigned int cell, const MaterialPoint &point);
+
+    /** Make view() complete after add(). Collective. */
+    void
+    settle();
+
+    /** Points of this rank. */
+    unsigned int
+    n_points() const
+    {
+      return n_points_;
+    }
+
+    /** What the kernels work on. Valid until a point is added or moved. */
+    Kernels::PointsView
+    view();
+
+    /** Room for the points that leave their cells in one step. */
+    Kernels::LeavingPoints &
+    leaving();
+
+    /**
+     * Bring the points listed in leaving() to the cells that they are in now,
+     * and to the ranks that own these. A point that would enter the body is
+     * held back at its surface. Throws RunFailure for a point that left the
+     * mesh or is not finite. Collective.
+     */
+    void
+    relocate();
+
+    /**
+     * What the cells of this rank cost in a step, by their global number; 0 for
+     * all others. A block costs as much as the work at two cells without
+     * points. [n_global_cells]
+     */
+    std::vector<unsigned int>
+    cell_costs() const;
+
+    /** Take all points out, before the parts of the mesh change. */
+    std::vector<TravelingPoint>
+    take_all();
+
+    /** Bring the points of take_all() to the ranks that own their cells now.
+     * Collective. */
+    void
+    redistribute(const std::vector<TravelingPoint> &traveling);
+
+    /** Points that this rank held back at the body's surface, since the start.
+     */
+    unsigned long
+    n_held_back() const
+    {
+      return n_held_back_;
+    }
+
+    /** Go on counting from here, after a restart. */
+    void
+    set_n_held_back(const unsigned long n)
+    {
+      n_held_back_ = n;
+    }
+
+    /** The size that points are to have in a cell, in r and z. Units: m. */
+    using WantedSize =
+      std::function<std::array<double, 2>(const unsigned int cell)>;
+
+    /**
+     * Split the points that are more than 1.5 times as large as wanted in their
+     * cell, and merge those below 0.6 with a neighbor. Both keep mass,
+     * momentum, volume, the integral of stress over it, and the center of mass.
+     * Halves and pairs keep the number of the (first) point. Collective.
+     */
+    void
+    adapt(const WantedSize &wanted);
+
+    /** Points that were split and pairs that were merged by this process. */
+    unsigned long n_split = 0, n_merged = 0;
+
+    /** Call action(position, velocity, mass, material) for every point: less
+     * work than for_each(). */
+    template <typename Action>
+    void
+    for_each_motion(const Action &action) const
+    {
+      for (const unsigned int cell : active_cells)
+        for_each_lane(cell, [&](const int b, const int lane) {
+          const Kernels::PointBlock &p = blocks[b];
+          action(dealii::Point<2>(p.r[lane], p.z[lane]),
+                 dealii::Tensor<1, 2>({p.velocity_r[lane], p.velocity_z[lane]}),
+                 p.mass[lane],
+                 headers[b].material);
+        });
+    }
+
+    /** Call action(const MaterialPoint &, cell) for every point of this rank.
+     */
+    template <typename Action>
+    void
+    for_each(const Action &action) const
+    {
+      for (const unsigned int cell : active_cells)
+        for_each_lane(cell, [&](const int b, const int lane) {
+          action(get(b, lane), cell);
+        });
+    }
+
+  private:
+    // with a cell in or near which it lies
+    using PlacedPoint = std::pair<unsigned int, MaterialPoint>;
+
+    /** Call action(block, lane) for every point of a cell. */
+    template <typename Action>
+    void
+    for_each_lane(const unsigned int cell, const Action &action) const
+    {
+      for (int b = first_block[cell]; b >= 0; b = headers[b].next)
+        for (int lane = 0; lane < headers[b].count; ++lane)
+          action(b, lane);
+    }
+
+    /** Take out @p n points, listed in the order of their blocks. */
+    std::vector<PlacedPoint>
+    take_out(const Kernels::LeavingPoint *places, const unsigned int n);
+
+    MaterialPoint
+    get(const int block, const int lane) const;
+    void
+    set(const int block, const int lane, const MaterialPoint &point);
+    void
+    copy_lane(const int from,
+              const int from_lane,
+              const int to,
+              const int lane);
+    void
+    pad(const int block);
+    int
+    new_block(const unsigned int cell, const int after, const short material);
+    void
+    remove(const unsigned int cell, const int block, const int lane);
+    std::vector<PlacedPoint>
+    take_out_of_size(const unsigned int           cell,
+                     const std::array<double, 2> &wanted);
+    void
+    split(const std::array<double, 2> &wanted,
+          std::vector<PlacedPoint>    &points);
+    void
+    merge(const std::array<double, 2> &wanted,
+          std::vector<PlacedPoint>    &points);
+    void
+    bring_to_cells(std::vector<PlacedPoint> &moving);
+    unsigned int
+    walk(unsigned int cell, const dealii::Point<2> &position) const;
+    bool
+    is_in_soil(const unsigned int cell, const dealii::Point<2> &position) const;
+    unsigned int
+    find_cell(unsigned int cell, MaterialPoint &point);
+    void
+    clear_blocks();
+    [[noreturn]] void
+    report_lost(const MaterialPoint &point) const;
+    void
+    collect_active_cells();
+    void
+    reserve(const unsigned long n_blocks);
+    void
+    put_blocks_in_order();
+
+    BackgroundGrid                    &grid;
+    PointExchange                      point_exchange;
+    std::vector<Kernels::PointBlock>   blocks;
+    std::vector<Kernels::PointHistory> histories; // of the blocks
+    std::vector<Kernels::BlockHeader>  headers;
+    std::vector<int>                   free_blocks;
+    // by cell, -1: none; of a ghost cell 0 where its owner has points in it
+    std::vector<int>                   first_block;
+    std::vector<unsigned int>          active_cells;
+    std::vector<double>                filled_volume; // of the cells
+    std::vector<unsigned char>         changed;       // the cells
+    unsigned int                       n_relocations        = 0;
+    bool                               active_cells_changed = true;
+    std::vector<Kernels::LeavingPoint> leaving_storage;
+    Kernels::LeavingPoints             leaving_view = {};
+    unsigned int                       n_points_    = 0;
+    unsigned long                      n_held_back_ = 0;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Material points of the undisturbed soil: a lattice in every cell.
+#ifndef caisson_mpm_domain_point_generator_h
+#define caisson_mpm_domain_point_generator_h
+
+#include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/domain/material_points.h>
+#include <caisson_mpm/materials/soil.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+namespace CaissonMPM
+{
+  /**
+   * Fills the soil's cells with material points.
+   *
+   * Each cell is cut into n_r x n_z parts; a point takes the exact volume and
+   * the centroid of its part, so that the nodal masses are those of the
+   * continuum. n_r is the number per direction of the cell's zone (path, near,
+   * far). n_z is as many times larger as the cell is higher than the lowest
+   * cell that its soil will meet while the mesh moves: a coarser spacing would
+   * leave cells without points, and the soil would crack there. With Random
+   * positions a point lies elsewhere in its part, always at the same place for
+   * the same seed.
+   */
+  class PointGenerator : public dealii::ParameterAcceptor
+  {
+  public:
+    PointGenerator();
+
+    /** Throws BadInput where the entries contradict each other. */
+    void
+    check_parameters() const;
+
+    /** What is known to go wrong with these entries, for a warning. */
+    std::vector<std::string>
+    known_limits(const RigidBody &body) const;
+
+    /**
+     * Create all points, with the soil's initial stress. Those that @p points
+     * has are forgotten. Collective.
+     */
+    void
+    generate(const BackgroundGrid &grid,
+             const RigidBody      &body,
+             const Soil           &soil,
+             const double          mass_scaling,
+             MaterialPoints       &points) const;
+
+    /**
+     * The size that points are to have in a cell of the current mesh, in r and
+     * z, where splits_and_merges(): the cell's over the number per direction.
+     * Units: m.
+     */
+    std::array<double, 2>
+    wanted_size(const Kernels::CellGeometry &g,
+                const RigidBody             &body,
+                const double                 travel) const;
+
+    bool
+    splits_and_merges() const
+    {
+      return adaptive;
+    }
+
+  private:
+    unsigned int
+    points_per_direction(const Kernels::CellGeometry &g,
+                         const RigidBody             &body,
+                         const double                 travel) const;
+    // of the parts of a cell, in r and z; 0 without soil
+    using Parts = std::array<unsigned int, 2>;
+    Parts
+    number_of_parts(const BackgroundGrid &grid,
+                    const RigidBody      &body,
+                    const unsigned int    global_cell) const;
+    bool
+    may_hold_soil(const BackgroundGrid &grid,
+                  const unsigned int    global_cell) const;
+    Expression
+    parse_region() const;
+
+    unsigned int in_path = 4, near = 3, far = 2;
+    double       path_margin   = 0.1;
+    double       path_below    = 0.5;
+    double       near_distance = 1.;
+    double       region_left = 0., region_right = 1e30;
+    double       region_bottom = -1e30, region_top = 0.;
+    std::string  region;
+    double       randomness = 0.;
+    unsigned int seed       = 1;
+    bool         adaptive   = false;
+  };
+} // namespace CaissonMPM
+
+#endif

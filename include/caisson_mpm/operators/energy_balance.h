@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Where the work that is put into the soil goes, from the start of a run.
+//
+//   body + prescribed + gravity + load = kinetic + stress + friction + damping
+//                    + floor + dissipation + residual
+// The dissipation is what the transfer between points and nodes loses; it is
+// found from the identity of the nodal works. The residual is what the scheme
+// creates (negative) or loses because it integrates the nodal forces and the
+// stress power differently (doc/theory.md, section 14). Units: J.
+#ifndef caisson_mpm_operators_energy_balance_h
+#define caisson_mpm_operators_energy_balance_h
+
+#include <caisson_mpm/operators/nodal_motion.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** The sums over the points that the balance needs. Units: J. */
+  struct PointEnergies
+  {
+    double kinetic   = 0.;
+    double potential = 0.; // of the weight
+    double weight    = 0.; // sum of |terms| of the potential energy
+  };
+
+  /**
+   * The balance of a run. add() is called in every step, close() at records;
+   * the values are those of the last record. Not collective: of several ranks
+   * each adds its own works, which are summed on one of them before close().
+   */
+  class EnergyBalance
+  {
+  public:
+    /** Begin at this state of the points. */
+    void
+    start(const PointEnergies &points);
+
+    /** Add a step. @p stress_work is that of the soil. */
+    void
+    add(const NodalWork &nodes, const double stress_work);
+
+    /** Draw up the balance for this state of the points. */
+    void
+    close(const PointEnergies &points);
+
+    using Members = std::vector<double EnergyBalance::*>;
+
+    /** What add() sums. */
+    static const Members &
+    works();
+
+    /** All that a continued run needs, and back. */
+    std::vector<double>
+    state() const;
+    void
+    resume(const std::vector<double> &state);
+
+    /** A term of the balance with its name and unit. */
+    struct Term
+    {
+      const char *name;
+      double EnergyBalance::*value;
+    };
+
+    /** The terms in the order of history.csv. */
+    static const std::vector<Term> &
+    terms();
+
+    /** Their names and values. */
+    std::vector<std::pair<std::string, double>>
+    entries() const;
+
+    double work_of_body  = 0.; // on the soil, prescribed nodes included
+    double gravity_work  = 0.;
+    double load_work     = 0.; // of the body force of Loads
+    double kinetic_gain  = 0.;
+    double stress_work   = 0.; // elastic energy and plastic work
+    double friction_heat = 0.;
+    double damping       = 0.;
+    double floor         = 0.;
+    double dissipation   = 0.;
+    double residual      = 0.;
+    double relative      = 0.; // of the largest work so far
+
+  private:
+    /** What state() consists of. */
+    static Members
+    state_members();
+
+    double force_work = 0., initial_kinetic = 0., initial_potential = 0.,
+           largest = 0.;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The stable time step, and the mass scaling that lengthens it.
+//
+//   dt = C min over cells with points of 1 / (c sqrt(1/dr^2 + 1/dz^2)),
+//   c = sqrt((lambda + 2 mu) / (s rho)) of the layer where it is largest,
+// C the Courant number, s the mass scaling. Where the stiffness depends on
+// stress and void ratio, it is the largest of all points of a layer. Mass
+// scaling enters inertia only: weight and friction are those of the real soil.
+#ifndef caisson_mpm_operators_time_step_h
+#define caisson_mpm_operators_time_step_h
+
+#include <caisson_mpm/domain/background_grid.h>
+#include <caisson_mpm/domain/material_points.h>
+#include <caisson_mpm/materials/soil.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CaissonMPM
+{
+  class TimeStep : public dealii::ParameterAcceptor
+  {
+  public:
+    TimeStep();
+
+    /**
+     * The step of the current geometry. The limit is found anew every few
+     * steps only: the mesh moves slowly. So is the p-wave modulus of
+     * @p materials whose stiffness varies, with a margin for the steps between.
+     * The same on all ranks; collective.
+     */
+    double
+    choose(const BackgroundGrid           &grid,
+           MaterialPoints                 &points,
+           const Soil                     &soil,
+           std::vector<Kernels::Material> &materials);
+
+    /** The cell that limits the step, in words. */
+    const std::string &
+    reason() const
+    {
+      return limiting_cell;
+    }
+
+    /** The limit of each zone that has points, by its name. Units: s. */
+    std::vector<std::pair<std::string, double>>
+    zone_limits() const;
+
+    /** Warnings where the choices are known to change the answer. */
+    std::vector<std::string>
+    known_limits() const;
+
+    double mass_scaling = 1.;
+
+  private:
+    void
+    find_moduli(const MPI_Comm                  communicator,
+                const MaterialPoints           &points,
+                const Soil                     &soil,
+                std::vector<Kernels::Material> &materials);
+    void
+    find_limit(const BackgroundGrid                 &grid,
+               MaterialPoints                       &points,
+               const Soil                           &soil,
+               const std::vector<Kernels::Material> &materials);
+
+    double courant    = 0.5;
+    double fixed_step = 0.;
+    double limit      = 0.;
+    // of all ranks; infinite where a zone has no points
+    std::array<double, BackgroundGrid::n_zones> limit_of_zone;
+    unsigned int age = 0; // steps since the limit was found
+    std::string  limiting_cell;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/checks/comparisons.h>
+#include <caisson_mpm/checks/verification.h>
+#include <caisson_mpm/output/check_text.h>
+#include <caisson_mpm/output/json.h>
+#include <caisson_mpm/output/point_quantities.h>
+#include <caisson_mpm/output/text_file.h>
+
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
+
+#include <limits>
+#include <sstream>
+#include <vector>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::string name_of_entry = "Verification/Checks";
+
+    struct Check
+    {
+      std::string head; // what stands before the first colon
+      std::string mode, name;
+      std::string region;         // an expression, or empty
+      std::string exact, upper;   // expressions; upper: of between only
+      double      begin     = 0.; // of the records
+      double      end       = std::numeric_limits<double>::infinity();
+      double      tolerance = 0.;
+    };
+
+    /** Whether the check gives a bound instead of an exact value. */
+    bool
+    is_one_sided(const std::string &mode)
+    {
+      return mode == "below" || mode == "above" || mode == "between";
+    }
+
+    bool
+    has_exact_value(const std::string &mode)
+    {
+      return mode != "spread" && mode != "drift";
+    }
+
+    std::string
+    place_of(const std::string &text)
+    {
+      return name_of_entry + ": \"" + text + "\": ";
+    }
+
+
+
+    // ---------------------------------------------------------- reading
+
+    std::vector<std::string>
+    all_modes()
+    {
+      auto result = names_of(point_modes());
+      for (const std::string &mode : names_of(series_modes()))
+        result.push_back(mode);
+      return result;
+    }
+
+    /** Mode, name, and where REGION or from T to T. */
+    void
+    parse_head(const std::string              &place,
+               Check                          &check,
+               const std::vector<std::string> &observed)
+    {
+      std::istringstream in(check.head);
+      in >> check.mode >> check.name;
+      if (check.name.empty())
+        throw BadInput(place + "before the first colon stand a mode and a "
+                               "quantity or a series, for instance max "
+                               "displacement_z.");
+      check_known(check.mode, all_modes(), place, "mode");
+      const bool of_points = point_modes().count(check.mode) > 0;
+      if (of_points)
+        check_known(check.name,
+                    names_of(point_quantities()),
+                    place,
+                    "quantity");
+      else
+        check_known(check.name,
+                    Records::names(observed),
+                    place,
+                    "observation or column of history.csv");
+      for (std::string word; in >> word;)
+        {
+          std::string value;
+          if (of_points && word == "where")
+            {
+              std::getline(in, check.region);
+              Expression(check.region, place + "the region");
+            }
+          else if (!of_points && (word == "from" || word == "to"))
+            {
+              in >> value;
+              (word == "from" ? check.begin : check.end) =
+                parse_number(value, place, "time");
+            }
+          else
+            throw BadInput(place + "\"" + word +
+                           "\" is not understood; behind a quantity may stand "
+                           "\"where REGION\", behind a series \"from T\" and "
+                           "\"to T\".");
+        }
+    }
+
+    /** What stands behind the first colon. */
+    void
+    parse_values(const std::string &place,
+                 const std::string &text,
+                 Check             &check)
+    {
+      // an expression may contain colons: (z < -1 ? 0 : 1)
+      const auto        colon = text.rfind(':');
+      const bool        two   = colon != std::string::npos;
+      const std::string last =
+        Utilities::trim(text.substr(two ? colon + 1 : 0));
+      if (check.mode == "below" || check.mode == "above")
+        check.exact = Utilities::trim(text);
+      else if (has_exact_value(check.mode) && !two)
+        throw BadInput(
+          place +
+          (check.mode == "between" ?
+             "it is written as between series : lower : upper." :
+             "it is written as mode quantity : exact solution : tolerance, for "
+             "instance max displacement_z : -0.01*z : 1e-3."));
+      else if (has_exact_value(check.mode))
+        check.exact = Utilities::trim(text.substr(0, colon));
+      else
+        check.exact = "0";
+      check.upper = check.mode == "between" ? last : "0";
+      Expression(check.exact, place + "the exact solution");
+      Expression(check.upper, place + "the upper bound");
+      if (is_one_sided(check.mode))
+        return;
+      check.tolerance = parse_number(last, place, "tolerance");
+      if (!(check.tolerance > 0.))
+        throw BadInput(place + "the tolerance \"" + last +
+                       "\" must be a positive number.");
+    }
+
+    Check
+    parse_check(const std::string              &text,
+                const std::vector<std::string> &observed)
+    {
+      const std::string place = place_of(text);
+      const auto        colon = text.find(':');
+      if (colon == std::string::npos)
+        throw BadInput(place +
+                       "a check is written as mode quantity : exact solution : "
+                       "tolerance, for instance max displacement_z : -0.01*z : "
+                       "1e-3.");
+      Check check;
+      check.head = Utilities::trim(text.substr(0, colon));
+      parse_head(place, check, observed);
+      parse_values(place, text.substr(colon + 1), check);
+      return check;
+    }
+
+    std::vector<std::string>
+    texts_of(const std::string &entry)
+    {
+      std::vector<std::string> result;
+      for (const auto &text : Utilities::split_string_list(entry, ';'))
+        if (!text.empty())
+          result.push_back(text);
+      return result;
+    }
+
+
+
+    // ---------------------------------------------------------- comparing
+
+    [[noreturn]] void
+    report_nothing(const Check &check, const std::string &what)
+    {
+      throw RunFailure(place_of(check.head) + "there is no " + what +
+                       " to compare. Choose another one.");
+    }
+
+    PointSamples
+    sample_points(const Check     &check,
+                  const AllPoints &points,
+                  const double     time)
+    {
+      const std::string place = place_of(check.head);
+      const Expression  exact(check.exact, place);
+      const Expression region(check.region.empty() ? "1" : check.region, place);
+      const PointQuantity value = point_quantities().at(check.name);
+      PointSamples        samples;
+      points.for_each([&](const MaterialPoint &p) {
+        if (region(p.initial_position, time) == 0.)
+          return;
+        samples.computed.push_back(value(p));
+        samples.exact.push_back(exact(p.initial_position, time));
+        samples.volume.push_back(p.volume);
+      });
+      if (samples.computed.empty())
+        report_nothing(check, "material point in the region");
+      return samples;
+    }
+
+    SeriesSamples
+    sample_records(const Check &check, const Records &records)
+    {
+      const std::string place = place_of(check.head);
+      const Expression  exact(check.exact, place);
+      const Expression  upper(check.upper, place);
+      SeriesSamples     samples;
+      samples.computed = records.series(check.name, check.begin, check.end);
+      for (const double time : samples.computed.time)
+        {
+          samples.exact.push_back(exact(Point<2>(), time));
+          samples.upper.push_back(upper(Point<2>(), time));
+        }
+      if (samples.exact.empty())
+        report_nothing(check, "record between these times");
+      return samples;
+    }
+
+    Comparison
+    compare(const Check     &check,
+            const AllPoints &points,
+            const Records   &records,
+            const double     time)
+    {
+      const auto mode = point_modes().find(check.mode);
+      return mode != point_modes().end() ?
+               mode->second(sample_points(check, points, time)) :
+               series_modes().at(check.mode)(sample_records(check, records));
+    }
+
+    std::string
+    demand_of(const Check &check)
+    {
+      if (check.mode == "between")
+        return " " + check.exact + " and " + check.upper;
+      if (is_one_sided(check.mode))
+        return " " + check.exact;
+      return ": within " + to_text(check.tolerance, 6);
+    }
+
+    /** What of a check is the same on all machines; with @p values also the
+     * rest. */
+    std::string
+    line_of(const Check      &check,
+            const Comparison &c,
+            const bool        pass,
+            const bool        values)
+    {
+      std::string line =
+        check.head + demand_of(check) + ": " + (pass ? "yes" : "no");
+      if (values)
+        line += " (computed " + to_text(c.computed, 8) + ", exact " +
+                to_text(c.exact, 8) + ", error " + to_text(c.error, 3) + ")";
+      return line;
+    }
+
+    std::string
+    json_of(const Check &check, const Comparison &c, const bool pass)
+    {
+      return Json::flat_object({{"check", Json::text(check.head)},
+                                {"mode", Json::text(check.mode)},
+                                {"quantity", Json::text(check.name)},
+                                {"computed", Json::number(c.computed)},
+                                {"exact", Json::number(c.exact)},
+                                {"relative_error", Json::number(c.error)},
+                                {"tolerance", Json::number(check.tolerance)},
+                                {"pass", Json::boolean(pass)}});
+    }
+  } // namespace
+
+
+
+  Verification::Verification()
+    : ParameterAcceptor("/Verification")
+  {
+    add_parameter(
+      "Checks",
+      entry,
+      "Comparisons with an exact solution at the end of the run, separated by "
+      "semicolons. Of the points: mode quantity : exact solution : tolerance, "
+      "with the modes max (largest error over largest exact value), pointwise "
+      "(largest relative error), mean (of the means over the volume), rms (of "
+      "the error, over the largest exact value), and spread quantity : "
+      "tolerance (largest difference over the mean). Behind the quantity may "
+      "stand where REGION. Of a series, which is an observation or a column of "
+      "history.csv: mode series : exact solution : tolerance, with the modes "
+      "trace (largest error over largest exact value), final (last record), "
+      "average (over the records), frequency (rad/s) and amplitude (exp(-g T) "
+      "after two periods T) of the best fit c + exp(-g t)*(a*cos(w*t) + "
+      "b*sin(w*t)); drift series : tolerance (largest change since the start "
+      "over the largest value); and for the last record below series : bound, "
+      "above series : bound, between series : lower : upper. Behind the series "
+      "may stand from T and to T. Errors are relative except where the exact "
+      "value is 0. " +
+        point_quantities_text() +
+        " The exact solution and the region are expressions in the initial "
+        "coordinates r and z, the time t, and pi. Units: SI.",
+      prm,
+      Patterns::Anything());
+  }
+
+
+
+  void
+  Verification::check_parameters(const std::vector<std::string> &observed) const
+  {
+    for (const std::string &text : texts_of(entry))
+      parse_check(text, observed);
+  }
+
+
+
+  bool
+  Verification::empty() const
+  {
+    return texts_of(entry).empty();
+  }
+
+
+
+  bool
+  Verification::run(const AllPoints   &points,
+                    const Records     &records,
+                    const double       time,
+                    const std::string &directory,
+                    Console           &console) const
+  {
+    const bool full     = console.get_verbosity() == Console::Verbosity::full;
+    bool       all_pass = true;
+    std::vector<std::string> items;
+    for (const std::string &text : texts_of(entry))
+      {
+        const Check      check = parse_check(text, records.observed());
+        const Comparison c     = compare(check, points, records, time);
+        const bool       pass  = c.error <= check.tolerance;
+        all_pass               = all_pass && pass;
+        items.push_back(json_of(check, c, pass));
+        console.message(line_of(check, c, pass, full));
+      }
+    write_atomically(directory + "/verification.json",
+                     Json::list(items) + "\n");
+    return all_pass;
+  }
+} // namespace CaissonMPM

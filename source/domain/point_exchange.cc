@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/bytes.h>
+#include <caisson_mpm/domain/point_exchange.h>
+
+#include <set>
+#include <type_traits>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr int tag_of_points = 411, tag_of_cells = 412;
+
+    static_assert(std::is_trivially_copyable<TravelingPoint>::value,
+                  "points are sent as bytes");
+
+    void
+    wait_for(std::vector<MPI_Request> &requests)
+    {
+      const int error =
+        MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+      AssertThrowMPI(error);
+    }
+
+    void
+    receive_points(const MPI_Comm               communicator,
+                   const unsigned int           rank,
+                   std::vector<TravelingPoint> &points)
+    {
+      MPI_Status status;
+      int        error = MPI_Probe(rank, tag_of_points, communicator, &status);
+      AssertThrowMPI(error);
+      int n_bytes = 0;
+      error       = MPI_Get_count(&status, MPI_BYTE, &n_bytes);
+      AssertThrowMPI(error);
+      const std::size_t n = points.size();
+      points.resize(n + n_bytes / sizeof(TravelingPoint));
+      error = MPI_Recv(points.data() + n,
+                       n_bytes,
+                       MPI_BYTE,
+                       rank,
+                       tag_of_points,
+                       communicator,
+                       MPI_STATUS_IGNORE);
+      AssertThrowMPI(error);
+    }
+  } // namespace
+
+  void
+  PointExchange::set_up(const BackgroundGrid &grid)
+  {
+    communicator = grid.communicator();
+    // cells touch where they share a node
+    std::vector<std::set<unsigned int>>               ranks_at(grid.n_nodes());
+    std::map<unsigned int, std::vector<unsigned int>> own, ghost;
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (!grid.is_owned(cell))
+        {
+          ghost[grid.owner_of(cell)].push_back(cell);
+          for (const unsigned int node : grid.cell_nodes(cell).node)
+            ranks_at[node].insert(grid.owner_of(cell));
+        }
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (grid.is_owned(cell))
+        {
+          std::set<unsigned int> ranks;
+          for (const unsigned int node : grid.cell_nodes(cell).node)
+            ranks.insert(ranks_at[node].begin(), ranks_at[node].end());
+          for (const unsigned int rank : ranks)
+            own[rank].push_back(cell);
+        }
+    neighbors.clear();
+    for (const auto &[rank, cells] : ghost)
+      neighbors.push_back({rank,
+                           own[rank],
+                           cells,
+                           std::vector<char>(own[rank].size()),
+                           std::vector<char>(cells.size())});
+  }
+
+  std::vector<TravelingPoint>
+  PointExchange::exchange(
+    const std::map<unsigned int, std::vector<TravelingPoint>> &abroad) const
+  {
+    static const std::vector<TravelingPoint> none;
+    std::vector<MPI_Request>                 requests;
+    for (const Neighbor &neighbor : neighbors)
+      {
+        const auto  found  = abroad.find(neighbor.rank);
+        const auto &points = found == abroad.end() ? none : found->second;
+        requests.emplace_back();
+        const int error = MPI_Isend(points.data(),
+                                    points.size() * sizeof(TravelingPoint),
+                                    MPI_BYTE,
+                                    neighbor.rank,
+                                    tag_of_points,
+                                    communicator,
+                                    &requests.back());
+        AssertThrowMPI(error);
+      }
+    std::vector<TravelingPoint> received;
+    for (const Neighbor &neighbor : neighbors)
+      receive_points(communicator, neighbor.rank, received);
+    wait_for(requests);
+    return received;
+  }
+
+  void
+  PointExchange::update_occupied(std::vector<int> &first_block)
+  {
+    std::vector<MPI_Request> requests;
+    for (Neighbor &neighbor : neighbors)
+      {
+        for (std::size_t i = 0; i < neighbor.own.size(); ++i)
+          neighbor.own_occupied[i] = first_block[neighbor.own[i]] >= 0;
+        requests.emplace_back();
+        int error = MPI_Irecv(neighbor.ghost_occupied.data(),
+                              neighbor.ghost_occupied.size(),
+                              MPI_CHAR,
+                              neighbor.rank,
+                              tag_of_cells,
+                              communicator,
+                              &requests.back());
+        AssertThrowMPI(error);
+        requests.emplace_back();
+        error = MPI_Isend(neighbor.own_occupied.data(),
+                          neighbor.own_occupied.size(),
+                          MPI_CHAR,
+                          neighbor.rank,
+                          tag_of_cells,
+                          communicator,
+                          &requests.back());
+        AssertThrowMPI(error);
+      }
+    wait_for(requests);
+    for (const Neighbor &neighbor : neighbors)
+      for (std::size_t i = 0; i < neighbor.ghost.size(); ++i)
+        first_block[neighbor.ghost[i]] = neighbor.ghost_occupied[i] ? 0 : -1;
+  }
+
+  std::vector<TravelingPoint>
+  send_to_owners(const BackgroundGrid              &grid,
+                 const std::vector<TravelingPoint> &points)
+  {
+    std::vector<unsigned int> owners(grid.n_global_cells(), 0);
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (grid.is_owned(cell))
+        owners[grid.global_number(cell)] = grid.owner_of(cell);
+    Utilities::MPI::max(owners, grid.communicator(), owners);
+    std::map<unsigned int, std::vector<TravelingPoint>> by_rank;
+    for (const TravelingPoint &p : points)
+      by_rank[owners[p.cell]].push_back(p);
+    std::map<unsigned int, std::vector<char>> messages;
+    for (const auto &[rank, some] : by_rank)
+      messages[rank] = to_bytes(some);
+    std::vector<TravelingPoint> received;
+    for (const auto &[rank, message] :
+         Utilities::MPI::some_to_some(grid.communicator(), messages))
+      append_bytes(received, message);
+    return received;
+  }
+} // namespace CaissonMPM

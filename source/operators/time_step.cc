@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/operators/time_step.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  TimeStep::TimeStep()
+    : ParameterAcceptor("/Time")
+  {
+    add_parameter("Courant number",
+                  courant,
+                  "Time step over the stability limit of linear cells. Units: "
+                  "none.",
+                  prm,
+                  Patterns::Double(1e-6, 1.));
+    add_parameter("Mass scaling",
+                  mass_scaling,
+                  "Factor on the inertia of the soil, not on its weight; the "
+                  "step grows with its square root. Units: none.",
+                  prm,
+                  Patterns::Double(1., 1e6));
+    add_parameter("Time step",
+                  fixed_step,
+                  "A time step to use instead; 0 for the stable one. Units: s.",
+                  prm,
+                  Patterns::Double(0.));
+  }
+
+  std::vector<std::string>
+  TimeStep::known_limits() const
+  {
+    if (mass_scaling > 100.)
+      return {
+        "Time/Mass scaling above 100 has been seen to change the tip force "
+        "by more than 5 %"};
+    return {};
+  }
+
+  double
+  TimeStep::choose(const BackgroundGrid           &grid,
+                   MaterialPoints                 &points,
+                   const Soil                     &soil,
+                   std::vector<Kernels::Material> &materials)
+  {
+    constexpr unsigned int interval = 20;
+    const bool             is_first = limit == 0.;
+    if (is_first || ++age == interval)
+      {
+        find_moduli(grid.communicator(), points, soil, materials);
+        find_limit(grid, points, soil, materials);
+      }
+    if (fixed_step == 0.)
+      return courant * limit;
+    if (fixed_step > limit)
+      {
+        const std::string text =
+          "Time/Time step = " + std::to_string(fixed_step) +
+          " s exceeds the stability limit " + std::to_string(limit) +
+          " s, set by " + limiting_cell +
+          ". Reduce it, or set it to 0 for the stable one.";
+        if (is_first)
+          throw BadInput(text);
+        throw RunFailure(text);
+      }
+    return fixed_step;
+  }
+
+  void
+  TimeStep::find_moduli(const MPI_Comm                  communicator,
+                        const MaterialPoints           &points,
+                        const Soil                     &soil,
+                        std::vector<Kernels::Material> &materials)
+  {
+    // what stress and density may add until they are looked at again
+    constexpr double    margin = 1.25;
+    std::vector<double> found(materials.size(), -1.);
+    bool                any = false;
+    for (unsigned int i = 0; i < materials.size(); ++i)
+      if (soil.layer(i).stiffness_varies())
+        {
+          found[i] = 0.;
+          any      = true;
+        }
+    if (!any)
+      return;
+    points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      double &largest = found[p.material];
+      if (largest >= 0.)
+        largest = std::max(
+          largest,
+          p_wave_modulus(materials[p.material],
+                         p.stress,
+                         p.void_ratio(soil.layer(p.material).void_ratio())));
+    });
+    Utilities::MPI::max(found, communicator, found);
+    for (unsigned int i = 0; i < materials.size(); ++i)
+      if (found[i] > 0.) // else no point is of this material
+        materials[i].p_wave_modulus = margin * found[i];
+  }
+
+  namespace
+  {
+    /** The largest of the wave speeds squared of what lies in a cell. */
+    double
+    square_of_speed(const Kernels::PointsView &points,
+                    const unsigned int         cell,
+                    const std::vector<double> &squares)
+    {
+      double largest = 0.;
+      for (int b = points.first_block[cell]; b >= 0; b = points.headers[b].next)
+        largest = std::max(largest, squares[points.headers[b].material]);
+      return largest;
+    }
+
+    /**
+     * A bound of the largest frequency in a cell, squared, over (2 c)^2. The
+     * gradient in the unit cell is J^-T, and the largest frequency of linear
+     * cells at most 2 c |J^-1|: 1/dr^2 + 1/dz^2 where rows are level, more
+     * where they are bent.
+     */
+    double
+    inverse_square_of_size(const Kernels::CellGeometry &g)
+    {
+      const double h   = std::min(g.height_left, g.height_right);
+      const double top = g.bottom_right + g.height_right - g.bottom_left -
+                         g.height_left,
+                   rise = std::max(std::abs(g.bottom_right - g.bottom_left),
+                                   std::abs(top)) /
+                          g.width;
+      return 1. / (g.width * g.width) + (1. + rise * rise) / (h * h);
+    }
+
+    std::string
+    describe(const BackgroundGrid &grid,
+             const unsigned int    cell,
+             const double          speed)
+    {
+      const auto        &g = grid.geometry(cell);
+      std::ostringstream s;
+      s << "the cell at r = " << g.left << " m, z = " << g.bottom_left
+        << " m of the " << BackgroundGrid::name_of(grid.zone(cell)) << " zone, "
+        << g.width << " m x " << std::min(g.height_left, g.height_right)
+        << " m, wave speed " << speed << " m/s";
+      return s.str();
+    }
+  } // namespace
+
+  void
+  TimeStep::find_limit(const BackgroundGrid                 &grid,
+                       MaterialPoints                       &points,
+                       const Soil                           &soil,
+                       const std::vector<Kernels::Material> &materials)
+  {
+    std::vector<double> squares;
+    for (unsigned int i = 0; i < soil.n_layers(); ++i)
+      squares.push_back(materials[i].p_wave_modulus /
+                        (mass_scaling * soil.inertial_density(i)));
+    const auto          view     = points.view();
+    unsigned int        limiting = 0;
+    double              worst = 0., speed = 0.; // 1 / s2, m/s
+    std::vector<double> worst_of_zone(BackgroundGrid::n_zones, 0.);
+    for (unsigned int i = 0; i < view.n_active_cells; ++i)
+      {
+        const unsigned int cell   = view.active_cells[i];
+        const double       square = square_of_speed(view, cell, squares),
+                     frequency =
+                       square * inverse_square_of_size(grid.geometry(cell));
+        double &of_zone = worst_of_zone[static_cast<int>(grid.zone(cell))];
+        of_zone         = std::max(of_zone, frequency);
+        if (frequency > worst)
+          {
+            worst    = frequency;
+            limiting = cell;
+            speed    = std::sqrt(square);
+          }
+      }
+    const MPI_Comm communicator = grid.communicator();
+    Utilities::MPI::max(worst_of_zone, communicator, worst_of_zone);
+    for (unsigned int zone = 0; zone < BackgroundGrid::n_zones; ++zone)
+      limit_of_zone[zone] = 1. / std::sqrt(worst_of_zone[zone]);
+    const auto of_all = Utilities::MPI::min_max_avg(worst, communicator);
+    limit             = 1. / std::sqrt(of_all.max);
+    age               = 0;
+
+    std::string text;
+    if (of_all.max_index == Utilities::MPI::this_mpi_process(communicator))
+      text = describe(grid, limiting, speed);
+    limiting_cell =
+      Utilities::MPI::broadcast(communicator, text, of_all.max_index);
+  }
+
+  std::vector<std::pair<std::string, double>>
+  TimeStep::zone_limits() const
+  {
+    std::vector<std::pair<std::string, double>> result;
+    for (unsigned int zone = 0; zone < BackgroundGrid::n_zones; ++zone)
+      if (std::isfinite(limit_of_zone[zone]))
+        result.emplace_back(BackgroundGrid::name_of(
+                              static_cast<BackgroundGrid::Zone>(zone)),
+                            limit_of_zone[zone]);
+    return result;
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/output/text_file.h>
+#include <caisson_mpm/restart/checkpoint.h>
+#include <caisson_mpm/restart/point_file.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <sstream>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    const std::string format_name = "caisson_mpm-checkpoint-6";
+
+    // what a rank has in memory at a time besides its own
+    constexpr unsigned long points_per_piece = 20000;
+
+    std::string
+    info_file(const std::string &directory)
+    {
+      return directory + "/checkpoint.info";
+    }
+
+    /** What checkpoint.info says. */
+    struct Info
+    {
+      std::string     file; // checkpoint-a.h5 or checkpoint-b.h5
+      unsigned long   n_points = 0;
+      unsigned long   n_bytes  = 0; // of the file
+      std::uint64_t   checksum = 0; // of the points
+      CheckpointState state;
+      std::string     fingerprint;
+    };
+
+    std::string
+    to_text(const Info &info)
+    {
+      const auto exact = [](const double x) {
+        return CaissonMPM::to_text(x, 17);
+      };
+      const CheckpointState &s = info.state;
+      std::ostringstream     out;
+      out << "format " << format_name << "\nfile " << info.file << "\npoints "
+          << info.n_points << "\nbytes " << info.n_bytes << "\nchecksum "
+          << info.checksum << "\ntime " << exact(s.time) << "\ntravel "
+          << exact(s.travel) << "\nstep " << s.step << "\nlimiter_count "
+          << s.limiter_count << "\nheld_back " << s.held_back
+          << "\nexternal_work " << exact(s.external_work) << "\nmore";
+      for (const double value : s.more)
+        out << ' ' << exact(value);
+      out << "\nfingerprint\n" << info.fingerprint;
+      return out.str();
+    }
+
+    Info
+    parse_info(const std::string &text)
+    {
+      std::map<std::string, std::vector<std::string>> entries;
+      std::istringstream                              in(text);
+      for (std::string line; std::getline(in, line) && line != "fingerprint";)
+        {
+          std::istringstream words(line);
+          std::string        name;
+          words >> name;
+          for (std::string word; words >> word;)
+            entries[name].push_back(word);
+        }
+      const auto entry = [&](const std::string &name) {
+        return entries[name].empty() ? std::string() : entries[name][0];
+      };
+      const auto real = [&](const std::string &name) {
+        return std::strtod(entry(name).c_str(), nullptr);
+      };
+      const auto count = [&](const std::string &name) {
+        return std::strtoul(entry(name).c_str(), nullptr, 10);
+      };
+      Info info;
+      if (entry("format") != format_name)
+        return info;
+      info.file     = entry("file");
+      info.n_points = count("points");
+      info.n_bytes  = count("bytes");
+      info.checksum = count("checksum");
+      info.state    = {real("time"),
+                       real("travel"),
+                       count("step"),
+                       count("limiter_count"),
+                       count("held_back"),
+                       real("external_work"),
+                       {}};
+      for (const std::string &word : entries["more"])
+        info.state.more.push_back(std::strtod(word.c_str(), nullptr));
+      std::ostringstream rest;
+      rest << in.rdbuf();
+      info.fingerprint = rest.str();
+      return info;
+    }
+
+
+
+    // ---------------------------------------------------------- files
+
+    unsigned long
+    size_of(const fs::path &file)
+    {
+      std::error_code error;
+      const auto      size = fs::file_size(file, error);
+      return error ? 0 : size;
+    }
+
+    /** Bring the file to the disk; 0 or an errno. */
+    int
+    synchronize(const fs::path &file)
+    {
+      const int descriptor = open(file.c_str(), O_RDONLY);
+      if (descriptor < 0)
+        return errno;
+      const int error = fsync(descriptor) == 0 ? 0 : errno;
+      close(descriptor);
+      return error;
+    }
+
+    bool
+    has_space(const std::string &directory, const unsigned long n_bytes)
+    {
+      std::error_code error; // then it is the largest number
+      return fs::space(directory, error).available >= n_bytes;
+    }
+
+    /** Whether a file can become as large as that; 0 or an errno. HDF5 must not
+     * find out: if it cannot close a file, it crashes when the program ends. */
+    int
+    look_for_room(const fs::path &file, const unsigned long n_bytes)
+    {
+      const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT, 0666);
+      if (descriptor < 0)
+        return errno;
+      int error = fallocate(descriptor, 0, 0, n_bytes) == 0 ? 0 : errno;
+      if (error == EOPNOTSUPP) // by this file system
+        error = has_space(file.parent_path(), n_bytes) ? 0 : ENOSPC;
+      close(descriptor);
+      std::error_code ignored;
+      fs::remove(file, ignored);
+      return error;
+    }
+
+    /**
+     * Remove what is left of an older checkpoint of this name, with all files
+     * of earlier formats, and see that there is room for the new one. Returns 0
+     * or an errno.
+     */
+    int
+    make_room(const std::string  &directory,
+              const std::string  &file,
+              const unsigned long n_bytes)
+    {
+      const std::string     name = fs::path(file).stem().string();
+      std::vector<fs::path> old;
+      std::error_code       error;
+      for (const auto &entry : fs::directory_iterator(directory, error))
+        if (entry.path().filename().string().compare(0, name.size(), name) == 0)
+          old.push_back(entry.path());
+      for (const fs::path &path : old)
+        fs::remove(path, error);
+      return look_for_room(directory + "/" + file, n_bytes);
+    }
+
+    /** Call action() on the first rank; all throw where it returns an errno. */
+    template <typename Action>
+    void
+    on_first_rank(const MPI_Comm     communicator,
+                  const std::string &directory,
+                  const Action      &action)
+    {
+      const bool first = Utilities::MPI::this_mpi_process(communicator) == 0;
+      const int error = Utilities::MPI::max(first ? action() : 0, communicator);
+      if (error != 0)
+        report_unwritable("the checkpoint in " + directory,
+                          error,
+                          "the one before it, if any, is still valid");
+    }
+
+
+
+    // ---------------------------------------------------------- points
+
+    /** Close the file. The checksum of all ranks' rows, unless one has failed.
+     * Collective. */
+    std::optional<std::uint64_t>
+    finish(PointFile &file, const MPI_Comm communicator)
+    {
+      const bool succeeded =
+        Utilities::MPI::min(file.close() ? 1 : 0, communicator) == 1;
+      const auto sum = Utilities::MPI::sum(file.checksum(), communicator);
+      return succeeded ? std::make_optional(sum) : std::nullopt;
+    }
+
+    /** Write the points of all ranks, one rank's after the other's, each in the
+     * order of its cells. Returns as finish(). Collective. */
+    std::optional<std::uint64_t>
+    write_points(const std::string    &path,
+                 const BackgroundGrid &grid,
+                 const MaterialPoints &points)
+    {
+      const MPI_Comm communicator = grid.communicator();
+      const auto     n            = Utilities::MPI::all_gather(
+        communicator, static_cast<unsigned long>(points.n_points()));
+      const auto own =
+        n.begin() + Utilities::MPI::this_mpi_process(communicator);
+      unsigned long               row = std::accumulate(n.begin(), own, 0ul);
+      PointFile                   file(path,
+                     PointFile::Access::create,
+                     std::accumulate(n.begin(), n.end(), 0ul),
+                     communicator);
+      std::vector<TravelingPoint> piece;
+      piece.reserve(std::min(*own, points_per_piece));
+      const auto write_piece = [&]() {
+        file.write(row, piece);
+        row += piece.size();
+        piece.clear();
+      };
+      points.for_each([&](const MaterialPoint &point, const unsigned int cell) {
+        piece.push_back({grid.global_number(cell), point});
+        if (piece.size() == points_per_piece)
+          write_piece();
+      });
+      write_piece();
+      return finish(file, communicator);
+    }
+
+    /**
+     * Read all points and call action(points) for each piece, as often on all
+     * ranks: the pieces of all of them, one rank's after the other's, are the
+     * next rows of the file. Returns as finish(). Collective.
+     */
+    template <typename Action>
+    std::optional<std::uint64_t>
+    read_points(const std::string  &path,
+                const unsigned long n_points,
+                const MPI_Comm      communicator,
+                const Action       &action)
+    {
+      PointFile  file(path, PointFile::Access::read, n_points, communicator);
+      const auto n_ranks = Utilities::MPI::n_mpi_processes(communicator),
+                 rank    = Utilities::MPI::this_mpi_process(communicator);
+      for (unsigned long row = 0; row < n_points;
+           row += n_ranks * points_per_piece)
+        {
+          const unsigned long begin = std::min(n_points,
+                                               row + rank * points_per_piece),
+                              end =
+                                std::min(n_points, begin + points_per_piece);
+          action(file.read(begin, end - begin));
+        }
+      return finish(file, communicator);
+    }
+
+
+
+    // ---------------------------------------------------------- reading
+
+    std::string
+    next_line(std::istream &in)
+    {
+      std::string line;
+      return std::getline(in, line) ? line : "(no further entry)";
+    }
+
+    void
+    check_fingerprint(const std::string &directory,
+                      const std::string &written,
+                      const std::string &current)
+    {
+      if (written == current)
+        return;
+      std::istringstream then(written), now(current);
+      std::string        a, b;
+      while (a == b && (then || now))
+        {
+          a = next_line(then);
+          b = next_line(now);
+        }
+      throw BadInput("the checkpoint in " + directory +
+                     " was written with\n  " + a +
+                     "\nand cannot be used with\n  " + b +
+                     "\nSet it back, or run without --restart.");
+    }
+
+    [[noreturn]] void
+    report_damaged(const std::string &directory)
+    {
+      throw BadInput("the checkpoint in " + directory +
+                     " is damaged, or was written by another version. Run "
+                     "without --restart.");
+    }
+
+    Info
+    read_info(const std::string &directory)
+    {
+      const std::string text = read_text(info_file(directory));
+      if (text.empty())
+        throw BadInput("there is no checkpoint in " + directory +
+                       " to go on from (no file checkpoint.info). Give the "
+                       "output directory of the run that was stopped, or run "
+                       "without --restart.");
+      const Info info = parse_info(text);
+      if (info.file.empty() ||
+          size_of(directory + "/" + info.file) != info.n_bytes)
+        report_damaged(directory);
+      return info;
+    }
+
+    /** The blocks that the points of this rank need, from the number of points
+     * in each cell. [n_global_cells] */
+    unsigned long
+    count_blocks(const BackgroundGrid            &grid,
+                 const std::vector<unsigned int> &n_in_cell)
+    {
+      unsigned long n_blocks = 0;
+      for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+        if (grid.is_owned(cell))
+          n_blocks +=
+            (n_in_cell[grid.global_number(cell)] + Kernels::block_size - 1) /
+            Kernels::block_size;
+      return n_blocks;
+    }
+  } // namespace
+
+
+
+  void
+  write_checkpoint(const std::string     &directory,
+                   const BackgroundGrid  &grid,
+                   const MaterialPoints  &points,
+                   const CheckpointState &state,
+                   const std::string     &fingerprint)
+  {
+    const MPI_Comm communicator = grid.communicator();
+    Info           info;
+    const bool     a_is_valid =
+      parse_info(read_text(info_file(directory))).file == "checkpoint-a.h5";
+    info.file = Utilities::MPI::broadcast(communicator, a_is_valid ? 1 : 0) ?
+                  "checkpoint-b.h5" :
+                  "checkpoint-a.h5";
+    info.n_points =
+      Utilities::MPI::sum<unsigned long>(points.n_points(), communicator);
+    info.state                     = state;
+    info.fingerprint               = fingerprint;
+    const std::string   path       = directory + "/" + info.file;
+    const unsigned long n_bytes    = info.n_points * PointFile::bytes_per_point;
+    const auto          on_failure = [&]() {
+      const int       error = has_space(directory, n_bytes) ? EIO : ENOSPC;
+      std::error_code ignored;
+      fs::remove(path, ignored);
+      return error;
+    };
+    on_first_rank(communicator, directory, [&]() {
+      return make_room(directory, info.file, n_bytes + 10000);
+    });
+
+    const auto written = write_points(path, grid, points);
+    on_first_rank(communicator, directory, [&]() {
+      return written ? synchronize(path) : on_failure();
+    });
+
+    // see that all is there: a full disk is not always reported
+    const auto found =
+      read_points(path, info.n_points, communicator, [](const auto &) {});
+    on_first_rank(communicator, directory, [&]() {
+      if (found != written)
+        return on_failure();
+      info.n_bytes  = size_of(path);
+      info.checksum = *written;
+      return try_to_write(info_file(directory), to_text(info));
+    });
+  }
+
+
+
+  CheckpointState
+  read_checkpoint(const std::string &directory,
+                  BackgroundGrid    &grid,
+                  MaterialPoints    &points,
+                  const std::string &fingerprint)
+  {
+    const Info info = read_info(directory);
+    check_fingerprint(directory, info.fingerprint, fingerprint);
+    const MPI_Comm communicator   = grid.communicator();
+    const auto     for_each_piece = [&](const auto &action) {
+      if (read_points(directory + "/" + info.file,
+                      info.n_points,
+                      communicator,
+                      action) != info.checksum)
+        report_damaged(directory);
+    };
+
+    // first see that all is there, and how many points go where
+    std::vector<unsigned int> n_in_cell(grid.n_global_cells(), 0);
+    for_each_piece([&](const std::vector<TravelingPoint> &piece) {
+      for (const TravelingPoint &p : piece)
+        if (p.cell < n_in_cell.size())
+          ++n_in_cell[p.cell];
+    });
+    Utilities::MPI::sum(n_in_cell, communicator, n_in_cell);
+    if (std::accumulate(n_in_cell.begin(), n_in_cell.end(), 0ul) !=
+        info.n_points)
+      report_damaged(directory);
+
+    const unsigned long n_blocks = count_blocks(grid, n_in_cell);
+    points.reset(n_blocks + n_blocks / 16);
+    for_each_piece([&](const std::vector<TravelingPoint> &piece) {
+      for (const TravelingPoint &p : send_to_owners(grid, piece))
+        points.add(grid.local_number(p.cell), p.point);
+    });
+    points.settle();
+    grid.prepare_motion(info.state.travel);
+    grid.advance();
+    return info.state;
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/restart/point_file.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace CaissonMPM
+{
+  namespace
+  {
+    constexpr unsigned int n_columns = 20 + Kernels::n_state_variables;
+
+    static_assert(sizeof(TravelingPoint) == n_columns * sizeof(double),
+                  "every member is a column");
+
+    // by value: a damaged file may contain anything
+    unsigned int
+    whole_number(const double x)
+    {
+      return x >= 0. && x < 4294967296. ? static_cast<unsigned int>(x) : 0u;
+    }
+
+    /** Call action(name, values, n) for all numbers of a point, in the order of
+     * the columns. They may be changed. */
+    template <typename Action>
+    void
+    for_each_column(TravelingPoint &traveling, const Action &action)
+    {
+      MaterialPoint &p    = traveling.point;
+      double         cell = traveling.cell, material = p.material;
+      action("cell", &cell, 1);
+      action("id", &p.id, 1);
+      action("material", &material, 1);
+      action("position", p.position.begin_raw(), 2);
+      action("velocity", p.velocity, 2);
+      action("stress", p.stress.data(), 4);
+      action("mass", &p.mass, 1);
+      action("volume", &p.volume, 1);
+      action("plastic_deviatoric", &p.plastic_deviatoric, 1);
+      action("plastic_volumetric", &p.plastic_volumetric, 1);
+      action("state", p.state.data(), Kernels::n_state_variables);
+      action("initial_position", p.initial_position.begin_raw(), 2);
+      action("initial_volume", &p.initial_volume, 1);
+      action("size", p.size, 2);
+      traveling.cell = whole_number(cell);
+      p.material     = whole_number(material);
+    }
+
+    /** Every step can be undone, so that no single change is lost. */
+    std::uint64_t
+    checksum_of(const std::uint64_t row, const double *values)
+    {
+      std::uint64_t result = row;
+      for (unsigned int c = 0; c < n_columns; ++c)
+        {
+          std::uint64_t bits;
+          std::memcpy(&bits, values + c, sizeof(bits));
+          result = (result ^ bits) * 0x9e3779b97f4a7c15u; // odd
+          result ^= result >> 32;
+        }
+      return result;
+    }
+
+    std::uint64_t
+    checksum_of(const std::uint64_t first_row, const std::vector<double> &rows)
+    {
+      std::uint64_t sum = 0;
+      for (std::size_t i = 0; i < rows.size() / n_columns; ++i)
+        sum += checksum_of(first_row + i, rows.data() + i * n_columns);
+      return sum;
+    }
+  } // namespace
+
+  const unsigned int PointFile::bytes_per_point = n_columns * sizeof(double);
+
+
+
+  PointFile::PointFile(const std::string  &path,
+                       const Access        access,
+                       const unsigned long n_points,
+                       const MPI_Comm      communicator)
+  {
+    // close() tells of errors; HDF5 shall not print them
+    check(H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr));
+    const hid_t properties = check(H5Pcreate(H5P_FILE_ACCESS));
+    check(H5Pset_fapl_mpio(properties, communicator, MPI_INFO_NULL));
+    check(H5Pset_fclose_degree(properties, H5F_CLOSE_STRONG));
+    // from this version on the structure of the file has checksums
+    check(H5Pset_libver_bounds(properties, H5F_LIBVER_V18, H5F_LIBVER_LATEST));
+    if (access == Access::create)
+      create(path, properties, n_points);
+    else
+      open(path, properties, n_points);
+    check(H5Pclose(properties));
+  }
+
+
+
+  PointFile::~PointFile()
+  {
+    close();
+  }
+
+
+
+  void
+  PointFile::create(const std::string &path,
+                    const hid_t        access,
+                    const hsize_t      n_points)
+  {
+    file = check(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
+    const hsize_t dimensions[2] = {n_points, n_columns};
+    dataspace              = check(H5Screate_simple(2, dimensions, nullptr));
+    const hid_t properties = check(H5Pcreate(H5P_DATASET_CREATE));
+    check(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER));
+    dataset = check(H5Dcreate2(file,
+                               "points",
+                               H5T_IEEE_F64LE,
+                               dataspace,
+                               H5P_DEFAULT,
+                               properties,
+                               H5P_DEFAULT));
+    check(H5Pclose(properties));
+    name_columns();
+  }
+
+
+
+  void
+  PointFile::name_columns()
+  {
+    std::string    names;
+    TravelingPoint any = {};
+    for_each_column(any, [&](const char *name, const double *, const int n) {
+      for (int i = 0; i < n; ++i)
+        names += (names.empty() ? "" : " ") + std::string(name) +
+                 (n > 1 ? "_" + std::to_string(i) : "");
+    });
+    const hid_t type = check(H5Tcopy(H5T_C_S1));
+    check(H5Tset_size(type, names.size() + 1));
+    const hid_t space     = check(H5Screate(H5S_SCALAR));
+    const hid_t attribute = check(
+      H5Acreate2(dataset, "columns", type, space, H5P_DEFAULT, H5P_DEFAULT));
+    check(H5Awrite(attribute, type, names.c_str()));
+    check(H5Aclose(attribute));
+    check(H5Sclose(space));
+    check(H5Tclose(type));
+  }
+
+
+
+  void
+  PointFile::open(const std::string &path,
+                  const hid_t        access,
+                  const hsize_t      n_points)
+  {
+    file      = check(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access));
+    dataset   = check(H5Dopen2(file, "points", H5P_DEFAULT));
+    dataspace = check(H5Dget_space(dataset));
+    if (H5Sget_simple_extent_ndims(dataspace) != 2)
+      {
+        succeeded = false;
+        return;
+      }
+    hsize_t dimensions[2] = {0, 0};
+    check(H5Sget_simple_extent_dims(dataspace, dimensions, nullptr));
+    if (dimensions[0] != n_points || dimensions[1] != n_columns)
+      succeeded = false;
+  }
+
+
+
+  template <typename Rows, typename Operation>
+  void
+  PointFile::transfer(const unsigned long first_row,
+                      Rows               &rows,
+                      const Operation    &operation)
+  {
+    if (rows.empty())
+      return;
+    const hsize_t start[2] = {first_row, 0},
+                  count[2] = {rows.size() / n_columns, n_columns};
+    const hid_t memory     = check(H5Screate_simple(2, count, nullptr));
+    check(H5Sselect_hyperslab(
+      dataspace, H5S_SELECT_SET, start, nullptr, count, nullptr));
+    check(operation(
+      dataset, H5T_NATIVE_DOUBLE, memory, dataspace, H5P_DEFAULT, rows.data()));
+    check(H5Sclose(memory));
+    sum_of_rows += checksum_of(first_row, rows);
+  }
+
+
+
+  void
+  PointFile::write(const unsigned long                first_row,
+                   const std::vector<TravelingPoint> &points)
+  {
+    std::vector<double> rows;
+    rows.reserve(points.size() * n_columns);
+    for (TravelingPoint p : points)
+      for_each_column(p, [&](const char *, const double *values, const int n) {
+        rows.insert(rows.end(), values, values + n);
+      });
+    transfer(first_row, rows, H5Dwrite);
+  }
+
+
+
+  std::vector<TravelingPoint>
+  PointFile::read(const unsigned long first_row, const unsigned long n)
+  {
+    std::vector<double> rows(n * n_columns);
+    transfer(first_row, rows, H5Dread);
+    std::vector<TravelingPoint> points(n);
+    const double               *next = rows.data();
+    for (TravelingPoint &p : points)
+      for_each_column(p, [&](const char *, double *values, const int n_values) {
+        std::copy(next, next + n_values, values);
+        next += n_values;
+      });
+    return points;
+  }
+
+
+
+  bool
+  PointFile::close()
+  {
+    if (file >= 0) // for other ranks that read it
+      check(H5Fflush(file, H5F_SCOPE_GLOBAL));
+    if (dataspace >= 0)
+      check(H5Sclose(dataspace));
+    if (dataset >= 0)
+      check(H5Dclose(dataset));
+    if (file >= 0)
+      check(H5Fclose(file));
+    dataspace = dataset = file = -1;
+    return succeeded;
+  }
+
+
+
+  hid_t
+  PointFile::check(const hid_t result)
+  {
+    succeeded = succeeded && result >= 0;
+    return result;
+  }
+} // namespace CaissonMPM
