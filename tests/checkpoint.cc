@@ -2,7 +2,7 @@
 //
 // Checkpoints: every digit of the points comes back, in the same order; damage
 // and a file that cannot be written are noticed, and what was there is kept.
-#include <caisson_mpm/output/text_file.h>
+#include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/restart/point_file.h>
 

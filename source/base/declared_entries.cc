@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/declared_entries.h>
 
 #include <deal.II/base/utilities.h>
@@ -328,6 +329,8 @@ namespace CaissonMPM
   std::string
   allowed_values(const std::string &pattern)
   {
+    if (const auto word = read_word_description(pattern))
+      return word->word + ", or " + allowed_values(word->number);
     if (starts_with(pattern, "[Integer"))
       return allowed_integers(pattern);
     if (starts_with(pattern, "[Double"))

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/nearest_names.h>
 #include <caisson_mpm/base/parameter_file.h>
 
 #include <cctype>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -184,6 +186,12 @@ namespace CaissonMPM
       /** The entry itself if the path is another name of it. */
       const DeclaredEntry &
       resolve_alias(const DeclaredEntry &entry, const std::string &place);
+
+      /** The value, or the word where an old special number stands for it. */
+      std::string
+      present_value(const DeclaredEntry &entry,
+                    const std::string   &value,
+                    const std::string   &place);
 
       void
       set_value(const DeclaredEntry &entry,
@@ -401,7 +409,7 @@ namespace CaissonMPM
         throw BadInput(place + ": " + quote(entry.path) +
                        " is set a second time, first at " + earlier->second +
                        ".\n  Remove one of the two.");
-      set_value(entry, value, place);
+      set_value(entry, present_value(entry, value, place), place);
       origins.record(entry.path, place);
     }
 
@@ -417,6 +425,26 @@ namespace CaissonMPM
                             " is now called " + quote(entry.alias_of) +
                             "; the old name will go.");
       return *entries.find(entry.alias_of);
+    }
+
+
+
+    std::string
+    Reader::present_value(const DeclaredEntry &entry,
+                          const std::string   &value,
+                          const std::string   &place)
+    {
+      const auto description = read_word_description(entry.pattern);
+      char      *end         = nullptr;
+      if (!description || description->old_value.empty() || value.empty() ||
+          std::strtod(value.c_str(), &end) !=
+            std::strtod(description->old_value.c_str(), nullptr) ||
+          *end != '\0')
+        return value;
+      origins.add_warning(place + ": " + quote(entry.path) + " = " + value +
+                          " is now written " + quote(description->word) +
+                          "; the number will go.");
+      return description->word;
     }
 
 

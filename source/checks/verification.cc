@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/checks/comparisons.h>
 #include <caisson_mpm/checks/verification.h>
 #include <caisson_mpm/output/check_text.h>
 #include <caisson_mpm/output/json.h>
 #include <caisson_mpm/output/point_quantities.h>
-#include <caisson_mpm/output/text_file.h>
 
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>

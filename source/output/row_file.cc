@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/output/row_file.h>
-#include <caisson_mpm/output/text_file.h>
 
 #include <deal.II/base/exceptions.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/output/json.h>
 #include <caisson_mpm/output/run_summary.h>
-#include <caisson_mpm/output/text_file.h>
 
 namespace CaissonMPM
 {

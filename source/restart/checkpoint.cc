@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
-#include <caisson_mpm/output/text_file.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/restart/point_file.h>
 

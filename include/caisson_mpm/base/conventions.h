@@ -16,11 +16,16 @@
 #ifndef caisson_mpm_base_conventions_h
 #define caisson_mpm_base_conventions_h
 
+#include <deal.II/base/tensor.h>
+
 #include <array>
 
 namespace CaissonMPM
 {
   constexpr double pi = 3.14159265358979323846;
+
+  /** The one type of a vector with the components r and z. */
+  using Vector2 = dealii::Tensor<1, 2>;
 
   /** The two coordinates. */
   enum Component : unsigned int

@@ -11,18 +11,15 @@
 #ifndef caisson_mpm_operators_contact_h
 #define caisson_mpm_operators_contact_h
 
+#include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/bodies/rigid_body.h>
 #include <caisson_mpm/domain/background_grid.h>
-
-#include <deal.II/base/tensor.h>
 
 #include <array>
 #include <vector>
 
 namespace CaissonMPM
 {
-  using Vector2 = dealii::Tensor<1, 2>;
-
   /** Forces on the body by surface, whole circumference. Units: N. */
   using SurfaceForces = std::array<Vector2, n_surfaces>;
 

@@ -2,8 +2,8 @@
 //
 // Writing files so that a full disk is noticed and a killed run leaves no
 // half-written file under its final name.
-#ifndef caisson_mpm_output_text_file_h
-#define caisson_mpm_output_text_file_h
+#ifndef caisson_mpm_base_text_file_h
+#define caisson_mpm_base_text_file_h
 
 #include <string>
 
@@ -33,10 +33,6 @@ namespace CaissonMPM
   /** The contents of a file; empty where it cannot be read. */
   std::string
   read_text(const std::string &path);
-
-  /** A number with so many significant digits, as printf("%.*g"). */
-  std::string
-  to_text(const double value, const int significant_digits);
 } // namespace CaissonMPM
 
 #endif

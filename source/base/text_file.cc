@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
-#include <caisson_mpm/output/text_file.h>
+#include <caisson_mpm/base/text_file.h>
 
 #include <unistd.h>
 
@@ -64,13 +64,4 @@ namespace CaissonMPM
     return file.is_open() ? text.str() : std::string();
   }
 
-
-
-  std::string
-  to_text(const double value, const int significant_digits)
-  {
-    char buffer[64];
-    std::snprintf(buffer, sizeof(buffer), "%.*g", significant_digits, value);
-    return buffer;
-  }
 } // namespace CaissonMPM

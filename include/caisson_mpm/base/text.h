@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The only way in which the program turns numbers into text for its user.
+#ifndef caisson_mpm_base_text_h
+#define caisson_mpm_base_text_h
+
+#include <string>
+#include <type_traits>
+
+namespace CaissonMPM
+{
+  /**
+   * Write a number for a message: as short as it can be read back if that
+   * takes at most 9 significant digits (0.1 becomes "0.1", 1.2e-7 becomes
+   * "1.2e-07"), and with 6 significant digits otherwise.
+   */
+  std::string
+  to_text(const double value);
+
+  /** Write a number with so many significant digits, as printf("%.*g"). */
+  std::string
+  to_text(const double value, const int significant_digits);
+
+  /** Write a whole number with all its digits. */
+  template <typename Integer>
+  std::enable_if_t<std::is_integral<Integer>::value, std::string>
+  to_text(const Integer value)
+  {
+    return std::to_string(value);
+  }
+} // namespace CaissonMPM
+
+#endif

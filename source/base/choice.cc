@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/choice.h>
+#include <caisson_mpm/base/text.h>
+
+#include <cstdlib>
+
+namespace CaissonMPM
+{
+  using dealii::ParameterAcceptor;
+  using dealii::Patterns::PatternBase;
+
+  namespace
+  {
+    const std::string before_word      = "[Word ";
+    const std::string before_old_value = ", formerly ";
+    const std::string before_number    = ", or ";
+
+    /** Return the number that stands alone in its text, if there is one. */
+    std::optional<double>
+    number_in(const std::string &text)
+    {
+      char        *end   = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      if (text.empty() || *end != '\0')
+        return {};
+      return value;
+    }
+  } // namespace
+
+
+
+  void
+  add_entry(ParameterAcceptor                              &owner,
+            const std::string                              &entry,
+            const std::string                              &default_value,
+            const std::string                              &text,
+            const PatternBase                              &pattern,
+            const std::function<void(const std::string &)> &set)
+  {
+    auto &prm = ParameterAcceptor::prm;
+    owner.enter_my_subsection(prm);
+    prm.declare_entry(entry, default_value, pattern, text);
+    prm.add_action(entry, set);
+    owner.leave_my_subsection(prm);
+  }
+
+
+
+  WordOrNumber::WordOrNumber(const std::string          &word,
+                             const std::optional<double> old_value,
+                             const PatternBase          &number)
+    : word(word)
+    , old_value(old_value)
+    , number(number.clone())
+  {}
+
+
+
+  WordOrNumber::WordOrNumber(const WordOrNumber &other)
+    : PatternBase(other)
+    , word(other.word)
+    , old_value(other.old_value)
+    , number(other.number->clone())
+  {}
+
+
+
+  bool
+  WordOrNumber::match(const std::string &text) const
+  {
+    return text == word || number->match(text) ||
+           (old_value && number_in(text) == old_value);
+  }
+
+
+
+  std::string
+  WordOrNumber::description(const OutputStyle style) const
+  {
+    return before_word + word +
+           (old_value ? before_old_value + to_text(*old_value) : "") +
+           before_number + number->description(style) + "]";
+  }
+
+
+
+  std::unique_ptr<PatternBase>
+  WordOrNumber::clone() const
+  {
+    return std::make_unique<WordOrNumber>(*this);
+  }
+
+
+
+  std::optional<double>
+  WordOrNumber::value_of(const std::string &text) const
+  {
+    const std::optional<double> value = number_in(text);
+    return value == old_value ? std::nullopt : value;
+  }
+
+
+
+  void
+  add_word_or_number(ParameterAcceptor          &owner,
+                     const std::string          &entry,
+                     std::optional<double>      &value,
+                     const std::string          &word,
+                     const std::optional<double> old_value,
+                     const std::string          &text,
+                     const PatternBase          &number)
+  {
+    const WordOrNumber pattern(word, old_value, number);
+    add_entry(owner,
+              entry,
+              value ? to_text(*value) : word,
+              text,
+              pattern,
+              [&value, pattern](const std::string &setting) {
+                value = pattern.value_of(setting);
+              });
+  }
+
+
+
+  std::optional<WordDescription>
+  read_word_description(const std::string &pattern)
+  {
+    const std::size_t number = pattern.find(before_number);
+    if (pattern.compare(0, before_word.size(), before_word) != 0 ||
+        number == std::string::npos)
+      return {};
+    WordDescription result;
+    result.word =
+      pattern.substr(before_word.size(), number - before_word.size());
+    const std::size_t old_value = result.word.find(before_old_value);
+    if (old_value != std::string::npos)
+      {
+        result.old_value =
+          result.word.substr(old_value + before_old_value.size());
+        result.word.resize(old_value);
+      }
+    const std::size_t begin = number + before_number.size();
+    result.number           = pattern.substr(begin, pattern.size() - begin - 1);
+    return result;
+  }
+} // namespace CaissonMPM
