@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a run has left in its directory: the only reader of its files."""
+import csv
+import functools
+import json
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+Table = dict[str, np.ndarray]
+
+
+class ResultsError(Exception):
+    """What is wrong with the files of a run; the text is for the user."""
+
+
+def read_table(path: Path) -> Table:
+    """Return the columns [n_rows] of a .csv file by name.
+
+    Lines that begin with "#" are left out, and so are rows that are not whole,
+    as the last one of a run that was killed. Raises ResultsError where there is
+    no file, no column or no row.
+    """
+    if not path.is_file():
+        raise ResultsError(
+            f"no {path.name} in {path.parent}: is it the output directory of a run?"
+        )
+    with path.open(newline="", encoding="utf-8") as file:
+        lines = list(csv.reader(line for line in file if not line.startswith("#")))
+    names = [name.strip() for name in lines[0]] if lines else []
+    rows = []
+    for line in lines[1:]:
+        try:
+            row = [float(entry) for entry in line]
+        except ValueError:
+            continue
+        if len(row) == len(names):
+            rows.append(row)
+    if not rows:
+        raise ResultsError(f"{path} has no complete row")
+    return dict(zip(names, np.array(rows).T))
+
+
+class Results:
+    """The files of one run, each read when it is asked for, and once.
+
+    Columns of a table are arrays [n_rows]; names carry the units. Raises
+    ResultsError where a file is missing or cannot be read.
+    """
+
+    def __init__(self, directory: Path) -> None:
+        self.directory = Path(directory)
+
+    def table(self, name: str, column: str) -> Table:
+        """Return a .csv file of the run that must have this column."""
+        path = self.directory / name
+        found = read_table(path)
+        if column not in found:
+            raise ResultsError(f"{path} has no column {column}")
+        return found
+
+    @functools.cached_property
+    def history(self) -> Table:
+        """Forces, energies and counts; a row is the mean since the row before."""
+        return self.table("history.csv", "time_s")
+
+    @functools.cached_property
+    def observations(self) -> Table:
+        """The series that the entry Verification/Observations asks for."""
+        return self.table("observations.csv", "time_s")
+
+    @functools.cached_property
+    def error_bounds(self) -> Table:
+        """Lower and upper bounds of forces; empty where there are none."""
+        if not (self.directory / "history_error.csv").is_file():
+            return {}
+        return self.table("history_error.csv", "penetration_m")
+
+    def _json(self, name: str) -> Any:
+        path = self.directory / name
+        try:
+            return json.loads(path.read_text(encoding="utf-8"))
+        except FileNotFoundError as error:
+            raise ResultsError(f"no {name} in {self.directory}") from error
+        except ValueError as error:
+            raise ResultsError(f"{path} cannot be read: {error}") from error
+
+    @functools.cached_property
+    def summary(self) -> dict[str, Any]:
+        """Sizes, times and counts: run.json."""
+        return self._json("run.json")
+
+    @functools.cached_property
+    def checks(self) -> dict[str, dict[str, Any]]:
+        """The checks of Verification/Checks by what stands before their colon."""
+        return {check["check"]: check for check in self._json("verification.json")}
+
+    def frames(self, series: str = "points") -> list[tuple[float, list[Path]]]:
+        """Return [(time, [files])] of points.pvd or grid.pvd, in order; files
+        that are gone, as of a run that was stopped, are left out."""
+        path = self.directory / f"{series}.pvd"
+        if not path.is_file():
+            return []
+        frames: dict[float, list[Path]] = {}
+        try:
+            entries = list(ElementTree.parse(path).iter("DataSet"))
+        except ElementTree.ParseError as error:
+            raise ResultsError(f"{path} cannot be read: {error}") from error
+        for entry in entries:
+            file = path.parent / entry.get("file", "")
+            if file.is_file():
+                frames.setdefault(float(entry.get("timestep", 0)), []).append(file)
+        return sorted(frames.items())

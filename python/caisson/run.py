@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Calls of the program: the only place that knows its command line."""
+import enum
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from caisson.paths import PROGRAM, ROOT
+
+Entries = Mapping[str, Any]
+
+
+class Status(enum.IntEnum):
+    """The exit statuses of the program."""
+
+    SUCCESS = 0
+    BAD_INPUT = 1
+    FAILURE = 2
+    STOPPED = 3
+
+
+class RunError(Exception):
+    """A run that could not be made, or not be finished; the text is for the user."""
+
+
+def in_words(value: object) -> str:
+    """Return the value of an entry as a .prm file has it."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def set_options(entries: Entries) -> list[str]:
+    """Return the options that set these entries, {"Section/Entry": value}."""
+    options = []
+    for entry, value in entries.items():
+        options += ["--set", f"{entry}={in_words(value)}"]
+    return options
+
+
+def mpi_command(ranks: int, binding: str = "none") -> list[str]:
+    """Return what stands before the program to run it on several ranks."""
+    if ranks == 1:
+        return []
+    start = ["mpirun", "-np", str(ranks), "--bind-to", binding]
+    if binding == "none":
+        start.append("--oversubscribe")
+    if ranks > (os.cpu_count() or 1):  # waiting ranks must let others compute
+        start += ["--mca", "mpi_yield_when_idle", "1"]
+    return start
+
+
+def environment() -> dict[str, str]:
+    """Return the environment of a run: one thread for each rank, MPI also as
+    root (as in a container). Variables that are set already keep their value."""
+    defaults = {
+        "OMP_NUM_THREADS": "1",
+        "DEAL_II_NUM_THREADS": "1",
+        "OMPI_ALLOW_RUN_AS_ROOT": "1",
+        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+        # where /sys is not mounted hwloc complains into the output
+        "HWLOC_HIDE_ERRORS": "2",
+    }
+    return {**defaults, **os.environ}
+
+
+def read_parameters(
+    arguments: Sequence[str], program: Path = PROGRAM
+) -> dict[str, str]:
+    """Return all entries in effect, {"Section/Entry": value}.
+
+    arguments: a .prm file and options of the program. The program itself reads
+    them and prints all entries, so that included files, options and defaults
+    count as they do in a run. Raises RunError with what the program says where
+    it refuses the input.
+    """
+    done = subprocess.run(
+        [str(program), *arguments, "--print-parameters"],
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        env=environment(),
+    )
+    if done.returncode != Status.SUCCESS:
+        raise RunError(done.stdout.strip())
+    entries, sections = {}, list[str]()
+    for line in map(str.strip, done.stdout.splitlines()):
+        if line.startswith("subsection "):
+            sections.append(line.split(maxsplit=1)[1])
+        elif line == "end":
+            sections.pop()
+        elif line.startswith("set "):
+            name, _, value = line[4:].partition("=")
+            entries["/".join([*sections, name.strip()])] = value.strip()
+    return entries
+
+
+class Run:
+    """One call of the program: a scene with some entries set, in a directory of
+    its own.
+
+    A finished run leaves run_key.json there: a hash of all that its result
+    depends on (the program's file, all entries in effect, the ranks), the exit
+    status and the times. is_complete() compares the hash, so that a study
+    repeats only what has changed. The class owns its directory and empties it
+    before it runs.
+    """
+
+    MARK = "run_key.json"
+
+    def __init__(
+        self,
+        scene: Path,
+        entries: Entries | None = None,
+        directory: Path | None = None,
+        *,
+        ranks: int = 1,
+        binding: str = "none",
+        program: Path = PROGRAM,
+    ) -> None:
+        """scene: a .prm file; entries: {"Section/Entry": value}; directory: of
+        the results, that of the scene if None; ranks and their binding
+        ("none" or "core") as of mpirun."""
+        self.scene, self.entries = scene, dict(entries or {})
+        self.directory = directory or Path(self.parameter("Output/Directory", program))
+        self.ranks, self.binding, self.program = ranks, binding, program
+
+    def parameter(self, name: str, program: Path) -> str:
+        """Return one entry in effect."""
+        return read_parameters([str(self.scene), *set_options(self.entries)], program)[
+            name
+        ]
+
+    def command(self) -> list[str]:
+        """Return the words of the call."""
+        return [
+            *mpi_command(self.ranks, self.binding),
+            str(self.program),
+            *self.arguments(),
+        ]
+
+    def arguments(self) -> list[str]:
+        """Return the scene and the options."""
+        options = ["--output-directory", str(self.directory)]
+        return [str(self.scene), *options, *set_options(self.entries)]
+
+    def key(self) -> str:
+        """Return a hash of what the result depends on. Raises RunError where the
+        program refuses the input."""
+        entries = read_parameters(self.arguments(), self.program)
+        text = json.dumps([entries, self.ranks], sort_keys=True).encode()
+        return hashlib.sha256(text + self.program.read_bytes()).hexdigest()
+
+    def mark(self) -> dict[str, Any] | None:
+        """Return what a finished run has left (key, status, wall_s, cpu_s)."""
+        try:
+            return json.loads((self.directory / self.MARK).read_text("utf-8"))
+        except (OSError, ValueError):
+            return None
+
+    def is_complete(self) -> bool:
+        """Return whether the results there are those of this run."""
+        mark = self.mark()
+        try:
+            return mark is not None and mark["key"] == self.key()
+        except RunError:
+            return False
+
+    def execute(self, time_limit: float | None = None) -> Status | None:
+        """Run the program into an emptied directory, its words in the file log.
+
+        Returns the exit status, None if it took longer than time_limit (s) and
+        was ended, or was ended by a signal.
+        """
+        shutil.rmtree(self.directory, ignore_errors=True)
+        self.directory.mkdir(parents=True)
+        begin = time.monotonic()
+        with open(self.directory / "log", "w", encoding="utf-8") as log:
+            process = subprocess.Popen(
+                self.command(), stdout=log, stderr=log, cwd=ROOT, env=environment()
+            )
+            clock = threading.Timer(time_limit or 0, process.kill)
+            if time_limit is not None:
+                clock.start()
+            _, code, used = os.wait4(process.pid, 0)
+            clock.cancel()
+        status = process.returncode = os.waitstatus_to_exitcode(code)
+        if status not in (Status.SUCCESS, Status.FAILURE):
+            return Status(status) if status in list(Status) else None
+        mark = {
+            "key": self.key(),
+            "status": status,
+            "wall_s": time.monotonic() - begin,
+            "cpu_s": used.ru_utime + used.ru_stime,
+        }
+        (self.directory / self.MARK).write_text(json.dumps(mark), "utf-8")
+        return Status(status)

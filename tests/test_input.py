@@ -1,0 +1,196 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Bad input is refused with a message that says what to do."""
+import os
+import re
+import unittest
+
+from program import BAD_INPUT, SUCCESS, ProgramTest, scene
+from program import Entries as Values
+
+LAYER = "Soil/Layer 1"
+BODY = "Rigid body"
+MOVES_UP: Values = {f"{BODY}/Velocity": -0.5, "Time/End penetration": 0}
+SOFTENING: Values = {f"{LAYER}/Law": "Mohr-Coulomb with softening"}
+HYPOPLASTIC: Values = {f"{LAYER}/Law": "hypoplastic sand"}
+CYLINDER: Values = {f"{BODY}/Kind": "cylinder"}
+
+# words of the message, entries
+CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
+    (["Dilatancy angle", "40", "Lower"], {f"{LAYER}/Dilatancy angle": 40}),
+    (
+        ["Residual friction angle", "exceeds", "Lower"],
+        {**SOFTENING, f"{LAYER}/Residual friction angle": 31},
+    ),
+    (
+        ["Residual dilatancy angle", "energy"],
+        {
+            **SOFTENING,
+            f"{LAYER}/Friction angle": 40,
+            f"{LAYER}/Dilatancy angle": 35,
+            f"{LAYER}/Residual dilatancy angle": 35,
+        },
+    ),
+    (["Porosity", "0.346405", "0.5"], {**HYPOPLASTIC, f"{LAYER}/Porosity": 0.3}),
+    (
+        ["Critical void ratio", "order"],
+        {**HYPOPLASTIC, f"{LAYER}/Critical void ratio": 0.5},
+    ),
+    (["Solid density", "float"], {f"{LAYER}/Solid density": 900}),
+    (["K0", "Change"], {f"{LAYER}/K0": 9}),
+    (["Top depth", "layers"], {"Soil/Number of layers": 2}),
+    (["Wall thickness", "plug"], {f"{BODY}/Wall thickness": 3.5}),
+    (["even number"], {f"{BODY}/Cells across the wall": 3}),
+    (["Tip angle", "Reduce"], {f"{BODY}/Skirt length": 0.05}),
+    (["Initial penetration", "tip"], {f"{BODY}/Initial penetration": 0.05}),
+    (["End penetration", "0.4"], {"Time/End penetration": 0.4}),
+    (["no end"], {"Time/End penetration": 0, "Time/End time": 0}),
+    (["no end"], {f"{BODY}/Velocity": 0}),
+    (
+        ["moves up", "0.375 m", "stretch"],
+        {**MOVES_UP, "Time/End time": 1, "Grid/Moving zone below tip": 10},
+    ),
+    (
+        ["moving up", "Upper zone"],
+        {**MOVES_UP, "Time/End time": 4, "Grid/Upper zone": "extending"},
+    ),
+    (
+        ["lid", "below the soil surface", "-1"],
+        {f"{BODY}/Lid thickness": 3, f"{BODY}/Skirt length": 2.5},
+    ),
+    (
+        ["Lid thickness", "only a caisson"],
+        {f"{BODY}/Lid thickness": 0.1, f"{BODY}/Kind": "box"},
+    ),
+    (
+        ["cone", "partly above", "5.19"],
+        {f"{BODY}/Kind": "cone", f"{BODY}/Skirt length": 6},
+    ),
+    (["height of the cone", "Skirt length"], {f"{BODY}/Kind": "cone"}),
+    (
+        ["only grow"],
+        {
+            **CYLINDER,
+            f"{BODY}/Velocity": -0.1,
+            "Time/End penetration": 0,
+            "Time/End time": 1,
+        },
+    ),
+    (
+        ["Outer radius", "column", "0.1 m"],
+        {**CYLINDER, "Time/End penetration": 4.9, "Grid/Smallest row height": 0.1},
+    ),
+    (["cylinder", "Inner radius"], {**CYLINDER, "Grid/Inner radius": 3.5}),
+    (["cylinder", "Adhesion"], {**CYLINDER, f"{BODY}/Adhesion of the outer wall": 5}),
+    (["Velocity table", "increasing"], {f"{BODY}/Velocity table": "0:0, 2:0.1, 1:0.1"}),
+    (["Inner radius", "Outer radius"], {"Grid/Inner radius": 8}),
+    (["does not fit", "Outer radius"], {f"{BODY}/Outer diameter": 20}),
+    (["does not fit", "Top"], {f"{BODY}/Skirt length": 6}),
+    (["Bottom"], {"Grid/Bottom": 1}),
+    (["Axis", "roller"], {"Boundary conditions/Axis": "free"}),
+    (["Gravity", "none"], {"Soil/Gravity": "1, -9"}),
+)
+
+
+class Entries(ProgramTest):
+    """Values of entries."""
+
+    def test_mistyped_entry(self) -> None:
+        self.refused(
+            [f"{LAYER}/Friction angle"], entries={f"{LAYER}/Friction angel": 30}
+        )
+
+    def test_out_of_range(self) -> None:
+        self.refused(
+            ["Poisson ratio", "0.7", "from 0 to 0.4999"],
+            entries={f"{LAYER}/Poisson ratio": 0.7},
+        )
+        self.refused(["Courant number"], entries={"Time/Courant number": 1.5})
+        self.refused(["Velocity table"], entries={f"{BODY}/Velocity table": "0:1, 0.5"})
+
+    def test_contradictions(self) -> None:
+        for words, entries in CONTRADICTIONS:
+            with self.subTest(words=words):
+                self.refused(words, entries=entries)
+
+    def test_checks_and_observations(self) -> None:
+        """All messages: output_checks.cc."""
+        self.refused(
+            ["Verification/Checks", "no observation", "total_force_N"],
+            entries={"Verification/Checks": "final force : 0 : 1"},
+        )
+        self.refused(
+            ["Verification/Observations", "no quantity", "speed"],
+            entries={"Verification/Observations": "a = mean sped"},
+        )
+
+    def test_step_too_large(self) -> None:
+        text = self.run_scene(
+            "jack", self.directory(), BAD_INPUT, entries={"Time/Time step": 1}
+        )
+        self.assert_words(["Time/Time step", "stability limit", "Reduce"], text)
+
+    def test_no_soil(self) -> None:
+        region = "Material points/Region"
+        text = self.run_scene(
+            "block_slides",
+            self.directory(),
+            BAD_INPUT,
+            entries={f"{region} left": 1.9, f"{region} right": 1.9},
+        )
+        self.assertIn("No material point", text)
+
+
+class Mesh(ProgramTest):
+    """Meshes that cannot hold the travel."""
+
+    def test_mesh_cannot_hold_the_travel(self) -> None:
+        # too short a compressing zone: -5 + 0.5 + 1 leaves 3.5 m
+        self.refused(
+            ["3.5 m", "3.7 m", "Bottom", "-5.2"],
+            entries={"Time/End penetration": 4.2, "Grid/Top": 9},
+        )
+        self.refused(
+            ["Smallest row height", "0.4"],
+            entries={"Grid/Smallest row height": 0.4, "Time/End penetration": 2.5},
+        )
+        self.refused(
+            ["Moving zone below tip", "at least"],
+            entries={"Grid/Moving zone below tip": 0.2},
+        )
+        self.refused(
+            ["Top", "extending"],
+            entries={"Grid/Upper zone": "extending", "Grid/Top": 2.5},
+        )
+
+    def test_advice_is_good(self) -> None:
+        """With the bottom that the message names it runs."""
+        entries = {"Grid/Smallest row height": 0.2, "Time/End penetration": 3.2}
+        text = self.run_program(BAD_INPUT, scene("jack"), "--validate", entries=entries)
+        advice = re.search(r"Grid/Bottom to about (\S+) m", text)
+        assert advice, text
+        entries["Grid/Bottom"] = float(advice.group(1)) - 0.3
+        self.run_program(SUCCESS, scene("jack"), "--validate", entries=entries)
+
+
+class Paths(ProgramTest):
+    """Files and directories that are not what they should be."""
+
+    def test_files(self) -> None:
+        directory = self.made_directory()
+        text = self.run_program(BAD_INPUT, "nowhere.prm")
+        self.assertIn("nowhere.prm", text)
+        text = self.run_program(BAD_INPUT, directory)
+        self.assertIn("directory", text.lower())
+        blocked = directory / "a_file"
+        blocked.write_text("not a directory")
+        text = self.run_scene("jack", blocked / "results", BAD_INPUT)
+        self.assertIn("a_file", text)
+        if os.geteuid() != 0:  # root may write everywhere
+            self.run_program(
+                BAD_INPUT, scene("jack"), "--output-directory", "/proc/nothing"
+            )
+
+
+if __name__ == "__main__":
+    unittest.main()

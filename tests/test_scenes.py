@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The scenes of users, prm/*.prm."""
+import unittest
+
+from program import SUCCESS, ProgramTest, checks, summary, user_scene
+
+VERTICAL_STRESS = "8829*z"
+AT_REST = {
+    "Rigid body/Velocity": 0,
+    "Rigid body/Ramp time": 0,
+    "Time/End penetration": 0,
+    "Time/End time": 4,
+    "Output/Frame penetrations": "",
+    "Output/Frame interval": 0,
+    "Output/Record interval": 100,
+    "Verification/Checks": "max speed : 0 : 0.002; "
+    f"pointwise stress_zz : {VERTICAL_STRESS} : 0.005; "
+    f"pointwise stress_rr : 0.5*{VERTICAL_STRESS} : 0.005; "
+    f"pointwise stress_tt : 0.5*{VERTICAL_STRESS} : 0.005",
+}
+
+
+class UserScenes(ProgramTest):
+    """They start in equilibrium, and their checks pass."""
+
+    def assert_at_rest(self, name: str) -> None:
+        """Ask that with the body held still 1,000 steps and more change nothing."""
+        path = self.directory()
+        text = self.run_program(
+            SUCCESS, user_scene(name), "--output-directory", path, entries=AT_REST
+        )
+        self.assertEqual(text.count(": yes"), 4, text)
+        self.assertGreaterEqual(summary(path)["steps"], 1000)
+
+    def test_column(self) -> None:
+        path = self.directory()
+        self.run_program(SUCCESS, user_scene("column"), "--output-directory", path)
+        found = {(check["mode"], check["quantity"]): check for check in checks(path)}
+        self.assertLess(found["max", "displacement_z"]["relative_error"], 0.005)
+        self.assertLess(found["pointwise", "stress_ratio"]["relative_error"], 0.01)
+
+    def test_jack_coarse_at_rest(self) -> None:
+        self.assert_at_rest("jack_coarse")
+
+    def test_jack_at_rest(self) -> None:
+        self.assert_at_rest("jack")
+
+    def test_warn_of_few_points(self) -> None:
+        for points, warnings in (5, 1), (7, 0):
+            text = self.run_program(
+                SUCCESS,
+                user_scene("jack"),
+                "--output-directory",
+                self.directory(),
+                entries={
+                    "Material points/Per direction in path": points,
+                    "Time/End penetration": 0.502,
+                    "Output/Error bar": "",
+                    "Output/Frame penetrations": "",
+                },
+            )
+            self.assertEqual(text.count("warning:"), warnings, text)
+            self.assertEqual(text.count("break loose"), warnings, text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs that are stopped and continued."""
+import signal
+import unittest
+from pathlib import Path
+
+from program import (
+    BAD_INPUT,
+    STOPPED,
+    SUCCESS,
+    Entries,
+    ProgramTest,
+    checks,
+    flip_a_bit,
+    history,
+    scene,
+    summary,
+)
+
+TWICE = {
+    "Output/Record interval": 0.25,
+    "Time/End penetration": 0.7,
+    "Verification/Observations": "a = max position_z; b = point stress_zz at 3 -1",
+    "Verification/Checks": "average a to 1 : 0 : 0.2; drift b : 1;"
+    " drift penetration_m from 0.3 : 0.3",
+}
+
+
+class Stop(ProgramTest):
+    """Signals, the stop file and --restart."""
+
+    def run_until(
+        self, path: Path, entries: Entries, n_records: int, *options: str
+    ) -> tuple[int, str]:
+        """Run tests/jack.prm, send SIGTERM after some records; 0: never. Return
+        the exit status and the words after the last record read."""
+        process = self.start(
+            scene("jack"), "--output-directory", path, *options, entries=entries
+        )
+        assert process.stdout
+        with process.stdout as words:
+            for line in words:
+                n_records -= line.startswith("pen")
+                if n_records == 0:
+                    process.send_signal(signal.SIGTERM)
+                    break
+            rest = words.read()
+        return process.wait(), rest
+
+    def test_stopped_twice_is_one_run(self) -> None:
+        """The history of one run, its checks and its frames."""
+        whole, path = self.directory("whole"), self.directory("pieces")
+        self.run_scene("jack", whole, entries=TWICE)
+        for again in (False, True):
+            options = ["--restart"] if again else []
+            status, rest = self.run_until(path, TWICE, 2, *options)
+            self.assertEqual(status, STOPPED, rest)
+            self.assert_words(["SIGTERM", "--restart"], rest)
+            self.assertEqual(summary(path)["status"], "stopped")
+        self.run_scene("jack", path, SUCCESS, "--restart", entries=TWICE)
+        for name in ("history", "observations"):
+            self.assert_same_history(history(whole, name), history(path, name), 1e-6)
+        for a, b in zip(checks(whole), checks(path)):
+            self.assertAlmostEqual(
+                a["computed"], b["computed"], delta=1e-6 * max(1.0, abs(a["computed"]))
+            )
+        for name in ("points.pvd", "grid.pvd"):
+            counts = [(p / name).read_text().count("<DataSet") for p in (whole, path)]
+            self.assertEqual(counts[0], counts[1], name)
+
+    def test_stop_file(self) -> None:
+        path = self.made_directory()
+        process = self.start(
+            scene("jack"),
+            "--output-directory",
+            path,
+            entries={
+                "Output/Record interval": 0.05,
+                # many seconds: the file is looked for twice a second
+                "Time/Courant number": 0.02,
+            },
+        )
+        assert process.stdout
+        with process.stdout as words:
+            for line in words:
+                if line.startswith("pen"):
+                    break
+            (path / "stop").touch()
+            text = words.read()
+        self.assertEqual(process.wait(), STOPPED, text)
+        self.assertFalse((path / "stop").exists(), "the file is left")
+
+    def test_restart_without_checkpoint(self) -> None:
+        text = self.run_scene("jack", self.directory(), BAD_INPUT, "--restart")
+        self.assertIn("no checkpoint", text)
+
+    def test_restart_is_refused(self) -> None:
+        """Of another scene, and from a damaged checkpoint."""
+        path = self.directory()
+        status, rest = self.run_until(path, {}, 1)
+        self.assertEqual(status, STOPPED, rest)
+        text = self.run_scene(
+            "jack",
+            path,
+            BAD_INPUT,
+            "--restart",
+            entries={"Soil/Layer 1/Friction angle": 31},
+        )
+        self.assertIn("Friction angle", text)
+        flip_a_bit(path)
+        text = self.run_scene("jack", path, BAD_INPUT, "--restart")
+        self.assertIn("is damaged", text)
+        self.assertNotIn("HDF5", text)
+        flip_a_bit(path)
+        self.run_scene("jack", path, SUCCESS, "--restart")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Studies with the program: verdicts of the verification ladder."""
+import csv
+import subprocess
+import unittest
+from pathlib import Path
+
+from program import HERE, ProgramTest, scene
+
+CHECKS = '"Verification/Checks"'
+LADDER = f"""
+[[problem]]
+id = "wave"
+title = "wave"
+scene = "{scene('wave_xpic')[:-4]}"
+runs = [
+  {{h = 1.0, set = {{{CHECKS} = "rms stress_rz : 1 : 0.5; spread density : 1"}}}},
+  {{h = 0.5, set = {{{CHECKS} = "rms stress_rz : 0 : 0.5; spread density : 1"}}}}]
+rows = [
+  {{check = "spread density"}},
+  {{check = "spread density", error = 1e-9}},
+  {{check = "spread density", error = 1e-9, known_error = 0.1, why = "a file"}},
+  {{check = "spread speed"}},
+  {{check = "rms stress_rz", run = 0}},
+  {{check = "rms stress_rz", run = 0, error = 0.3, known_error = 1.0}},
+  {{check = "rms stress_rz", run = 1, error = 1e-9, known_error = 1e-9}},
+  {{check = "spread density", order = 99.0}},
+  {{check = "spread density", order = 99.0, known_order = -9.0}}]
+[[problem]]
+id = "refused"
+title = "refused"
+scene = "{scene('wave_xpic')[:-4]}"
+runs = [{{set = {{"Time/Courant number" = 7}}}}]
+rows = [{{check = "max displacement_r"}}]
+"""
+VERDICTS = "pass FAIL short FAIL FAIL short pass FAIL short FAIL".split()
+
+
+class Ladder(ProgramTest):
+    """scripts/verify."""
+
+    def verify(self, path: Path, *options: str) -> "subprocess.CompletedProcess[str]":
+        """Run the ladder above."""
+        ladder = path / "ladder.toml"
+        ladder.write_text(LADDER, encoding="utf-8")
+        words = [
+            str(HERE.parent / "scripts/verify"),
+            "--ladder",
+            str(ladder),
+            "--program",
+        ]
+        words += [str(self.program), "--results", str(path / "results"), *options]
+        return subprocess.run(
+            words, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+        )
+
+    def test_verdicts(self) -> None:
+        """Rows that pass, fall short as known, fail, and a run that is refused;
+        orders over two runs."""
+        path = self.made_directory()
+        done = self.verify(path)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("10 rows: 2 pass, 3 fall", done.stdout)
+        with open(path / "results/table.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        verdicts = [row["verdict"].split(" ")[0].strip(",") for row in rows]
+        self.assertEqual(verdicts, VERDICTS, done.stdout)
+        self.assertIn("a file", rows[2]["verdict"])
+        self.assertIn("spread speed", rows[3]["computed"])
+        self.assertIn("status 1", rows[-1]["computed"])
+
+    def test_list(self) -> None:
+        done = self.verify(self.made_directory(), "--only", "refused", "--list")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertNotIn("wave:", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Options, printed parameters, files of a run, checks and observations."""
+import re
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+from program import (
+    BAD_INPUT,
+    FAILURE,
+    SCENES,
+    SUCCESS,
+    ProgramTest,
+    checks,
+    history,
+    scene,
+    summary,
+)
+
+
+class Options(ProgramTest):
+    """The command line."""
+
+    def test_help_and_version(self) -> None:
+        text = self.run_program(SUCCESS, "--help")
+        options = "set output-directory print-parameters validate restart version help"
+        for option in options.split():
+            self.assertIn(f"--{option}", text)
+        self.assertRegex(self.run_program(SUCCESS, "--version"), r"caisson_mpm \d")
+        self.assertIn("No parameter file", self.run_program(BAD_INPUT))
+        text = self.run_program(BAD_INPUT, "--outptu-directory", "x")
+        self.assertIn("--output-directory", text, "nearest option")
+
+    def test_parameters_can_be_read_again(self) -> None:
+        path = self.made_directory() / "all.prm"
+        path.write_text(self.run_program(SUCCESS, scene("jack"), "--print-parameters"))
+        self.assertIn("is valid", self.run_program(SUCCESS, path, "--validate"))
+        again = self.run_program(SUCCESS, path, "--print-parameters")
+        self.assertEqual(path.read_text(), again)
+        self.assertIn("Units: ", again)
+
+    def test_every_user_scene_is_valid(self) -> None:
+        for path in sorted(SCENES.rglob("*.prm")):
+            with self.subTest(path.name):
+                self.run_program(SUCCESS, path, "--validate")
+
+    def test_set_overrides(self) -> None:
+        text = self.run_program(
+            SUCCESS,
+            scene("jack"),
+            "--print-parameters",
+            entries={"Soil/Layer 1/Friction angle": 33},
+        )
+        self.assertRegex(text, r"set Friction angle\s*= 33")
+
+
+class Files(ProgramTest):
+    """What a run writes."""
+
+    def test_output_files(self) -> None:
+        path = self.directory()
+        self.run_scene(
+            "jack",
+            path,
+            entries={
+                "Time/End penetration": 0.53,
+                "Output/Record interval": 0.1,
+                "Output/Frame penetrations": 0.51,
+            },
+        )
+        head = (path / "history.csv").read_text().splitlines()[0]
+        self.assertTrue(
+            head.startswith(
+                "time_s,penetration_m,tip_force_N,inner_friction_N,"
+                "outer_friction_N,total_force_N,"
+            ),
+            head,
+        )
+        rows = history(path)
+        self.assertEqual(rows[0]["penetration_m"], 0.5)
+        self.assertAlmostEqual(rows[-1]["penetration_m"], 0.53, delta=1e-9)
+        forces = "tip_force_N inner_friction_N outer_friction_N top_force_N".split()
+        for row in rows:
+            parts = sum(row[force] for force in forces)
+            self.assertAlmostEqual(parts, row["total_force_N"], delta=1e-3)
+        about = summary(path)
+        for key in (
+            "version dealii_version ranks material_points cells steps wall_time_s"
+            " point_steps_per_second peak_memory_bytes limiter_count points_lost"
+            " sections"
+        ).split():
+            self.assertIn(key, about)
+        self.assertEqual(about["points_lost"], 0)
+        self.assertEqual(about["max_points_in_body"], 0)
+        self.assertEqual(about["steps"], rows[-1]["step"])
+        for name in ("points.pvd", "grid.pvd"):
+            root = ElementTree.parse(path / name).getroot()
+            frames = [
+                (float(d.attrib["timestep"]), path / d.attrib["file"])
+                for d in root.iter("DataSet")
+            ]
+            times = sorted({time for time, _ in frames})
+            self.assertEqual((len(times), times[0]), (3, 0.0), name)
+            self.assertAlmostEqual(times[-1], rows[-1]["time_s"], delta=1e-6)
+            for _, file in frames:
+                self.assertGreater(file.stat().st_size, 1000, file)
+                self.assertIn(b"<VTKFile", file.read_bytes()[:500], file)
+
+
+class Checks(ProgramTest):
+    """The sections Verification/Checks and Observations."""
+
+    def test_checks(self) -> None:
+        path = self.directory()
+        entries = {
+            "Output/Terminal": "full",
+            "Time/End time": 0.02,
+            "Verification/Checks": "max displacement_r : 0 : 1e-9;"
+            " mean velocity_z : 1 : 0.1",
+        }
+        text = self.run_scene("wave_xpic", path, FAILURE, entries=entries)
+        self.assertIn("within 1e-09: yes", text)
+        self.assertIn("within 0.1: no", text)
+        found = checks(path)
+        self.assertEqual([check["pass"] for check in found], [True, False])
+        for key in "quantity computed exact relative_error tolerance".split():
+            self.assertIn(key, found[0])
+
+    def test_observations(self) -> None:
+        """Of every step."""
+        path = self.directory()
+        self.run_scene("wave_series", path)
+        rows = history(path, "observations")
+        self.assertEqual(list(rows[0]), ["time_s", "top", "mode", "half", "side"])
+        self.assertEqual(len(rows), summary(path)["steps"] + 1)
+        self.assertEqual(len(rows), len(history(path)))
+        lowest = min(row["top"] for row in rows)
+        self.assertLess(lowest, 1.9 * rows[-1]["half"] * 1.31e-5, "the wave")
+        self.assertGreater(len(checks(path)), 5)
+
+    def test_each_kind_of_check_can_fail(self) -> None:
+        failing = (
+            "frequency mode : 1 : 0.01",
+            "amplitude mode : 0.5 : 0.1",
+            "final half : 5 : 0.1",
+            "trace top : 0 : 1e-6",
+            "average top : 0 : 1e-6",
+            "below half : -6",
+            "above half : -4",
+            "between half : -4 : -3",
+            "drift top : 0.1",
+            "spread stress_zz : 0.1",
+            "rms displacement_z : 1 : 0.5",
+        )
+        text = self.run_scene(
+            "wave_series",
+            self.directory(),
+            FAILURE,
+            entries={"Verification/Checks": ";".join(failing)},
+        )
+        self.assertEqual(len(re.findall(": no\n", text)), len(failing), text)
+
+    def test_check_of_no_point(self) -> None:
+        text = self.run_scene(
+            "wave_series",
+            self.directory(),
+            FAILURE,
+            entries={"Verification/Checks": "max speed where r > 9 : 0 : 1"},
+        )
+        self.assertIn("no material point", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
