@@ -75,7 +75,8 @@ numbers_of(const Scene &s)
 {
   std::vector<std::vector<double>> result;
   s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
-    std::vector<double> n = {static_cast<double>(s.grid.global_number(cell)),
+    std::vector<double> n = {static_cast<double>(
+                               index_of(s.grid.global_number(cell))),
                              p.id,
                              static_cast<double>(p.material),
                              p.position[0],
@@ -142,7 +143,7 @@ check_contents(Scene &s)
   std::printf("written: %s\n", valid_file().c_str());
   write(s, .7);
   std::printf("written: %s\n", valid_file().c_str());
-  s.points.reset(0);
+  s.points.take_all();
   const auto state = read_checkpoint(directory, s.grid, s.points, parameters);
   std::printf("the same points: %s\n",
               numbers_of(s) == before && s.points.n_points() == before.size() ?
@@ -238,7 +239,7 @@ check_point_file(const Scene &s)
   std::vector<TravelingPoint> points;
   s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
     if (points.size() < 10)
-      points.push_back({cell, p});
+      points.push_back({s.grid.global_number(cell), p});
   });
   const auto write = [&](const std::string  &name,
                          const unsigned long n,

@@ -36,7 +36,7 @@ struct Scene : EmptyParameters
   explicit Scene(const std::string &parameters,
                  const double       travel = 0.,
                  const double       uplift = 0.)
-    : grid(MPI_COMM_SELF)
+    : grid(lines, MPI_COMM_SELF)
     , points(grid)
   {
     auto &prm = dealii::ParameterAcceptor::prm;
@@ -44,11 +44,12 @@ struct Scene : EmptyParameters
     dealii::ParameterAcceptor::parse_all_parameters(prm);
     body.check_parameters();
     soil.check_parameters();
-    grid.check_parameters();
-    grid.place_lines(body, soil, travel, uplift);
+    lines.check_parameters();
+    lines.place(body, soil, travel, uplift);
     grid.create_mesh();
   }
 
+  GridLines          lines;
   BackgroundGrid     grid;
   Soil               soil;
   RigidBody          body;
@@ -56,6 +57,27 @@ struct Scene : EmptyParameters
   BoundaryConditions boundary_conditions;
   MaterialPoints     points;
 };
+
+/** A small caisson in a mesh that lets it move. */
+inline const std::string caisson = R"(
+  subsection Rigid body
+    set Kind                  = caisson
+    set Outer diameter        = 6
+    set Skirt length          = 3
+    set Wall thickness        = 0.2
+    set Cells across the wall = 2
+    set Tip angle             = 60
+    set Initial penetration   = 0.5
+  end
+  subsection Grid
+    set Outer radius          = 8
+    set Bottom                = -7
+    set Top                   = 4
+    set Cell width            = 1
+    set Cell height           = 0.5
+    set Moving zone below tip = 2
+  end
+  )";
 
 inline void
 verdict(const char *what, const double error, const double tolerance)

@@ -376,7 +376,7 @@ namespace CaissonMPM
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       if (grid.is_owned(cell))
         {
-          unsigned int &cost = costs[grid.global_number(cell)];
+          unsigned int &cost = costs[index_of(grid.global_number(cell))];
           cost               = 1;
           for (int b = first_block[cell]; b >= 0; b = headers[b].next)
             cost += 2;
@@ -676,10 +676,16 @@ namespace CaissonMPM
   }
 
   void
-  MaterialPoints::reset(const unsigned long n_blocks)
+  MaterialPoints::reset(const std::vector<unsigned int> &n_in_cell)
   {
     clear_blocks();
-    reserve(n_blocks);
+    unsigned long n_blocks = 0;
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (grid.is_owned(cell))
+        n_blocks +=
+          (n_in_cell[index_of(grid.global_number(cell))] + block_size - 1) /
+          block_size;
+    reserve(n_blocks + n_blocks / 16);
   }
 
   void

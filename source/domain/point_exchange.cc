@@ -147,11 +147,11 @@ namespace CaissonMPM
     std::vector<unsigned int> owners(grid.n_global_cells(), 0);
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       if (grid.is_owned(cell))
-        owners[grid.global_number(cell)] = grid.owner_of(cell);
+        owners[index_of(grid.global_number(cell))] = grid.owner_of(cell);
     Utilities::MPI::max(owners, grid.communicator(), owners);
     std::map<unsigned int, std::vector<TravelingPoint>> by_rank;
     for (const TravelingPoint &p : points)
-      by_rank[owners[p.cell]].push_back(p);
+      by_rank[owners[index_of(p.cell)]].push_back(p);
     std::map<unsigned int, std::vector<char>> messages;
     for (const auto &[rank, some] : by_rank)
       messages[rank] = to_bytes(some);

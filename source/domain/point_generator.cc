@@ -186,32 +186,138 @@ namespace CaissonMPM
   }
 
   bool
-  PointGenerator::may_hold_soil(const BackgroundGrid &grid,
-                                const unsigned int    global_cell) const
+  PointGenerator::may_hold_soil(const GridLines &lines,
+                                const GlobalCell cell) const
   {
-    const auto   g        = grid.initial_geometry(global_cell);
+    const auto   g        = lines.initial_geometry(cell);
     const double center_z = g.bottom_left + .5 * g.height_left;
-    return !grid.is_body_cell(global_cell) && center_z <= region_top &&
+    return !lines.is_body_cell(cell) && center_z <= region_top &&
            center_z >= region_bottom;
   }
 
   PointGenerator::Parts
-  PointGenerator::number_of_parts(const BackgroundGrid &grid,
-                                  const RigidBody      &body,
-                                  const unsigned int    global_cell) const
+  PointGenerator::number_of_parts(const GridLines &lines,
+                                  const RigidBody &body,
+                                  const GlobalCell cell) const
   {
-    if (!may_hold_soil(grid, global_cell))
+    if (!may_hold_soil(lines, cell))
       return {{0, 0}};
-    const auto         g = grid.initial_geometry(global_cell);
-    const unsigned int n = points_per_direction(g, body, grid.total_travel());
+    const auto         g = lines.initial_geometry(cell);
+    const unsigned int n = points_per_direction(g, body, lines.total_travel());
     if (adaptive)
       return {{n, n}};
     const auto parts = [n](const double size, const double smallest) {
       return static_cast<unsigned int>(std::ceil(n * size / smallest - 1e-6));
     };
-    return {{parts(g.width, grid.smallest_width_met(global_cell)),
+    return {{parts(g.width, lines.smallest_width_met(cell)),
              parts(std::max(g.height_left, g.height_right),
-                   grid.smallest_height_met(global_cell))}};
+                   lines.smallest_height_met(cell))}};
+  }
+
+  std::vector<PointGenerator::Parts>
+  PointGenerator::number_of_parts(const GridLines &lines,
+                                  const RigidBody &body) const
+  {
+    std::vector<Parts> parts;
+    for (unsigned int cell = 0; cell < lines.n_cells(); ++cell)
+      parts.push_back(number_of_parts(lines, body, GlobalCell(cell)));
+    return parts;
+  }
+
+  namespace
+  {
+    /** A part of a cell, which becomes a material point. */
+    struct Part
+    {
+      Point<2> position;
+      double   volume;
+      double   size[2]; // in r and z
+    };
+
+    /** Call action(part) for all parts of a cell, column by column. */
+    template <typename Action>
+    void
+    for_each_part(const Kernels::CellGeometry       &g,
+                  const bool                         axisymmetric,
+                  const std::array<unsigned int, 2> &n,
+                  RandomNumbers                     &random,
+                  const double                       randomness,
+                  const Action                      &action)
+    {
+      const unsigned int k = axisymmetric ? 1 : 0;
+      for (unsigned int i = 0; i < n[radial]; ++i)
+        {
+          const auto moments =
+            radial_moments(g,
+                           g.left + g.width * i / n[radial],
+                           g.left + g.width * (i + 1) / n[radial]);
+          const double center =
+            (moments[k + 1] / moments[k] - g.left) / g.width;
+          for (unsigned int j = 0; j < n[vertical]; ++j)
+            {
+              double xi = center, eta = (j + .5) / n[vertical];
+              if (randomness > 0.)
+                {
+                  xi += randomness * ((i + random()) / n[radial] - xi);
+                  eta += randomness * ((j + random()) / n[vertical] - eta);
+                }
+              action(
+                Part{to_position(g, Point<2>(xi, eta)),
+                     moments[k] / n[vertical],
+                     {g.width / n[radial],
+                      std::max(g.height_left, g.height_right) / n[vertical]}});
+            }
+        }
+    }
+
+    /** Makes material points of the undisturbed soil. */
+    class PointMaker
+    {
+    public:
+      PointMaker(const Soil &soil, const double mass_scaling)
+        : soil(soil)
+        , velocity(soil.initial_velocity())
+        , mass_scaling(mass_scaling)
+      {
+        for (unsigned int i = 0; i < soil.n_layers(); ++i)
+          states.push_back(soil.layer(i).start_of_state());
+      }
+
+      MaterialPoint
+      operator()(const Part &part, const double id) const
+      {
+        MaterialPoint p;
+        p.position = p.initial_position = part.position;
+        p.material = soil.layer_at(part.position[vertical]);
+        p.stress   = soil.initial_stress(part.position[vertical]);
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            if (!velocity[d].is_zero())
+              p.velocity[d] = velocity[d](p.position, 0.);
+            p.size[d] = part.size[d];
+          }
+        p.state  = states[p.material];
+        p.volume = p.initial_volume = part.volume;
+        p.mass = mass_scaling * soil.inertial_density(p.material) * p.volume;
+        p.id   = id;
+        return p;
+      }
+
+    private:
+      const Soil                 &soil;
+      const VectorExpression      velocity;
+      const double                mass_scaling;
+      std::vector<StateVariables> states;
+    };
+  } // namespace
+
+  bool
+  PointGenerator::is_in_region(const Point<2>   &place,
+                               const Expression &further) const
+  {
+    const double r = place[radial];
+    return r >= region_left && r <= region_right &&
+           (further.empty() || further(place, 0.) > 0.);
   }
 
   void
@@ -221,85 +327,34 @@ namespace CaissonMPM
                            const double          mass_scaling,
                            MaterialPoints       &points) const
   {
-    const unsigned int n_cells  = grid.n_global_cells();
-    const auto         is_owned = [&grid](const unsigned int cell) {
-      const unsigned int local = grid.local_number(cell);
-      return local != numbers::invalid_unsigned_int && grid.is_owned(local);
-    };
-    std::vector<Parts> parts;
-    unsigned long      n_blocks = 0;
-    for (unsigned int cell = 0; cell < n_cells; ++cell)
-      {
-        parts.push_back(number_of_parts(grid, body, cell));
-        const unsigned int n = parts[cell][radial] * parts[cell][vertical];
-        if (is_owned(cell))
-          n_blocks += (n + Kernels::block_size - 1) / Kernels::block_size;
-      }
-    points.reset(n_blocks + n_blocks / 16);
+    const GridLines          &lines = grid.lines();
+    const auto                parts = number_of_parts(lines, body);
+    std::vector<unsigned int> n_in_cell;
+    for (const Parts &n : parts)
+      n_in_cell.push_back(n[radial] * n[vertical]);
+    points.reset(n_in_cell);
 
-    const Expression       in_region = parse_region();
-    const VectorExpression velocity  = soil.initial_velocity();
-    RandomNumbers          random(seed);
-    const unsigned int     k  = grid.axisymmetric() ? 1 : 0;
-    unsigned int           id = 0;
-
-    std::vector<StateVariables> states;
-    for (unsigned int i = 0; i < soil.n_layers(); ++i)
-      states.push_back(soil.layer(i).start_of_state());
+    const PointMaker make_point(soil, mass_scaling);
+    const Expression further = parse_region();
+    RandomNumbers    random(seed);
+    unsigned int     n_points = 0;
     // Every rank goes through all cells, so that a point's number and random
     // position do not depend on the number of ranks.
-    for (unsigned int cell = 0; cell < n_cells; ++cell)
-      {
-        const auto         g     = grid.initial_geometry(cell);
-        const unsigned int local = grid.local_number(cell);
-        const bool         owned = is_owned(cell);
-        const unsigned int n_r   = parts[cell][radial],
-                           n_z   = parts[cell][vertical];
-        for (unsigned int i = 0; i < n_r; ++i)
-          {
-            const auto moments =
-              radial_moments(g,
-                             g.left + g.width * i / n_r,
-                             g.left + g.width * (i + 1) / n_r);
-            const double center =
-              (moments[k + 1] / moments[k] - g.left) / g.width;
-            for (unsigned int j = 0; j < n_z; ++j)
-              {
-                double xi = center, eta = (j + .5) / n_z;
-                if (randomness > 0.)
-                  {
-                    xi += randomness * ((i + random()) / n_r - xi);
-                    eta += randomness * ((j + random()) / n_z - eta);
-                  }
-                const Point<2> place = to_position(g, Point<2>(xi, eta));
-                const double   r = place[0], z = place[1];
-                if (r < region_left || r > region_right ||
-                    (!in_region.empty() &&
-                     !(in_region(Point<2>(r, z), 0.) > 0.)))
-                  continue;
-                const double number = id++;
-                if (!owned)
-                  continue;
-                MaterialPoint p;
-                p.position = p.initial_position = Point<2>(r, z);
-                p.material                      = soil.layer_at(z);
-                p.stress                        = soil.initial_stress(z);
-                for (unsigned int d = 0; d < 2; ++d)
-                  if (!velocity[d].is_zero())
-                    p.velocity[d] = velocity[d](p.position, 0.);
-                p.state  = states[p.material];
-                p.volume = p.initial_volume = moments[k] / n_z;
-                p.size[radial]              = g.width / n_r;
-                p.size[vertical] =
-                  std::max(g.height_left, g.height_right) / n_z;
-                p.mass =
-                  mass_scaling * soil.inertial_density(p.material) * p.volume;
-                p.id = number;
-                points.add(local, p);
-              }
-          }
-      }
-    if (id == 0)
+    for (unsigned int c = 0; c < lines.n_cells(); ++c)
+      for_each_part(lines.initial_geometry(GlobalCell(c)),
+                    lines.axisymmetric(),
+                    parts[c],
+                    random,
+                    randomness,
+                    [&](const Part &part) {
+                      if (!is_in_region(part.position, further))
+                        return;
+                      const double id = n_points++;
+                      if (grid.is_owned(GlobalCell(c)))
+                        points.add(grid.local_number(GlobalCell(c)),
+                                   make_point(part, id));
+                    });
+    if (n_points == 0)
       throw BadInput("No material point lies in the region of the soil: check "
                      "Material points/Region left, right, bottom and top, and "
                      "Region, against the mesh.");

@@ -40,9 +40,9 @@ namespace CaissonMPM
   }
 
   void
-  BoundaryConditions::check_parameters(const BackgroundGrid &grid) const
+  BoundaryConditions::check_parameters(const GridLines &lines) const
   {
-    if (grid.axisymmetric() && axis == "free" && grid.reaches_axis())
+    if (lines.axisymmetric() && axis == "free" && lines.reaches_axis())
       throw BadInput("Boundary conditions/Axis = free: on the axis of an "
                      "axisymmetric mesh nothing can move radially. Set Axis = "
                      "roller, or Grid/Inner radius above 0.");
@@ -83,7 +83,7 @@ namespace CaissonMPM
       {
         bool is_fixed[2] = {false, false};
         for (unsigned int side = 0; side < 4; ++side)
-          if (grid.sides_of(node) & (1u << side))
+          if (grid.is_at(node, BackgroundGrid::Side(side)))
             for (unsigned int d = 0; d < 2; ++d)
               is_fixed[d] = is_fixed[d] || kinds[side] == "fixed" ||
                             (kinds[side] == "roller" && d == side / 2);

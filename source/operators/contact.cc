@@ -103,8 +103,8 @@ namespace CaissonMPM
         node.concave  = n_rigid[node.node] == 3;
         node.friction = body.friction_coefficient(node.surface);
         // by symmetry: the point of a cone
-        if (grid.reaches_axis() &&
-            (grid.sides_of(node.node) & (1u << BackgroundGrid::axis)))
+        if (grid.lines().reaches_axis() &&
+            grid.is_at(node.node, BackgroundGrid::Side::axis))
           for (unsigned int i = 0; i < node.n_normals; ++i)
             {
               node.normal[i][radial] = 0.;

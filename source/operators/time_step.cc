@@ -147,7 +147,7 @@ namespace CaissonMPM
       const auto        &g = grid.geometry(cell);
       std::ostringstream s;
       s << "the cell at r = " << g.left << " m, z = " << g.bottom_left
-        << " m of the " << BackgroundGrid::name_of(grid.zone(cell)) << " zone, "
+        << " m of the " << GridLines::name_of(grid.zone(cell)) << " zone, "
         << g.width << " m x " << std::min(g.height_left, g.height_right)
         << " m, wave speed " << speed << " m/s";
       return s.str();
@@ -167,7 +167,7 @@ namespace CaissonMPM
     const auto          view     = points.view();
     unsigned int        limiting = 0;
     double              worst = 0., speed = 0.; // 1 / s2, m/s
-    std::vector<double> worst_of_zone(BackgroundGrid::n_zones, 0.);
+    std::vector<double> worst_of_zone(GridLines::n_zones, 0.);
     for (unsigned int i = 0; i < view.n_active_cells; ++i)
       {
         const unsigned int cell   = view.active_cells[i];
@@ -185,7 +185,7 @@ namespace CaissonMPM
       }
     const MPI_Comm communicator = grid.communicator();
     Utilities::MPI::max(worst_of_zone, communicator, worst_of_zone);
-    for (unsigned int zone = 0; zone < BackgroundGrid::n_zones; ++zone)
+    for (unsigned int zone = 0; zone < GridLines::n_zones; ++zone)
       limit_of_zone[zone] = 1. / std::sqrt(worst_of_zone[zone]);
     const auto of_all = Utilities::MPI::min_max_avg(worst, communicator);
     limit             = 1. / std::sqrt(of_all.max);
@@ -202,10 +202,10 @@ namespace CaissonMPM
   TimeStep::zone_limits() const
   {
     std::vector<std::pair<std::string, double>> result;
-    for (unsigned int zone = 0; zone < BackgroundGrid::n_zones; ++zone)
+    for (unsigned int zone = 0; zone < GridLines::n_zones; ++zone)
       if (std::isfinite(limit_of_zone[zone]))
-        result.emplace_back(BackgroundGrid::name_of(
-                              static_cast<BackgroundGrid::Zone>(zone)),
+        result.emplace_back(GridLines::name_of(
+                              static_cast<GridLines::Zone>(zone)),
                             limit_of_zone[zone]);
     return result;
   }

@@ -114,7 +114,7 @@ namespace CaissonMPM
     public:
       explicit PointCloud(const BackgroundGrid &grid)
         : grid(grid)
-        , handler(grid.triangulation, grid.mapping, n_written)
+        , handler(grid.triangulation(), grid.mapping(), n_written)
       {}
 
       /** The points of this rank from number begin to end. */
@@ -195,7 +195,7 @@ namespace CaissonMPM
     {
     public:
       CellFields(const BackgroundGrid &grid, const MaterialPoints &points)
-        : material_id(grid.triangulation.n_active_cells())
+        : material_id(grid.triangulation().n_active_cells())
         , zone(material_id.size())
         , material_points(material_id.size())
       {
@@ -215,11 +215,11 @@ namespace CaissonMPM
       {
         DataOut<2> data_out;
         const auto cells = DataOut<2>::DataVectorType::type_cell_data;
-        data_out.attach_triangulation(grid.triangulation);
+        data_out.attach_triangulation(grid.triangulation());
         data_out.add_data_vector(material_id, "material_id", cells);
         data_out.add_data_vector(zone, "zone", cells);
         data_out.add_data_vector(material_points, "material_points", cells);
-        data_out.build_patches(grid.mapping);
+        data_out.build_patches(grid.mapping());
         return data_out;
       }
 

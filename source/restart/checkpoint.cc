@@ -325,21 +325,6 @@ namespace CaissonMPM
         report_damaged(directory);
       return info;
     }
-
-    /** The blocks that the points of this rank need, from the number of points
-     * in each cell. [n_global_cells] */
-    unsigned long
-    count_blocks(const BackgroundGrid            &grid,
-                 const std::vector<unsigned int> &n_in_cell)
-    {
-      unsigned long n_blocks = 0;
-      for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
-        if (grid.is_owned(cell))
-          n_blocks +=
-            (n_in_cell[grid.global_number(cell)] + Kernels::block_size - 1) /
-            Kernels::block_size;
-      return n_blocks;
-    }
   } // namespace
 
 
@@ -414,23 +399,21 @@ namespace CaissonMPM
     std::vector<unsigned int> n_in_cell(grid.n_global_cells(), 0);
     for_each_piece([&](const std::vector<TravelingPoint> &piece) {
       for (const TravelingPoint &p : piece)
-        if (p.cell < n_in_cell.size())
-          ++n_in_cell[p.cell];
+        if (index_of(p.cell) < n_in_cell.size())
+          ++n_in_cell[index_of(p.cell)];
     });
     Utilities::MPI::sum(n_in_cell, communicator, n_in_cell);
     if (std::accumulate(n_in_cell.begin(), n_in_cell.end(), 0ul) !=
         info.n_points)
       report_damaged(directory);
 
-    const unsigned long n_blocks = count_blocks(grid, n_in_cell);
-    points.reset(n_blocks + n_blocks / 16);
+    points.reset(n_in_cell);
     for_each_piece([&](const std::vector<TravelingPoint> &piece) {
       for (const TravelingPoint &p : send_to_owners(grid, piece))
         points.add(grid.local_number(p.cell), p.point);
     });
     points.settle();
-    grid.prepare_motion(info.state.travel);
-    grid.advance();
+    grid.move_to(info.state.travel);
     return info.state;
   }
 } // namespace CaissonMPM

@@ -27,7 +27,7 @@ namespace CaissonMPM
     for_each_column(TravelingPoint &traveling, const Action &action)
     {
       MaterialPoint &p    = traveling.point;
-      double         cell = traveling.cell, material = p.material;
+      double         cell = index_of(traveling.cell), material = p.material;
       action("cell", &cell, 1);
       action("id", &p.id, 1);
       action("material", &material, 1);
@@ -42,7 +42,7 @@ namespace CaissonMPM
       action("initial_position", p.initial_position.begin_raw(), 2);
       action("initial_volume", &p.initial_volume, 1);
       action("size", p.size, 2);
-      traveling.cell = whole_number(cell);
+      traveling.cell = GlobalCell(whole_number(cell));
       p.material     = whole_number(material);
     }
 

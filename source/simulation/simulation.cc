@@ -18,7 +18,7 @@ namespace CaissonMPM
 
   Simulation::Simulation(const MPI_Comm communicator)
     : ParameterAcceptor("/")
-    , grid(communicator)
+    , grid(lines, communicator)
     , points(grid)
   {
     const Patterns::Double not_negative(0.);
@@ -101,9 +101,9 @@ namespace CaissonMPM
   {
     soil.check_parameters();
     body.check_parameters();
-    grid.check_parameters();
+    lines.check_parameters();
     generator.check_parameters();
-    boundary_conditions.check_parameters(grid);
+    boundary_conditions.check_parameters(lines);
     loads.check_parameters();
     nodal_motion.check_parameters();
     observations.initialize(Records::names({}));
@@ -123,7 +123,7 @@ namespace CaissonMPM
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");
     const auto range = body.travel_range(end_time());
-    grid.place_lines(body, soil, range.second, -range.first);
+    lines.place(body, soil, range.second, -range.first);
   }
 
   void
@@ -168,8 +168,7 @@ namespace CaissonMPM
     contact.initialize(grid, body);
     boundary_conditions.initialize(grid);
     nodal_motion.initialize(grid);
-    grid.prepare_motion(body.travel(time));
-    grid.advance();
+    grid.move_to(body.travel(time));
   }
 
   void
@@ -272,7 +271,7 @@ namespace CaissonMPM
        {"limit of the step", time_step.reason()}});
     console->summary(
       {{"title", title},
-       {"grid", grid.description()},
+       {"grid", lines.description()},
        {"material points",
         text(n_points) + ", and " + text(n_body_points) + " of the body (" +
           text(mass / 1000.) + " t)"},
@@ -343,7 +342,7 @@ namespace CaissonMPM
   void
   Simulation::adapt_points()
   {
-    const double travel = grid.total_travel();
+    const double travel = lines.total_travel();
     points.adapt([&](const unsigned int cell) {
       return generator.wanted_size(grid.geometry(cell), body, travel);
     });

@@ -137,9 +137,9 @@ namespace CaissonMPM
         const double travel =
           .5 * (body.travel(time) + body.travel(last_record));
         const double around =
-          grid.axisymmetric() ? 2. * pi * (body.right() + travel) : 1.;
+          lines.axisymmetric() ? 2. * pi * (body.right() + travel) : 1.;
         row.cavity = -contact.impulse()[outer_wall][radial] /
-                     (interval * around * grid.depth());
+                     (interval * around * lines.depth());
       }
     if (interval > 0.)
       {

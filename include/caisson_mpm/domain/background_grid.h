@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The background grid: a graded mesh of quadrilaterals that fits the rigid
-// body, moves with it, and compresses below it.
-//
-// Grid lines: rows and columns. Vertical lines stay vertical, so that every
-// cell is a trapezoid; rows bend only around a triangular tip or a cone. The
-// position of a node is linear in the travel d of the body:
-//   z = z0 - d                                      in the moving zone,
-//   z = z0 - d (z0 - bottom) / (zone bottom - bottom)    below it,
-//   z = z0 - d, or z0 - d (top - z0) / (top - zone top)  above the body,
-// and around a cylinder whose radius grows from a by d
-//   r = r0 + d (outer radius - r0) / (outer radius - a),  r0 >= a.
-// For tests of the method without a body, the cells can be distorted: columns
-// and the heights of nodes displaced irregularly.
+// The mesh of the background grid: what this rank holds of it, and its motion.
 #ifndef caisson_mpm_domain_background_grid_h
 #define caisson_mpm_domain_background_grid_h
 
-#include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/domain/cell_geometry.h>
+#include <caisson_mpm/domain/grid_lines.h>
 #include <caisson_mpm/kernels/layout.h>
-#include <caisson_mpm/materials/soil.h>
 
-#include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/partitioner.h>
 
 #include <deal.II/distributed/tria.h>
@@ -35,82 +22,36 @@
 #include <array>
 #include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace CaissonMPM
 {
   using NodalData = dealii::LinearAlgebra::distributed::Vector<double>;
 
-  /** The coordinates xi and eta of a place in a cell, 0 to 1 inside. */
-  dealii::Point<2>
-  to_reference(const Kernels::CellGeometry &g, const dealii::Point<2> &p);
-
-  /** The place of these coordinates in a cell. */
-  dealii::Point<2>
-  to_position(const Kernels::CellGeometry &g, const dealii::Point<2> &x);
-
   /**
-   * The mesh, its dofs and its motion.
+   * The mesh of the grid lines, its dofs and its motion.
    *
    * A rank knows the cells that it owns and the ghost cells around them, and
    * the nodes of both, by local numbers: cells in the order of the active cells
    * of the triangulation, nodes by the local index of their dof, those that it
-   * owns first. Lines, and thus the place of every cell, are known to all. The
-   * global number of a cell is the same on all ranks and for any number of
-   * them.
+   * owns first. Where a function takes a plain number of a cell, it is the
+   * local one; a GlobalCell is the number of a cell for all ranks.
    *
    * deal.II owns the mesh; the geometry that the kernels read is kept here and
    * is current after advance(), while the triangulation's own vertices follow
-   * only when write_vertices() is called, before deal.II reads them.
+   * only when write_vertices() is called. deal.II may read the geometry only
+   * after that, and only through mapping(), which asserts it.
    */
-  class BackgroundGrid : public dealii::ParameterAcceptor
+  class BackgroundGrid
   {
   public:
     static constexpr unsigned int dim = 2;
     using Triangulation = dealii::parallel::distributed::Triangulation<dim>;
+    using Zone          = GridLines::Zone;
+    using Side          = GridLines::Side;
 
-    enum class Zone : unsigned char
-    {
-      moving,
-      compressing,
-      upper
-    };
-
-    static constexpr unsigned int n_zones = 3;
-    /** "moving", "compressing" or "upper". */
-    static const char *
-    name_of(const Zone zone)
-    {
-      constexpr const char *names[n_zones] = {"moving", "compressing", "upper"};
-      return names[static_cast<unsigned int>(zone)];
-    }
-
-    /** The four sides of the domain, which are also its boundary ids. */
-    enum Side : unsigned int
-    {
-      axis        = 0,
-      outer       = 1,
-      bottom_side = 2,
-      top_side    = 3
-    };
-
-    explicit BackgroundGrid(const MPI_Comm communicator);
-
-    /** Throws BadInput where the entries contradict each other. */
-    void
-    check_parameters() const;
-
-    /**
-     * Place the grid lines for the body and its whole travel, from -uplift to
-     * travel. Throws BadInput, with the numbers to change, if the mesh cannot
-     * hold it. Units: m.
-     */
-    void
-    place_lines(const RigidBody &body,
-                const Soil      &soil,
-                const double     travel,
-                const double     uplift = 0.);
+    /** The lines must outlive the grid, and be placed before create_mesh(). */
+    BackgroundGrid(const GridLines &lines, const MPI_Comm communicator);
 
     /** Create mesh, dofs and geometry from the lines. Collective. */
     void
@@ -132,28 +73,51 @@ namespace CaissonMPM
     void
     advance();
 
+    /** Compute the geometry at @p travel and make it the current one. */
+    void
+    move_to(const double travel);
+
     /** Write the current node positions into the triangulation. */
     void
     write_vertices();
 
-    /** The height of a node at reference height z0. Units: m. */
-    double
-    height_at(const double z0, const double travel) const;
-
-    /** Kernel views of the current geometry, and of the prepared one. */
+    /** Return a kernel view of the current geometry. Valid until
+     * prepare_motion() is called a second time, or the parts change. */
     Kernels::GridView
     view() const;
+
+    /** Return a kernel view of the prepared geometry. */
     Kernels::GridView
     next() const;
 
-    /** A vector of n doubles per node, interleaved; zero. */
+    /** Make a vector of n doubles per node, interleaved; zero. */
     void
     reinit(NodalData &vector, const unsigned int components) const;
+
+    const GridLines &
+    lines() const
+    {
+      return lines_;
+    }
+    const Triangulation &
+    triangulation() const
+    {
+      return triangulation_;
+    }
+    const dealii::DoFHandler<dim> &
+    dof_handler() const
+    {
+      return dof_handler_;
+    }
+    /** Return the mapping of the current geometry, which must have been
+     * written to the vertices. */
+    const dealii::Mapping<dim> &
+    mapping() const;
 
     MPI_Comm
     communicator() const
     {
-      return triangulation.get_communicator();
+      return triangulation_.get_communicator();
     }
     unsigned int
     n_ranks() const
@@ -174,21 +138,22 @@ namespace CaissonMPM
     unsigned int
     n_global_cells() const
     {
-      return n_columns() * n_rows();
+      return lines_.n_cells();
     }
     unsigned int
     n_nodes() const
     {
       return node_r.size();
     }
-    /** The nodes below this number belong to this rank. What is summed over
-     * the nodes of all ranks must be summed over these. */
+    /** Return the number of nodes that this rank owns: those with a smaller
+     * local number. What is summed over the nodes of all ranks must be summed
+     * over these. */
     unsigned int
     n_owned_nodes() const
     {
       return partitioner->locally_owned_size();
     }
-    /** The rank that a cell belongs to. */
+    /** Return the rank that a cell belongs to. */
     unsigned int
     owner_of(const unsigned int cell) const
     {
@@ -199,42 +164,52 @@ namespace CaissonMPM
     {
       return owners[cell] == rank;
     }
-    unsigned int
+    GlobalCell
     global_number(const unsigned int cell) const
     {
       return global_numbers[cell];
+    }
+    /** Return the local number of a cell, or numbers::invalid_unsigned_int
+     * where this rank does not know it. */
+    unsigned int
+    local_number(const GlobalCell cell) const
+    {
+      return local_numbers[index_of(cell)];
+    }
+    /** Return whether this rank owns a cell. */
+    bool
+    is_owned(const GlobalCell cell) const
+    {
+      const unsigned int local = local_number(cell);
+      return local != dealii::numbers::invalid_unsigned_int && is_owned(local);
     }
     bool
     is_rigid(const unsigned int cell) const
     {
       return rigid[cell];
     }
-    /** Whether a cell of the body belongs to the lid of a caisson. */
+    /** Return whether a cell of the body belongs to the lid of a caisson. */
     bool
     is_lid(const unsigned int cell) const
     {
-      return rigid[cell] && column_of(cell) < body_column_begin;
+      return lines_.is_lid_cell(global_numbers[cell]);
     }
     Zone
     zone(const unsigned int cell) const
     {
-      return zones[cell];
+      return lines_.zone_of(global_numbers[cell]);
     }
-    /** The cell beyond face 0 (left), 1, 2 (below), 3; -1 where there is none,
-     * or none that this rank knows. */
+    /** Return the cell beyond face 0 (left), 1, 2 (below), 3; -1 where there
+     * is none, or none that this rank knows. */
     int
     neighbor(const unsigned int cell, const unsigned int face) const
     {
       return neighbors[4 * cell + face];
     }
-    /** Whether the face lies on a side of the domain. */
+    /** Return whether the face lies on a side of the domain. */
     bool
-    at_side(const unsigned int cell, const unsigned int face) const
-    {
-      const unsigned int line = face < 2 ? column_of(cell) : row_of(cell);
-      return line ==
-             (face % 2 == 0 ? 0 : (face < 2 ? n_columns() : n_rows()) - 1);
-    }
+    at_side(const unsigned int cell, const unsigned int face) const;
+
     const Kernels::CellGeometry &
     geometry(const unsigned int cell) const
     {
@@ -245,43 +220,16 @@ namespace CaissonMPM
     {
       return nodes[cell];
     }
-    unsigned int
-    column_of(const unsigned int cell) const
-    {
-      return global_numbers[cell] % n_columns();
-    }
-    unsigned int
-    row_of(const unsigned int cell) const
-    {
-      return global_numbers[cell] / n_columns();
-    }
-    unsigned int
-    n_columns() const
-    {
-      return columns.size() - 1;
-    }
-    unsigned int
-    n_rows() const
-    {
-      return rows.size() - 1;
-    }
-    /** The local number of a cell, or numbers::invalid_unsigned_int where this
-     * rank does not know it. */
-    unsigned int
-    local_number(const unsigned int global_number) const
-    {
-      return local_numbers[global_number];
-    }
     const Triangulation::active_cell_iterator &
     cell_iterator(const unsigned int cell) const
     {
       return iterators[cell];
     }
-    /** The sides of the domain that a node lies on, as bits 1 << Side. */
-    unsigned int
-    sides_of(const unsigned int node) const
+    /** Return whether a node lies on a side of the domain. */
+    bool
+    is_at(const unsigned int node, const Side side) const
     {
-      return node_sides[node];
+      return node_sides[node] & (1u << static_cast<unsigned int>(side));
     }
     double
     r_of(const unsigned int node) const
@@ -294,159 +242,55 @@ namespace CaissonMPM
       return node_z[node];
     }
 
-    /** The geometry at the start of the cell with this global number. */
-    Kernels::CellGeometry
-    initial_geometry(const unsigned int global_number) const;
-
-    /** Whether the cell with this global number is one of the body. */
-    bool
-    is_body_cell(const unsigned int global_number) const
-    {
-      return inside_body(global_number % n_columns(),
-                         global_number / n_columns());
-    }
-
-    /**
-     * The smallest height that any cell takes of those that contain soil of
-     * the cell with this global number at some time of the travel. Units: m.
-     * Used for the spacing of material points.
-     */
-    double
-    smallest_height_met(const unsigned int global_number) const;
-
-    /**
-     * Around an expanding cylinder: the smallest width, as seen at the start,
-     * of the columns that soil of the cell with this global number will meet
-     * if it flows without change of volume; else the width of the cell. Units:
-     * m.
-     */
-    double
-    smallest_width_met(const unsigned int global_number) const;
-
     bool
     axisymmetric() const
     {
-      return geometry_text == "axisymmetric";
+      return lines_.axisymmetric();
     }
-
-    /** What the values per radian that the program computes with are worth:
-     * 2 pi, or 1 in plane strain, where they are per metre. */
     double
     circumference() const
     {
-      return axisymmetric() ? 2. * pi : 1.;
+      return lines_.circumference();
     }
-
-    bool
-    reaches_axis() const
-    {
-      return inner_radius == 0.;
-    }
-
-    /** Height of the domain below the soil surface at the start. Units: m. */
-    double
-    depth() const
-    {
-      return -bottom;
-    }
-
-    double
-    total_travel() const
-    {
-      return travel_to_hold;
-    }
-
-    /** Lines for the header of the terminal output. */
-    std::string
-    description() const;
-
-    Triangulation           triangulation;
-    dealii::FE_Q<dim>       fe;
-    dealii::DoFHandler<dim> dof_handler;
-    dealii::MappingQ1<dim>  mapping;
 
   private:
+    void
+    create_triangulation();
     /** Number the cells and nodes of this rank's part of the mesh, at the start
      * of the travel: after each change of the parts. Collective. */
     void
     set_up_part();
     void
-    place_columns(const RigidBody &body);
+    number_cells();
     void
-    place_rows(const RigidBody &body, const Soil &soil);
+    find_dofs();
     void
-    check_travel() const;
+    find_neighbors();
     void
-    check_travel_down() const;
-    void
-    check_travel_up() const;
-    void
-    check_expansion() const;
-    double
-    smallest_row_at(const double travel, const bool above_body) const;
-    double
-    radial_rate(const double r0) const;
-    double
-    finest_cell(const RigidBody &body, const double otherwise) const;
-    void
-    create_triangulation();
+    flag_cells_at_body();
     void
     number_nodes();
-    void
-    collect_cells();
-    double
-    reference_height(const unsigned int column_line,
-                     const unsigned int row_line) const;
-    bool
-    inside_body(const unsigned int column, const unsigned int row) const;
-    void
-    distort(const std::vector<double> &straight_rows);
 
-    std::string  geometry_text  = "axisymmetric";
-    double       inner_radius   = 0.;
-    double       outer_radius   = 15.;
-    double       bottom         = -18.;
-    double       top            = 8.;
-    double       cell_width     = 1.;
-    double       cell_height    = 1.;
-    double       growth         = 1.15;
-    double       fine_width     = 0.2;
-    double       fine_height    = 0.2;
-    double       fine_size      = 0.;
-    double       zone_below_tip = 1.5;
-    std::string  upper_text     = "free";
-    double       smallest_row   = 0.01;
-    double       distortion     = 0.;
-    unsigned int refinement     = 1;
+    const GridLines        &lines_;
+    Triangulation           triangulation_;
+    dealii::FE_Q<dim>       fe;
+    dealii::DoFHandler<dim> dof_handler_;
+    dealii::MappingQ1<dim>  mapping_;
+    const unsigned int      n_ranks_, rank;
 
-    // lines at the start; rows before they bend around the tip
-    std::vector<double> columns, rows;
-    // displacement of the nodes by the distortion, [row][column]; or empty
-    std::vector<std::vector<double>> node_shift;
-    double                           zone_bottom = 0., zone_top = 0.;
-    double                           travel_to_hold = 0., uplift_to_hold = 0.;
-    // the body in line numbers [begin, end), and its lower surface by column
-    unsigned int        body_column_begin = 0, body_column_end = 0;
-    unsigned int        body_row_begin = 0, body_row_end = 0;
-    unsigned int        lid_row_begin    = 0;  // body_row_end without a lid
-    double              expanding_radius = 0.; // of a cylinder, else 0
-    double              shoulder = 0., decay_below = 1., decay_above = 1.;
-    std::vector<double> dip; // [columns] depth of the tip below the shoulder
-
+    // [n_cells] or, neighbors, [n_cells][4]
     std::vector<Triangulation::active_cell_iterator> iterators;
-    std::vector<unsigned int>                        global_numbers;
-    std::vector<unsigned int>                        local_numbers; // by global
+    std::vector<GlobalCell>                          global_numbers;
     std::vector<unsigned int>                        owners;
     std::vector<Kernels::CellNodes>                  nodes;
     std::vector<int>                                 neighbors;
     std::vector<int>                                 soil_neighbors;
     std::vector<unsigned char>                       rigid, flags;
-    std::vector<Zone>                                zones;
-
-    const unsigned int n_ranks_, rank;
+    std::vector<unsigned int> local_numbers; // [n_global_cells]
 
     std::array<std::vector<Kernels::CellGeometry>, 2> geometries;
-    unsigned int                                      current = 0;
+    unsigned int                                      current     = 0;
+    bool                                              is_prepared = false;
 
     // x = node_start + node_rate travel, r and z
     std::vector<double>                                        node_r, node_z;
@@ -454,6 +298,7 @@ namespace CaissonMPM
     std::vector<dealii::Tensor<1, dim>>                        node_rate;
     std::vector<unsigned int>                                  node_sides;
     std::vector<std::pair<unsigned int, dealii::Point<dim> *>> vertices;
+    bool vertices_are_current = false;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     mutable std::map<unsigned int,

@@ -34,9 +34,10 @@ namespace CaissonMPM
   public:
     explicit MaterialPoints(BackgroundGrid &grid);
 
-    /** Forget all points; make room for so many blocks of eight. */
+    /** Forget all points, and make room for as many as the cells of this rank
+     * will hold. @p n_in_cell [n_global_cells] */
     void
-    reset(const unsigned long n_blocks);
+    reset(const std::vector<unsigned int> &n_in_cell);
 
     /** Add a point to a cell of this rank in which it lies; settle() must
      * follow. */

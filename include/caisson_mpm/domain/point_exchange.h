@@ -18,7 +18,7 @@ namespace CaissonMPM
   /** A point on its way to the rank that owns its cell. */
   struct TravelingPoint
   {
-    unsigned int  cell; // its global number
+    GlobalCell    cell;
     MaterialPoint point;
   };
 

@@ -72,12 +72,16 @@ namespace CaissonMPM
     // of the parts of a cell, in r and z; 0 without soil
     using Parts = std::array<unsigned int, 2>;
     Parts
-    number_of_parts(const BackgroundGrid &grid,
-                    const RigidBody      &body,
-                    const unsigned int    global_cell) const;
+    number_of_parts(const GridLines &lines,
+                    const RigidBody &body,
+                    const GlobalCell cell) const;
+    std::vector<Parts> // [n_global_cells]
+    number_of_parts(const GridLines &lines, const RigidBody &body) const;
     bool
-    may_hold_soil(const BackgroundGrid &grid,
-                  const unsigned int    global_cell) const;
+    may_hold_soil(const GridLines &lines, const GlobalCell cell) const;
+    bool
+    is_in_region(const dealii::Point<2> &place,
+                 const Expression       &further) const;
     Expression
     parse_region() const;
 

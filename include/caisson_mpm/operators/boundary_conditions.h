@@ -26,7 +26,7 @@ namespace CaissonMPM
     BoundaryConditions();
 
     void
-    check_parameters(const BackgroundGrid &grid) const;
+    check_parameters(const GridLines &lines) const;
 
     void
     initialize(const BackgroundGrid &grid);

@@ -73,7 +73,7 @@ namespace CaissonMPM
     double fixed_step = 0.;
     double limit      = 0.;
     // of all ranks; infinite where a zone has no points
-    std::array<double, BackgroundGrid::n_zones> limit_of_zone;
+    std::array<double, GridLines::n_zones> limit_of_zone;
     unsigned int age = 0; // steps since the limit was found
     std::string  limiting_cell;
   };

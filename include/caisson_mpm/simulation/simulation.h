@@ -152,7 +152,7 @@ namespace CaissonMPM
     static constexpr unsigned int steps_between_adaptions = 25;
 
     // in the order of their sections in a .prm file
-    BackgroundGrid     grid;
+    GridLines          lines;
     Soil               soil;
     RigidBody          body;
     PointGenerator     generator;
@@ -165,6 +165,7 @@ namespace CaissonMPM
     ErrorBar           error_bar;
     StopRequest        stop_request;
 
+    BackgroundGrid                 grid;
     MaterialPoints                 points;
     std::vector<BodyPoint>         body_points;
     Contact                        contact;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Places in a cell, which is a trapezoid with two vertical sides:
+//   r = left + width xi,   z = bottom(xi) + height(xi) eta,
+// with bottom and height linear in xi.
+#ifndef caisson_mpm_domain_cell_geometry_h
+#define caisson_mpm_domain_cell_geometry_h
+
+#include <caisson_mpm/kernels/layout.h>
+
+#include <deal.II/base/point.h>
+
+namespace CaissonMPM
+{
+  /** Return the coordinates xi and eta of a place, 0 to 1 inside the cell. */
+  inline dealii::Point<2>
+  to_reference(const Kernels::CellGeometry &g, const dealii::Point<2> &p)
+  {
+    const double xi     = (p[0] - g.left) / g.width;
+    const double bottom = g.bottom_left + (g.bottom_right - g.bottom_left) * xi;
+    const double height = g.height_left + (g.height_right - g.height_left) * xi;
+    return dealii::Point<2>(xi, (p[1] - bottom) / height);
+  }
+
+  /** Return the place of the coordinates xi and eta. */
+  inline dealii::Point<2>
+  to_position(const Kernels::CellGeometry &g, const dealii::Point<2> &x)
+  {
+    const double bottom =
+      g.bottom_left + (g.bottom_right - g.bottom_left) * x[0];
+    const double height =
+      g.height_left + (g.height_right - g.height_left) * x[0];
+    return dealii::Point<2>(g.left + g.width * x[0], bottom + height * x[1]);
+  }
+} // namespace CaissonMPM
+
+#endif

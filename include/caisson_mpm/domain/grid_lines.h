@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The lines of the background grid: a graded mesh of quadrilaterals that fits
+// the rigid body, moves with it, and compresses below it.
+//
+// The lines are columns and rows. Vertical lines stay vertical, so that every
+// cell is a trapezoid; rows bend only around a triangular tip or a cone. The
+// position of a node is linear in the travel d of the body:
+//   z = z0 - d                                      in the moving zone,
+//   z = z0 - d (z0 - bottom) / (zone bottom - bottom)    below it,
+//   z = z0 - d, or z0 - d (top - z0) / (top - zone top)  above the body,
+// and around a cylinder whose radius grows from a by d
+//   r = r0 + d (outer radius - r0) / (outer radius - a),  r0 >= a.
+// For tests of the method without a body, the cells can be distorted: columns
+// and the heights of nodes are displaced irregularly.
+#ifndef caisson_mpm_domain_grid_lines_h
+#define caisson_mpm_domain_grid_lines_h
+
+#include <caisson_mpm/base/conventions.h>
+#include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/materials/soil.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** The number of a cell of the whole grid, the same on all ranks and for any
+   * number of them: row by row, from the lower left cell. The cells that a rank
+   * knows have local numbers besides (BackgroundGrid), of type unsigned int. */
+  enum class GlobalCell : unsigned int
+  {
+  };
+
+  /** Return the place of a cell in a list of [n_global_cells]. */
+  constexpr unsigned int
+  index_of(const GlobalCell cell)
+  {
+    return static_cast<unsigned int>(cell);
+  }
+
+  /**
+   * Where the grid lines are, how they move, and which cells are the body's.
+   *
+   * Everything here follows from the entries, the body and the soil alone, so
+   * that all ranks know all lines; there is no mesh, and nothing is collective.
+   * place() comes first, once; after it the lines do not change.
+   */
+  class GridLines : public dealii::ParameterAcceptor
+  {
+  public:
+    enum class Zone : unsigned char
+    {
+      moving,
+      compressing,
+      upper
+    };
+
+    static constexpr unsigned int n_zones = 3;
+    /** "moving", "compressing" or "upper". */
+    static const char *
+    name_of(const Zone zone)
+    {
+      constexpr const char *names[n_zones] = {"moving", "compressing", "upper"};
+      return names[static_cast<unsigned int>(zone)];
+    }
+
+    /** The four sides of the domain, in the order of the faces of a cell. */
+    enum class Side : unsigned int
+    {
+      axis,
+      outer,
+      bottom,
+      top
+    };
+
+    GridLines();
+
+    /** Throw BadInput where the entries contradict each other. */
+    void
+    check_parameters() const;
+
+    /**
+     * Place the lines for the body and its whole travel, from -uplift to
+     * travel. Throws BadInput, with the numbers to change, if the mesh cannot
+     * hold it. Units: m.
+     */
+    void
+    place(const RigidBody &body,
+          const Soil      &soil,
+          const double     travel,
+          const double     uplift = 0.);
+
+    unsigned int
+    n_columns() const
+    {
+      return columns.size() - 1;
+    }
+    unsigned int
+    n_rows() const
+    {
+      return rows.size() - 1;
+    }
+    unsigned int
+    n_cells() const
+    {
+      return n_columns() * n_rows();
+    }
+    unsigned int
+    column_of(const GlobalCell cell) const
+    {
+      return index_of(cell) % n_columns();
+    }
+    unsigned int
+    row_of(const GlobalCell cell) const
+    {
+      return index_of(cell) / n_columns();
+    }
+
+    /** Return where the node on these two lines is at the start. */
+    dealii::Point<2>
+    node_start(const unsigned int column_line,
+               const unsigned int row_line) const;
+
+    /** Return how far this node moves per travel of the body. */
+    dealii::Tensor<1, 2>
+    node_rate(const unsigned int column_line,
+              const unsigned int row_line) const;
+
+    /** Return the sides of the domain that this node lies on, as bits
+     * 1 << Side. */
+    unsigned int
+    sides_of(const unsigned int column_line, const unsigned int row_line) const;
+
+    /** Return the height of a node at reference height z0. Units: m. */
+    double
+    height_at(const double z0, const double travel) const;
+
+    /** Return the geometry of a cell at the start. */
+    Kernels::CellGeometry
+    initial_geometry(const GlobalCell cell) const;
+
+    Zone
+    zone_of(const GlobalCell cell) const;
+
+    /** Return whether a cell is one of the body. */
+    bool
+    is_body_cell(const GlobalCell cell) const
+    {
+      return inside_body(column_of(cell), row_of(cell));
+    }
+
+    /** Return whether a cell belongs to the lid of a caisson. */
+    bool
+    is_lid_cell(const GlobalCell cell) const
+    {
+      return is_body_cell(cell) && column_of(cell) < body_column_begin;
+    }
+
+    /**
+     * Return the smallest height that any cell takes of those that contain
+     * soil of this cell at some time of the travel. Units: m. Used for the
+     * spacing of material points.
+     */
+    double
+    smallest_height_met(const GlobalCell cell) const;
+
+    /**
+     * Return, around an expanding cylinder, the smallest width, as seen at the
+     * start, of the columns that soil of this cell will meet if it flows
+     * without change of volume; else the width of the cell. Units: m.
+     */
+    double
+    smallest_width_met(const GlobalCell cell) const;
+
+    bool
+    axisymmetric() const
+    {
+      return geometry_text == "axisymmetric";
+    }
+
+    /** Return what the values per radian that the program computes with are
+     * worth: 2 pi, or 1 in plane strain, where they are per meter. */
+    double
+    circumference() const
+    {
+      return axisymmetric() ? 2. * pi : 1.;
+    }
+
+    bool
+    reaches_axis() const
+    {
+      return inner_radius == 0.;
+    }
+
+    /** Return the height of the domain below the soil surface at the start.
+     * Units: m. */
+    double
+    depth() const
+    {
+      return -bottom;
+    }
+
+    double
+    total_travel() const
+    {
+      return travel_to_hold;
+    }
+
+    /** Return a line for the header of the terminal output. */
+    std::string
+    description() const;
+
+  private:
+    void
+    place_columns(const RigidBody &body);
+    void
+    place_rows(const RigidBody &body, const Soil &soil);
+    void
+    distort(const std::vector<double> &straight_rows);
+    double
+    finest_cell(const RigidBody &body, const double otherwise) const;
+    /** Return a length with its unit, for messages. */
+    static std::string
+    meters(const double x);
+
+    void
+    check_travel() const;
+    void
+    check_travel_down() const;
+    void
+    check_travel_up() const;
+    void
+    check_expansion() const;
+    double
+    smallest_row_at(const double travel, const bool above_body) const;
+
+    double
+    radial_rate(const double r0) const;
+    double
+    reference_height(const unsigned int column_line,
+                     const unsigned int row_line) const;
+    double
+    line_height(const unsigned int column,
+                const unsigned int row_line,
+                const double       travel) const;
+    bool
+    inside_body(const unsigned int column, const unsigned int row) const;
+
+    std::string  geometry_text  = "axisymmetric";
+    double       inner_radius   = 0.;
+    double       outer_radius   = 15.;
+    double       bottom         = -18.;
+    double       top            = 8.;
+    double       cell_width     = 1.;
+    double       cell_height    = 1.;
+    double       growth         = 1.15;
+    double       fine_width     = 0.2;
+    double       fine_height    = 0.2;
+    double       fine_size      = 0.;
+    double       zone_below_tip = 1.5;
+    std::string  upper_text     = "free";
+    double       smallest_row   = 0.01;
+    double       distortion     = 0.;
+    unsigned int refinement     = 1;
+
+    // lines at the start; rows before they bend around the tip
+    std::vector<double> columns, rows;
+    // displacement of the nodes by the distortion, [row][column]; or empty
+    std::vector<std::vector<double>> node_shift;
+    double                           zone_bottom = 0., zone_top = 0.;
+    double                           travel_to_hold = 0., uplift_to_hold = 0.;
+    // the body in line numbers [begin, end), and its lower surface by column
+    unsigned int        body_column_begin = 0, body_column_end = 0;
+    unsigned int        body_row_begin = 0, body_row_end = 0;
+    unsigned int        lid_row_begin    = 0;  // body_row_end without a lid
+    double              expanding_radius = 0.; // of a cylinder, else 0
+    double              shoulder = 0., decay_below = 1., decay_above = 1.;
+    std::vector<double> dip; // [columns] depth of the tip below the shoulder
+  };
+} // namespace CaissonMPM
+
+#endif

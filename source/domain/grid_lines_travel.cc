@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the travel of the body does to the lines: whether they can hold it, and
+// the cells that soil will meet.
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/domain/grid_lines.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  void
+  GridLines::check_travel() const
+  {
+    if (expanding_radius > 0.)
+      return check_expansion();
+    const bool   moves = travel_to_hold > 0. || uplift_to_hold > 0.;
+    const double floor = moves ? zone_bottom : bottom;
+    const double tip_depth =
+      dip.empty() ? 0. : *std::max_element(dip.begin(), dip.end());
+    if (tip_depth > 0. && shoulder - decay_below < floor - 1e-9)
+      {
+        const double needed = decay_below - tip_depth;
+        throw BadInput(
+          (moves ? "Grid/Moving zone below tip = " + meters(zone_below_tip) :
+                   "The mesh below the tip, " +
+                     meters(shoulder - tip_depth - bottom) + " deep,") +
+          " must be at least " + meters(needed) +
+          " for this tip: the rows need that depth to straighten.");
+      }
+    if (travel_to_hold > 0.)
+      check_travel_down();
+    if (uplift_to_hold > 0.)
+      check_travel_up();
+  }
+
+  double
+  GridLines::smallest_row_at(const double travel, const bool above_body) const
+  {
+    double smallest = 1e300;
+    for (unsigned int j = 0; j + 1 < rows.size(); ++j)
+      if (above_body ? rows[j] > zone_top - 1e-9 : rows[j] < zone_bottom - 1e-9)
+        smallest =
+          std::min(smallest,
+                   height_at(rows[j + 1], travel) - height_at(rows[j], travel));
+    return smallest;
+  }
+
+  void
+  GridLines::check_travel_up() const
+  {
+    if (zone_bottom <= bottom)
+      throw BadInput("The body moves up by " + meters(uplift_to_hold) +
+                     ", and no rows can stretch below Grid/Moving zone below "
+                     "tip = " +
+                     meters(zone_below_tip) +
+                     ". Reduce that, or lower Grid/Bottom.");
+    if (upper_text == "free")
+      return;
+    if (top <= zone_top)
+      throw BadInput("Grid/Upper zone = extending needs cells above the body: "
+                     "raise Grid/Top above " +
+                     meters(zone_top) + ".");
+    const double smallest = smallest_row_at(-uplift_to_hold, true);
+    if (smallest < smallest_row)
+      throw BadInput(
+        "Moving up by " + meters(uplift_to_hold) +
+        " compresses a row above the body to " + meters(smallest) +
+        ", below Grid/Smallest row height = " + meters(smallest_row) +
+        ". Raise Grid/Top, or set Grid/Upper zone = free.");
+  }
+
+  void
+  GridLines::check_expansion() const
+  {
+    if (uplift_to_hold > 0.)
+      throw BadInput("Rigid body/Velocity: the cylinder would become smaller "
+                     "than at the start, by " +
+                     meters(uplift_to_hold) + ". It can only grow.");
+    const double factor =
+      1. - travel_to_hold / (outer_radius - expanding_radius);
+    double smallest = 1e300;
+    for (unsigned int i = body_column_end; i + 1 < columns.size(); ++i)
+      smallest = std::min(smallest, factor * (columns[i + 1] - columns[i]));
+    if (smallest < smallest_row)
+      throw BadInput(
+        "The radius grows by " + meters(travel_to_hold) +
+        ", which compresses a column to " + meters(smallest) +
+        ", below Grid/Smallest row height = " + meters(smallest_row) +
+        ". Increase Grid/Outer radius, or reduce Grid/Smallest "
+        "row height or the velocity.");
+  }
+
+  void
+  GridLines::check_travel_down() const
+  {
+    const double available = zone_bottom - bottom;
+    if (travel_to_hold >= available)
+      throw BadInput("The compressing zone, " + meters(available) +
+                     " high, cannot hold a travel of " +
+                     meters(travel_to_hold) + ". Lower Grid/Bottom below " +
+                     meters(zone_bottom - travel_to_hold) +
+                     ", reduce Grid/Moving zone below tip, or push less far.");
+    const double smallest = smallest_row_at(travel_to_hold, false);
+    if (smallest < smallest_row)
+      {
+        const double factor = 1. - travel_to_hold / available;
+        const double needed =
+          travel_to_hold / (1. - smallest_row * factor / smallest);
+        throw BadInput(
+          "The travel of " + meters(travel_to_hold) +
+          " compresses the lowest row to " + meters(smallest) +
+          ", below Grid/Smallest row height = " + meters(smallest_row) + ". " +
+          (smallest_row * factor < smallest ?
+             "Lower Grid/Bottom to about " + meters(zone_bottom - needed) +
+               ", or reduce" :
+             "Reduce") +
+          " Grid/Smallest row height.");
+      }
+    if (upper_text == "free" && height_at(top, travel_to_hold) <= 0.)
+      throw BadInput("After a travel of " + meters(travel_to_hold) +
+                     " the top of the mesh lies at z = " +
+                     meters(height_at(top, travel_to_hold)) +
+                     ", below the soil surface. Raise Grid/Top to more than " +
+                     meters(travel_to_hold) +
+                     " plus the expected heave, or set Grid/Upper zone = "
+                     "extending.");
+    if (upper_text == "extending" && top <= zone_top)
+      throw BadInput("Grid/Upper zone = extending needs cells above the body: "
+                     "raise Grid/Top above " +
+                     meters(zone_top) + ".");
+  }
+
+  double
+  GridLines::line_height(const unsigned int column,
+                         const unsigned int row,
+                         const double       travel) const
+  {
+    // the side of the column with the deeper dip has the lower cells
+    const unsigned int side =
+      !dip.empty() && dip[column] > dip[column + 1] ? column : column + 1;
+    return reference_height(side, row) + height_at(rows[row], travel) -
+           rows[row];
+  }
+
+  double
+  GridLines::smallest_height_met(const GlobalCell cell) const
+  {
+    const unsigned int i = column_of(cell), j = row_of(cell);
+    if (!node_shift.empty()) // nothing moves
+      {
+        const auto g = initial_geometry(cell);
+        return std::max(g.height_left, g.height_right);
+      }
+    const double low = line_height(i, j, 0.), high = line_height(i, j + 1, 0.);
+    double       smallest        = high - low;
+    const unsigned int n_samples = 100;
+    const auto meet = [&](const unsigned int first, const double travel) {
+      for (unsigned int k = first; k < n_rows(); ++k)
+        {
+          const double z0 = line_height(i, k, travel),
+                       z1 = line_height(i, k + 1, travel);
+          if (z0 > high)
+            break;
+          if (z1 > low && !inside_body(i, k))
+            smallest = std::min(smallest, z1 - z0);
+        }
+    };
+    for (unsigned int s = 1; s <= n_samples && expanding_radius == 0.; ++s)
+      {
+        // rows sink: soil of this cell meets only cells that began above it
+        if (travel_to_hold > 0.)
+          meet(j, travel_to_hold * s / n_samples);
+        if (uplift_to_hold > 0.)
+          meet(0, -uplift_to_hold * s / n_samples);
+      }
+    return smallest;
+  }
+
+  double
+  GridLines::smallest_width_met(const GlobalCell cell) const
+  {
+    const unsigned int i         = column_of(cell);
+    const double       r0        = columns[i];
+    double             smallest  = columns[i + 1] - r0;
+    const unsigned int n_samples = expanding_radius > 0. ? 100 : 0;
+    for (unsigned int s = 1; s <= n_samples; ++s)
+      {
+        const double travel = travel_to_hold * s / n_samples;
+        const double a = expanding_radius, b = a + travel;
+        const double r =
+          axisymmetric() ? std::sqrt(r0 * r0 + b * b - a * a) : r0 + travel;
+        // soil that was dr wide is now r0 / r times that
+        const double shortened = axisymmetric() ? r0 / r : 1.;
+        const double rate      = 1. / (outer_radius - a);
+        const double start =
+          (r - travel * rate * outer_radius) / (1. - travel * rate);
+        const auto next =
+          std::upper_bound(columns.begin() + body_column_end + 1,
+                           columns.end() - 1,
+                           start + 1e-9);
+        const double width = (*next - *(next - 1)) * (1. - travel * rate);
+        smallest           = std::min(smallest, width / shortened);
+      }
+    return smallest;
+  }
+
+} // namespace CaissonMPM
