@@ -30,7 +30,7 @@ check_mesh(const std::string &upper, const bool fixed_top)
       if (s.grid.is_rigid(c))
         rigid += V;
     }
-  const double h = s.body.tip_height();
+  const double h = s.body.shape().tip_height();
   verdict("rigid cells: volume error",
           std::abs(rigid / (pi * (9. - 2.8 * 2.8) * (3. - .5 * h)) - 1.),
           1e-12);
@@ -148,14 +148,14 @@ check_cone()
               std::abs(volume_of(s.grid, false) / (pi * 9. * 6.5) - 1.),
               1e-12);
       verdict("surface error",
-              std::abs(s.body.lower_surface(0.) + 1.) +
-                std::abs(s.body.lower_surface(.05) + 1. - .25 * h) +
-                std::abs(s.body.lower_surface(R) + 1. - h),
+              std::abs(s.body.shape().lower_surface(0.) + 1.) +
+                std::abs(s.body.shape().lower_surface(.05) + 1. - .25 * h) +
+                std::abs(s.body.shape().lower_surface(R) + 1. - h),
               1e-12);
       std::printf("smallest height of a cell over that of its row: %.3f\n",
                   smallest_height_ratio(s.grid));
       const auto inside = [&s](const double r, const double z) {
-        return s.body.contains(dealii::Point<2>(r, z), 0.);
+        return s.body.shape().contains(dealii::Point<2>(r, z), 0.);
       };
       std::printf("inside: %d%d%d%d\n",
                   inside(.01, -.9),
@@ -169,7 +169,7 @@ void
 check_lid()
 {
   Scene s(caisson + "subsection Rigid body\nset Lid thickness = 0.25\nend\n");
-  const double h = s.body.tip_height();
+  const double h = s.body.shape().tip_height();
   verdict("lid: volume error",
           std::abs(
             volume_of(s.grid, true) /
@@ -177,7 +177,7 @@ check_lid()
             1.),
           1e-12);
   const auto inside = [&s](const double r, const double z) {
-    return s.body.contains(dealii::Point<2>(r, z), 0.);
+    return s.body.shape().contains(dealii::Point<2>(r, z), 0.);
   };
   std::printf("inside: %d%d%d%d\n",
               inside(1., 2.4),
@@ -269,8 +269,8 @@ check_cylinder()
   verdict("cylinder: vertices of deal.II: error", vertices, 1e-12);
   std::printf("cylinder: first columns %.4f %.4f\n", finest, next - a - finest);
   std::printf("inside: %d%d\n",
-              s.body.contains(dealii::Point<2>(1.2, -.05), d),
-              s.body.contains(dealii::Point<2>(1.3, -.05), d));
+              s.body.shape().contains(dealii::Point<2>(1.2, -.05), d),
+              s.body.shape().contains(dealii::Point<2>(1.3, -.05), d));
 }
 
 /** Refinement and distortion: sides, surface and layers stay where they are. */
@@ -324,7 +324,7 @@ check_distortion()
   std::printf("distorted: rows bend: %s, shifts reach the limit: %s\n",
               heights.size() == 8 ? "yes" : "no",
               std::min(shift_r, shift_z) > .08 ? "yes" : "no");
-  s.generator.generate(s.grid, s.body, s.soil, 1., s.points);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, 1., s.points);
   double volume = 0.;
   s.points.for_each(
     [&](const MaterialPoint &p, const unsigned int) { volume += p.volume; });

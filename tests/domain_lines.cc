@@ -23,7 +23,7 @@ struct Lines : EmptyParameters
     prm.parse_input_from_string(parameters);
     dealii::ParameterAcceptor::parse_all_parameters(prm);
     lines.check_parameters();
-    lines.place(body, soil, travel, uplift);
+    lines.place(body.shape(), soil, travel, uplift);
   }
 
   GridLines lines;
@@ -74,7 +74,7 @@ check_cells()
       const GlobalCell       cell{c};
       const auto             g      = lines.initial_geometry(cell);
       const dealii::Point<2> middle = to_position(g, dealii::Point<2>(.5, .5));
-      wrong += lines.is_body_cell(cell) != s.body.contains(middle, 0.);
+      wrong += lines.is_body_cell(cell) != s.body.shape().contains(middle, 0.);
       wrong += lines.row_of(cell) * lines.n_columns() + lines.column_of(cell) !=
                index_of(cell);
       n_body += lines.is_body_cell(cell);

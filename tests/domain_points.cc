@@ -21,7 +21,7 @@ check_points()
         set Porosity      = 0.3
       end
     end)");
-  s.generator.generate(s.grid, s.body, s.soil, 4., s.points);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, 4., s.points);
   double volume = 0., mass = 0., mr = 0., mz = 0., stress = 0., wrong = 0.;
   std::set<double> ids;
   s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
@@ -30,7 +30,7 @@ check_points()
     mr += p.mass * p.position[0];
     mz += p.mass * p.position[1];
     ids.insert(p.id);
-    wrong += s.body.contains(p.position, 0.) || p.position[1] > 0. ||
+    wrong += s.body.shape().contains(p.position, 0.) || p.position[1] > 0. ||
              p.material != (p.position[1] < -2. ? 1u : 0u);
     const double z = p.position[1];
     const double zz =
@@ -41,7 +41,7 @@ check_points()
                        std::abs(p.stress[2] / zz - .5)});
   });
   // the soil: a cylinder without the wall, per radian and with inertia times 4
-  const double h = s.body.tip_height(), wall = .5 * (9. - 2.8 * 2.8),
+  const double h = s.body.shape().tip_height(), wall = .5 * (9. - 2.8 * 2.8),
                rho[2] = {.6 * 2500. + .4 * 1000., .7 * 2700. + .3 * 1000.};
   const double V      = 32. * 7. - wall * (.5 - .5 * h);
   const double M      = 4. * (rho[0] * (V - 32. * 5.) + rho[1] * 32. * 5.);
@@ -72,7 +72,7 @@ check_spacing()
 {
   const double travel = 3.5;
   Scene        s(caisson, travel);
-  s.generator.generate(s.grid, s.body, s.soil, 1., s.points);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, 1., s.points);
   std::vector<dealii::Point<2>> x;
   s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
     x.push_back(p.position);
@@ -152,7 +152,7 @@ check_split_and_merge()
 {
   Scene s(caisson +
           "subsection Soil\n set Initial velocity = r*z; z-2*r\nend\n");
-  s.generator.generate(s.grid, s.body, s.soil, 1., s.points);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, 1., s.points);
   const auto n          = s.points.n_points();
   const auto before     = resultants(s.points);
   double     largest[2] = {0., 0.};
@@ -225,7 +225,7 @@ check_point_options()
         set Random positions = 0.5
         set Random seed      = )" +
               std::to_string(seed) + "\nend\n");
-      s.generator.generate(s.grid, s.body, s.soil, 1., s.points);
+      s.generator.generate(s.grid, s.body.shape(), s.soil, 1., s.points);
       double outside = 0., volume = 0., state = 0., farthest = 0., sum = 0.;
       s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
         const double r = p.position[0], z = p.position[1];

@@ -71,7 +71,7 @@ try_node(const std::string &parameters,
 {
   Scene   s(parameters + "end\n");
   Contact contact;
-  contact.initialize(s.grid, s.body);
+  contact.initialize(s.grid, s.body.surface());
   const unsigned int                n = node_at(s.grid, r, z);
   std::vector<double>               mass(s.grid.n_nodes(), 0.);
   std::vector<Kernels::NodalVector> v(s.grid.n_nodes(), {{0., 0.}}), other = v;

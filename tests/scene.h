@@ -45,7 +45,7 @@ struct Scene : EmptyParameters
     body.check_parameters();
     soil.check_parameters();
     lines.check_parameters();
-    lines.place(body, soil, travel, uplift);
+    lines.place(body.shape(), soil, travel, uplift);
     grid.create_mesh();
   }
 

@@ -129,7 +129,7 @@ namespace CaissonMPM
   }
 
   double
-  GridLines::finest_cell(const RigidBody &body, const double otherwise) const
+  GridLines::finest_cell(const BodyShape &body, const double otherwise) const
   {
     return fine_size > 0.         ? fine_size :
            body.cell_width() > 0. ? body.cell_width() :
@@ -137,12 +137,12 @@ namespace CaissonMPM
   }
 
   void
-  GridLines::place(const RigidBody &body,
+  GridLines::place(const BodyShape &body,
                    const Soil      &soil,
                    const double     travel,
                    const double     uplift)
   {
-    if (distortion > 0. && body.kind() != RigidBody::Kind::none)
+    if (distortion > 0. && body.exists())
       throw BadInput("Grid/Distortion is for scenes without a rigid body: the "
                      "mesh must fit the body. Set Distortion = 0.");
     travel_to_hold = travel;
@@ -168,9 +168,9 @@ namespace CaissonMPM
   } // namespace
 
   void
-  GridLines::place_columns(const RigidBody &body)
+  GridLines::place_columns(const BodyShape &body)
   {
-    if (body.kind() == RigidBody::Kind::none)
+    if (!body.exists())
       {
         columns =
           graded_lines({inner_radius, outer_radius}, [this](const double) {
@@ -178,7 +178,7 @@ namespace CaissonMPM
           });
         return;
       }
-    const bool expands = body.kind() == RigidBody::Kind::cylinder;
+    const bool expands = body.expands();
     // one column of the cylinder is enough
     const double left  = expands ? inner_radius : body.left(),
                  right = body.right();
@@ -217,15 +217,14 @@ namespace CaissonMPM
   }
 
   void
-  GridLines::place_rows(const RigidBody &body, const Soil &soil)
+  GridLines::place_rows(const BodyShape &body, const Soil &soil)
   {
     std::vector<double> fixed = {bottom, 0., top};
     for (const double z : soil.interfaces())
       fixed.push_back(z);
     zone_bottom = bottom;
     zone_top    = top;
-    if (body.kind() == RigidBody::Kind::none ||
-        body.kind() == RigidBody::Kind::cylinder)
+    if (!body.exists() || body.expands())
       {
         rows = graded_lines(fixed, [this](double) {
           return cell_height / refinement;
@@ -236,19 +235,17 @@ namespace CaissonMPM
         body_row_end = lid_row_begin = rows.size() - 1;
         return;
       }
-    if (body.bottom() < bottom || body.top_of_body() > top)
+    if (body.bottom() < bottom || body.top() > top)
       throw BadInput("The body, from z = " + meters(body.bottom()) + " to " +
-                     meters(body.top_of_body()) +
+                     meters(body.top()) +
                      ", does not fit in the mesh, from z = " + meters(bottom) +
                      " to " + meters(top) +
                      ". Change Grid/Bottom, Grid/Top or the body.");
     const double fine = finest_cell(body, cell_height);
     zone_bottom       = std::max(bottom, body.bottom() - zone_below_tip);
-    zone_top          = body.top_of_body();
-    // rows below keep 7/8 of their height, and 3/4 at the axis below a cone
-    decay_below =
-      body.tip_height() * (body.kind() == RigidBody::Kind::cone ? 4. : 8.);
-    decay_above = std::min(decay_below, zone_top - shoulder);
+    zone_top          = body.top();
+    decay_below       = body.height_of_bent_rows();
+    decay_above       = std::min(decay_below, zone_top - shoulder);
     if (travel_to_hold > 0. || uplift_to_hold > 0.)
       fixed.push_back(zone_bottom);
     fixed.push_back(shoulder);

@@ -104,10 +104,10 @@ namespace CaissonMPM
 
   unsigned int
   PointGenerator::points_per_direction(const Kernels::CellGeometry &g,
-                                       const RigidBody             &body,
+                                       const BodyShape             &body,
                                        const double travel) const
   {
-    if (body.kind() == RigidBody::Kind::none)
+    if (!body.exists())
       return far;
     const double middle = g.left + .5 * g.width;
     const double distance =
@@ -120,7 +120,7 @@ namespace CaissonMPM
 
   std::array<double, 2>
   PointGenerator::wanted_size(const Kernels::CellGeometry &g,
-                              const RigidBody             &body,
+                              const BodyShape             &body,
                               const double                 travel) const
   {
     const unsigned int n = points_per_direction(g, body, travel);
@@ -174,10 +174,9 @@ namespace CaissonMPM
   } // namespace
 
   std::vector<std::string>
-  PointGenerator::known_limits(const RigidBody &body) const
+  PointGenerator::known_limits(const BodyShape &body) const
   {
-    if (body.kind() == RigidBody::Kind::caisson && body.cells_across > 3 &&
-        in_path < 7)
+    if (body.cells_across_wall() > 3 && in_path < 7)
       return {"with four cells or more across the wall and fewer than seven "
               "points per direction in the path, the tip has been seen to "
               "break loose: set Material points/Per direction in path = 7; see "
@@ -197,7 +196,7 @@ namespace CaissonMPM
 
   PointGenerator::Parts
   PointGenerator::number_of_parts(const GridLines &lines,
-                                  const RigidBody &body,
+                                  const BodyShape &body,
                                   const GlobalCell cell) const
   {
     if (!may_hold_soil(lines, cell))
@@ -216,7 +215,7 @@ namespace CaissonMPM
 
   std::vector<PointGenerator::Parts>
   PointGenerator::number_of_parts(const GridLines &lines,
-                                  const RigidBody &body) const
+                                  const BodyShape &body) const
   {
     std::vector<Parts> parts;
     for (unsigned int cell = 0; cell < lines.n_cells(); ++cell)
@@ -322,7 +321,7 @@ namespace CaissonMPM
 
   void
   PointGenerator::generate(const BackgroundGrid &grid,
-                           const RigidBody      &body,
+                           const BodyShape      &body,
                            const Soil           &soil,
                            const double          mass_scaling,
                            MaterialPoints       &points) const

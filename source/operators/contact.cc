@@ -62,7 +62,7 @@ namespace CaissonMPM
   } // namespace
 
   void
-  Contact::initialize(const BackgroundGrid &grid, const RigidBody &body)
+  Contact::initialize(const BackgroundGrid &grid, const BodySurface &body)
   {
     corner_normals = body.corner_normals;
     circumference  = grid.circumference();
@@ -130,7 +130,7 @@ namespace CaissonMPM
   Contact::Result
   Contact::find_contact(const Node &node, const Vector2 &w) const
   {
-    using Corner       = RigidBody::CornerNormals;
+    using Corner       = BodySurface::CornerNormals;
     const auto against = [&w](const Vector2 &normal) {
       return w * normal < 0. ? Result{State::sliding, normal} :
                                Result{State::apart, normal};

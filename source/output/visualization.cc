@@ -134,17 +134,15 @@ namespace CaissonMPM
       }
 
       void
-      add_body(const std::vector<BodyPoint> &points,
-               const RigidBody              &body,
-               const double                  travel,
-               const double                  time)
+      add_body(const std::vector<BodyPoint> &points, const RigidBody &body)
       {
         for (const BodyPoint &p : points)
           {
-            const Point<2>     position = body.moved(p.position, travel);
+            const Point<2> position =
+              body.shape().moved(p.position, body.motion().travel());
             const Tensor<1, 2> moved    = position - p.position,
-                               velocity =
-                                 body.velocity(time) * body.direction();
+                               velocity = body.motion().velocity() *
+                                          body.shape().direction();
             Properties v      = {};
             v[velocity_r]     = velocity[radial];
             v[velocity_z]     = velocity[vertical];
@@ -361,7 +359,6 @@ namespace CaissonMPM
                              const RigidBody              &body,
                              const Soil                   &soil,
                              const std::vector<BodyPoint> &body_points,
-                             const double                  travel,
                              const double                  time)
   {
     grid.write_vertices();
@@ -389,7 +386,7 @@ namespace CaissonMPM
                                  i * points_per_piece,
                                  (i + 1) * points_per_piece);
                   if (i == 0)
-                    cloud.add_body(body_points, body, travel, time);
+                    cloud.add_body(body_points, body);
                   return cloud.build();
                 });
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -90,9 +91,11 @@ namespace CaissonMPM
     double end =
       last_time > 0. ? last_time : std::numeric_limits<double>::infinity();
     if (last_penetration > 0.)
-      end =
-        std::min(end,
-                 body.time_of_travel(last_penetration - body.initial_depth()));
+      end = std::min(end,
+                     body.motion()
+                       .time_of_travel(last_penetration -
+                                       body.shape().initial_depth())
+                       .value());
     return end;
   }
 
@@ -108,12 +111,13 @@ namespace CaissonMPM
     nodal_motion.check_parameters();
     observations.initialize(Records::names({}));
     verification.check_parameters(observations.names());
-    if (last_penetration > 0. && last_penetration < body.initial_depth() &&
+    if (last_penetration > 0. &&
+        last_penetration < body.shape().initial_depth() &&
         !std::isfinite(end_time()))
       throw BadInput(
-        "Time/End penetration = " + std::to_string(last_penetration) +
+        "Time/End penetration = " + to_text(last_penetration) +
         " m is less than Rigid body/Initial penetration = " +
-        std::to_string(body.initial_depth()) +
+        to_text(body.shape().initial_depth()) +
         " m. Push deeper, start higher, or pull with a negative velocity.");
     if (!std::isfinite(end_time()))
       throw BadInput(
@@ -122,8 +126,8 @@ namespace CaissonMPM
     if (Kernels::select_kernels(instruction_set.c_str()) == nullptr)
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");
-    const auto range = body.travel_range(end_time());
-    lines.place(body, soil, range.second, -range.first);
+    const auto range = body.motion().travel_range(end_time()).value();
+    lines.place(body.shape(), soil, range.second, -range.first);
   }
 
   void
@@ -165,10 +169,10 @@ namespace CaissonMPM
   Simulation::set_up_part()
   {
     body_points = generate_body_points(grid, body);
-    contact.initialize(grid, body);
+    contact.initialize(grid, body.surface());
     boundary_conditions.initialize(grid);
     nodal_motion.initialize(grid);
-    grid.move_to(body.travel(time));
+    grid.move_to(body.motion().travel());
   }
 
   void
@@ -197,7 +201,10 @@ namespace CaissonMPM
   Simulation::schedule_frames()
   {
     for (const double depth : frame_penetrations)
-      frame_times.push_back(body.time_of_travel(depth - body.initial_depth()));
+      frame_times.push_back(
+        body.motion()
+          .time_of_travel(depth - body.shape().initial_depth())
+          .value());
     for (unsigned int i = 1;
          frame_interval > 0. && i * frame_interval < end_time() - 1e-9;
          ++i)
@@ -215,8 +222,10 @@ namespace CaissonMPM
   void
   Simulation::start()
   {
-    generator.generate(grid, body, soil, time_step.mass_scaling, points);
+    generator.generate(
+      grid, body.shape(), soil, time_step.mass_scaling, points);
     balance();
+    body.motion().start();
     energy.start(point_energies());
     choose_step(); // refuses a fixed step that is too large
     if (grid.is_first_rank())
@@ -229,11 +238,18 @@ namespace CaissonMPM
   {
     const CheckpointState state =
       read_checkpoint(directory, grid, points, fingerprint());
-    time = state.time;
-    step = state.step;
+    time                  = state.time;
+    step                  = state.step;
+    next_record           = state.more.at(0);
+    last_record           = state.more.at(1);
+    travel_of_last_record = state.more.at(2);
+    RunTotals motion;
+    body.motion().register_totals(motion);
+    NamedNumbers motion_state = motion.state();
+    for (unsigned int i = 0; i < 3; ++i)
+      motion_state[i].second = state.more.at(3 + i);
+    motion.resume(motion_state, grid.is_first_rank());
     balance();
-    next_record = state.more.at(0);
-    last_record = state.more.at(1);
     if (grid.is_first_rank())
       {
         resume_sums(state);
@@ -283,7 +299,7 @@ namespace CaissonMPM
       console->warning(wrong_error_bar);
     for (const auto &limits : {soil.known_limits(),
                                nodal_motion.known_limits(),
-                               generator.known_limits(body),
+                               generator.known_limits(body.shape()),
                                time_step.known_limits()})
       for (const std::string &limit : limits)
         console->warning(limit);
@@ -313,20 +329,24 @@ namespace CaissonMPM
     const auto view = grid.view();
     NodalWork  work;
     choose_step();
+    body.motion().advance(dt, 0.);
     timed("points to grid", [&]() {
       nodal_motion.collect(*kernels, points, grid, materials, loads, time);
     });
     timed("nodal motion", [&]() { nodal_motion.accelerate(dt, contact); });
     timed("contact", [&]() {
       boundary_conditions.prepare(grid, time, dt);
-      nodal_motion.constrain(dt, body_velocity(), boundary_conditions, contact);
+      nodal_motion.constrain(dt,
+                             body.mean_velocity(),
+                             boundary_conditions,
+                             contact);
     });
     timed("transfer", [&]() {
       nodal_motion.prepare_transfer(
         *kernels, points.view(), view, boundary_conditions, contact);
       work = nodal_motion.work_of_step(dt, boundary_conditions, contact);
     });
-    timed("move mesh", [&]() { grid.prepare_motion(body.travel(time + dt)); });
+    timed("move mesh", [&]() { grid.prepare_motion(body.motion().travel()); });
     timed("grid to points", [&]() { update_points(view); });
     timed("relocate", [&]() {
       grid.advance();
@@ -344,7 +364,7 @@ namespace CaissonMPM
   {
     const double travel = lines.total_travel();
     points.adapt([&](const unsigned int cell) {
-      return generator.wanted_size(grid.geometry(cell), body, travel);
+      return generator.wanted_size(grid.geometry(cell), body.shape(), travel);
     });
   }
 
@@ -354,13 +374,6 @@ namespace CaissonMPM
   {
     SectionTimer::Scope scope(timer, timer.section(section));
     action();
-  }
-
-  Vector2
-  Simulation::body_velocity() const
-  {
-    // of the whole step, so that body and mesh move alike
-    return (body.travel(time + dt) - body.travel(time)) / dt * body.direction();
   }
 
   void

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <numeric>
+#include <set>
 #include <sstream>
 
 namespace CaissonMPM
@@ -85,7 +87,7 @@ namespace CaissonMPM
     bring_sums_to_first_rank();
     HistoryRow row;
     row.time          = time;
-    row.penetration   = body.initial_depth() + body.travel(time);
+    row.penetration   = body.penetration();
     row.step          = step;
     row.time_step     = dt;
     row.limiter_count = n_limited;
@@ -132,12 +134,12 @@ namespace CaissonMPM
         *forces[s] = contact.impulse()[s][vertical] / interval;
         row.total += *forces[s];
       }
-    if (body.kind() == RigidBody::Kind::cylinder && interval > 0.)
+    if (body.shape().expands() && interval > 0.)
       {
         const double travel =
-          .5 * (body.travel(time) + body.travel(last_record));
+          .5 * (body.motion().travel() + travel_of_last_record);
         const double around =
-          lines.axisymmetric() ? 2. * pi * (body.right() + travel) : 1.;
+          lines.axisymmetric() ? 2. * pi * (body.shape().right() + travel) : 1.;
         row.cavity = -contact.impulse()[outer_wall][radial] /
                      (interval * around * lines.depth());
       }
@@ -148,13 +150,14 @@ namespace CaissonMPM
       }
     contact.reset_impulse();
     boundary_conditions.reset_impulse();
-    last_record = time;
+    last_record           = time;
+    travel_of_last_record = body.motion().travel();
   }
 
   void
   Simulation::add_sums_over_points(HistoryRow &row)
   {
-    const double        travel     = body.travel(time);
+    const double        travel     = body.motion().travel();
     const PointEnergies energies   = point_energies();
     double              max_square = 0.;
     points.for_each_motion([&](const Point<2> &position,
@@ -162,7 +165,7 @@ namespace CaissonMPM
                                const double,
                                const unsigned int) {
       max_square = std::max(max_square, velocity.norm_square());
-      row.points_in_body += body.contains(position, travel);
+      row.points_in_body += body.shape().contains(position, travel);
     });
     row.max_speed               = std::sqrt(max_square);
     const MPI_Comm communicator = grid.communicator();
@@ -209,7 +212,7 @@ namespace CaissonMPM
     last_printed = time;
     RecordLine line;
     line.time                   = time;
-    line.has_body               = body.kind() != RigidBody::Kind::none;
+    line.has_body               = body.shape().exists();
     line.penetration            = row.penetration;
     line.tip                    = row.tip;
     line.inner                  = row.inner;
@@ -229,8 +232,7 @@ namespace CaissonMPM
   void
   Simulation::write_frame()
   {
-    visualization->write_frame(
-      grid, points, body, soil, body_points, body.travel(time), time);
+    visualization->write_frame(grid, points, body, soil, body_points, time);
   }
 
   double
@@ -269,14 +271,15 @@ namespace CaissonMPM
   std::string
   Simulation::changed_physics() const
   {
-    // defaults are left out, so that a new entry changes nothing
+    // defaults are left out, so that a new entry changes nothing, and the
+    // order of declaration does not count
     const DeclaredEntries entries(prm);
-    std::string           result;
+    std::set<std::string> lines;
     for (const DeclaredEntry &entry : entries.all())
       if (!is_not_physics(entry) && entry.value != entry.default_value &&
           entry.path != "Title" && entry.path != "Method/Instruction set")
-        result += entry.path + " = " + entry.value + "\n";
-    return result;
+        lines.insert(entry.path + " = " + entry.value + "\n");
+    return std::accumulate(lines.begin(), lines.end(), std::string());
   }
 
   void
@@ -285,12 +288,16 @@ namespace CaissonMPM
     bring_sums_to_first_rank();
     CheckpointState state;
     state.time          = time;
-    state.travel        = body.travel(time);
+    state.travel        = body.motion().travel();
     state.step          = step;
     state.limiter_count = n_limited;
     state.held_back     = points.n_held_back();
     state.external_work = energy.work_of_body;
-    state.more          = {next_record, last_record};
+    state.more          = {next_record, last_record, travel_of_last_record};
+    RunTotals motion;
+    body.motion().register_totals(motion);
+    for (const auto &entry : motion.state())
+      state.more.push_back(entry.second);
     for (const Vector2 &impulse : contact.impulse())
       for (unsigned int d = 0; d < 2; ++d)
         state.more.push_back(impulse[d]);
@@ -309,11 +316,11 @@ namespace CaissonMPM
     const std::vector<double> &numbers = state.more;
     SurfaceForces              impulse;
     for (unsigned int i = 0; i < 2 * n_surfaces; ++i)
-      impulse[i / 2][i % 2] = numbers.at(2 + i);
+      impulse[i / 2][i % 2] = numbers.at(6 + i);
     contact.reset_impulse(impulse);
     boundary_conditions.reset_impulse(Vector2(
-      {numbers.at(2 + 2 * n_surfaces), numbers.at(3 + 2 * n_surfaces)}));
-    energy.resume({numbers.begin() + 4 + 2 * n_surfaces, numbers.end()});
+      {numbers.at(6 + 2 * n_surfaces), numbers.at(7 + 2 * n_surfaces)}));
+    energy.resume({numbers.begin() + 8 + 2 * n_surfaces, numbers.end()});
   }
 
   void
@@ -364,15 +371,14 @@ namespace CaissonMPM
     s.energies.insert(s.energies.begin() + 1,
                       {"kinetic_energy_gain_J", energy.kinetic_gain});
     s.sections = timer.seconds();
-    if (body.kind() == RigidBody::Kind::caisson)
-      s.scene = {{"diameter_m", body.outer_diameter},
-                 {"wall_thickness_m", body.wall_thickness},
-                 {"skirt_length_m", body.skirt_length},
-                 {"initial_penetration_m", body.initial_depth()},
-                 {"submerged_unit_weight_N_m3", soil.unit_weight(0)},
-                 {"friction_angle_deg", soil.layer(0).friction_angle()},
-                 {"wall_friction_angle_deg", body.friction_angle[outer_wall]},
-                 {"K0", soil.layer(0).earth_pressure_at_rest()}};
+    s.scene    = body.shape().dimensions();
+    if (!s.scene.empty())
+      s.scene.insert(s.scene.end(),
+                     {{"submerged_unit_weight_N_m3", soil.unit_weight(0)},
+                      {"friction_angle_deg", soil.layer(0).friction_angle()},
+                      {"wall_friction_angle_deg",
+                       body.surface().friction_angle[outer_wall]},
+                      {"K0", soil.layer(0).earth_pressure_at_rest()}});
     if (grid.is_first_rank())
       {
         error_bar.write(directory);

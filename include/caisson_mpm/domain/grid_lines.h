@@ -17,7 +17,7 @@
 #define caisson_mpm_domain_grid_lines_h
 
 #include <caisson_mpm/base/conventions.h>
-#include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/bodies/body_shape.h>
 #include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/materials/soil.h>
 
@@ -91,7 +91,7 @@ namespace CaissonMPM
      * hold it. Units: m.
      */
     void
-    place(const RigidBody &body,
+    place(const BodyShape &body,
           const Soil      &soil,
           const double     travel,
           const double     uplift = 0.);
@@ -218,13 +218,13 @@ namespace CaissonMPM
 
   private:
     void
-    place_columns(const RigidBody &body);
+    place_columns(const BodyShape &body);
     void
-    place_rows(const RigidBody &body, const Soil &soil);
+    place_rows(const BodyShape &body, const Soil &soil);
     void
     distort(const std::vector<double> &straight_rows);
     double
-    finest_cell(const RigidBody &body, const double otherwise) const;
+    finest_cell(const BodyShape &body, const double otherwise) const;
     /** Return a length with its unit, for messages. */
     static std::string
     meters(const double x);

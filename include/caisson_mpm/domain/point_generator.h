@@ -4,7 +4,7 @@
 #ifndef caisson_mpm_domain_point_generator_h
 #define caisson_mpm_domain_point_generator_h
 
-#include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/bodies/body_shape.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/materials/soil.h>
 
@@ -35,7 +35,7 @@ namespace CaissonMPM
 
     /** What is known to go wrong with these entries, for a warning. */
     std::vector<std::string>
-    known_limits(const RigidBody &body) const;
+    known_limits(const BodyShape &body) const;
 
     /**
      * Create all points, with the soil's initial stress. Those that @p points
@@ -43,7 +43,7 @@ namespace CaissonMPM
      */
     void
     generate(const BackgroundGrid &grid,
-             const RigidBody      &body,
+             const BodyShape      &body,
              const Soil           &soil,
              const double          mass_scaling,
              MaterialPoints       &points) const;
@@ -55,7 +55,7 @@ namespace CaissonMPM
      */
     std::array<double, 2>
     wanted_size(const Kernels::CellGeometry &g,
-                const RigidBody             &body,
+                const BodyShape             &body,
                 const double                 travel) const;
 
     bool
@@ -67,16 +67,16 @@ namespace CaissonMPM
   private:
     unsigned int
     points_per_direction(const Kernels::CellGeometry &g,
-                         const RigidBody             &body,
+                         const BodyShape             &body,
                          const double                 travel) const;
     // of the parts of a cell, in r and z; 0 without soil
     using Parts = std::array<unsigned int, 2>;
     Parts
     number_of_parts(const GridLines &lines,
-                    const RigidBody &body,
+                    const BodyShape &body,
                     const GlobalCell cell) const;
     std::vector<Parts> // [n_global_cells]
-    number_of_parts(const GridLines &lines, const RigidBody &body) const;
+    number_of_parts(const GridLines &lines, const BodyShape &body) const;
     bool
     may_hold_soil(const GridLines &lines, const GlobalCell cell) const;
     bool

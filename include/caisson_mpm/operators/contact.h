@@ -12,7 +12,7 @@
 #define caisson_mpm_operators_contact_h
 
 #include <caisson_mpm/base/conventions.h>
-#include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/bodies/body_surface.h>
 #include <caisson_mpm/domain/background_grid.h>
 
 #include <array>
@@ -39,7 +39,7 @@ namespace CaissonMPM
     /** Collect the surface nodes of the body from the grid's rigid cells. The
      * impulses stay. */
     void
-    initialize(const BackgroundGrid &grid, const RigidBody &body);
+    initialize(const BackgroundGrid &grid, const BodySurface &body);
 
     bool
     empty() const
@@ -133,15 +133,16 @@ namespace CaissonMPM
     Result
     find_contact(const Node &node, const Vector2 &w) const;
 
-    std::vector<Node>         nodes;
-    std::vector<unsigned int> inner_nodes; // inside the body
-    std::vector<Result>       results;
-    std::vector<bool>         on_body;
-    RigidBody::CornerNormals corner_normals = RigidBody::CornerNormals::average;
-    Vector2                  velocity;
-    SurfaceForces            impulses;
-    double                   circumference = 2. * pi;
-    unsigned int             n_owned_nodes = 0;
+    std::vector<Node>          nodes;
+    std::vector<unsigned int>  inner_nodes; // inside the body
+    std::vector<Result>        results;
+    std::vector<bool>          on_body;
+    BodySurface::CornerNormals corner_normals =
+      BodySurface::CornerNormals::average;
+    Vector2       velocity;
+    SurfaceForces impulses;
+    double        circumference = 2. * pi;
+    unsigned int  n_owned_nodes = 0;
   };
 } // namespace CaissonMPM
 

@@ -48,8 +48,7 @@ namespace CaissonMPM
     resume(const double time);
 
     /**
-     * Write one frame of the state at @p time, when the body has moved down
-     * by @p travel. @p body_points are those at the start. Writes the grid's
+     * Write one frame of the state at @p time. @p body_points are those at the start. Writes the grid's
      * vertices. Throws RunFailure naming the file that cannot be written.
      * Collective.
      */
@@ -59,7 +58,6 @@ namespace CaissonMPM
                 const RigidBody              &body,
                 const Soil                   &soil,
                 const std::vector<BodyPoint> &body_points,
-                const double                  travel,
                 const double                  time);
 
   private:

@@ -94,8 +94,6 @@ namespace CaissonMPM
     template <typename Action>
     void
     timed(const char *section, const Action &action);
-    Vector2
-    body_velocity() const;
     void
     update_points(const Kernels::GridView &view);
     void
@@ -201,13 +199,14 @@ namespace CaissonMPM
     std::vector<double>            frame_times;
     std::string                    scene, wrong_error_bar;
     double        next_record = 0., last_record = 0., next_checkpoint = 0.;
-    double        last_printed = 0.;
-    unsigned int  next_frame   = 0;
-    unsigned long first_step   = 0; // of this run
-    double        start_of_run = 0.;
-    unsigned int  max_in_body  = 0;
-    bool          at_lid       = false;
-    double        point_steps  = 0.;
+    double        last_printed          = 0.;
+    unsigned int  next_frame            = 0;
+    unsigned long first_step            = 0; // of this run
+    double        start_of_run          = 0.;
+    double        travel_of_last_record = 0.;
+    unsigned int  max_in_body           = 0;
+    bool          at_lid                = false;
+    double        point_steps           = 0.;
     std::chrono::steady_clock::time_point start_time;
   };
 } // namespace CaissonMPM

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The motion of a rigid body along the direction of its shape.
+#ifndef caisson_mpm_bodies_body_motion_h
+#define caisson_mpm_bodies_body_motion_h
+
+#include <caisson_mpm/base/run_totals.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace CaissonMPM
+{
+  /**
+   * Where the body is and how fast it moves. A motion is a state, which each
+   * step advances: its future is not known to anyone else. Only a motion that
+   * is prescribed can tell when the body will be where.
+   *
+   * A motion is one class in one file; it declares its own entries and has one
+   * line in the list of rigid_body.cc. It is the same on all ranks; not
+   * collective.
+   */
+  class BodyMotion : public dealii::ParameterAcceptor
+  {
+  public:
+    /** @p section is that of the entries of the motion. */
+    explicit BodyMotion(const std::string &section)
+      : ParameterAcceptor(section)
+    {}
+
+    /** The value of the entry Motion that chooses this motion. */
+    virtual std::string
+    name() const = 0;
+
+    /** What moves the body, in a few words, for the text of the entry Motion.
+     */
+    virtual std::string
+    description() const = 0;
+
+    /** Throw BadInput where the entries of the chosen motion contradict each
+     * other. */
+    virtual void
+    check_parameters() const
+    {}
+
+    /** Return to the start: no travel at time 0. */
+    virtual void
+    start()
+    {
+      time_ = travel_ = mean_velocity_ = velocity_ = 0.;
+    }
+
+    /** Whether advance() needs the force on the body, which must be summed over
+     * the ranks. */
+    virtual bool
+    needs_force() const
+    {
+      return false;
+    }
+
+    /**
+     * Advance by one step. @p force is that of the soil on the body in the
+     * previous step, in the direction of a positive travel, on the whole
+     * circumference (per metre in plane strain); 0 where it is not needed.
+     * Units: s, N.
+     */
+    void
+    advance(const double dt, const double force)
+    {
+      const double before = travel_;
+      move(dt, force);
+      time_ += dt;
+      mean_velocity_ = (travel_ - before) / dt;
+    }
+
+    /** How far the body has moved. Units: m. */
+    double
+    travel() const
+    {
+      return travel_;
+    }
+
+    /** The velocity at the present time. Units: m/s. */
+    double
+    velocity() const
+    {
+      return velocity_;
+    }
+
+    /** The velocity of the whole last step, with which body and mesh move
+     * alike. Units: m/s. */
+    double
+    mean_velocity() const
+    {
+      return mean_velocity_;
+    }
+
+    /** Return the first time at which the body has moved by @p travel:
+     * infinity if that never happens, and no value where the motion cannot know
+     * it. Units: s. */
+    virtual std::optional<double>
+    time_of_travel(const double /*travel*/) const
+    {
+      return {};
+    }
+
+    /** Return the smallest and the largest travel until @p time, where the
+     * motion can know it. Units: m. */
+    virtual std::optional<std::pair<double, double>>
+    travel_range(const double /*time*/) const
+    {
+      return {};
+    }
+
+    /** Register the state. A motion that has more of it than travel and
+     * velocity adds the rest. */
+    virtual void
+    register_totals(RunTotals &totals)
+    {
+      totals.keep(name() + "_motion_time", time_);
+      totals.keep(name() + "_motion_travel", travel_);
+      totals.keep(name() + "_motion_velocity", velocity_);
+    }
+
+  protected:
+    /** Set travel_ and velocity_ to those at the end of the step; time_ is the
+     * time at its beginning. */
+    virtual void
+    move(const double dt, const double force) = 0;
+
+    double time_ = 0., travel_ = 0., velocity_ = 0.;
+
+  private:
+    double mean_velocity_ = 0.;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The shape of a rigid body.
+#ifndef caisson_mpm_bodies_body_shape_h
+#define caisson_mpm_bodies_body_shape_h
+
+#include <caisson_mpm/base/conventions.h>
+#include <caisson_mpm/base/named_numbers.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/point.h>
+
+#include <string>
+
+namespace CaissonMPM
+{
+  /**
+   * What the grid, the points and the output ask of a body's shape. A shape is
+   * one class in one file; it declares its own entries in section Rigid body
+   * and has one line in the list of rigid_body.cc.
+   *
+   * A shape is exact, and the background grid follows it: the cells inside the
+   * body are rigid, and its surface consists of faces of the grid. Lengths are
+   * those at the start; a travel says how far the body has moved since. Nothing
+   * here is in a loop of the time step, and nothing is collective.
+   */
+  class BodyShape : public dealii::ParameterAcceptor
+  {
+  public:
+    using Point = dealii::Point<2>;
+
+    BodyShape()
+      : ParameterAcceptor("/Rigid body")
+    {}
+
+    /** The value of the entry Kind that chooses this shape. */
+    virtual std::string
+    name() const = 0;
+
+    /** What the shape is, in a few words, for the text of the entry Kind. */
+    virtual std::string
+    description() const = 0;
+
+    /** Throw BadInput where the entries of the chosen shape contradict each
+     * other. */
+    virtual void
+    check_parameters() const
+    {}
+
+    /** Throw BadInput where an entry asks for something that only this shape
+     * has, and another one is chosen. */
+    virtual void
+    check_not_chosen() const
+    {}
+
+    /** Whether there is a body at all. */
+    virtual bool
+    exists() const
+    {
+      return true;
+    }
+
+    /** Return the extent in r and z: of the skirt of a caisson, else of the
+     * whole body. Units: m. */
+    virtual double
+    left() const = 0;
+    virtual double
+    right() const = 0;
+    virtual double
+    bottom() const = 0;
+    virtual double
+    top() const = 0;
+
+    /** Return the depth of the body's lowest point, 0 where the body does not
+     * penetrate. Units: m. */
+    virtual double
+    initial_depth() const
+    {
+      return -bottom();
+    }
+
+    /** Return the height of a pointed tip, 0 for a flat one. Units: m. */
+    virtual double
+    tip_height() const
+    {
+      return 0.;
+    }
+
+    /** Return the height of the zone below and above a pointed tip in which
+     * rows of cells that follow the tip become level again. Units: m. */
+    virtual double
+    height_of_bent_rows() const
+    {
+      return 8. * tip_height(); // rows below keep 7/8 of their height
+    }
+
+    /** Return the height of the lower surface at radius r between left() and
+     * right(). Units: m. */
+    virtual double
+    lower_surface(const double /*r*/) const
+    {
+      return bottom();
+    }
+
+    virtual bool
+    has_lid() const
+    {
+      return false;
+    }
+
+    /** Return the height of the lid's lower face. Units: m. */
+    virtual double
+    lower_face_of_lid() const
+    {
+      return top();
+    }
+
+    /** Whether the radius of the body grows instead of its depth. The body then
+     * has the height of the mesh. */
+    virtual bool
+    expands() const
+    {
+      return false;
+    }
+
+    /** Return the width of the cells at the body that the shape asks for; 0 if
+     * it does not. Units: m. */
+    virtual double
+    cell_width() const
+    {
+      return 0.;
+    }
+
+    /** Return the number of cells across a thin wall; 0 without one. */
+    virtual unsigned int
+    cells_across_wall() const
+    {
+      return 0;
+    }
+
+    /** Whether a place is inside the body, by more than round-off, after a
+     * travel. */
+    virtual bool
+    contains(const Point &p, const double travel) const = 0;
+
+    /** Return the direction of a positive travel. */
+    virtual Vector2
+    direction() const
+    {
+      return Vector2({0., -1.});
+    }
+
+    /** Return where a place of the body is after a travel. */
+    virtual Point
+    moved(const Point &p, const double travel) const
+    {
+      return Point(p[0], p[1] - travel);
+    }
+
+    /** Return the lengths that pictures and design methods need, with their
+     * names in run.json. */
+    virtual NamedNumbers
+    dimensions() const
+    {
+      return {};
+    }
+
+  protected:
+    /** A length below which a place counts as on the surface. Units: m. */
+    static constexpr double round_off = 1e-9;
+
+    /** Whether a place is inside left(), right(), bottom() and top(). */
+    bool
+    is_within_extent(const Point &p) const
+    {
+      return p[0] > left() + round_off && p[0] < right() - round_off &&
+             p[1] < top() - round_off && p[1] > bottom() + round_off;
+    }
+
+    // Entries that several shapes have. Each declares them for itself, so that
+    // it has its own copy; the words are the same.
+    void
+    add_outer_diameter(double &diameter);
+    void
+    add_skirt_length(double &length);
+    void
+    add_initial_penetration(double &depth);
+    void
+    add_cells_across(unsigned int &n);
+  };
+} // namespace CaissonMPM
+
+#endif

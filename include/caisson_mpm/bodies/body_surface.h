@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The surface of a rigid body: what contact must know of the body.
+#ifndef caisson_mpm_bodies_body_surface_h
+#define caisson_mpm_bodies_body_surface_h
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <array>
+#include <string>
+
+namespace CaissonMPM
+{
+  /** The surfaces of a body, for friction and for the split of its forces. */
+  enum Surface : unsigned int
+  {
+    tip        = 0, // faces that look down, but for those of a lid
+    inner_wall = 1, // vertical faces towards the axis
+    outer_wall = 2, // vertical faces away from the axis
+    top        = 3, // faces that look up
+    lid        = 4, // the lower face of a lid
+    n_surfaces = 5
+  };
+
+  /** The name of a surface as in the entries, for instance "inner wall". */
+  const std::string &
+  name_of(const Surface surface);
+
+  /**
+   * Friction and adhesion of each surface, and the treatment of the edges
+   * between them. Where the surfaces are follows from the grid. Not collective.
+   */
+  class BodySurface : public dealii::ParameterAcceptor
+  {
+  public:
+    /** How a node on an edge of the body, with two normals, is treated. */
+    enum class CornerNormals
+    {
+      average, // the mean of both normals
+      both,    // not into either face
+      wall,    // the normal of the vertical face
+      tip      // the normal of the other face
+    };
+
+    BodySurface();
+
+    /** The tangent of the friction angle. */
+    double
+    friction_coefficient(const Surface surface) const;
+
+    /** Contact friction angles by surface. Units: degrees. */
+    std::array<double, n_surfaces> friction_angle = {{20., 20., 20., 20., 20.}};
+    /** Contact adhesion by surface. Units: Pa. */
+    std::array<double, n_surfaces> adhesion = {{0., 0., 0., 0., 0.}};
+
+    CornerNormals corner_normals = CornerNormals::average;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A cylinder on the axis, as high as the mesh, with a radius that grows.
+#ifndef caisson_mpm_bodies_cylinder_h
+#define caisson_mpm_bodies_cylinder_h
+
+#include <caisson_mpm/bodies/body_shape.h>
+
+#include <limits>
+
+namespace CaissonMPM
+{
+  /** The travel is the growth of the radius. */
+  class Cylinder : public BodyShape
+  {
+  public:
+    Cylinder()
+    {
+      add_outer_diameter(outer_diameter);
+      add_cells_across(cells_across);
+    }
+
+    std::string
+    name() const override
+    {
+      return "cylinder";
+    }
+
+    std::string
+    description() const override
+    {
+      return "on the axis, as high as the mesh, with a radius that grows by "
+             "Velocity";
+    }
+
+    double
+    left() const override
+    {
+      return 0.;
+    }
+
+    double
+    right() const override
+    {
+      return .5 * outer_diameter;
+    }
+
+    double
+    bottom() const override
+    {
+      return -std::numeric_limits<double>::infinity();
+    }
+
+    double
+    top() const override
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+
+    double
+    initial_depth() const override
+    {
+      return 0.;
+    }
+
+    bool
+    expands() const override
+    {
+      return true;
+    }
+
+    double
+    cell_width() const override
+    {
+      return right() / cells_across;
+    }
+
+    bool
+    contains(const Point &p, const double travel) const override
+    {
+      return p[0] < right() + travel - round_off;
+    }
+
+    Vector2
+    direction() const override
+    {
+      return Vector2({1., 0.});
+    }
+
+    Point
+    moved(const Point &p, const double travel) const override
+    {
+      return Point(p[0] * (1. + travel / right()), p[1]);
+    }
+
+  private:
+    double       outer_diameter = 6.;
+    unsigned int cells_across   = 2;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/run_totals.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace CaissonMPM
+{
+  void
+  RunTotals::insert(const Total &total)
+  {
+    Assert(std::none_of(totals.begin(),
+                        totals.end(),
+                        [&](const Total &t) { return t.name == total.name; }),
+           dealii::ExcMessage(total.name + " is registered twice"));
+    totals.push_back(total);
+  }
+
+
+
+  std::vector<std::string>
+  RunTotals::count_names() const
+  {
+    std::vector<std::string> names;
+    for (const Total &total : totals)
+      if (total.is_count)
+        names.push_back(total.name);
+    return names;
+  }
+
+
+
+  NamedNumbers
+  RunTotals::counts() const
+  {
+    NamedNumbers result;
+    for (const Total &total : totals)
+      if (total.is_count)
+        result.emplace_back(total.name, total.get());
+    return result;
+  }
+
+
+
+  void
+  RunTotals::bring_to_first_rank(const MPI_Comm communicator)
+  {
+    if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
+      return;
+    std::vector<double> values;
+    for (const Total &total : totals)
+      if (total.is_sum)
+        values.push_back(total.get());
+    dealii::Utilities::MPI::sum(values, communicator, values);
+    const bool is_first =
+      dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    auto value = values.begin();
+    for (const Total &total : totals)
+      if (total.is_sum)
+        total.set(is_first ? *value++ : 0.);
+  }
+
+
+
+  NamedNumbers
+  RunTotals::state() const
+  {
+    NamedNumbers result;
+    for (const Total &total : totals)
+      result.emplace_back(total.name, total.get());
+    return result;
+  }
+
+
+
+  std::string
+  RunTotals::resume(const NamedNumbers &state, const bool is_first_rank)
+  {
+    for (const Total &total : totals)
+      {
+        const auto found =
+          std::find_if(state.begin(), state.end(), [&](const auto &entry) {
+            return entry.first == total.name;
+          });
+        if (found == state.end())
+          return total.name;
+        total.set(total.is_sum && !is_first_rank ? 0. : found->second);
+      }
+    return "";
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/bodies/body_shape.h>
+
+#include <deal.II/base/patterns.h>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  void
+  BodyShape::add_outer_diameter(double &diameter)
+  {
+    add_parameter("Outer diameter",
+                  diameter,
+                  "The outer diameter of a caisson, of a cone and its shaft, "
+                  "or of a cylinder at the start. Units: m.",
+                  prm,
+                  Patterns::Double(1e-9));
+  }
+
+
+
+  void
+  BodyShape::add_skirt_length(double &length)
+  {
+    add_parameter("Skirt length",
+                  length,
+                  "The length of a caisson's skirt, or of a cone with its "
+                  "shaft, measured from the lowest point of the tip. Units: m.",
+                  prm,
+                  Patterns::Double(1e-9));
+  }
+
+
+
+  void
+  BodyShape::add_initial_penetration(double &depth)
+  {
+    add_parameter("Initial penetration",
+                  depth,
+                  "The depth of the tip's lowest point at the start, to which "
+                  "a caisson or cone is wished in place. Units: m.",
+                  prm,
+                  Patterns::Double(0.));
+  }
+
+
+
+  void
+  BodyShape::add_cells_across(unsigned int &n)
+  {
+    add_parameter(
+      "Cells across the wall",
+      n,
+      "The number of cells across the wall of a caisson, or across the radius "
+      "of a cone or cylinder: the width of the cells at the tip is the "
+      "thickness over this number, which must be even for a triangular tip. "
+      "Units: none.",
+      prm,
+      Patterns::Integer(1, 64));
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/choice.h>
+#include <caisson_mpm/base/conventions.h>
+#include <caisson_mpm/bodies/body_surface.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <cmath>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  const std::string &
+  name_of(const Surface surface)
+  {
+    static const std::array<std::string, n_surfaces> names = {
+      {"tip", "inner wall", "outer wall", "top", "lid"}};
+    return names[surface];
+  }
+
+
+
+  BodySurface::BodySurface()
+    : ParameterAcceptor("/Rigid body")
+  {
+    add_choice(*this,
+               "Corner normals",
+               corner_normals,
+               {{"average", CornerNormals::average},
+                {"both", CornerNormals::both},
+                {"wall", CornerNormals::wall},
+                {"tip", CornerNormals::tip}},
+               "At the nodes where two faces of the body meet, the normal is "
+               "the average of both faces, that of the wall, or that of the "
+               "tip; with both, soil may not move into either face. Units: "
+               "none.");
+    for (unsigned int s = 0; s < n_surfaces; ++s)
+      {
+        const std::string &name = name_of(static_cast<Surface>(s));
+        add_parameter("Friction angle of the " + name,
+                      friction_angle[s],
+                      "The angle of friction between soil and the body's " +
+                        name + ". Units: degrees.",
+                      prm,
+                      Patterns::Double(0., 89.));
+        add_parameter("Adhesion of the " + name,
+                      adhesion[s],
+                      "The adhesion between soil and the body's " + name +
+                        ". Units: Pa.",
+                      prm,
+                      Patterns::Double(0.));
+      }
+  }
+
+
+
+  double
+  BodySurface::friction_coefficient(const Surface surface) const
+  {
+    return std::tan(radians(friction_angle[surface]));
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/bodies/prescribed_motion.h>
+
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  PrescribedMotion::PrescribedMotion()
+    : BodyMotion("/Rigid body")
+  {
+    add_parameter("Velocity",
+                  constant_velocity,
+                  "The velocity of the body, positive downward and, of a "
+                  "cylinder's radius, outward; Velocity table replaces it. "
+                  "Units: m/s.",
+                  prm,
+                  Patterns::Double());
+    add_parameter("Ramp time",
+                  ramp_time,
+                  "The time in which the velocity grows linearly from 0 to "
+                  "Velocity. Units: s.",
+                  prm,
+                  Patterns::Double(0.));
+    add_parameter("Velocity table",
+                  table_text,
+                  "Pairs time : velocity, separated by commas, give a velocity "
+                  "that is linear in between and constant beyond; they replace "
+                  "Velocity and Ramp time. Units: s : m/s.",
+                  prm,
+                  Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"),
+                                 0,
+                                 10000));
+    parse_parameters_call_back.connect([this]() { fill_table(); });
+  }
+
+  void
+  PrescribedMotion::fill_table()
+  {
+    velocity_table.clear();
+    for (const std::string &pair : Utilities::split_string_list(table_text))
+      {
+        const auto words = Utilities::split_string_list(pair, ':');
+        velocity_table.emplace_back(Utilities::string_to_double(words[0]),
+                                    Utilities::string_to_double(words[1]));
+      }
+    if (velocity_table.empty() && ramp_time > 0.)
+      velocity_table = {{0., 0.}, {ramp_time, constant_velocity}};
+    else if (velocity_table.empty())
+      velocity_table = {{0., constant_velocity}};
+  }
+
+  void
+  PrescribedMotion::check_parameters() const
+  {
+    for (unsigned int i = 1; i < velocity_table.size(); ++i)
+      if (velocity_table[i].first <= velocity_table[i - 1].first)
+        throw BadInput("Rigid body/Velocity table: time " +
+                       to_text(velocity_table[i].first) +
+                       " s does not follow " +
+                       to_text(velocity_table[i - 1].first) +
+                       " s. List the times in increasing order.");
+  }
+
+  void
+  PrescribedMotion::start()
+  {
+    BodyMotion::start();
+    velocity_ = velocity_at(0.);
+  }
+
+  void
+  PrescribedMotion::move(const double dt, const double /*force*/)
+  {
+    travel_   = travel_at(time_ + dt);
+    velocity_ = velocity_at(time_ + dt);
+  }
+
+  double
+  PrescribedMotion::velocity_at(const double t) const
+  {
+    if (t <= velocity_table.front().first)
+      return velocity_table.front().second;
+    for (unsigned int i = 1; i < velocity_table.size(); ++i)
+      if (t < velocity_table[i].first)
+        {
+          const auto &a = velocity_table[i - 1], &b = velocity_table[i];
+          return a.second +
+                 (b.second - a.second) * (t - a.first) / (b.first - a.first);
+        }
+    return velocity_table.back().second;
+  }
+
+  double
+  PrescribedMotion::travel_at(const double t) const
+  {
+    // exact: the velocity is linear between the times of the table
+    double distance = 0., from = 0.;
+    for (const auto &entry : velocity_table)
+      if (entry.first > from && entry.first < t)
+        {
+          distance += .5 * (velocity_at(from) + velocity_at(entry.first)) *
+                      (entry.first - from);
+          from = entry.first;
+        }
+    return distance + .5 * (velocity_at(from) + velocity_at(t)) * (t - from);
+  }
+
+  std::optional<double>
+  PrescribedMotion::time_of_travel(const double d) const
+  {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (d == 0.)
+      return 0.;
+    const double end  = std::max(velocity_table.back().first, 0.);
+    double       from = 0.;
+    for (const double to : turning_times(end))
+      {
+        // monotone from one of these times to the next
+        const double sign = travel_at(to) > travel_at(from) ? 1. : -1.;
+        if (sign * (d - travel_at(from)) >= 0. &&
+            sign * (travel_at(to) - d) >= 0.)
+          {
+            double low = from, high = to;
+            for (unsigned int i = 0; i < 200 && low < high; ++i)
+              {
+                const double middle = .5 * (low + high);
+                (sign * (travel_at(middle) - d) < 0. ? low : high) = middle;
+              }
+            return high;
+          }
+        from = to;
+      }
+    const double left = d - travel_at(end), v = velocity_table.back().second;
+    return left * v > 0. ? end + left / v : never;
+  }
+
+  std::vector<double>
+  PrescribedMotion::turning_times(const double end) const
+  {
+    std::vector<double> times;
+    for (unsigned int i = 0; i < velocity_table.size(); ++i)
+      {
+        const auto &b = velocity_table[i];
+        if (i > 0)
+          {
+            const auto &a = velocity_table[i - 1];
+            if (a.second * b.second < 0.)
+              times.push_back(a.first + (b.first - a.first) * a.second /
+                                          (a.second - b.second));
+          }
+        times.push_back(b.first);
+      }
+    times.push_back(end);
+    times.erase(std::remove_if(times.begin(),
+                               times.end(),
+                               [end](const double t) {
+                                 return t <= 0. || t > end;
+                               }),
+                times.end());
+    std::sort(times.begin(), times.end());
+    return times;
+  }
+
+  std::optional<std::pair<double, double>>
+  PrescribedMotion::travel_range(const double t) const
+  {
+    std::pair<double, double> range(0., 0.);
+    for (const double turn : turning_times(t))
+      {
+        range.first  = std::min(range.first, travel_at(turn));
+        range.second = std::max(range.second, travel_at(turn));
+      }
+    return range;
+  }
+} // namespace CaissonMPM
