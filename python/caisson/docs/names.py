@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Checks the names in the documents: files, entries of scenes, and the text's form.
+
+A word in backticks that looks like a path of the source tree must exist. One
+that begins with the name of a section, such as `Grid/Top`, must be an entry. A
+line outside tables and code may have at most 100 characters.
+
+Usage: python3 -m caisson.docs.names PRINTED
+  PRINTED: the output of caisson_mpm --print-parameters
+"""
+import re
+import sys
+from pathlib import Path
+
+from caisson.docs.parameters import Section, parsed
+
+ROOT = Path(__file__).resolve().parents[3]
+# Folders of the tree, and those of the C++ sources, which are named without the
+# folders "source" and "include/caisson_mpm" above them.
+FOLDERS = "prm scripts tests doc python benchmarks source include".split()
+FLOORS = "base kernels materials bodies domain operators output checks restart".split()
+# Code, formulas, and the part of the benchmarks that scripts/speed writes.
+NOT_WRAPPED = r"```.*?```|\$\$.*?\$\$|<!-- speed: begin.*speed: end -->"
+BRITISH = re.compile(
+    r"\b(metres?|neighbours?\w*|centres?|centred|colour\w*|behaviour|modell(?:ed|ing)"
+    r"|licence|regularis\w*|normalis\w*|localis\w*|grey|fulfil|programme)\b",
+    re.IGNORECASE,
+)
+
+
+def entries_of(section: Section, path: str = "") -> set[str]:
+    """The paths of all entries and sections in a section."""
+    found = {path + entry.name for entry in section.entries}
+    for inner in section.sections:
+        found.add(path + inner.name)
+        found |= entries_of(inner, f"{path}{inner.name}/")
+    return found
+
+
+def exists(name: str) -> bool:
+    """Whether a path of the tree or of the C++ sources exists."""
+    places = [ROOT / name, ROOT / "source" / name, ROOT / "include/caisson_mpm" / name]
+    return any(
+        place.exists() or any(place.parent.glob(place.name.replace("NAME", "*")))
+        for place in places
+    )
+
+
+def is_path(word: str) -> bool:
+    """Whether a word names a file or a folder of the tree."""
+    if not re.fullmatch(r"[\w.*/-]+", word):
+        return False
+    folder, slash, _ = word.partition("/")
+    return bool(slash) and folder in FOLDERS + FLOORS + ["simulation"]
+
+
+def faults_of(page: Path, entries: set[str]) -> list[str]:
+    """What is wrong in one page."""
+    faults = []
+    text = page.read_text()
+    code = re.findall(r"(?<!`)`([^`\n]+)`(?!`)", text)
+    for word in (word.strip() for word in code):
+        path, section = word.split("=")[0].strip(), word.split("/")[0]
+        if is_path(word.split(" ")[0]) and not exists(word.split(" ")[0]):
+            faults.append(f"there is no file {word}")
+        elif "/" in path and section in entries and "Layer k" not in path:
+            if path.rstrip("/") not in entries:
+                faults.append(f"there is no entry {path}")
+    own_words = text.split("## References")[0]  # titles of papers stay as they are
+    faults += [f"British spelling: {word}" for word in set(BRITISH.findall(own_words))]
+    outside = re.sub(NOT_WRAPPED, "", text, flags=re.DOTALL)
+    for line in outside.splitlines():
+        if len(line) > 100 and "|" not in line and "http" not in line:
+            faults.append(f"a line of {len(line)} characters: {line[:40]}...")
+    return faults
+
+
+def main() -> None:
+    """Prints what is wrong in all pages; ends with status 1 where something is."""
+    entries = entries_of(parsed(Path(sys.argv[1]).read_text()))
+    pages = [*sorted(ROOT.glob("*.md")), *sorted(ROOT.glob("doc/**/*.md"))]
+    faults = [
+        f"{page.relative_to(ROOT)}: {fault}"
+        for page in pages
+        if page.name != "parameters.md"
+        for fault in faults_of(page, entries)
+    ]
+    print("\n".join(faults), end="\n" if faults else "")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()
