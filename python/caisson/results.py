@@ -92,6 +92,27 @@ class Results:
         """Sizes, times and counts: run.json."""
         return self._json("run.json")
 
+    @property
+    def scene(self) -> dict[str, Any]:
+        """The body and the layers of the soil, from run.json; empty where a run
+        has left none yet, as one that still runs."""
+        if not (self.directory / "run.json").is_file():
+            return {}
+        return self.summary.get("scene") or {}
+
+    @property
+    def title(self) -> str:
+        """The scene's title or file, and where the results are."""
+        if not (self.directory / "run.json").is_file():
+            return str(self.directory)
+        names = (self.summary.get(key) for key in ("title", "scene_file"))
+        return ", ".join([*filter(None, names), f"results in {self.directory}"])
+
+    @property
+    def has_frames(self) -> bool:
+        """Whether the run has written frames for pictures and ParaView."""
+        return (self.directory / "points.pvd").is_file()
+
     @functools.cached_property
     def checks(self) -> dict[str, dict[str, Any]]:
         """The checks of Verification/Checks by what stands before their colon."""

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Calls of the program: the only place that knows its command line."""
 import enum
+import functools
 import hashlib
 import json
 import os
@@ -100,6 +101,12 @@ def read_parameters(
     return entries
 
 
+@functools.lru_cache
+def digest(path: Path) -> str:
+    """Return a hash of a file, which is read once."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
 class Run:
     """One call of the program: a scene with some entries set, in a directory of
     its own.
@@ -149,12 +156,14 @@ class Run:
         options = ["--output-directory", str(self.directory)]
         return [str(self.scene), *options, *set_options(self.entries)]
 
+    @functools.cached_property
     def key(self) -> str:
-        """Return a hash of what the result depends on. Raises RunError where the
-        program refuses the input."""
+        """A hash of what the result depends on. Raises RunError where the program
+        refuses the input."""
         entries = read_parameters(self.arguments(), self.program)
-        text = json.dumps([entries, self.ranks], sort_keys=True).encode()
-        return hashlib.sha256(text + self.program.read_bytes()).hexdigest()
+        entries.pop("Output/Directory")
+        text = json.dumps([entries, self.ranks, digest(self.program)], sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()
 
     def mark(self) -> dict[str, Any] | None:
         """Return what a finished run has left (key, status, wall_s, cpu_s)."""
@@ -167,7 +176,7 @@ class Run:
         """Return whether the results there are those of this run."""
         mark = self.mark()
         try:
-            return mark is not None and mark["key"] == self.key()
+            return mark is not None and mark["key"] == self.key
         except RunError:
             return False
 
@@ -193,7 +202,7 @@ class Run:
         if status not in (Status.SUCCESS, Status.FAILURE):
             return Status(status) if status in list(Status) else None
         mark = {
-            "key": self.key(),
+            "key": self.key,
             "status": status,
             "wall_s": time.monotonic() - begin,
             "cpu_s": used.ru_utime + used.ru_stime,

@@ -9,55 +9,66 @@ ends in a cell, the cell is cut to the part that its points fill.
 import numpy as np
 
 
-def cell_of(position, corners):
-    """The index [n_points] of the cell that each point lies in; points out of
+def cell_of(position: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Return the index [n_points] of the cell that each point lies in; points out of
     all columns get -1, those above or below a column its last or first cell.
 
-    corners [n_cells, 4, 2] as read_vtu.read_cells gives them.
+    position: [n_points, 2]; corners: [n_cells, 4, 2] as vtu.read_cells gives them.
     """
     result = np.full(len(position), -1)
     for left in np.unique(corners[:, 0, 0]):
         column = np.flatnonzero(corners[:, 0, 0] == left)
         column = column[np.argsort(corners[column, 0, 1])]
         right = corners[column[0], 1, 0]
-        points = np.flatnonzero((position[:, 0] >= left) &
-                                (position[:, 0] < right))
+        points = np.flatnonzero((position[:, 0] >= left) & (position[:, 0] < right))
         xi = (position[points, 0] - left) / (right - left)
-        bottoms = (np.outer(1 - xi, corners[column, 0, 1]) +
-                   np.outer(xi, corners[column, 1, 1]))
+        bottoms = np.outer(1 - xi, corners[column, 0, 1]) + np.outer(
+            xi, corners[column, 1, 1]
+        )
         row = (position[points, 1:] >= bottoms).sum(axis=1) - 1
         result[points] = column[np.maximum(row, 0)]
     return result
 
 
-def per_point_length(points, area, radius):
-    """What a point's volume is divided by to give its area in the (r, z)
-    plane: 2 pi r, or 1 m in plane strain. Cells full of points tell which."""
+def per_point_length(
+    points: np.ndarray, area: np.ndarray, radius: np.ndarray
+) -> np.ndarray:
+    """Return what a point's volume is divided by to give its area in the (r, z)
+    plane: 2 pi r, or 1 m in plane strain. Cells full of points tell which.
+
+    points: volume in each cell; area and radius of each cell; all [n_cells].
+    """
     used = points > 0
     around = points[used] / (area[used] * 2 * np.pi * radius[used])
     straight = points[used] / area[used]
     distance = [abs(np.log(np.median(x))) for x in (around, straight)]
-    return 2 * np.pi * radius if distance[0] <= distance[1] else \
-        np.ones_like(radius)
+    return 2 * np.pi * radius if distance[0] <= distance[1] else np.ones_like(radius)
 
 
 class CellMeans:
     """The cells that hold soil, as polygons, and means over their points."""
 
-    def __init__(self, position, volume, corners, rigid):
+    def __init__(
+        self,
+        position: np.ndarray,
+        volume: np.ndarray,
+        corners: np.ndarray,
+        rigid: np.ndarray,
+    ) -> None:
         """position [n_points, 2], volume [n_points]; of the grid corners
         [n_cells, 4, 2] and rigid [n_cells]."""
         n = len(corners)
         self.cell = cell_of(position, corners)
         self.cell[self.cell >= 0] = np.where(
-            rigid[self.cell[self.cell >= 0]], -1,
-            self.cell[self.cell >= 0])  # written in single precision
+            rigid[self.cell[self.cell >= 0]], -1, self.cell[self.cell >= 0]
+        )  # written in single precision
         self.known = self.cell >= 0
         self.volume = volume
         self.total = self._sum(volume, n)
         width = corners[:, 1, 0] - corners[:, 0, 0]
-        height = (corners[:, 3, 1] + corners[:, 2, 1] -
-                  corners[:, 0, 1] - corners[:, 1, 1]) / 2
+        height = (
+            corners[:, 3, 1] + corners[:, 2, 1] - corners[:, 0, 1] - corners[:, 1, 1]
+        ) / 2
         radius = (corners[:, 0, 0] + corners[:, 1, 0]) / 2
         length = per_point_length(self.total, width * height, radius)
         self.area = volume / np.where(self.known, length[self.cell], 1)
@@ -65,10 +76,12 @@ class CellMeans:
         fill = self.total / (width * height * length)
         self.polygons = self._cut_surface(corners, rigid, fill)[self.used]
 
-    def _sum(self, weights, n):
+    def _sum(self, weights: np.ndarray, n: int) -> np.ndarray:
         return np.bincount(self.cell[self.known], weights[self.known], n)
 
-    def _cut_surface(self, corners, rigid, fill):
+    def _cut_surface(
+        self, corners: np.ndarray, rigid: np.ndarray, fill: np.ndarray
+    ) -> np.ndarray:
         """Lower the top of cells with soil that have only void above."""
         below = {(x[0, 0], x[0, 1]): i for i, x in enumerate(corners)}
         result = corners.copy()
@@ -77,10 +90,11 @@ class CellMeans:
             if above is None or not (rigid[above] or self.total[above] > 0):
                 for top, bottom in ((3, 0), (2, 1)):
                     result[i, top] = corners[i, bottom] + fill[i] * (
-                        corners[i, top] - corners[i, bottom])
+                        corners[i, top] - corners[i, bottom]
+                    )
         return result
 
-    def of(self, values):
-        """The means of a field [n_points] over the polygons, by volume."""
+    def of(self, values: np.ndarray) -> np.ndarray:
+        """Return the means of a field [n_points] over the polygons, by volume."""
         sums = self._sum(self.volume * values, len(self.total))
         return sums[self.used] / self.total[self.used]

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command line: scripts/caisson COMMAND ..."""
+import argparse
+import importlib
+import sys
+
+STUDY = "caisson.study_command"
+# command: module with declare(parser) and main(options), and what it does
+COMMANDS = {
+    "run": ("caisson.launch", "run a scene and draw its pictures"),
+    "plot": ("caisson.plot", "draw the pictures of runs"),
+    "curve": ("caisson.curve", "print forces and other numbers of runs"),
+    "study": (STUDY, "run any study and evaluate it"),
+    "verify": (STUDY, "run the verification ladder"),
+    "stability": (STUDY, "run the hard scenes of prm/stability"),
+    "accuracy": (STUDY, "measure error against time over meshes and methods"),
+    "error-bar": (STUDY, "make the error bar of prm/jack.prm"),
+    "tip": (STUDY, "study the tip force of prm/jack_coarse.prm"),
+    "speed": (STUDY, "measure the speed of kernels and program, as ratios"),
+    "cavity-expansion": (
+        "caisson.design.cavity_expansion",
+        "compare a growing cavity with its exact pressure",
+    ),
+    "element-tests": (
+        "caisson.design.hypoplastic_sand",
+        "integrate element tests of hypoplastic sand independently",
+    ),
+    "manufactured": (
+        "caisson.design.manufactured",
+        "check the manufactured solutions against first principles",
+    ),
+    "draw-blocks": ("caisson.plot.blocks", "draw doc/pictures/blocks.png"),
+    "check-floors": ("caisson.developer.floors", "check the order of the sources"),
+}
+
+
+def main(words: list[str]) -> int:
+    """Run one command; only its own module is loaded."""
+    parser = argparse.ArgumentParser(
+        prog="caisson",
+        description="Runs, results, studies and checks of caisson_mpm.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="\n".join(f"  {name:18}{text}" for name, (_, text) in COMMANDS.items()),
+    )
+    parser.add_argument("command", choices=COMMANDS, metavar="COMMAND")
+    name = parser.parse_args(words[:1]).command
+    module = importlib.import_module(COMMANDS[name][0])
+    own = argparse.ArgumentParser(
+        prog=f"caisson {name}",
+        description=module.__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    module.declare(own)
+    return int(module.main(own.parse_args(words[1:])))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

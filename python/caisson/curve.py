@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Prints numbers of one or more installations, from their history.csv.
+
+Per directory: tip force and friction (kN, means over 0.2 m) at each depth, then
+  roughness  standard deviation of the curve minus its 0.2 m running mean over
+             the mean of the latter, from 1 m on (%), tip and total
+  KE/W       largest kinetic energy over external work from 1 m on (%)
+and the largest counts of points in the body and of limiter firings.
+"""
+import argparse
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from caisson import curves
+from caisson.results import Results, ResultsError, Table
+
+DEPTHS = "1,1.5,2,3,4,5,6,6.4"
+
+
+def largest(history: Table, column: str) -> str:
+    """Return the largest value of a count."""
+    return f"{history[column].max():.0f}"
+
+
+def describe(directory: Path, depths: Sequence[float]) -> Iterator[str]:
+    """Yield the lines on one run. Raises ResultsError."""
+    history = Results(directory).history
+    depth, tip = history["penetration_m"], history["tip_force_N"]
+    friction = history["inner_friction_N"] + history["outer_friction_N"]
+    at = np.array([x for x in depths if depth.min() <= x <= depth.max()])
+    width = curves.FORCE_WINDOW
+    tips = curves.window_means(depth, tip, at, width) / 1e3
+    frictions = curves.window_means(depth, friction, at, width) / 1e3
+    yield str(directory)
+    for x, a, b in zip(at, tips, frictions):
+        yield f"  {x:5.2f} m: tip {a:7.1f}  friction {b:7.1f} kN"
+    if (depth >= curves.FROM).any():
+        rough = [
+            100 * curves.roughness(depth, force)
+            for force in (tip, history["total_force_N"])
+        ]
+        energy = 100 * curves.largest_energy_ratio(history)
+        yield (
+            f"  roughness: tip {rough[0]:.2f} %, total {rough[1]:.2f} %; "
+            f" KE/W {energy:.3f} %"
+        )
+    yield (
+        f"  points in body {largest(history, 'points_in_body')}, limiter"
+        f" {largest(history, 'limiter_count')}, steps {largest(history, 'step')}"
+    )
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson curve`."""
+    parser.add_argument("--at", default=DEPTHS, help="depths (m), with commas")
+    parser.add_argument("directories", nargs="+", type=Path, metavar="DIR")
+
+
+def main(options: argparse.Namespace) -> int:
+    """Print the numbers of each run; a run that cannot be read is named."""
+    depths, status = [float(depth) for depth in options.at.split(",")], 0
+    for directory in options.directories:
+        try:
+            print("\n".join(describe(directory, depths)))
+        except ResultsError as error:
+            print(f"curve: {error}", file=sys.stderr)
+            status = 1
+    return status

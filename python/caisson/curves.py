@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Numbers of a curve: every mean over a window is taken here.
+
+The rows of history.csv are means since the row before, so a force is averaged
+over a window of penetration before it is shown or compared. One definition
+holds for all of them:
+
+    The window of width w about x holds the rows whose position lies between
+    x - w/2 and x + w/2, both ends included; a distance that exceeds w/2 by no
+    more than EDGE still counts, so that rounding in the tenth digit does not
+    decide whether a row at the end is in. The mean is that of the values of
+    these rows, each with the same weight. It is nan where the window reaches
+    beyond the first or the last position of the curve, and where it holds no
+    finite value.
+
+Positions are metres of penetration or of travelled path.
+"""
+import numpy as np
+
+from caisson.results import Table
+
+EDGE = 1e-9  # m
+FORCE_WINDOW = 0.2  # m, of the forces of a caisson
+FROM = 1.0  # m, of roughness and energy ratio: the start is left out
+
+
+def in_window(position: np.ndarray, at: float, width: float) -> np.ndarray:
+    """Return which of the positions [n] lie in the window about at: [n]."""
+    return np.abs(position - at) <= width / 2 + EDGE
+
+
+def is_whole(position: np.ndarray, at: float, width: float) -> bool:
+    """Return whether the window about at lies within the positions [n]."""
+    low, high = at - width / 2 + EDGE, at + width / 2 - EDGE
+    return bool(position.min() <= low and high <= position.max())
+
+
+def window_mean(
+    position: np.ndarray, values: np.ndarray, at: float, width: float
+) -> float:
+    """Return the mean of values [n] in the window about at, or nan."""
+    chosen = values[in_window(position, at, width)]
+    chosen = chosen[np.isfinite(chosen)]
+    if len(chosen) == 0 or not is_whole(position, at, width):
+        return float("nan")
+    return float(chosen.mean())
+
+
+def window_means(
+    position: np.ndarray, values: np.ndarray, at: np.ndarray, width: float
+) -> np.ndarray:
+    """Return the means in windows about each of at [m]: [m]."""
+    return np.array([window_mean(position, values, x, width) for x in at])
+
+
+def path_of(position: np.ndarray) -> np.ndarray:
+    """Return the travelled path [n] at each position [n], which may go back."""
+    return np.concatenate([[0.0], np.cumsum(np.abs(np.diff(position)))])
+
+
+def running_mean(position: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
+    """Return the mean in the window of travelled path about each row: [n]. The
+    first and the last half window are nan."""
+    path = path_of(position)
+    return window_means(path, values, path, width)
+
+
+def window_rms(position: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
+    """Return the root of the mean square of values [n] about each position [n];
+    at the ends over the part of the window that there is."""
+    near = [in_window(position, at, width) for at in position]
+    return np.array([np.sqrt(np.mean(values[rows] ** 2)) for rows in near])
+
+
+def roughness(position: np.ndarray, force: np.ndarray) -> float:
+    """Return the standard deviation of a force about its running mean over the
+    mean of the latter, from FROM on (a share of 1)."""
+    mean = running_mean(position, force, FORCE_WINDOW)
+    used = (position >= FROM) & np.isfinite(mean)
+    if not used.any():
+        return float("nan")
+    return float(np.std(force[used] - mean[used]) / np.mean(mean[used]))
+
+
+def largest_energy_ratio(history: Table) -> float:
+    """Return the largest kinetic energy over external work, from FROM on (a
+    share of 1)."""
+    deep = history["penetration_m"] >= FROM
+    if not deep.any():
+        return float("nan")
+    ratio = history["kinetic_energy_J"][deep] / history["external_work_J"][deep]
+    return float(ratio.max())
+
+
+def forces_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
+    """Return the means of a force over FORCE_WINDOW about some depths [m] (m of
+    penetration): [m]."""
+    return window_means(history["penetration_m"], history[column], depths, FORCE_WINDOW)
+
+
+def relative_error(values: np.ndarray, reference: np.ndarray) -> float:
+    """Return the root of the mean square of values / reference - 1."""
+    return float(np.sqrt(np.mean((values / reference - 1) ** 2)))

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Penetration resistance of a caisson that is pushed into layers of sand.
+
+Houlsby and Byrne (2005), Design procedures for installation of suction
+caissons in sand, doi:10.1680/geng.2005.158.3.135. Plain: vertical stress
+gamma' z beside the wall. Enhanced: the friction on the wall adds to the
+vertical stress beside it, inside over the whole plug, outside out to m times
+the radius:
+
+    d sigma'_v / dz = gamma' + sigma'_v / Z,   Z_i = D_i / (4 K tan(delta_i)),
+                                               Z_o = D_o (m^2 - 1) / (4 K tan(delta_o)).
+
+The paper has one layer. With several, gamma' and K are those of the layer at the
+depth, and the stress goes on from layer to layer without a jump. The tip is a
+strip footing, in the layer in which it is, under the (unequal) stress of both
+sides.
+
+SI units, angles in degrees.
+"""
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import exp, inf, pi, radians, tan
+
+# N_gamma of a rough strip footing by the method of characteristics (Martin
+# 2005, Exact bearing capacity calculations using the method of
+# characteristics): {friction angle in degrees: N_gamma}.
+N_GAMMA = {
+    15: 1.181,
+    20: 2.839,
+    25: 6.491,
+    30: 14.754,
+    35: 34.476,
+    40: 85.566,
+    45: 234.21,
+}
+
+
+def bearing_factor_surcharge(phi: float) -> float:
+    """Return N_q of a strip footing (Reissner 1924)."""
+    return exp(pi * tan(radians(phi))) * tan(radians(45 + phi / 2)) ** 2
+
+
+def bearing_factor_weight(phi: float) -> float:
+    """Return N_gamma; 0, on the safe side, outside the table of 15 to 45 degrees.
+
+    Between two entries N_gamma / ((N_q - 1) tan(phi)), which hardly changes
+    with phi, is interpolated.
+    """
+
+    def scale(angle: float) -> float:
+        return (bearing_factor_surcharge(angle) - 1) * tan(radians(angle))
+
+    if phi in N_GAMMA:
+        return N_GAMMA[int(phi)]
+    below = [angle for angle in N_GAMMA if angle < phi]
+    above = [angle for angle in N_GAMMA if angle > phi]
+    if not below or not above:
+        return 0.0
+    low, high = max(below), min(above)
+    weight = (phi - low) / (high - low)
+    ratio = (1 - weight) * N_GAMMA[low] / scale(low) + weight * N_GAMMA[high] / scale(
+        high
+    )
+    return ratio * scale(phi)
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A layer of sand, down to the top of the next one."""
+
+    top: float  # m below the surface
+    unit_weight: float  # effective, N/m3
+    friction_angle: float
+    lateral_stress_ratio: float  # K
+
+
+class Wall:
+    """One side of the wall: the vertical stress beside it, and its friction."""
+
+    def __init__(self, diameter: float, reach: float, friction_angle: float) -> None:
+        """reach: Z K tan(delta), m: D/4 inside, D (m^2 - 1)/4 outside."""
+        self.diameter, self.reach = diameter, reach
+        self.tan_delta = tan(radians(friction_angle))
+
+    def step(
+        self, layer: Layer, stress: float, thickness: float, enhanced: bool
+    ) -> tuple[float, float]:
+        """Return the vertical stress below a piece of a layer, from that above
+        it, and the friction on the piece."""
+        k_tan = layer.lateral_stress_ratio * self.tan_delta
+        d, z = thickness, self.reach / k_tan if k_tan > 0 else inf
+        if enhanced and z < inf:
+            growth = exp(d / z) - 1
+            below = stress + (stress + layer.unit_weight * z) * growth
+            integral = stress * z * growth + layer.unit_weight * z**2 * (
+                growth - d / z
+            )
+        else:
+            below = stress + layer.unit_weight * d
+            integral = stress * d + layer.unit_weight * d**2 / 2
+        return below, integral * k_tan * pi * self.diameter
+
+
+class Caisson:
+    """The resistance of one caisson; h is the embedment of its tip (m), and all
+    forces are N."""
+
+    def __init__(
+        self,
+        diameter: float,
+        wall_thickness: float,
+        layers: Sequence[Layer],
+        inner_friction_angle: float,
+        outer_friction_angle: float,
+        spread: float = 1.5,
+    ) -> None:
+        """diameter: outer one; layers: from the surface down; spread: m."""
+        self.outer_diameter, self.t = diameter, wall_thickness
+        self.layers = sorted(layers, key=lambda layer: layer.top)
+        inner = diameter - 2 * wall_thickness
+        self.inner = Wall(inner, inner / 4, inner_friction_angle)
+        self.outer = Wall(
+            diameter, diameter * (spread**2 - 1) / 4, outer_friction_angle
+        )
+
+    def pieces(self, h: float) -> list[tuple[Layer, float]]:
+        """Return the layers down to h, with the thickness that counts."""
+        bottoms = [layer.top for layer in self.layers[1:]] + [inf]
+        pairs = zip(self.layers, bottoms)
+        return [
+            (layer, min(bottom, h) - layer.top)
+            for layer, bottom in pairs
+            if layer.top < h
+        ]
+
+    def _go_down(self, wall: Wall, h: float, enhanced: bool) -> tuple[float, float]:
+        """Return the vertical stress at h and the friction down to it."""
+        stress = friction = 0.0
+        for layer, thickness in self.pieces(h):
+            stress, part = wall.step(layer, stress, thickness, enhanced)
+            friction += part
+        return stress, friction
+
+    def inner_friction(self, h: float, enhanced: bool) -> float:
+        """Return the friction on the inner wall."""
+        return self._go_down(self.inner, h, enhanced)[1]
+
+    def outer_friction(self, h: float, enhanced: bool) -> float:
+        """Return the friction on the outer wall."""
+        return self._go_down(self.outer, h, enhanced)[1]
+
+    def tip(self, h: float, enhanced: bool) -> float:
+        """Return the force on the tip, with a flat end of the wall."""
+        low, high = sorted(
+            self._go_down(wall, h, enhanced)[0] for wall in (self.inner, self.outer)
+        )
+        layer = [layer for layer in self.layers if layer.top < h or layer.top <= 0][-1]
+        n_q = bearing_factor_surcharge(layer.friction_angle)
+        n_gamma = bearing_factor_weight(layer.friction_angle)
+        weight, t = layer.unit_weight, self.t
+        x = t  # the part of the tip where the soil flows to the low side
+        if n_gamma > 0:
+            x = t / 2 + (high - low) * n_q / (4 * weight * n_gamma)
+        if high > low and x >= t:
+            end = low * n_q + weight * t * n_gamma
+        else:
+            end = high * n_q + weight * n_gamma * (t - 2 * min(x, t) ** 2 / t)
+        return end * pi * (self.outer_diameter - t) * t

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs a scene on one or more ranks and draws its pictures.
+
+The exit status is the program's: 0 success, 1 bad input, 2 failure, 3 stopped on
+request. Options of caisson_mpm follow the file.
+"""
+import argparse
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from caisson.paths import PROGRAM, ROOT
+from caisson.run import RunError, environment, mpi_command, read_parameters
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson run`."""
+    parser.usage = "%(prog)s [--ranks N] FILE.prm [option of caisson_mpm]..."
+    parser.add_argument("--ranks", type=int, default=1, metavar="N")
+    parser.add_argument("arguments", nargs=argparse.REMAINDER, metavar="FILE.prm ...")
+
+
+def directory_of(arguments: list[str]) -> Path | None:
+    """Return where the program will write, None where it will not: of bad input,
+    which it explains itself, or of options that only print."""
+    try:
+        return Path(read_parameters(arguments)["Output/Directory"])
+    except (RunError, KeyError):
+        return None
+
+
+def draw(directory: Path) -> None:
+    """Draw the pictures; without them the results are there all the same."""
+    subprocess.run([str(ROOT / "scripts/setup"), "pictures"], check=True)
+    from caisson import plot
+
+    for picture in plot.draw(directory):
+        print(f"plot: {picture}")
+
+
+def main(options: argparse.Namespace) -> int:
+    """Run the program, then draw what it wrote; return its status."""
+    if options.ranks < 1 or not options.arguments:
+        print("run: give a parameter file; the scenes are in prm/", file=sys.stderr)
+        return 1
+    directory, begin = directory_of(options.arguments), time.time()
+    words = [*mpi_command(options.ranks), str(PROGRAM), *options.arguments]
+    status = subprocess.run(words, env=environment()).returncode
+    history = directory / "history.csv" if directory else None
+    # only what this run wrote is drawn: --validate, say, writes nothing
+    if directory and history and history.exists() and history.stat().st_mtime >= begin:
+        try:
+            draw(directory)
+        except Exception as error:  # whatever it is, the run was good
+            print(
+                f"run: no pictures of {directory}: {error}; the results are not"
+                " affected",
+                file=sys.stderr,
+            )
+    return status

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures of a run, written into its directory; no display is needed."""
+import argparse
+import sys
+from pathlib import Path
+
+from caisson.results import Results, ResultsError
+
+
+def draw(directory: Path) -> list[Path]:
+    """Write all pictures of a run; return their paths.
+
+    forces.png, and where there are frames stress.png, displacement.png and, where
+    the soil changes its volume, void_ratio.png. Raises ResultsError.
+    """
+    from caisson.plot import fields, forces
+
+    if not directory.is_dir():
+        raise ResultsError(f"no directory {directory}")
+    run = Results(directory)
+    pictures = [forces.draw(directory / "forces.png", run, run.title)]
+    if run.has_frames:
+        pictures += fields.draw(run)
+    else:
+        print(f"plot: no points.pvd in {directory}, so forces only")
+    return [picture for picture in pictures if picture is not None]
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson plot`."""
+    parser.add_argument(
+        "directories",
+        nargs="+",
+        type=Path,
+        metavar="DIR",
+        help="the output directory of a run",
+    )
+
+
+def main(options: argparse.Namespace) -> int:
+    """Draw the pictures of each run; a run that cannot be drawn is named."""
+    status = 0
+    for directory in options.directories:
+        try:
+            for picture in draw(directory):
+                print(f"plot: {picture}")
+        except (ResultsError, OSError) as error:
+            print(f"plot: {error}", file=sys.stderr)
+            status = 1
+    return status

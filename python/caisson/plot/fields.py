@@ -1,0 +1,342 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Fields in the soil about the caisson, mirrored on the axis."""
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import EllipseCollection, PolyCollection
+from matplotlib.figure import Figure
+
+from caisson.plot.cells import CellMeans
+from caisson.plot.forces import penetration
+from caisson.plot.vtu import read_cells, read_points
+from caisson.results import Results, Table
+
+Series = list[tuple[float, list[Path]]]  # [(time, [files])]
+Window = tuple[float, float, float]  # radius, bottom, top (m)
+Box = tuple[float, float, float, float]  # left, right, bottom, top (m)
+Style = dict[str, Any]
+
+MOST_FRAMES = 4  # of a picture
+RIGID = "#8c8c8c"
+
+
+class Frame:
+    """The soil and the rigid body at one recorded time."""
+
+    def __init__(
+        self, time: float, files: Sequence[Path], grids: Series, history: Table
+    ) -> None:
+        """files: of the points; grids: the series of the background grid."""
+        points = read_points(files)
+        material = points.get("material", np.zeros(len(points["position"])))
+        self.soil = {name: values[material >= 0] for name, values in points.items()}
+        nearest = min(grids, key=lambda entry: abs(entry[0] - time))
+        corners, material = read_cells(nearest[1])
+        self.body = corners[material == 1]
+        self.means = CellMeans(
+            self.soil["position"], self.soil["volume"], corners, material == 1
+        )
+        self.label = f"t = {time:.3g} s"
+        if penetration(history) is not None:
+            self.label = f"penetration {depth_at(time, history):.2f} m"
+
+
+def depth_at(time: float, history: Table) -> float:
+    """Return the penetration at a time (m)."""
+    return float(np.interp(time, history["time_s"], history["penetration_m"]))
+
+
+def chosen(series: Series, history: Table, wanted: Sequence[float]) -> Series:
+    """Return the frames to draw, MOST_FRAMES at most.
+
+    wanted: the penetrations at which the scene asks for frames (m). Without any,
+    and where a run has not come to the last of them, frames are taken evenly.
+    """
+    positions = np.array([time for time, _ in series])
+    if penetration(history) is not None:
+        positions = np.array([depth_at(time, history) for time in positions])
+    low, high = positions.min(), positions.max()
+    goals = [x for x in wanted if low - 1e-3 <= x <= high + 1e-3]
+    if len(goals) < max(len(wanted), 2) or len(goals) > MOST_FRAMES:
+        goals = list(np.linspace(positions[0], positions[-1], MOST_FRAMES))
+    picks = {int(np.argmin(np.abs(positions - x))) for x in goals}
+    return [series[i] for i in sorted(picks)]
+
+
+def window_of(first: Frame, last: Frame, scene: dict[str, Any]) -> Window:
+    """Return what the picture shows about the caisson."""
+    cells = np.concatenate([first.means.polygons, last.means.polygons])
+    radius, bottom = cells[..., 0].max(), cells[..., 1].min()
+    surface = cells[..., 1].max()
+    if len(last.body):
+        diameter = scene.get("diameter_m") or 2 * last.body[..., 0].max()
+        depth = surface - last.body[..., 1].min()
+        radius = min(radius, diameter)
+        bottom = max(bottom, surface - max(1.6 * depth, diameter))
+    top = surface + 0.08 * (surface - bottom)
+    return radius, bottom, top
+
+
+def inside(frame: Frame, window: Window) -> np.ndarray:
+    """Return which painted cells lie at least partly in the window."""
+    radius, bottom, top = window
+    lower, upper = [f(frame.means.polygons, axis=1) for f in (np.min, np.max)]
+    return (lower[:, 0] < radius) & (upper[:, 1] > bottom) & (lower[:, 1] < top)
+
+
+def paint_cells(
+    axes: Axes,
+    polygons: np.ndarray,
+    values: np.ndarray,
+    style: Style,
+    sides: tuple[int, ...] = (1, -1),
+) -> PolyCollection:
+    """Draw cells [n, 4, 2] in the color of their values, on both sides of the axis."""
+    painted = PolyCollection(
+        np.concatenate([polygons * [side, 1] for side in sides]),
+        array=np.tile(values, len(sides)),
+        cmap=style["cmap"],
+        edgecolors="face",
+        linewidths=0.4,
+    )
+    painted.set_clim(style["vmin"], style["vmax"])
+    axes.add_collection(painted)
+    return painted
+
+
+def draw_body(axes: Axes, frame: Frame) -> None:
+    """Draw the rigid body, exactly: its cells."""
+    for side in (1, -1):
+        axes.add_collection(
+            PolyCollection(
+                frame.body * [side, 1],
+                facecolors=RIGID,
+                edgecolors=RIGID,
+                linewidths=0.5,
+                zorder=3,
+            )
+        )
+
+
+def draw_mirrored(
+    axes: Axes, frame: Frame, values: np.ndarray, window: Window, style: Style
+) -> PolyCollection:
+    """Draw cell means on both sides of the axis, and the body."""
+    radius, bottom, top = window
+    painted = paint_cells(axes, frame.means.polygons, values, style)
+    draw_body(axes, frame)
+    axes.axvline(0, color="0.4", linewidth=0.5, dashes=(8, 4, 2, 4))
+    axes.set_aspect("equal")
+    axes.set_xlim(-radius, radius)
+    axes.set_ylim(bottom, top)
+    if 3 * radius < top - bottom:  # no room for more labels
+        axes.set_xticks([0, radius])
+    axes.set_xlabel("r (m)")
+    axes.set_title(frame.label, fontsize=10)
+    return painted
+
+
+def nice_above(value: float) -> float:
+    """Return the least of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is
+    not below the value."""
+    if not np.isfinite(value) or value <= 0:
+        return 1.0
+    power = 10.0 ** np.floor(np.log10(value))
+    steps = [1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10]
+    return next(s * power for s in steps if s * power >= value * (1 - 1e-9))
+
+
+def panels(n: int, window: Window) -> tuple[Figure, np.ndarray]:
+    """Return a figure of n panels with the shape of the window, in pairs."""
+    columns = min(n, 2)
+    rows = -(-n // columns)
+    height = 4.4 * (window[2] - window[1]) / (2 * window[0])
+    height = min(max(height, 2.6 / rows), 7)
+    figure = Figure(
+        figsize=(4.7 * columns + 1.2, (height + 0.4) * rows + 0.3),
+        constrained_layout=True,
+    )
+    axes = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+    for panel in axes.flat[n:]:
+        panel.set_visible(False)
+    return figure, axes
+
+
+def draw_frames(
+    path: Path,
+    frames: Sequence[Frame],
+    window: Window,
+    fields: Sequence[np.ndarray],
+    style: Style,
+    label: str,
+) -> Path:
+    """Draw cell means [frame][cell] of a field, on one color scale."""
+    figure, axes = panels(len(frames), window)
+    for panel, frame, field in zip(axes.flat, frames, fields):
+        painted = draw_mirrored(panel, frame, field, window, style)
+        panel.label_outer()
+    for panel in axes[:, 0]:
+        panel.set_ylabel("z (m)")
+    figure.colorbar(
+        painted,
+        ax=axes,
+        extend="both" if style["vmin"] else "max",
+        shrink=0.7,
+        pad=0.02,
+        label=label,
+    )
+    figure.savefig(path, dpi=150)
+    return path
+
+
+def shown_values(
+    frames: Sequence[Frame], fields: Sequence[np.ndarray], window: Window
+) -> np.ndarray:
+    """Return the values of all cells in the window."""
+    return np.concatenate(
+        [field[inside(frame, window)] for frame, field in zip(frames, fields)]
+    )
+
+
+def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
+    """Draw the vertical effective stress at each frame."""
+    fields = [
+        frame.means.of(-frame.soil["effective_stress_zz"] / 1e3) for frame in frames
+    ]
+    highest = np.percentile(shown_values(frames, fields, window), 99)
+    style = {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
+    return draw_frames(
+        path,
+        frames,
+        window,
+        fields,
+        style,
+        "vertical effective stress (kPa),\n" "compression positive, mean of each cell",
+    )
+
+
+def draw_void_ratio(path: Path, frames: Sequence[Frame], window: Window) -> Path | None:
+    """Draw the void ratio at each frame; return None where it hardly changes."""
+    if "void_ratio" not in frames[0].soil:
+        return None
+    fields = [frame.means.of(frame.soil["void_ratio"]) for frame in frames]
+    low, high = np.percentile(shown_values(frames, fields, window), [1, 99])
+    if high - low < 0.05:
+        return None
+    style = {"cmap": "viridis", "vmin": low, "vmax": high}
+    return draw_frames(
+        path, frames, window, fields, style, "void ratio (-), mean of each cell"
+    )
+
+
+def draw_tip(
+    axes: Axes, frame: Frame, values: np.ndarray, box: Box, style: Style
+) -> EllipseCollection:
+    """Draw a field on a small part: a disc of its own area for every material
+    point, on the means of the cells."""
+    left, right, bottom, top = box
+    position, size = frame.soil["position"], np.sqrt(frame.means.area)
+    shown = (
+        (position[:, 0] > left - size)
+        & (position[:, 0] < right + size)
+        & (position[:, 1] > bottom - size)
+        & (position[:, 1] < top + size)
+    )
+    style = dict(
+        style,
+        vmin=0,
+        vmax=nice_above(np.percentile(values[shown], 99.5)) if shown.any() else 1,
+    )
+    paint_cells(axes, frame.means.polygons, frame.means.of(values), style, (1,))
+    discs = EllipseCollection(
+        size[shown],
+        size[shown],
+        np.zeros(shown.sum()),
+        units="x",
+        offsets=position[shown],
+        transOffset=axes.transData,
+        linewidths=0,
+        cmap=style["cmap"],
+    )
+    discs.set_array(values[shown])
+    discs.set_clim(style["vmin"], style["vmax"])
+    axes.add_collection(discs)
+    draw_body(axes, frame)
+    axes.set_xlim(left, right)
+    axes.set_ylim(bottom, top)
+    axes.set_aspect("equal")
+    axes.set_xlabel("r (m)")
+    axes.set_title("at the tip", fontsize=10)
+    return discs
+
+
+def tip_box(frame: Frame, window: Window, scene: dict[str, Any]) -> Box | None:
+    """Return a square about the tip; None: no body."""
+    if len(frame.body) == 0:
+        return None
+    corners = frame.body.reshape(-1, 2)
+    tip = corners[np.argmin(corners[:, 1])]
+    side = min(0.16 * window[0], 5 * scene.get("wall_thickness_m", window[0]))
+    left = max(tip[0] - side, 0)
+    return left, left + 2 * side, tip[1] - 1.1 * side, tip[1] + 0.9 * side
+
+
+def draw_all(axes: Axes, frame: Frame, moved: np.ndarray, window: Window) -> None:
+    """Draw the displacement of the whole soil, with its color scale."""
+    means = frame.means.of(moved)
+    highest = np.percentile(means[inside(frame, window)], 99)
+    style = {"cmap": "viridis", "vmin": 0, "vmax": nice_above(highest)}
+    painted = draw_mirrored(axes, frame, means, window, style)
+    axes.set_ylabel("z (m)")
+    label = "displacement (m), mean of each cell"
+    axes.figure.colorbar(painted, ax=axes, extend="max", shrink=0.8, label=label)
+
+
+def draw_displacement(
+    path: Path, frame: Frame, window: Window, scene: dict[str, Any]
+) -> Path:
+    """Draw the displacement of the soil, and displacement and plastic strain at the
+    tip."""
+    soil, box = frame.soil, tip_box(frame, window, scene)
+    moved = np.linalg.norm(soil["displacement"][:, :2], axis=1)
+    fields = [("displacement (m)", moved, "viridis")]
+    if "plastic_strain" in soil:
+        label = "plastic deviatoric strain (-)"
+        fields.append((label, soil["plastic_strain"], "magma_r"))
+    n = 1 + len(fields) if box else 1
+    figure = Figure(figsize=(5.3 * n, 4.5), constrained_layout=True)
+    axes = figure.subplots(1, n, squeeze=False)[0]
+    draw_all(axes[0], frame, moved, window)
+    if box:
+        for panel, (label, values, colors) in zip(axes[1:], fields):
+            discs = draw_tip(panel, frame, values, box, {"cmap": colors})
+            figure.colorbar(discs, ax=panel, extend="max", shrink=0.8, label=label)
+    figure.savefig(path, dpi=150)
+    return path
+
+
+def draw(run: Results) -> list[Path | None]:
+    """Write stress.png, displacement.png and, where volume changes,
+    void_ratio.png; return their paths, None for none."""
+    directory, scene = run.directory, run.scene
+    series, grids = run.frames("points"), run.frames("grid")
+    if not series or not grids:
+        print(
+            f"plot: points.pvd or grid.pvd of {directory} names no file that is there,"
+            " so forces only"
+        )
+        return []
+    wanted = scene.get("frame_penetrations_m") or []
+    frames = [
+        Frame(time, files, grids, run.history)
+        for time, files in chosen(series, run.history, wanted)
+    ]
+    window = window_of(frames[0], frames[-1], scene)
+    return [
+        draw_stress(directory / "stress.png", frames, window),
+        draw_displacement(directory / "displacement.png", frames[-1], window, scene),
+        draw_void_ratio(directory / "void_ratio.png", frames, window),
+    ]

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Studies of kind "stability": hard scenes that must come to their end.
+
+A run passes if the program ends with status 0, no row of history.csv holds
+anything but finite numbers, no point lies in the body at any record, and the
+energy residual at the end is below 1 % of the work put in. Each scene is a study;
+its further keys:
+
+    must_fail = true          it must not pass
+    largest_residual = 0.05   the known limit of the residual, as a share
+    why = "limitations.md"    where that is explained
+"""
+import math
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from caisson import table
+from caisson.results import Results, ResultsError, Table
+from caisson.run import Status
+from caisson.study import Options, Study, StudyRun
+
+NAME = "stability"
+STUDY_KEYS = {"must_fail", "largest_residual", "why"}
+RUN_KEYS = set[str]()
+TIME_LIMIT = 600.0  # s, of a run
+RESIDUAL = 0.01
+REASONS = re.compile("left the mesh|no longer finite|not finite|stability limit")
+COLUMNS = [
+    "scene",
+    "verdict",
+    "steps",
+    "energy residual",
+    "limiter firings",
+    "added mass share",
+    "points in body",
+    "note",
+]
+
+
+class Seen(NamedTuple):
+    """What is judged of a run; nan where there is no row."""
+
+    steps: float
+    residual: float  # a share of the work put in
+    limiter: float
+    added_mass: float  # a share of the mass of the soil
+    in_body: int
+    finite: bool
+
+
+def last(history: Table, column: str) -> float:
+    """Return the last value of a column."""
+    return float(history[column][-1])
+
+
+def see(results: Results) -> Seen:
+    """Return what is judged. Raises ResultsError."""
+    history = results.history
+    try:
+        mass = results.summary.get("soil_mass_kg", math.nan)
+    except ResultsError:  # a run that failed leaves none
+        mass = math.nan
+    return Seen(
+        steps=last(history, "step"),
+        # at the end: the first rows have done little work
+        residual=last(history, "energy_residual"),
+        limiter=last(history, "limiter_count"),
+        added_mass=float(history["added_mass_kg"].max()) / mass,
+        in_body=int(history["points_in_body"].max()),
+        finite=all(bool(np.isfinite(column).all()) for column in history.values()),
+    )
+
+
+def reason_in(log: Path) -> str:
+    """Return why a run failed, in the words of the program, or nothing."""
+    match = REASONS.search(log.read_text(encoding="utf-8")) if log.exists() else None
+    return match.group() if match else ""
+
+
+def faults_of(run: StudyRun, seen: Seen | None) -> list[str]:
+    """Return all that does not pass."""
+    reason = reason_in(run.run.directory / "log")
+    faults = [reason] if reason else []
+    if run.status != Status.SUCCESS and not reason:
+        faults.append(run.trouble or f"status {run.status}")
+    if seen is None:
+        return faults + ["no results"]
+    if not seen.finite:
+        faults.append("not finite")
+    if seen.in_body > 0:
+        faults.append("points in the body")
+    if not abs(seen.residual) <= run.settings.get("largest_residual", RESIDUAL):
+        faults.append("energy")
+    return faults
+
+
+def judge(run: StudyRun) -> tuple[list[str], bool]:
+    """Return a line of the table, and whether the run does what it must."""
+    try:
+        seen = see(run.results)
+    except ResultsError:
+        seen = None
+    faults = faults_of(run, seen)
+    must_fail = run.settings.get("must_fail", False)
+    good = bool(faults) == must_fail
+    notes = [", ".join(faults)] if faults else []
+    if "largest_residual" in run.settings:
+        notes.append(f"limit {100 * run.settings['largest_residual']:g} %")
+    if must_fail:
+        notes = ["must fail: " + (", ".join(notes) or "it did not")]
+    verdict = "FAILS" if not good else "fails, as it must" if must_fail else "passes"
+    line = [run.run.scene.stem, verdict, *numbers(seen), ", ".join(notes)]
+    return line, good
+
+
+def numbers(seen: Seen | None) -> list[str]:
+    """Return the numbers of a line."""
+    if seen is None:
+        return ["-", "-", "-", "-", "-"]
+    return [
+        f"{seen.steps:.0f}",
+        f"{100 * seen.residual:.2g} %",
+        f"{seen.limiter:.0f}",
+        f"{100 * seen.added_mass:.2g} %",
+        str(seen.in_body),
+    ]
+
+
+def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
+    """Write table.md and print it; return 1 if a scene does not do what it must."""
+    judged = [judge(run) for study in studies for run in study.runs]
+    text = table.markdown(COLUMNS, [line for line, _ in judged])
+    (options.results / "table.md").write_text(text + "\n", encoding="utf-8")
+    print(text)
+    return 0 if all(good for _, good in judged) else 1

@@ -1,0 +1,294 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Studies: many runs of scenes with entries changed, and what they are for.
+
+All studies have one format. A file (TOML) says what it is for,
+
+    kind = "verification"   # or accuracy, error bar, stability, forces, speed
+
+and holds studies, or is one itself if it holds none (its id is then its name):
+
+    [[study]]
+    id = "name"             # of its results: results/KIND/ID/RUN
+    title = "text"          # for tables and pictures
+    scene = "wave.prm"      # relative to the file
+    set = {"Section/Entry" = value}   # entries of all its runs
+    seconds = 2             # about how long a run takes; the longest start first
+    quick = true            # taken with --quick; or a table of the keys that
+                            # replace those of the study then
+    runs = [{...}]          # one run of the scene as it is, if left out
+    variants = ["name"]     # each run with each of these choices
+    meshes = {"name" = {"Section/Entry" = value}}   # ... and on each mesh
+    reference = {"Section/Entry" = value}   # one more run, called reference, of the
+                            # scene with these entries
+
+A run has the keys
+
+    name        default: its number, from 0
+    scene, set, seconds     as above, for this run
+    h           size of a cell, for orders of convergence
+    ranks       default 1; binding = "core" or "none" (default)
+    until       stops the run at this time of the scene (s), and
+    stop_after  after these seconds of stepping (kind "speed")
+
+Tables at the head of the file serve all studies: `set`, and [variants], which
+gives the choices their names: NAME = {"Section/Entry" = value}. Entries of a run
+are set in the order file, study, run, mesh, variant; the last one counts. The
+name of a run is made of its variant, mesh and own name, as far as it has them.
+
+A file that is one study takes all of its [variants].
+
+What a study is for takes further keys, of the study or its runs; each kind says
+which (caisson.verification, accuracy, error_bar, stability, forces, speed). A key
+that nobody knows is an error, so that no misspelt one is left out in silence.
+
+A run that is complete is not repeated while the program, all entries in effect
+and the ranks are the same (caisson.run.Run).
+"""
+import concurrent.futures
+import re
+import tomllib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from caisson.paths import PROGRAM
+from caisson.results import Results
+from caisson.run import Entries, Run, RunError, Status
+
+FILE_KEYS = {"kind", "set", "variants", "study"}
+STUDY_KEYS = set(
+    "id title scene set seconds quick runs variants meshes reference".split()
+)
+RUN_KEYS = set("name scene set seconds h ranks binding until stop_after".split())
+
+
+class StudyError(Exception):
+    """What is wrong with a study file; the text is for the user."""
+
+
+@dataclass
+class StudyRun:
+    """One run of a study, with what the study says of it.
+
+    variant and mesh are "" where the study has none; more has the keys of the
+    kind. trouble says why there is no result to evaluate, None if there is one.
+    """
+
+    study: str  # its id
+    name: str
+    variant: str
+    mesh: str
+    seconds: float
+    settings: dict[str, Any]
+    run: Run
+    trouble: str | None = None
+
+    @property
+    def results(self) -> Results:
+        """What the run has left."""
+        return Results(self.run.directory)
+
+    def execute(self, again: bool = False, time_limit: float | None = None) -> None:
+        """Run it unless it is complete; says what it cost."""
+        if not again and self.run.is_complete():
+            return
+        status = self.run.execute(time_limit)
+        mark = self.run.mark()
+        if mark is None:
+            how = "ended early" if status is None else f"exit status {status}"
+            self.trouble = f"{how}, see {self.run.directory / 'log'}"
+        cost = f"{mark['wall_s']:.0f} s" if mark else self.trouble
+        print(f"{self.study} {self.name}".rstrip() + f": {cost}", flush=True)
+
+    @property
+    def status(self) -> Status | None:
+        """The exit status of the finished run; without one None, and trouble says
+        why."""
+        mark = self.run.mark()
+        if mark is None:
+            self.trouble = self.trouble or f"no result in {self.run.directory}"
+            return None
+        return Status(mark["status"])
+
+
+@dataclass
+class Study:
+    """One study: its runs, and the keys of its kind."""
+
+    id: str
+    title: str
+    file: Path
+    runs: list[StudyRun]
+    keys: dict[str, Any] = field(default_factory=dict)
+
+    def run(self, name: str) -> StudyRun:
+        """Return the run of this name. Raises StudyError."""
+        for run in self.runs:
+            if run.name == name:
+                return run
+        names = ", ".join(run.name for run in self.runs)
+        raise StudyError(f"{self.id} has no run {name!r}, only {names}")
+
+
+@dataclass(frozen=True)
+class Options:
+    """What is asked of the command line."""
+
+    only: str = ""  # regular expression for id and title
+    quick: bool = False
+    program: Path = PROGRAM
+    results: Path = Path()
+
+
+class Reader:
+    """Makes studies of a file. The class of the runs is that of the kind."""
+
+    def __init__(
+        self,
+        file: Path,
+        options: Options,
+        study_keys: set[str],
+        run_keys: set[str],
+        run_class: type[Run] = Run,
+    ) -> None:
+        """study_keys, run_keys: of the kind, beside those that all have."""
+        self.file, self.options, self.run_class = file, options, run_class
+        self.study_keys, self.run_keys = study_keys, run_keys
+        self.content = read_toml(file)
+        self.set: Entries = self.content.get("set", {})
+        self.variants: dict[str, Entries] = {"default": {}}
+        self.variants |= self.content.get("variants", {})
+
+    def studies(self) -> list[Study]:
+        """Return the studies that are asked for. Raises StudyError."""
+        content = dict(self.content)
+        if "study" in content:
+            self.refuse_unknown(content, FILE_KEYS, "the file")
+            tables = content["study"]
+        else:
+            one = {k: v for k, v in content.items() if k not in ("kind", "set")}
+            tables = [{"id": self.file.stem, "title": self.file.stem, **one}]
+        return [self.study(table) for table in tables if self.is_asked_for(table)]
+
+    def is_asked_for(self, table: dict[str, Any]) -> bool:
+        """Return whether the study fits the options."""
+        text = f"{table.get('id', '')} {table.get('title', '')}"
+        if self.options.quick and not table.get("quick", False):
+            return False
+        return re.search(self.options.only, text) is not None
+
+    def refuse_unknown(self, table: dict[str, Any], known: set[str], of: str) -> None:
+        """Raise StudyError for a key that is not known."""
+        unknown = sorted(set(table) - known)
+        if unknown:
+            names = ", ".join(unknown)
+            raise StudyError(
+                f"{self.file}: {of} has no key {names}; known: "
+                + ", ".join(sorted(known))
+            )
+
+    def study(self, table: dict[str, Any]) -> Study:
+        """Return one study."""
+        if "id" not in table:
+            raise StudyError(f"{self.file}: a study has no id")
+        if self.options.quick and isinstance(table["quick"], dict):
+            table = {**table, **table["quick"]}
+        of = f"study {table['id']}"
+        self.refuse_unknown(table, STUDY_KEYS | self.study_keys, of)
+        runs = []
+        for number, run in enumerate(table.get("runs", [{}])):
+            self.refuse_unknown(run, RUN_KEYS | self.run_keys, f"a run of {of}")
+            runs += list(self.runs(table, {"name": str(number), **run}))
+        if "reference" in table:
+            entries = {**self.set, **table.get("set", {}), **table["reference"]}
+            runs.append(self.one_run(table, {}, "", "reference", entries))
+        keys = {k: v for k, v in table.items() if k in self.study_keys}
+        return Study(
+            table["id"], table.get("title", table["id"]), self.file, runs, keys
+        )
+
+    def runs(self, study: dict[str, Any], run: dict[str, Any]) -> Iterator[StudyRun]:
+        """Yield a run on each mesh with each variant."""
+        for variant in study.get("variants", [""]):
+            if variant and variant not in self.variants:
+                raise StudyError(f"{self.file}: {study['id']}: no variant {variant!r}")
+            for mesh, on_mesh in study.get("meshes", {"": {}}).items():
+                entries = {
+                    **self.set,
+                    **study.get("set", {}),
+                    **run.get("set", {}),
+                    **on_mesh,
+                    **self.variants.get(variant, {}),
+                }
+                yield self.one_run(study, run, variant, mesh, entries)
+
+    def one_run(
+        self,
+        study: dict[str, Any],
+        run: dict[str, Any],
+        variant: str,
+        mesh: str,
+        entries: Entries,
+    ) -> StudyRun:
+        """Return one run with its directory."""
+        scene = run.get("scene", study.get("scene"))
+        if scene is None:
+            raise StudyError(f"{self.file}: a run of {study['id']} has no scene")
+        parts = [part for part in (variant, mesh) if part]
+        if "runs" in study and "name" in run:
+            parts.append(run["name"])
+        name = "_".join(parts)
+        directory = self.options.results / file_name(study["id"]) / file_name(name)
+        settings = {k: v for k, v in {**study, **run}.items() if k not in STUDY_KEYS}
+        return StudyRun(
+            study["id"],
+            name,
+            variant,
+            mesh,
+            run.get("seconds", study.get("seconds", 1)),
+            settings,
+            self.run_class(
+                (self.file.parent / scene).resolve(),
+                entries,
+                directory.resolve(),
+                ranks=settings.get("ranks", 1),
+                binding=settings.get("binding", "none"),
+                program=self.options.program,
+            ),
+        )
+
+
+def read_toml(file: Path) -> dict[str, Any]:
+    """Return the content of a study file. Raises StudyError."""
+    try:
+        with open(file, "rb") as stream:
+            return tomllib.load(stream)
+    except OSError as error:
+        raise StudyError(f"{file} cannot be read: {error.strerror}") from error
+    except tomllib.TOMLDecodeError as error:
+        raise StudyError(f"{file}: {error}") from error
+
+
+def file_name(text: str) -> str:
+    """Return a text as the name of a file."""
+    return re.sub(r"[^\w.-]+", "_", text)
+
+
+def execute(
+    runs: Sequence[StudyRun],
+    jobs: int,
+    again: bool = False,
+    time_limit: float | None = None,
+) -> None:
+    """Run all that are not complete, some at a time, the longest first. A run
+    that cannot be made says why in its trouble."""
+
+    def one(run: StudyRun) -> None:
+        try:
+            run.execute(again, time_limit)
+        except (RunError, OSError) as error:
+            run.trouble = f"{type(error).__name__}: {error}"
+
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(one, sorted(runs, key=lambda run: -run.seconds)))

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Tables as Markdown and as .csv."""
+import csv
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+
+def number(value: float | None, digits: int = 5) -> str:
+    """Return a number with some digits, "-" for none."""
+    return "-" if value is None else f"{value:.{digits}g}"
+
+
+def cell(value: object) -> str:
+    """Return what a cell shows: text, or a number with three digits and all that
+    are before the point."""
+    if not isinstance(value, float):
+        return str(value).replace("|", "\\|")
+    if abs(value) >= 100:
+        return f"{value:.0f}"
+    return f"{value:.2e}" if 0 < abs(value) < 1e-3 else f"{value:.3g}"
+
+
+def markdown(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> str:
+    """Return a table whose columns stand below each other in the source too."""
+    lines = [list(columns)] + [[cell(value) for value in row] for row in rows]
+    widths = [max(len(line[i]) for line in lines) for i in range(len(columns))]
+
+    def text(line: Sequence[str]) -> str:
+        padded = [entry.ljust(width) for entry, width in zip(line, widths)]
+        return "| " + " | ".join(padded) + " |"
+
+    rule = "|" + "|".join("-" * (width + 2) for width in widths) + "|"
+    return "\n".join([text(lines[0]), rule, *map(text, lines[1:])])
+
+
+def write_csv(
+    path: Path, columns: Sequence[str], rows: Sequence[Sequence[Any]]
+) -> None:
+    """Write a table with all digits."""
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows([list(columns), *rows])
