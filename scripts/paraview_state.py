@@ -12,8 +12,7 @@ import sys
 from paraview import simple
 
 arguments = [argument for argument in sys.argv[1:] if os.path.isdir(argument)]
-directory = (arguments or
-             [os.environ.get("CAISSON_MPM_RESULTS", "results/jack")])[0]
+directory = (arguments or [os.environ.get("CAISSON_MPM_RESULTS", "results/jack")])[0]
 series = os.path.join(directory, "points.pvd")
 if not os.path.isfile(series):
     sys.exit(f"no {series}: give the output directory of a run")

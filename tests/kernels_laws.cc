@@ -8,10 +8,11 @@
 //   compression against its closed form; the plastic strain against the one
 //   integrated from it.
 // - Hypoplastic sand against an independent integration with small steps
-//   (scripts/element_tests table), and against what the theory implies: Bauer's
-//   law along the loosest state, the friction angle phi_c and the void ratio
-//   e_c in the critical state wherever the test began, invariance to in-plane
-//   rotation, independence of the step, and a finite answer to any state.
+//   (scripts/caisson element-tests table), and against what the theory implies:
+//   Bauer's law along the loosest state, the friction angle phi_c and the void
+//   ratio e_c in the critical state wherever the test began, invariance to
+//   in-plane rotation, independence of the step, and a finite answer to any
+//   state.
 #include <caisson_mpm/kernels/laws.h>
 
 #include <algorithm>
@@ -226,7 +227,7 @@ struct Row
   double strain, lateral, axial, void_ratio;
 };
 
-/** One element test: the rows are those of scripts/element_tests. */
+/** One element test: the rows are those of scripts/caisson element-tests. */
 struct ElementTest
 {
   const char   *name;

@@ -10,14 +10,15 @@ from program import HERE, ProgramTest, scene
 
 CHECKS = '"Verification/Checks"'
 LADDER = f"""
-[[problem]]
+kind = "verification"
+[[study]]
 id = "wave"
 title = "wave"
-scene = "{scene('wave_xpic')[:-4]}"
+scene = "{scene('wave_xpic')}"
 runs = [
   {{h = 1.0, set = {{{CHECKS} = "rms stress_rz : 1 : 0.5; spread density : 1"}}}},
   {{h = 0.5, set = {{{CHECKS} = "rms stress_rz : 0 : 0.5; spread density : 1"}}}}]
-rows = [
+checks = [
   {{check = "spread density"}},
   {{check = "spread density", error = 1e-9}},
   {{check = "spread density", error = 1e-9, known_error = 0.1, why = "a file"}},
@@ -27,26 +28,26 @@ rows = [
   {{check = "rms stress_rz", run = 1, error = 1e-9, known_error = 1e-9}},
   {{check = "spread density", order = 99.0}},
   {{check = "spread density", order = 99.0, known_order = -9.0}}]
-[[problem]]
+[[study]]
 id = "refused"
 title = "refused"
-scene = "{scene('wave_xpic')[:-4]}"
+scene = "{scene('wave_xpic')}"
 runs = [{{set = {{"Time/Courant number" = 7}}}}]
-rows = [{{check = "max displacement_r"}}]
+checks = [{{check = "max displacement_r"}}]
 """
 VERDICTS = "pass FAIL short FAIL FAIL short pass FAIL short FAIL".split()
 
 
 class Ladder(ProgramTest):
-    """scripts/verify."""
+    """scripts/caisson study."""
 
     def verify(self, path: Path, *options: str) -> "subprocess.CompletedProcess[str]":
         """Run the ladder above."""
         ladder = path / "ladder.toml"
         ladder.write_text(LADDER, encoding="utf-8")
         words = [
-            str(HERE.parent / "scripts/verify"),
-            "--ladder",
+            str(HERE.parent / "scripts/caisson"),
+            "study",
             str(ladder),
             "--program",
         ]

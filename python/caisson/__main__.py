@@ -16,7 +16,6 @@ COMMANDS = {
     "accuracy": (STUDY, "measure error against time over meshes and methods"),
     "error-bar": (STUDY, "make the error bar of prm/jack.prm"),
     "tip": (STUDY, "study the tip force of prm/jack_coarse.prm"),
-    "speed": (STUDY, "measure the speed of kernels and program, as ratios"),
     "cavity-expansion": (
         "caisson.design.cavity_expansion",
         "compare a growing cavity with its exact pressure",

@@ -23,7 +23,6 @@ OWN = {
     "stability": SCENES / "stability/stability.toml",
     "error-bar": SCENES / "jack_study.toml",
     "tip": SCENES / "tip_study.toml",
-    "speed": SCENES / "speed.toml",
 }
 KINDS = {
     "verification": "caisson.verification",
@@ -31,7 +30,6 @@ KINDS = {
     "stability": "caisson.stability",
     "error bar": "caisson.error_bar",
     "forces": "caisson.forces",
-    "speed": "caisson.speed",
 }
 
 

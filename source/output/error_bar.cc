@@ -75,11 +75,12 @@ namespace CaissonMPM
   ErrorBar::ErrorBar()
     : ParameterAcceptor("/Output")
   {
-    add_parameter("Error bar",
-                  file,
-                  "File with the relative errors of the forces, as "
-                  "scripts/error_bar makes it, relative to the scene's file; "
-                  "gives history_error.csv. Empty: none. Units: none.");
+    add_parameter(
+      "Error bar",
+      file,
+      "File with the relative errors of the forces, as "
+      "scripts/caisson study makes it, relative to the scene's file; "
+      "gives history_error.csv. Empty: none. Units: none.");
   }
 
   std::string
@@ -96,7 +97,7 @@ namespace CaissonMPM
     if (at == std::string::npos)
       throw BadInput("Output/Error bar = " + file + ": " + path +
                      " cannot be read, or has no line \"" + mark +
-                     "...\". Make it with scripts/error_bar, or leave the "
+                     "...\". Make it with scripts/caisson study, or leave the "
                      "entry empty.");
     if (text.compare(at + mark.size(), fingerprint.size(), fingerprint) != 0)
       return "the error bar of " + path +
@@ -116,7 +117,7 @@ namespace CaissonMPM
         throw BadInput("Output/Error bar = " + file + ": " + path +
                        " must have the columns penetration_m, tip_error and "
                        "total_error, with numbers. Make it with "
-                       "scripts/error_bar.");
+                       "scripts/caisson study.");
       }
     return "";
   }

@@ -3,8 +3,8 @@
 // The error bar of an installation's forces: the companion of history.csv.
 //
 // The relative errors come from a study of mesh, points, mass scaling and
-// velocity (scripts/error_bar), as a file beside the scene. They hold for the
-// scene of the study only, which the file names by its fingerprint.
+// velocity (scripts/caisson study), as a file beside the scene. They hold for
+// the scene of the study only, which the file names by its fingerprint.
 #ifndef caisson_mpm_output_error_bar_h
 #define caisson_mpm_output_error_bar_h
 

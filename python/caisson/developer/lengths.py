@@ -41,6 +41,7 @@ def name_before(head: str) -> str:
 
 def is_function(head: str) -> bool:
     """Return whether a brace after this text begins the body of a function."""
+    head = re.sub(r"\boperator\s*[^\w\s(]+", "operator", head)
     head = re.sub(r"template\s*<[^{]*?>\s*(?=\w)", "", head)
     before = head.split("(")[0]
     return "(" in head and "=" not in before and not SCOPE.match(before.strip())

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Means of curves against values by hand."""
+import unittest
+
+import numpy as np
+
+from caisson import curves
+
+
+class WindowMean(unittest.TestCase):
+    """The one definition of a mean."""
+
+    def test_both_ends_count(self) -> None:
+        x = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
+        f = np.array([1.0, 2.0, 4.0, 8.0, 16.0])
+        self.assertEqual(curves.window_mean(x, f, 2, 2), (2 + 4 + 8) / 3)
+        self.assertEqual(curves.window_mean(x, f, 2, 1.9), 4)
+        self.assertEqual(curves.window_mean(x, f, 2, 4), 31 / 5)
+
+    def test_rounding_does_not_decide(self) -> None:
+        """Records every 0.01 m: 21 rows at every depth."""
+        x = np.array([float(f"{0.5 + 0.01 * i:.10g}") for i in range(601)])
+        for at in (1, 1.5, 2, 3, 4, 5, 6, 6.4):
+            self.assertEqual(curves.in_window(x, at, 0.2).sum(), 21, at)
+
+    def test_edge_is_a_tolerance_only(self) -> None:
+        x = np.array([0.0, 0.9, 1.0 + 5e-10, 1.0 + 5e-9, 2.0])
+        near = curves.in_window(x, 0.5, 1)
+        self.assertEqual(list(near), [True, True, True, False, False])
+
+    def test_nan_where_the_window_is_not_whole(self) -> None:
+        x, f = np.array([0.0, 1.0, 2.0]), np.array([1.0, 2.0, 3.0])
+        self.assertTrue(np.isnan(curves.window_mean(x, f, 0.4, 1)))
+        self.assertTrue(np.isnan(curves.window_mean(x, f, 1.6, 1)))
+        self.assertEqual(curves.window_mean(x, f, 1.5, 1), 2.5)
+
+    def test_values_that_are_not_finite_are_left_out(self) -> None:
+        x = np.array([0.0, 1.0, 2.0])
+        f = np.array([1.0, np.nan, 3.0])
+        self.assertEqual(curves.window_mean(x, f, 1, 2), 2)
+        self.assertTrue(np.isnan(curves.window_mean(x, f * np.nan, 1, 2)))
+
+    def test_running_mean_follows_the_path(self) -> None:
+        """Down and up again: the way back does not mix with the way down."""
+        x = np.array([0.0, 1.0, 2.0, 1.0, 0.0])
+        f = np.array([0.0, 3.0, 6.0, 9.0, 12.0])
+        mean = curves.running_mean(x, f, 2)
+        np.testing.assert_array_equal(mean, [np.nan, 3, 6, 9, np.nan])
+        np.testing.assert_array_equal(curves.path_of(x), [0, 1, 2, 3, 4])
+
+    def test_rms_takes_the_part_that_there_is(self) -> None:
+        x, f = np.array([0.0, 1.0, 2.0]), np.array([3.0, 4.0, 0.0])
+        rms = curves.window_rms(x, f, 2)
+        np.testing.assert_allclose(
+            rms, [np.sqrt(25 / 2), np.sqrt(25 / 3), np.sqrt(16 / 2)]
+        )
+
+
+class Shape(unittest.TestCase):
+    """Roughness, energy and errors."""
+
+    def test_roughness(self) -> None:
+        """A straight line has none; a zigzag of height 1 about 10 has 0.1, but for
+        the running mean that follows it a little."""
+        x = np.linspace(0, 3, 301)
+        self.assertLess(curves.roughness(x, 5 + x), 1e-12)
+        zigzag = 10 + (-1.0) ** np.arange(len(x))
+        self.assertAlmostEqual(curves.roughness(x, zigzag), 0.1, delta=0.006)
+        self.assertTrue(np.isnan(curves.roughness(0.1 * x, 5 + x)))
+
+    def test_largest_energy_ratio(self) -> None:
+        history = {
+            "penetration_m": np.array([0.5, 1.0, 2.0]),
+            "kinetic_energy_J": np.array([9.0, 1.0, 3.0]),
+            "external_work_J": np.array([1.0, 10.0, 60.0]),
+        }
+        self.assertAlmostEqual(curves.largest_energy_ratio(history), 0.1)
+
+    def test_relative_error(self) -> None:
+        error = curves.relative_error(np.array([1.1, 1.8]), np.array([1.0, 2.0]))
+        self.assertAlmostEqual(error, 0.1)
+
+
+if __name__ == "__main__":
+    unittest.main()

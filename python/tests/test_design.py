@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Houlsby and Byrne, and cavity expansion, against values computed independently."""
+import unittest
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from caisson.design.cavity_expansion import MohrCoulomb, Tresca, comparison
+from caisson.design.houlsby_byrne import Caisson, Layer, bearing_factor_weight
+from caisson.plot import theory
+
+SAND = Layer(top=0, unit_weight=8829, friction_angle=30, lateral_stress_ratio=0.5)
+# kN, D = 6 m: {h: (tip of walls of 0.05, 0.1, 0.2 m, outer friction)}, each without
+# and with stress enhancement
+TABLE: dict[float, tuple[list[float], list[float]]] = {
+    2: ([307, 341, 614, 685, 1232, 1374], [60.6, 64.7]),
+    5: ([762, 983, 1518, 1962, 3008, 3905], [378.6, 448]),
+    6.5: ([990, 1382, 1969, 2752, 3896, 5459], [639.8, 799]),
+}
+# limit pressure over p0 of (G/p0, dilatancy angle)
+LIMITS = {(50, 0): 6.312, (50, 30): 11.641, (100, 0): 7.914, (100, 30): 16.194}
+SCENE: dict[str, Any] = {
+    "diameter_m": 6,
+    "wall_thickness_m": 0.2,
+    "inner_wall_friction_angle_deg": 20,
+    "outer_wall_friction_angle_deg": 20,
+}
+LAYER: dict[str, Any] = {
+    "top_depth_m": 0,
+    "law": "Mohr-Coulomb",
+    "submerged_unit_weight_N_m3": 8829,
+    "friction_angle_deg": 30,
+    "cohesion_Pa": 0,
+    "K0": 0.5,
+}
+
+
+def caisson(wall: float, *layers: Layer, angles: tuple[float, float] = (20, 20)) -> Any:
+    """Return a caisson of 6 m."""
+    return Caisson(6, wall, layers or [SAND], *angles)
+
+
+class HoulsbyByrne(unittest.TestCase):
+    """Resistance of a caisson."""
+
+    def test_table(self) -> None:
+        for h, (tips, frictions) in TABLE.items():
+            bodies = [caisson(wall) for wall in (0.05, 0.1, 0.2)]
+            found = [body.tip(h, e) for body in bodies for e in (False, True)]
+            found += [bodies[0].outer_friction(h, e) for e in (False, True)]
+            np.testing.assert_allclose(
+                np.array(found) / 1e3, tips + frictions, rtol=2e-3
+            )
+
+    def test_equal_layers_are_one(self) -> None:
+        halves = [Layer(top, 8829, 30, 0.5) for top in (0, 1.3, 3.1)]
+        one, many = caisson(0.2), caisson(0.2, *halves)
+        for h in (0.5, 1.3, 2, 5):
+            for e in (False, True):
+                self.assertAlmostEqual(many.tip(h, e) / one.tip(h, e), 1, places=12)
+                self.assertAlmostEqual(
+                    many.inner_friction(h, e) / one.inner_friction(h, e), 1, places=12
+                )
+
+    def test_two_layers_by_hand(self) -> None:
+        """Plain: stress 10 kPa at 1 m, 30 kPa at 2 m; K tan(delta) 0.5 and 0.25."""
+        body = Caisson(
+            6, 0.2, [Layer(0, 10e3, 30, 0.5), Layer(1, 20e3, 40, 0.25)], 45, 45
+        )
+        friction = np.pi * 6 * (0.5 * 5e3 + 0.25 * (10e3 + 10e3))
+        self.assertAlmostEqual(body.outer_friction(2, False), friction, places=6)
+        strong = caisson(0.2, Layer(0, 10e3, 40, 0.5), angles=(45, 45))
+        # the tip is in the second layer: its angle counts, under 30 kPa
+        self.assertGreater(body.tip(2, False), strong.tip(2, False))
+        self.assertLess(body.tip(1, False), 0.5 * strong.tip(1, False))
+
+    def test_each_wall_has_its_friction(self) -> None:
+        body = caisson(0.2, angles=(0, 20))
+        self.assertEqual(body.inner_friction(3, True), 0)
+        self.assertAlmostEqual(
+            body.outer_friction(3, True), caisson(0.2).outer_friction(3, True)
+        )
+
+    def test_bearing_factor(self) -> None:
+        """Between entries it grows, outside the table it is 0."""
+        angles = np.linspace(15, 45, 61)
+        factors = [bearing_factor_weight(angle) for angle in angles]
+        self.assertTrue(all(a < b for a, b in pairwise(factors)))
+        self.assertEqual(bearing_factor_weight(50), 0)
+
+
+class Bands(unittest.TestCase):
+    """The band of forces.png, from run.json."""
+
+    def why_not(self, **change: Any) -> str:
+        """Return why a scene with a changed first layer has no band."""
+        scene = {**SCENE, "layers": [{**LAYER, **change}]}
+        return theory.bands_of(scene, 2).why_not
+
+    def test_layers_of_sand(self) -> None:
+        layers = [LAYER, {**LAYER, "top_depth_m": 1, "friction_angle_deg": 40}]
+        bands = theory.bands_of({**SCENE, "layers": layers}, 2)
+        self.assertEqual(bands.why_not, "")
+        plain, enhanced = bands.forces["tip"]
+        self.assertTrue((plain <= enhanced).all())
+        self.assertGreater(plain[-1], 3 * plain[45])
+
+    def test_file_without_layers(self) -> None:
+        old = {**SCENE, **LAYER, "wall_friction_angle_deg": 20}
+        new = {**SCENE, "layers": [LAYER]}
+        a, b = theory.bands_of(old, 2), theory.bands_of(new, 2)
+        np.testing.assert_array_equal(a.forces["tip"], b.forces["tip"])
+
+    def test_why_there_is_none(self) -> None:
+        self.assertEqual(self.why_not(), "")
+        self.assertIn("cohesion", self.why_not(cohesion_Pa=5e3))
+        self.assertIn("hypoplastic", self.why_not(law="hypoplastic sand"))
+        self.assertIn("softening", self.why_not(law="Mohr-Coulomb with softening"))
+        self.assertIn("friction angle", self.why_not(friction_angle_deg=None))
+        self.assertIn("no caisson", theory.bands_of({}, 2).why_not)
+
+
+class CavityExpansion(unittest.TestCase):
+    """Pressure in a growing cavity."""
+
+    def test_limit_pressures(self) -> None:
+        for (stiffness, psi), limit in LIMITS.items():
+            soil = MohrCoulomb(1, 2.6 * stiffness, 0.3, 0, 30, psi)
+            self.assertAlmostEqual(soil.pressure(1e9) / limit, 1, delta=2e-4)
+
+    def test_pressure_and_ratio_are_inverse(self) -> None:
+        soil = MohrCoulomb(1e5, 13e6, 0.3, 0, 30, 0)
+        for ratio in (1.5, 2, 4):
+            self.assertAlmostEqual(soil.ratio(soil.pressure(ratio)), ratio, places=9)
+
+    def test_tresca(self) -> None:
+        """su (1 + ln(G / su)) beyond p0 in the limit, G (1 - 1/r^2) before yield."""
+        soil = Tresca(1e5, 5e6, 1e5)
+        limit = 1e5 + 1e5 * (1 + np.log(50))
+        self.assertAlmostEqual(soil.pressure(1e9), limit, places=3)
+        elastic = 1e5 + 5e6 * (1 - 1.001**-2)
+        self.assertAlmostEqual(soil.pressure(1.001), elastic, places=6)
+
+    def test_comparison(self) -> None:
+        """Rows are compared in the middle of their interval."""
+        soil = Tresca(0, 5e6, 1e5)
+        history = {
+            "penetration_m": np.array([0.0, 0.5]),
+            "cavity_pressure_Pa": np.array([0.0, 1.1 * soil.pressure(1.5)]),
+        }
+        ((ratio, _, exact, error),) = comparison(history, soil, 0.5)
+        self.assertEqual((ratio, exact), (1.5, soil.pressure(1.5)))
+        self.assertAlmostEqual(error, 0.1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Files of a run, tables, and pictures of a stored tiny run."""
+import contextlib
+import io
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from caisson import curve, plot, table
+from caisson.plot.fields import chosen
+from caisson.results import Results, ResultsError, read_table
+
+TINY = Path(__file__).resolve().parent / "tiny_run"
+PICTURES = ["displacement.png", "forces.png", "stress.png", "void_ratio.png"]
+
+
+class Directory(unittest.TestCase):
+    """A test with a directory of its own."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name)
+
+    def write(self, text: str, name: str = "history.csv") -> Path:
+        """Write a file and return its path."""
+        (self.path / name).write_text(text, encoding="utf-8")
+        return self.path / name
+
+
+class Files(Directory):
+    """Reading history.csv and the others."""
+
+    def test_torn_rows_and_comments_are_left_out(self) -> None:
+        path = self.write("# c\ntime_s,b\n0,1\n1,inf\n\n2,3\n4,")
+        found = read_table(path)
+        np.testing.assert_array_equal(found["time_s"], [0, 1, 2])
+        np.testing.assert_array_equal(found["b"], [1, np.inf, 3])
+
+    def test_errors_name_the_file(self) -> None:
+        with self.assertRaisesRegex(ResultsError, "no history.csv in .*output direc"):
+            Results(self.path).history
+        self.write("time_s,b\n")
+        with self.assertRaisesRegex(ResultsError, "no complete row"):
+            Results(self.path).history
+        self.write("a,b\n1,2\n")
+        with self.assertRaisesRegex(ResultsError, "no column time_s"):
+            Results(self.path).history
+        self.write("{", "run.json")
+        with self.assertRaisesRegex(ResultsError, "run.json cannot be read"):
+            Results(self.path).summary
+
+    def test_checks_by_their_head(self) -> None:
+        self.write('[{"check": "max speed", "pass": true}]', "verification.json")
+        self.assertTrue(Results(self.path).checks["max speed"]["pass"])
+
+    def test_frames_that_are_gone_are_left_out(self) -> None:
+        run = Results(shutil.copytree(TINY, self.path / "run"))
+        times = [time for time, _ in run.frames()]
+        self.assertEqual((len(times), times[0]), (3, 0.0))
+        (self.path / "run/points_0001.vtu").unlink()
+        self.assertEqual(len(run.frames()), 2)
+        self.assertEqual(Results(self.path).frames(), [])
+
+
+class Tables(Directory):
+    """Markdown and .csv."""
+
+    def test_markdown(self) -> None:
+        text = table.markdown(["a", "long"], [["x|y", 0.123456], [7, 1234.5]])
+        lines = text.splitlines()
+        self.assertEqual(lines[0], "| a    | long  |")
+        self.assertEqual(lines[1], "|------|-------|")
+        self.assertEqual(lines[2], "| x\\|y | 0.123 |")
+        self.assertEqual(lines[3], "| 7    | 1234  |")
+
+    def test_cells(self) -> None:
+        self.assertEqual(table.cell(1.23e-5), "1.23e-05")
+        self.assertEqual(table.cell(0.0), "0")
+        self.assertEqual(table.number(None), "-")
+        self.assertEqual(table.number(3.14159, 3), "3.14")
+
+    def test_csv_has_all_digits(self) -> None:
+        table.write_csv(self.path / "t.csv", ["a"], [[0.1234567890123]])
+        self.assertIn("0.1234567890123", (self.path / "t.csv").read_text())
+
+
+class Pictures(Directory):
+    """scripts/plot and scripts/caisson curve."""
+
+    def test_tiny_run(self) -> None:
+        path = Path(shutil.copytree(TINY, self.path / "run"))
+        pictures = plot.draw(path)
+        self.assertEqual(sorted(p.name for p in pictures), PICTURES)
+        for picture in pictures:
+            self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
+            self.assertGreater(picture.stat().st_size, 10_000)
+
+    def test_history_alone(self) -> None:
+        shutil.copy(TINY / "history.csv", self.path)
+        with contextlib.redirect_stdout(io.StringIO()) as words:
+            pictures = plot.draw(self.path)
+        self.assertEqual([p.name for p in pictures], ["forces.png"])
+        self.assertIn("forces only", words.getvalue())
+
+    def test_no_directory(self) -> None:
+        with self.assertRaisesRegex(ResultsError, "no directory"):
+            plot.draw(self.path / "none")
+
+    def test_frames_of_the_scene_are_drawn(self) -> None:
+        series = [(float(t), [Path()]) for t in range(11)]
+        history = {"time_s": np.arange(11.0), "penetration_m": np.arange(11.0)}
+
+        def depths(wanted: list[float]) -> list[float]:
+            return [time for time, _ in chosen(series, history, wanted)]
+
+        self.assertEqual(depths([0, 2, 7]), [0, 2, 7])
+        self.assertEqual(depths([]), [0, 3, 7, 10])
+        self.assertEqual(depths([0, 2, 17]), [0, 3, 7, 10], "not reached")
+        self.assertEqual(depths([0, 1, 2, 3, 4]), [0, 3, 7, 10], "too many")
+
+    def test_curve(self) -> None:
+        lines = list(curve.describe(TINY, [1.0, 9.0]))
+        self.assertRegex(lines[1], r"1\.00 m: tip +\d+\.\d  friction +\d+\.\d kN")
+        self.assertEqual(len(lines), 4)
+
+
+if __name__ == "__main__":
+    unittest.main()

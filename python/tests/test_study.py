@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The format of studies, and verdicts that need no run."""
+import math
+import tempfile
+import unittest
+from pathlib import Path
+from typing import Any
+
+from caisson import study_command, verification
+from caisson.paths import SCENES
+from caisson.study import Options, Reader, Study, StudyError
+
+HEAD = """
+kind = "forces"
+set = {"A/a" = 1, "A/b" = 1}
+[variants]
+other = {"A/d" = 4}
+"""
+
+
+class Format(unittest.TestCase):
+    """What a file means."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name)
+
+    def read(self, text: str, **options: Any) -> list[Study]:
+        """Return the studies of a file; "mine" is the key of the kind."""
+        file = self.path / "test.toml"
+        file.write_text(text, encoding="utf-8")
+        asked = Options(results=self.path / "results", **options)
+        return Reader(file, asked, {"mine"}, {"own"}).studies()
+
+    def test_a_file_is_one_study(self) -> None:
+        (study,) = self.read('kind = "forces"\nscene = "a.prm"\nmine = 3')
+        self.assertEqual((study.id, study.title), ("test", "test"))
+        self.assertEqual(study.keys, {"mine": 3})
+        (run,) = study.runs
+        self.assertEqual(run.run.scene, self.path.resolve() / "a.prm")
+        self.assertEqual(run.run.directory, (self.path / "results/test").resolve())
+
+    def test_order_of_entries(self) -> None:
+        text = (
+            HEAD
+            + """
+[[study]]
+id = "s"
+scene = "a.prm"
+set = {"A/b" = 2, "A/c" = 2}
+runs = [{name = "x", set = {"A/c" = 3, "A/d" = 3}}, {}]
+variants = ["default", "other"]
+meshes = {fine = {"A/e" = 5}, coarse = {}}
+reference = {"A/f" = 6}
+"""
+        )
+        (study,) = self.read(text)
+        names = [run.name for run in study.runs]
+        self.assertEqual(
+            names[:3], ["default_fine_x", "default_coarse_x", "other_fine_x"]
+        )
+        self.assertEqual(names[-1], "reference")
+        self.assertEqual(len(names), 2 * 2 * 2 + 1)
+        entries = study.run("other_fine_x").run.entries
+        self.assertEqual([entries[f"A/{c}"] for c in "abcde"], [1, 2, 3, 4, 5])
+        entries = study.run("default_coarse_1").run.entries
+        self.assertEqual(entries, {"A/a": 1, "A/b": 2, "A/c": 2})
+        self.assertEqual(study.run("reference").run.entries["A/f"], 6)
+
+    def test_variants_of_a_single_study(self) -> None:
+        text = 'kind = "forces"\nscene = "a.prm"\n[variants]\np = {"A/a" = 1}\nq = {}'
+        (study,) = self.read(text)
+        self.assertEqual([run.name for run in study.runs], ["p", "q"])
+
+    def test_quick(self) -> None:
+        text = """
+kind = "forces"
+[[study]]
+id = "slow"
+scene = "a.prm"
+[[study]]
+id = "quick"
+scene = "a.prm"
+seconds = 9
+quick = {seconds = 1, mine = "fast"}
+"""
+        self.assertEqual(len(self.read(text)), 2)
+        (study,) = self.read(text, quick=True)
+        self.assertEqual((study.id, study.runs[0].seconds), ("quick", 1))
+        self.assertEqual(study.keys["mine"], "fast")
+        self.assertEqual([s.id for s in self.read(text, only="^slo")], ["slow"])
+
+    def test_unknown_keys_are_refused(self) -> None:
+        with self.assertRaisesRegex(StudyError, "no key secnds; known: .*seconds"):
+            self.read('kind = "forces"\nscene = "a.prm"\nsecnds = 1')
+        with self.assertRaisesRegex(StudyError, "a run of study test has no key sett"):
+            self.read('kind = "forces"\nscene = "a.prm"\nruns = [{sett = 1}]')
+        with self.assertRaisesRegex(StudyError, "no variant 'v'"):
+            self.read('[[study]]\nid = "s"\nscene = "a.prm"\nvariants = ["v"]')
+        with self.assertRaisesRegex(StudyError, "has no scene"):
+            self.read('[[study]]\nid = "s"')
+
+    def test_files_that_cannot_be_read(self) -> None:
+        with self.assertRaisesRegex(StudyError, "test.toml"):
+            self.read("kind = ")
+        with self.assertRaisesRegex(StudyError, "kind is 'x', not one of"):
+            file = self.path / "kind.toml"
+            file.write_text('kind = "x"')
+            study_command.module_of(file)
+
+
+class OwnStudies(unittest.TestCase):
+    """The studies of prm/."""
+
+    def studies(self, file: Path) -> list[Study]:
+        """Return the studies of a file."""
+        module = study_command.module_of(file)
+        keys = module.STUDY_KEYS, module.RUN_KEYS
+        return Reader(file, Options(results=Path("results")), *keys).studies()
+
+    def test_all_can_be_read(self) -> None:
+        """And name scenes that there are, each run a directory of its own."""
+        files = sorted(SCENES.rglob("*.toml"))
+        self.assertLessEqual(set(study_command.OWN.values()), set(files))
+        for file in files:
+            runs = [run for study in self.studies(file) for run in study.runs]
+            for run in runs:
+                self.assertTrue(run.run.scene.is_file(), run.run.scene)
+            places = {run.run.directory for run in runs}
+            self.assertEqual(len(places), len(runs), file)
+
+    def test_every_stability_scene_is_judged(self) -> None:
+        file = study_command.OWN["stability"]
+        runs = [run for study in self.studies(file) for run in study.runs]
+        scenes = {run.run.scene.name for run in runs}
+        self.assertEqual(scenes, {path.name for path in file.parent.glob("*.prm")})
+
+
+class Verdicts(unittest.TestCase):
+    """What the ladder says of a value."""
+
+    def test_judge(self) -> None:
+        judge = verification.judge
+        self.assertEqual(judge(0.01, 0.01, None, False), verification.PASS)
+        self.assertEqual(judge(0.02, 0.01, None, False), verification.FAIL)
+        self.assertEqual(judge(0.02, 0.01, 0.02, False), verification.KNOWN)
+        self.assertEqual(judge(0.0203, 0.01, 0.02, False), verification.KNOWN)
+        self.assertEqual(judge(0.0205, 0.01, 0.02, False), verification.FAIL)
+        self.assertEqual(judge(1.9, 1.8, None, True), verification.PASS)
+        self.assertEqual(judge(1.3, 1.8, 1.3, True), verification.KNOWN)
+        self.assertEqual(judge(1.2, 1.8, 1.3, True), verification.FAIL)
+        self.assertEqual(judge(None, 1, 1, True), verification.FAIL)
+        self.assertEqual(judge(math.nan, 1, 1, False), verification.FAIL)
+
+    def test_slope(self) -> None:
+        self.assertAlmostEqual(verification.slope([0, 1, 2], [1, 3, 5]), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
