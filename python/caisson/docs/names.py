@@ -41,7 +41,7 @@ def exists(name: str) -> bool:
     """Whether a path of the tree or of the C++ sources exists."""
     places = [ROOT / name, ROOT / "source" / name, ROOT / "include/caisson_mpm" / name]
     return any(
-        place.exists() or any(place.parent.glob(place.name.replace("NAME", "*")))
+        place.exists() or any(place.parent.glob(re.sub("NAME|GROUP", "*", place.name)))
         for place in places
     )
 
