@@ -10,10 +10,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "python"))
 project = "caisson_mpm"
 author = "the caisson_mpm authors"
 copyright = "the caisson_mpm authors, LGPL-2.1-or-later"
-
 extensions = ["myst_parser", "sphinx.ext.mathjax", "caisson.docs.offline"]
-exclude_patterns = ["pictures/*.md"]
-suppress_warnings = ["myst.strikethrough"]
 
 # Headings get the anchors that GitHub gives them, so that a link to a section
 # works in both places and Sphinx can check it.

@@ -28,6 +28,16 @@ COMMANDS = {
         "caisson.design.manufactured",
         "check the manufactured solutions against first principles",
     ),
+    "parameter-page": (
+        "caisson.docs.parameters",
+        "write the parameter reference of the manual",
+    ),
+    "check-documents": ("caisson.docs.names", "check the names in the documents"),
+    "draw-architecture": (
+        "caisson.docs.architecture",
+        "draw doc/pictures/architecture.svg",
+    ),
+    "draw-zones": ("caisson.docs.zones", "draw doc/pictures/zones.svg"),
     "draw-blocks": ("caisson.plot.blocks", "draw doc/pictures/blocks.png"),
     "check-floors": ("caisson.developer.floors", "check the order of the sources"),
 }

@@ -1,24 +1,23 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Checks the names in the documents: files, entries of scenes, and the text's form.
+"""Checks the names in the documents: files, entries of scenes, classes, functions.
 
 A word in backticks that looks like a path of the source tree must exist. One
-that begins with the name of a section, such as `Grid/Top`, must be an entry. A
-line outside tables and code may have at most 100 characters.
-
-Usage: python3 -m caisson.docs.names PRINTED
-  PRINTED: the output of caisson_mpm --print-parameters
+that begins with the name of a section, such as `Grid/Top`, must be an entry.
+One that looks like the name of a class or a function must occur in the sources.
+A line outside tables and code may have at most 100 characters.
 """
+import argparse
 import re
-import sys
 from pathlib import Path
 
 from caisson.docs.parameters import Section, parsed
+from caisson.paths import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
 # Folders of the tree, and those of the C++ sources, which are named without the
 # folders "source" and "include/caisson_mpm" above them.
 FOLDERS = "prm scripts tests doc python benchmarks source include".split()
 FLOORS = "base kernels materials bodies domain operators output checks restart".split()
+SUFFIXES = {".h", ".cc", ".py", ".prm", ".toml", ".txt", ""}
 # Code, formulas, and the part of the benchmarks that scripts/speed writes.
 NOT_WRAPPED = r"```.*?```|\$\$.*?\$\$|<!-- speed: begin.*speed: end -->"
 BRITISH = re.compile(
@@ -54,7 +53,27 @@ def is_path(word: str) -> bool:
     return bool(slash) and folder in FOLDERS + FLOORS + ["simulation"]
 
 
-def faults_of(page: Path, entries: set[str]) -> list[str]:
+def words_of_sources() -> set[str]:
+    """All words of the sources, scripts and scenes."""
+    words = set(re.findall(r"\w+", (ROOT / "CMakeLists.txt").read_text()))
+    for folder in FOLDERS:
+        for file in (ROOT / folder).rglob("*"):
+            words.add(file.stem)
+            if file.is_file() and file.suffix in SUFFIXES and folder != "doc":
+                words |= set(re.findall(r"\w+", file.read_text(errors="replace")))
+    return words
+
+
+def is_name(word: str) -> bool:
+    """Whether a word looks like a name in the sources, and not like plain text."""
+    return bool(re.fullmatch(r"[A-Za-z_][\w:]*(\(\))?", word)) and (
+        "::" in word
+        or word.endswith("()")
+        or bool(re.search(r"[a-z]_[a-z]|[a-z][A-Z]", word))
+    )
+
+
+def faults_of(page: Path, entries: set[str], names: set[str]) -> list[str]:
     """What is wrong in one page."""
     faults = []
     text = page.read_text()
@@ -66,6 +85,12 @@ def faults_of(page: Path, entries: set[str]) -> list[str]:
         elif "/" in path and section in entries and "Layer k" not in path:
             if path.rstrip("/") not in entries:
                 faults.append(f"there is no entry {path}")
+    for word in filter(is_name, code):
+        faults += [
+            f"nothing is called {part} in the sources ({word})"
+            for part in re.findall(r"\w+", word)
+            if part not in names
+        ]
     own_words = text.split("## References")[0]  # titles of papers stay as they are
     faults += [f"British spelling: {word}" for word in set(BRITISH.findall(own_words))]
     outside = re.sub(NOT_WRAPPED, "", text, flags=re.DOTALL)
@@ -75,19 +100,22 @@ def faults_of(page: Path, entries: set[str]) -> list[str]:
     return faults
 
 
-def main() -> None:
-    """Prints what is wrong in all pages; ends with status 1 where something is."""
-    entries = entries_of(parsed(Path(sys.argv[1]).read_text()))
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson check-documents`."""
+    text = "output of caisson_mpm --print-parameters"
+    parser.add_argument("printed", type=Path, help=text)
+
+
+def main(options: argparse.Namespace) -> int:
+    """Print what is wrong in all pages; return 1 where something is."""
+    entries = entries_of(parsed(options.printed.read_text()))
+    names = words_of_sources()
     pages = [*sorted(ROOT.glob("*.md")), *sorted(ROOT.glob("doc/**/*.md"))]
     faults = [
         f"{page.relative_to(ROOT)}: {fault}"
         for page in pages
         if page.name != "parameters.md"
-        for fault in faults_of(page, entries)
+        for fault in faults_of(page, entries, names)
     ]
     print("\n".join(faults), end="\n" if faults else "")
-    sys.exit(1 if faults else 0)
-
-
-if __name__ == "__main__":
-    main()
+    return 1 if faults else 0

@@ -28,22 +28,24 @@ def copy_mathjax(static: Path) -> None:
             shutil.copy(source, target)
 
 
-def join_scripts(scripts: Path) -> None:
-    """Put the theme's two scripts into one.
+def join_scripts(pages: Path) -> None:
+    """Put the theme's two scripts into one, and load it as a plain script.
 
     Debian ships them as modules, which a browser does not load from a file."""
-    main, spy = scripts / "furo.js", scripts / "gumshoe-patched.js"
-    text = main.read_text()
-    first, _, rest = text.partition("\n")
-    if first.startswith("import Gumshoe") and spy.exists():
-        main.write_text(spy.read_text() + rest)
+    main = pages / "_static/scripts/furo.js"
+    first, _, rest = main.read_text().partition("\n")
+    if first.startswith("import") and "Gumshoe" in first:
+        main.write_text((main.parent / "gumshoe-patched.js").read_text() + rest)
+    for page in pages.rglob("*.html"):
+        text = page.read_text()
+        page.write_text(text.replace('<script type="module" src=', "<script src="))
 
 
 def follow_system(style: Path) -> None:
-    """Let the theme be dark where the system is, which Debian 12's package lacks."""
+    """Let the theme be dark where the system is, which Debian's package lacks."""
     text = style.read_text()
     dark = re.search(r'body\[data-theme="dark"\] \{(.*?)\}', text, re.DOTALL)
-    if dark and "prefers-color-scheme" not in text:
+    if dark and "(prefers-color-scheme: dark) {body" not in text:
         rule = f'body:not([data-theme="light"]) {{{dark[1]}}}'
         style.write_text(f"{text}\n@media (prefers-color-scheme: dark) {{{rule}}}\n")
 
@@ -51,10 +53,10 @@ def follow_system(style: Path) -> None:
 def complete(app: Any, failure: Exception | None) -> None:
     """Complete the pages after they have been written."""
     if failure is None and app.builder.format == "html":
-        static = Path(app.outdir) / "_static"
-        copy_mathjax(static)
-        join_scripts(static / "scripts")
-        follow_system(static / "styles" / "furo.css")
+        pages = Path(app.outdir)
+        copy_mathjax(pages / "_static")
+        join_scripts(pages)
+        follow_system(pages / "_static/styles/furo.css")
 
 
 def setup(app: Any) -> dict[str, bool]:

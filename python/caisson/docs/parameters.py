@@ -1,12 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The parameter reference of the manual, from what the program prints.
-
-Usage: python3 -m caisson.docs.parameters PRINTED PAGE
-  PRINTED: the output of caisson_mpm --print-parameters
-  PAGE:    the page to write, as Markdown
-"""
+"""Write the parameter reference of the manual from what the program prints."""
+import argparse
 import re
-import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -127,11 +122,15 @@ def entry_of(assignment: str, comment: str) -> Entry:
     return Entry(name, default.strip(), text, allowed.rstrip("."))
 
 
-def main() -> None:
-    """Writes the page."""
-    printed, page = (Path(argument) for argument in sys.argv[1:])
-    page.write_text(parsed(printed.read_text()).markdown(1).rstrip() + "\n")
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson parameter-page`."""
+    add = parser.add_argument
+    add("printed", type=Path, help="output of caisson_mpm --print-parameters")
+    add("page", type=Path, help="the page to write, as Markdown")
 
 
-if __name__ == "__main__":
-    main()
+def main(options: argparse.Namespace) -> int:
+    """Write the page."""
+    page = parsed(options.printed.read_text()).markdown(1)
+    options.page.write_text(page.rstrip() + "\n")
+    return 0

@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Draws the zones of the mesh and what their sizes are called: doc/pictures/zones.svg.
-
-Usage: python3 -m caisson.docs.zones PICTURE
 """
-import sys
+import argparse
 
 import matplotlib
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
-matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402
-from matplotlib.axes import Axes  # noqa: E402
-from matplotlib.patches import Rectangle  # noqa: E402
+from caisson.paths import PICTURES
 
 SAND, PATH, NEAR, FINE, STEEL = "#f3e6cf", "#e0a458", "#efcd95", "#419d78", "#555b6e"
 # Sizes of the sketch, not to scale: radius, bottom, top, wall, tip, zone below it.
@@ -89,16 +87,19 @@ def names(axes: Axes) -> None:
     words(axes, INSIDE - 1.25, -7.9, "near")
 
 
-def main() -> None:
-    """Draws the picture."""
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson draw-zones`: none."""
+
+
+def main(_: argparse.Namespace) -> int:
+    """Write the picture."""
     matplotlib.rcParams["svg.hashsalt"] = "caisson_mpm"
-    figure, axes = pyplot.subplots(figsize=(8.6, 8))
+    figure = Figure(figsize=(8.6, 8))
+    axes = figure.add_subplot()
     for part in (soil, mesh, names):
         part(axes)
     axes.set(xlim=(-0.3, 15), ylim=(BOTTOM - 0.9, TOP + 1.2), aspect="equal")
     axes.axis("off")
-    figure.savefig(sys.argv[1], bbox_inches="tight", metadata={"Date": None})
-
-
-if __name__ == "__main__":
-    main()
+    picture = PICTURES / "zones.svg"
+    figure.savefig(picture, bbox_inches="tight", metadata={"Date": None})
+    return 0

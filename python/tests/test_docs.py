@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The parameter reference, and what the check of the documents finds."""
+import tempfile
+import unittest
+from pathlib import Path
+
+from caisson.docs.names import entries_of, faults_of
+from caisson.docs.parameters import parsed
+
+PRINTED = """
+# All entries.
+subsection Soil
+  # Whether the soil is submerged. Units: none.
+  # Allowed: true or false. Default: true
+  set Submerged = true
+  subsection Layer 1
+    # Depth of the *upper* boundary, below the
+    # surface. Units: m.
+    # Allowed: a number, at least 0. Default: 0
+    set Top depth = 0
+  end
+  subsection Layer 2
+    # Depth of the *upper* boundary, below the
+    # surface. Units: m.
+    # Allowed: a number, at least 0. Default: 0
+    set Top depth = 3
+  end
+end
+"""
+
+GOOD = """# Page
+`Soil/Submerged` and `Soil/Layer 1/Top depth = 2` are entries of `prm/jack.prm`;
+`MaterialPoints` is a class and `MaterialPoints::relocate` a function.
+"""
+
+BAD = (
+    """# Page
+`Soil/Sumberged` is in `prm/jakc.prm`, `MaterialDots::relocate` has a colour.
+"""
+    + "This line is long. " * 6
+)
+
+
+class Parameters(unittest.TestCase):
+    """The page that is made of the program's output."""
+
+    def test_entries(self) -> None:
+        soil = parsed(PRINTED).sections[0]
+        depth = soil.sections[0].entries[0]
+        self.assertEqual(depth.name, "Top depth")
+        self.assertEqual(depth.units, "m")
+        self.assertEqual(depth.default, "0")
+        self.assertEqual(depth.allowed, "a number, at least 0")
+        self.assertEqual(soil.entries[0].units, "")
+
+    def test_layers_are_shown_once(self) -> None:
+        page = parsed(PRINTED).markdown(1)
+        self.assertEqual(page.count("Top depth"), 1)
+        self.assertIn("### Layer k, with k from 1 to 2", page)
+        self.assertIn("Depth of the \\*upper\\* boundary, below the surface.", page)
+
+    def test_layers_must_agree(self) -> None:
+        with self.assertRaises(SystemExit):
+            parsed(PRINTED.replace("depth = 3", "height = 3")).markdown(1)
+
+
+class Names(unittest.TestCase):
+    """What is found in a page."""
+
+    def faults(self, text: str) -> list[str]:
+        """The faults of a page with this text."""
+        with tempfile.TemporaryDirectory() as folder:
+            page = Path(folder) / "page.md"
+            page.write_text(text)
+            names = {"MaterialPoints", "relocate"}
+            return faults_of(page, entries_of(parsed(PRINTED)), names)
+
+    def test_good_page(self) -> None:
+        self.assertEqual(self.faults(GOOD), [])
+
+    def test_bad_page(self) -> None:
+        found = " ".join(self.faults(BAD))
+        for word in "Sumberged jakc.prm MaterialDots colour characters".split():
+            self.assertIn(word, found)
+        self.assertEqual(len(self.faults(BAD)), 5)
+
+
+if __name__ == "__main__":
+    unittest.main()
