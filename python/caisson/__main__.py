@@ -16,6 +16,8 @@ COMMANDS = {
     "accuracy": (STUDY, "measure error against time over meshes and methods"),
     "error-bar": (STUDY, "make the error bar of prm/jack.prm"),
     "tip": (STUDY, "study the tip force of prm/jack_coarse.prm"),
+    "speed": (STUDY, "measure the speed of kernels and program, as ratios"),
+    "publish-speed": ("caisson.speed.publish", "take the speed into doc/benchmarks.md"),
     "cavity-expansion": (
         "caisson.design.cavity_expansion",
         "compare a growing cavity with its exact pressure",
@@ -39,6 +41,10 @@ COMMANDS = {
     ),
     "draw-zones": ("caisson.docs.zones", "draw doc/pictures/zones.svg"),
     "draw-blocks": ("caisson.plot.blocks", "draw doc/pictures/blocks.png"),
+    "bare-debian": (
+        "caisson.developer.bare_debian",
+        "try the commands of the README on a bare Debian",
+    ),
     "check-floors": ("caisson.developer.floors", "check the order of the sources"),
 }
 

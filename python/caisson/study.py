@@ -28,7 +28,8 @@ A run has the keys
     h           size of a cell, for orders of convergence
     ranks       default 1; binding = "core" or "none" (default)
     until       stops the run at this time of the scene (s), and
-    stop_after  after these seconds of stepping (kind "speed")
+    stop_after  after these seconds of stepping (kind "speed"); all four also for
+                all runs of a study
 
 Tables at the head of the file serve all studies: `set`, and [variants], which
 gives the choices their names: NAME = {"Section/Entry" = value}. Entries of a run
@@ -61,6 +62,7 @@ STUDY_KEYS = set(
     "id title scene set seconds quick runs variants meshes reference".split()
 )
 RUN_KEYS = set("name scene set seconds h ranks binding until stop_after".split())
+SHARED_KEYS = set("h ranks binding until stop_after".split())
 
 
 class StudyError(Exception):
@@ -142,7 +144,7 @@ class Options:
 
 
 class Reader:
-    """Makes studies of a file. The class of the runs is that of the kind."""
+    """Makes studies of a file."""
 
     def __init__(
         self,
@@ -150,10 +152,9 @@ class Reader:
         options: Options,
         study_keys: set[str],
         run_keys: set[str],
-        run_class: type[Run] = Run,
     ) -> None:
         """study_keys, run_keys: of the kind, beside those that all have."""
-        self.file, self.options, self.run_class = file, options, run_class
+        self.file, self.options = file, options
         self.study_keys, self.run_keys = study_keys, run_keys
         self.content = read_toml(file)
         self.set: Entries = self.content.get("set", {})
@@ -195,7 +196,7 @@ class Reader:
         if self.options.quick and isinstance(table["quick"], dict):
             table = {**table, **table["quick"]}
         of = f"study {table['id']}"
-        self.refuse_unknown(table, STUDY_KEYS | self.study_keys, of)
+        self.refuse_unknown(table, STUDY_KEYS | SHARED_KEYS | self.study_keys, of)
         runs = []
         for number, run in enumerate(table.get("runs", [{}])):
             self.refuse_unknown(run, RUN_KEYS | self.run_keys, f"a run of {of}")
@@ -248,7 +249,7 @@ class Reader:
             mesh,
             run.get("seconds", study.get("seconds", 1)),
             settings,
-            self.run_class(
+            Run(
                 (self.file.parent / scene).resolve(),
                 entries,
                 directory.resolve(),

@@ -13,7 +13,6 @@ from pathlib import Path
 from types import ModuleType
 
 from caisson.paths import PROGRAM, RESULTS, SCENES, short
-from caisson.run import Run
 from caisson.study import Options, Reader, Study, StudyError, execute, read_toml
 
 # the studies of the project that have a command of their own
@@ -23,6 +22,7 @@ OWN = {
     "stability": SCENES / "stability/stability.toml",
     "error-bar": SCENES / "jack_study.toml",
     "tip": SCENES / "tip_study.toml",
+    "speed": SCENES / "speed.toml",
 }
 KINDS = {
     "verification": "caisson.verification",
@@ -30,6 +30,7 @@ KINDS = {
     "stability": "caisson.stability",
     "error bar": "caisson.error_bar",
     "forces": "caisson.forces",
+    "speed": "caisson.speed",
 }
 
 
@@ -83,7 +84,6 @@ def main(words: argparse.Namespace) -> int:
             options,
             module.STUDY_KEYS,
             module.RUN_KEYS,
-            getattr(module, "RUN_CLASS", Run),
         )
         studies = reader.studies()
         if not studies:
