@@ -57,7 +57,10 @@ def main(words: list[str]) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="\n".join(f"  {name:18}{text}" for name, (_, text) in COMMANDS.items()),
     )
-    parser.add_argument("command", choices=COMMANDS, metavar="COMMAND")
+    parser.add_argument("command", choices=COMMANDS, metavar="COMMAND ...")
+    if not words:
+        parser.print_help()
+        return 1
     name = parser.parse_args(words[:1]).command
     module = importlib.import_module(COMMANDS[name][0])
     own = argparse.ArgumentParser(

@@ -24,6 +24,11 @@ def declare(parser: argparse.ArgumentParser) -> None:
 def directory_of(arguments: list[str]) -> Path | None:
     """Return where the program will write, None where it will not: of bad input,
     which it explains itself, or of options that only print."""
+    parser = argparse.ArgumentParser(add_help=False)
+    parser.add_argument("--output-directory", type=Path)
+    chosen: Path | None = parser.parse_known_args(arguments)[0].output_directory
+    if chosen is not None:  # counts before the entry
+        return chosen
     try:
         return Path(read_parameters(arguments)["Output/Directory"])
     except (RunError, KeyError):
