@@ -129,7 +129,7 @@ write(Scene &s, const double time)
   write_checkpoint(directory,
                    s.grid,
                    s.points,
-                   {time, 0., 7, 8, 9, 1. / 3., {.1, 1e300}},
+                   {{"time", time}, {"third", 1. / 3.}, {"large", 1e300}},
                    parameters);
 }
 
@@ -150,9 +150,9 @@ check_contents(Scene &s)
                 "yes" :
                 "no");
   std::printf("the same state: %s\n",
-              state.time == .7 && state.step == 7 && state.limiter_count == 8 &&
-                  state.held_back == 9 && state.external_work == 1. / 3. &&
-                  state.more == std::vector<double>({.1, 1e300}) ?
+              state == NamedNumbers{{"time", .7},
+                                    {"third", 1. / 3.},
+                                    {"large", 1e300}} ?
                 "yes" :
                 "no");
   std::printf("%s\n", read(s, "a = 1\nb = 3\n").c_str());
@@ -196,6 +196,22 @@ check_damage(Scene &s)
               n_wrong);
   std::filesystem::resize_file(file, size - 8);
   std::printf("cut off: %s\n", read(s).c_str());
+}
+
+/** Any bit of the text is changed. */
+void
+check_damaged_text(Scene &s)
+{
+  const std::string file   = path("checkpoint.info");
+  unsigned int      n_read = 0;
+  for (std::size_t place = 0; place < std::filesystem::file_size(file); ++place)
+    {
+      flip(file, place);
+      n_read += read(s).find("is damaged") == std::string::npos;
+      flip(file, place);
+    }
+  std::printf("damage of the text not noticed: %u\n", n_read);
+  std::printf("as it was: %s\n", read(s).c_str());
 }
 
 /** The file system refuses what is too large. */
@@ -294,6 +310,7 @@ main(int argc, char *argv[])
   s.points.redistribute(all);
   check_point_file(s);
   check_contents(s);
+  check_damaged_text(s);
   check_damage(s);
   check_full_disk(s);
 }

@@ -20,7 +20,7 @@ from program import (
     summary,
 )
 
-SAME = """material_points body_points cells steps held_back limiter_count points_lost
+SAME = """material_points body_points cells steps held_back_count limiter_count
     points_split points_merged""".split()
 DIFFERENCES_OF_WORKS = ("gravity_work_J", "energy_residual_J")
 

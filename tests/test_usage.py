@@ -86,11 +86,10 @@ class Files(ProgramTest):
         about = summary(path)
         for key in (
             "version dealii_version ranks material_points cells steps wall_time_s"
-            " point_steps_per_second peak_memory_bytes limiter_count points_lost"
+            " point_steps_per_second peak_memory_bytes limiter_count"
             " sections"
         ).split():
             self.assertIn(key, about)
-        self.assertEqual(about["points_lost"], 0)
         self.assertEqual(about["max_points_in_body"], 0)
         self.assertEqual(about["steps"], rows[-1]["step"])
         for name in ("points.pvd", "grid.pvd"):

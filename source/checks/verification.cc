@@ -71,7 +71,7 @@ namespace CaissonMPM
     void
     parse_head(const std::string              &place,
                Check                          &check,
-               const std::vector<std::string> &observed)
+               const std::vector<std::string> &series)
     {
       std::istringstream in(check.head);
       in >> check.mode >> check.name;
@@ -88,7 +88,7 @@ namespace CaissonMPM
                     "quantity");
       else
         check_known(check.name,
-                    Records::names(observed),
+                    series,
                     place,
                     "observation or column of history.csv");
       for (std::string word; in >> word;)
@@ -149,8 +149,7 @@ namespace CaissonMPM
     }
 
     Check
-    parse_check(const std::string              &text,
-                const std::vector<std::string> &observed)
+    parse_check(const std::string &text, const std::vector<std::string> &series)
     {
       const std::string place = place_of(text);
       const auto        colon = text.find(':');
@@ -161,7 +160,7 @@ namespace CaissonMPM
                        "1e-3.");
       Check check;
       check.head = Utilities::trim(text.substr(0, colon));
-      parse_head(place, check, observed);
+      parse_head(place, check, series);
       parse_values(place, text.substr(colon + 1), check);
       return check;
     }
@@ -313,10 +312,10 @@ namespace CaissonMPM
 
 
   void
-  Verification::check_parameters(const std::vector<std::string> &observed) const
+  Verification::check_parameters(const std::vector<std::string> &series) const
   {
     for (const std::string &text : texts_of(entry))
-      parse_check(text, observed);
+      parse_check(text, series);
   }
 
 
@@ -341,7 +340,7 @@ namespace CaissonMPM
     std::vector<std::string> items;
     for (const std::string &text : texts_of(entry))
       {
-        const Check      check = parse_check(text, records.observed());
+        const Check      check = parse_check(text, records.names());
         const Comparison c     = compare(check, points, records, time);
         const bool       pass  = c.error <= check.tolerance;
         all_pass               = all_pass && pass;

@@ -550,6 +550,14 @@ namespace CaissonMPM
   }
 
   void
+  MaterialPoints::register_totals(RunTotals &totals)
+  {
+    totals.count("held_back_count", n_held_back);
+    totals.count("points_split", n_split);
+    totals.count("points_merged", n_merged);
+  }
+
+  void
   MaterialPoints::adapt(const WantedSize &wanted)
   {
     std::vector<PlacedPoint> moving;
@@ -629,7 +637,7 @@ namespace CaissonMPM
           double   &coordinate = x[face / 2];
           const int neighbor   = grid.neighbor(cell, face);
           if (neighbor >= 0 && grid.is_rigid(neighbor))
-            ++n_held_back_;
+            ++n_held_back;
           else if (neighbor >= 0 || coordinate < -tolerance ||
                    coordinate > 1. + tolerance || !grid.at_side(cell, face))
             report_lost(point);

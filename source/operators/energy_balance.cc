@@ -1,11 +1,40 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/operators/energy_balance.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace CaissonMPM
 {
+  using namespace dealii;
+
+  PointEnergies
+  find_point_energies(const MaterialPoints                 &points,
+                      const std::vector<Kernels::Material> &materials,
+                      const BackgroundGrid                 &grid)
+  {
+    PointEnergies result;
+    points.for_each_motion([&](const Point<2>    &position,
+                               const Vector2     &velocity,
+                               const double       mass,
+                               const unsigned int material) {
+      const double *const force   = materials[material].body_force;
+      const double        rise[2] = {-mass * force[0] * position[0],
+                                     -mass * force[1] * position[1]};
+      result.kinetic += .5 * mass * velocity.norm_square();
+      result.potential += rise[0] + rise[1];
+      result.weight += std::abs(rise[0]) + std::abs(rise[1]);
+    });
+    for (double *sum : {&result.kinetic, &result.potential, &result.weight})
+      *sum =
+        grid.circumference() * Utilities::MPI::sum(*sum, grid.communicator());
+    return result;
+  }
+
+
+
   void
   EnergyBalance::start(const PointEnergies &points)
   {
@@ -50,51 +79,19 @@ namespace CaissonMPM
 
 
 
-  const EnergyBalance::Members &
-  EnergyBalance::works()
-  {
-    using E                    = EnergyBalance;
-    static const Members works = {&E::work_of_body,
-                                  &E::force_work,
-                                  &E::load_work,
-                                  &E::stress_work,
-                                  &E::friction_heat,
-                                  &E::damping,
-                                  &E::floor};
-    return works;
-  }
-
-
-
-  EnergyBalance::Members
-  EnergyBalance::state_members()
-  {
-    using E        = EnergyBalance;
-    Members result = works();
-    result.insert(result.end(),
-                  {&E::initial_kinetic, &E::initial_potential, &E::largest});
-    return result;
-  }
-
-
-
-  std::vector<double>
-  EnergyBalance::state() const
-  {
-    std::vector<double> state;
-    for (const auto member : state_members())
-      state.push_back(this->*member);
-    return state;
-  }
-
-
-
   void
-  EnergyBalance::resume(const std::vector<double> &state)
+  EnergyBalance::register_totals(RunTotals &totals)
   {
-    unsigned int i = 0;
-    for (const auto member : state_members())
-      this->*member = state.at(i++);
+    totals.sum("work_of_body", work_of_body);
+    totals.sum("work_of_forces", force_work);
+    totals.sum("work_of_loads", load_work);
+    totals.sum("stress_work", stress_work);
+    totals.sum("friction_heat", friction_heat);
+    totals.sum("damping", damping);
+    totals.sum("mass_floor", floor);
+    totals.keep("initial_kinetic_energy", initial_kinetic);
+    totals.keep("initial_potential_energy", initial_potential);
+    totals.keep("largest_work", largest);
   }
 
 

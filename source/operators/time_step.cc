@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/operators/time_step.h>
 
 #include <deal.II/base/mpi.h>
@@ -7,32 +9,41 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace CaissonMPM
 {
   using namespace dealii;
+
+  namespace
+  {
+    // The mesh moves slowly, and the search goes through all cells.
+    constexpr unsigned int steps_between_searches = 20;
+  } // namespace
 
   TimeStep::TimeStep()
     : ParameterAcceptor("/Time")
   {
     add_parameter("Courant number",
                   courant,
-                  "Time step over the stability limit of linear cells. Units: "
-                  "none.",
+                  "The time step over the stability limit of linear cells. "
+                  "Units: none.",
                   prm,
                   Patterns::Double(1e-6, 1.));
     add_parameter("Mass scaling",
                   mass_scaling,
-                  "Factor on the inertia of the soil, not on its weight; the "
-                  "step grows with its square root. Units: none.",
+                  "The inertia of the soil, but not its weight, is multiplied "
+                  "by this factor; the time step grows with its square root. "
+                  "Units: none.",
                   prm,
                   Patterns::Double(1., 1e6));
-    add_parameter("Time step",
-                  fixed_step,
-                  "A time step to use instead; 0 for the stable one. Units: s.",
-                  prm,
-                  Patterns::Double(0.));
+    add_word_or_number(*this,
+                       "Time step",
+                       fixed_step,
+                       "auto",
+                       0.,
+                       "The time step is this one, or with auto the stable one "
+                       "of the Courant number. Units: s.",
+                       Patterns::Double(0.));
   }
 
   std::vector<std::string>
@@ -45,33 +56,42 @@ namespace CaissonMPM
     return {};
   }
 
+  void
+  TimeStep::initialize(const BackgroundGrid           &grid,
+                       MaterialPoints                 &points,
+                       const Soil                     &soil,
+                       std::vector<Kernels::Material> &materials)
+  {
+    find_moduli(grid.communicator(), points, soil, materials);
+    find_limit(grid, points, soil, materials);
+    age = 1; // the start of a run counts as a step
+    if (is_too_large())
+      throw BadInput(text_of_too_large_step());
+  }
+
   double
   TimeStep::choose(const BackgroundGrid           &grid,
                    MaterialPoints                 &points,
                    const Soil                     &soil,
                    std::vector<Kernels::Material> &materials)
   {
-    constexpr unsigned int interval = 20;
-    const bool             is_first = limit == 0.;
-    if (is_first || ++age == interval)
+    if (++age == steps_between_searches)
       {
         find_moduli(grid.communicator(), points, soil, materials);
         find_limit(grid, points, soil, materials);
       }
-    if (fixed_step == 0.)
-      return courant * limit;
-    if (fixed_step > limit)
-      {
-        const std::string text =
-          "Time/Time step = " + std::to_string(fixed_step) +
-          " s exceeds the stability limit " + std::to_string(limit) +
-          " s, set by " + limiting_cell +
-          ". Reduce it, or set it to 0 for the stable one.";
-        if (is_first)
-          throw BadInput(text);
-        throw RunFailure(text);
-      }
-    return fixed_step;
+    if (is_too_large())
+      throw RunFailure(text_of_too_large_step());
+    return step_size();
+  }
+
+  std::string
+  TimeStep::text_of_too_large_step() const
+  {
+    return "Time/Time step = " + to_text(*fixed_step) +
+           " s exceeds the stability limit " + to_text(limit, 6) +
+           " s, set by " + limiting_cell +
+           ". Reduce it, or set it to auto for the stable one.";
   }
 
   void
@@ -144,13 +164,13 @@ namespace CaissonMPM
              const unsigned int    cell,
              const double          speed)
     {
-      const auto        &g = grid.geometry(cell);
-      std::ostringstream s;
-      s << "the cell at r = " << g.left << " m, z = " << g.bottom_left
-        << " m of the " << GridLines::name_of(grid.zone(cell)) << " zone, "
-        << g.width << " m x " << std::min(g.height_left, g.height_right)
-        << " m, wave speed " << speed << " m/s";
-      return s.str();
+      const auto &g    = grid.geometry(cell);
+      const auto  text = [](const double x) { return to_text(x, 6); };
+      return "the cell at r = " + text(g.left) +
+             " m, z = " + text(g.bottom_left) + " m of the " +
+             GridLines::name_of(grid.zone(cell)) + " zone, " + text(g.width) +
+             " m x " + text(std::min(g.height_left, g.height_right)) +
+             " m, wave speed " + text(speed) + " m/s";
     }
   } // namespace
 

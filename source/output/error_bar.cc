@@ -7,8 +7,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -58,29 +56,16 @@ namespace CaissonMPM
     };
   } // namespace
 
-  std::string
-  fingerprint_of(const std::string &parameters)
-  {
-    std::uint64_t hash = 14695981039346656037u;
-    for (const unsigned char c : parameters)
-      hash = (hash ^ c) * 1099511628211u;
-    char text[17];
-    std::snprintf(text,
-                  sizeof(text),
-                  "%016llx",
-                  static_cast<unsigned long long>(hash));
-    return text;
-  }
-
   ErrorBar::ErrorBar()
     : ParameterAcceptor("/Output")
   {
     add_parameter(
       "Error bar",
       file,
-      "File with the relative errors of the forces, as "
-      "scripts/caisson study makes it, relative to the scene's file; "
-      "gives history_error.csv. Empty: none. Units: none.");
+      "The file with the relative errors of the forces, as "
+      "scripts/caisson study makes it, lies at this path relative to "
+      "the scene's file, and leads to history_error.csv; without a "
+      "path there is none. Units: none.");
   }
 
   std::string
@@ -173,20 +158,5 @@ namespace CaissonMPM
         text += "\n";
       }
     write_atomically(directory + "/history_error.csv", text);
-  }
-
-  std::string
-  ErrorBar::description() const
-  {
-    if (rows.empty())
-      return "";
-    double tip = 0., total = 0.;
-    for (const Row &row : rows)
-      {
-        tip   = std::max(tip, row.tip);
-        total = std::max(total, row.total);
-      }
-    return "tip within " + to_text(100. * tip, 2) + " %, total within " +
-           to_text(100. * total, 2) + " % (history_error.csv)";
   }
 } // namespace CaissonMPM

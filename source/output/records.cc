@@ -20,10 +20,12 @@ namespace CaissonMPM
 
 
 
-  Records::Records(const std::string  &directory,
-                   const Observations &observations)
+  Records::Records(const std::string              &directory,
+                   const Observations             &observations,
+                   const std::vector<std::string> &counts)
     : observations(observations)
-    , history(directory + "/history.csv", history_names(), 10)
+    , counts(counts)
+    , history(directory + "/history.csv", history_names(counts), 10)
   {
     // all digits, so that a restart sees the same numbers
     if (!observations.names().empty())
@@ -81,9 +83,10 @@ namespace CaissonMPM
 
 
   std::vector<std::string>
-  Records::names(const std::vector<std::string> &observed)
+  Records::names(const std::vector<std::string> &counts,
+                 const std::vector<std::string> &observed)
   {
-    std::vector<std::string> result = history_names();
+    std::vector<std::string> result = history_names(counts);
     result.erase(result.begin());
     result.insert(result.end(), observed.begin(), observed.end());
     return result;
@@ -92,9 +95,9 @@ namespace CaissonMPM
 
 
   std::vector<std::string>
-  Records::observed() const
+  Records::names() const
   {
-    return observations.names();
+    return names(counts, observations.names());
   }
 
 
@@ -104,7 +107,7 @@ namespace CaissonMPM
                   const double       begin,
                   const double       end) const
   {
-    const auto all   = names(observations.names());
+    const auto all   = names();
     const auto found = std::find(all.begin(), all.end(), name);
     Assert(found != all.end(), dealii::ExcMessage("unknown column " + name));
     const std::size_t column = 1 + (found - all.begin());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/fingerprint.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/restart/checkpoint.h>
@@ -26,7 +27,7 @@ namespace CaissonMPM
 
   namespace
   {
-    const std::string format_name = "caisson_mpm-checkpoint-6";
+    const std::string format_name = "caisson_mpm-checkpoint-7";
 
     // what a rank has in memory at a time besides its own
     constexpr unsigned long points_per_piece = 20000;
@@ -40,72 +41,73 @@ namespace CaissonMPM
     /** What checkpoint.info says. */
     struct Info
     {
-      std::string     file; // checkpoint-a.h5 or checkpoint-b.h5
-      unsigned long   n_points = 0;
-      unsigned long   n_bytes  = 0; // of the file
-      std::uint64_t   checksum = 0; // of the points
-      CheckpointState state;
-      std::string     fingerprint;
+      std::string   file; // checkpoint-a.h5 or checkpoint-b.h5
+      unsigned long n_points = 0;
+      unsigned long n_bytes  = 0; // of the file
+      std::uint64_t checksum = 0; // of the points
+      NamedNumbers  state;
+      std::string   fingerprint;
     };
 
+    /** The text below its first two lines. */
     std::string
-    to_text(const Info &info)
+    body_of(const Info &info)
     {
-      const auto exact = [](const double x) {
-        return CaissonMPM::to_text(x, 17);
-      };
-      const CheckpointState &s = info.state;
-      std::ostringstream     out;
-      out << "format " << format_name << "\nfile " << info.file << "\npoints "
-          << info.n_points << "\nbytes " << info.n_bytes << "\nchecksum "
-          << info.checksum << "\ntime " << exact(s.time) << "\ntravel "
-          << exact(s.travel) << "\nstep " << s.step << "\nlimiter_count "
-          << s.limiter_count << "\nheld_back " << s.held_back
-          << "\nexternal_work " << exact(s.external_work) << "\nmore";
-      for (const double value : s.more)
-        out << ' ' << exact(value);
-      out << "\nfingerprint\n" << info.fingerprint;
+      std::ostringstream out;
+      out << "file " << info.file << "\npoints " << info.n_points << "\nbytes "
+          << info.n_bytes << "\nchecksum_of_points " << info.checksum
+          << "\nstate\n";
+      for (const auto &[name, value] : info.state)
+        out << name << ' ' << to_text(value, 17) << '\n';
+      out << "fingerprint\n" << info.fingerprint;
       return out.str();
     }
 
-    Info
+    std::string
+    text_of(const Info &info)
+    {
+      const std::string body = body_of(info);
+      return "format " + format_name + "\nchecksum_of_text " +
+             fingerprint_of(body) + "\n" + body;
+    }
+
+    /** Call action(name, value) for the lines up to this one. */
+    template <typename Action>
+    void
+    read_lines(std::istream &in, const std::string &end, const Action &action)
+    {
+      for (std::string line; std::getline(in, line) && line != end;)
+        action(line.substr(0, line.find(' ')), line.substr(line.find(' ') + 1));
+    }
+
+    /** No value for a text that is damaged or of another version. */
+    std::optional<Info>
     parse_info(const std::string &text)
     {
-      std::map<std::string, std::vector<std::string>> entries;
-      std::istringstream                              in(text);
-      for (std::string line; std::getline(in, line) && line != "fingerprint";)
-        {
-          std::istringstream words(line);
-          std::string        name;
-          words >> name;
-          for (std::string word; words >> word;)
-            entries[name].push_back(word);
-        }
-      const auto entry = [&](const std::string &name) {
-        return entries[name].empty() ? std::string() : entries[name][0];
-      };
-      const auto real = [&](const std::string &name) {
-        return std::strtod(entry(name).c_str(), nullptr);
-      };
+      std::istringstream in(text);
+      std::string        format, checksum;
+      std::getline(in, format);
+      std::getline(in, checksum);
+      const std::string body =
+        in ? text.substr(format.size() + checksum.size() + 2) : std::string();
+      if (format != "format " + format_name ||
+          checksum != "checksum_of_text " + fingerprint_of(body))
+        return {};
+      std::map<std::string, std::string> entries;
+      read_lines(in, "state", [&](const auto &name, const auto &value) {
+        entries[name] = value;
+      });
       const auto count = [&](const std::string &name) {
-        return std::strtoul(entry(name).c_str(), nullptr, 10);
+        return std::strtoul(entries[name].c_str(), nullptr, 10);
       };
       Info info;
-      if (entry("format") != format_name)
-        return info;
-      info.file     = entry("file");
+      info.file     = entries["file"];
       info.n_points = count("points");
       info.n_bytes  = count("bytes");
-      info.checksum = count("checksum");
-      info.state    = {real("time"),
-                       real("travel"),
-                       count("step"),
-                       count("limiter_count"),
-                       count("held_back"),
-                       real("external_work"),
-                       {}};
-      for (const std::string &word : entries["more"])
-        info.state.more.push_back(std::strtod(word.c_str(), nullptr));
+      info.checksum = count("checksum_of_points");
+      read_lines(in, "fingerprint", [&](const auto &name, const auto &value) {
+        info.state.emplace_back(name, std::strtod(value.c_str(), nullptr));
+      });
       std::ostringstream rest;
       rest << in.rdbuf();
       info.fingerprint = rest.str();
@@ -319,27 +321,26 @@ namespace CaissonMPM
                        " to go on from (no file checkpoint.info). Give the "
                        "output directory of the run that was stopped, or run "
                        "without --restart.");
-      const Info info = parse_info(text);
-      if (info.file.empty() ||
-          size_of(directory + "/" + info.file) != info.n_bytes)
+      const auto info = parse_info(text);
+      if (!info || size_of(directory + "/" + info->file) != info->n_bytes)
         report_damaged(directory);
-      return info;
+      return *info;
     }
   } // namespace
 
 
 
   void
-  write_checkpoint(const std::string     &directory,
-                   const BackgroundGrid  &grid,
-                   const MaterialPoints  &points,
-                   const CheckpointState &state,
-                   const std::string     &fingerprint)
+  write_checkpoint(const std::string    &directory,
+                   const BackgroundGrid &grid,
+                   const MaterialPoints &points,
+                   const NamedNumbers   &state,
+                   const std::string    &fingerprint)
   {
     const MPI_Comm communicator = grid.communicator();
     Info           info;
-    const bool     a_is_valid =
-      parse_info(read_text(info_file(directory))).file == "checkpoint-a.h5";
+    const auto     valid      = parse_info(read_text(info_file(directory)));
+    const bool     a_is_valid = valid && valid->file == "checkpoint-a.h5";
     info.file = Utilities::MPI::broadcast(communicator, a_is_valid ? 1 : 0) ?
                   "checkpoint-b.h5" :
                   "checkpoint-a.h5";
@@ -372,17 +373,17 @@ namespace CaissonMPM
         return on_failure();
       info.n_bytes  = size_of(path);
       info.checksum = *written;
-      return try_to_write(info_file(directory), to_text(info));
+      return try_to_write(info_file(directory), text_of(info));
     });
   }
 
 
 
-  CheckpointState
-  read_checkpoint(const std::string &directory,
-                  BackgroundGrid    &grid,
-                  MaterialPoints    &points,
-                  const std::string &fingerprint)
+  NamedNumbers
+  read_checkpoint(const std::string    &directory,
+                  const BackgroundGrid &grid,
+                  MaterialPoints       &points,
+                  const std::string    &fingerprint)
   {
     const Info info = read_info(directory);
     check_fingerprint(directory, info.fingerprint, fingerprint);
@@ -413,7 +414,6 @@ namespace CaissonMPM
         points.add(grid.local_number(p.cell), p.point);
     });
     points.settle();
-    grid.move_to(info.state.travel);
     return info.state;
   }
 } // namespace CaissonMPM

@@ -1,103 +1,86 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/choice.h>
+#include <caisson_mpm/base/fingerprint.h>
 #include <caisson_mpm/base/text.h>
+#include <caisson_mpm/restart/checkpoint.h>
+#include <caisson_mpm/simulation/physics_text.h>
 #include <caisson_mpm/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
-#include <deal.II/base/revision.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <limits>
 #include <numeric>
-#include <sstream>
 
 namespace CaissonMPM
 {
   using namespace dealii;
 
+  namespace
+  {
+    // Between two of these the mesh moves by less than the finest cell.
+    constexpr unsigned int steps_between_adaptations = 25;
+    // Ranks agree on what each sees for itself; rarely, since that is
+    // collective.
+    constexpr unsigned int steps_between_agreements = 20;
+    constexpr unsigned int steps_between_balances   = 200;
+  } // namespace
+
   Simulation::Simulation(const MPI_Comm communicator)
     : ParameterAcceptor("/")
     , grid(lines, communicator)
     , points(grid)
+    , schedule(body, clock)
+    , recorder({clock,
+                schedule,
+                soil,
+                body,
+                time_step,
+                nodal_motion,
+                contact,
+                points,
+                body_points,
+                materials,
+                timer,
+                grid,
+                energy,
+                totals})
   {
-    const Patterns::Double not_negative(0.);
-    add_parameter("Title", title, "What the scene is. Units: none.");
     enter_subsection("Method");
     add_parameter("Instruction set",
                   instruction_set,
-                  "Of the kernels; auto: the widest of this CPU. Units: none.",
+                  "The kernels use this instruction set; with auto, the widest "
+                  "of this processor. Units: none.",
                   prm,
                   Patterns::Selection("auto|SSE2|AVX2|AVX-512"));
     leave_subsection();
-    enter_subsection("Time");
-    add_parameter("End time",
-                  last_time,
-                  "The run ends at this time; 0: see End penetration. Units: "
-                  "s.",
-                  prm,
-                  not_negative);
-    add_parameter("End penetration",
-                  last_penetration,
-                  "The run ends when the body's tip has come this deep; 0: see "
-                  "End time. Units: m.",
-                  prm,
-                  not_negative);
-    leave_subsection();
     enter_subsection("Output");
-    add_parameter(
-      "Directory",
-      directory,
-      "Where all files of the run go; made if missing. Units: none.");
-    add_parameter("Terminal",
-                  terminal,
-                  "full; plain: nothing that differs from run to run; silent. "
-                  "Units: none.",
-                  prm,
-                  Patterns::Selection("full|plain|silent"));
-    add_parameter("Record interval",
-                  record_interval,
-                  "Time between rows of history.csv; forces are means over it; "
-                  "0: a row for every step. Units: s.",
-                  prm,
-                  not_negative);
-    add_parameter("Frame interval",
-                  frame_interval,
-                  "Time between frames (VTU); 0: first and last only. Units: "
-                  "s.",
-                  prm,
-                  not_negative);
-    add_parameter("Frame penetrations",
-                  frame_penetrations,
-                  "Penetrations at which further frames are written. Units: "
-                  "m.",
-                  prm,
-                  Patterns::List(Patterns::Double(0.), 0, 1000));
-    add_parameter("Checkpoint interval",
-                  checkpoint_interval,
-                  "Wall time between checkpoints; 0: only when stopped. Units: "
-                  "s.",
-                  prm,
-                  not_negative);
+    add_word_or_number(*this,
+                       "Checkpoint interval",
+                       checkpoint_interval,
+                       "never",
+                       0.,
+                       "Checkpoints are written this wall time apart; with "
+                       "never, only when the run is stopped. Units: s.",
+                       Patterns::Double(0.));
     leave_subsection();
+    register_totals();
+  }
+
+  void
+  Simulation::register_totals()
+  {
+    totals.keep("time", clock.time);
+    totals.keep("step", clock.step);
+    totals.count("limiter_count", n_limited);
+    points.register_totals(totals);
+    energy.register_totals(totals);
+    schedule.register_totals(totals);
+    recorder.register_totals(totals);
   }
 
   // ------------------------------------------------------------ set-up
-
-  double
-  Simulation::end_time() const
-  {
-    double end =
-      last_time > 0. ? last_time : std::numeric_limits<double>::infinity();
-    if (last_penetration > 0.)
-      end = std::min(end,
-                     body.motion()
-                       .time_of_travel(last_penetration -
-                                       body.shape().initial_depth())
-                       .value());
-    return end;
-  }
 
   void
   Simulation::validate()
@@ -109,60 +92,45 @@ namespace CaissonMPM
     boundary_conditions.check_parameters(lines);
     loads.check_parameters();
     nodal_motion.check_parameters();
-    observations.initialize(Records::names({}));
-    verification.check_parameters(observations.names());
-    if (last_penetration > 0. &&
-        last_penetration < body.shape().initial_depth() &&
-        !std::isfinite(end_time()))
-      throw BadInput(
-        "Time/End penetration = " + to_text(last_penetration) +
-        " m is less than Rigid body/Initial penetration = " +
-        to_text(body.shape().initial_depth()) +
-        " m. Push deeper, start higher, or pull with a negative velocity.");
-    if (!std::isfinite(end_time()))
-      throw BadInput(
-        "the run has no end: set Time/End time, or Time/End penetration to a "
-        "depth that the body reaches with its velocity.");
+    recorder.check_parameters();
+    schedule.check_parameters();
     if (Kernels::select_kernels(instruction_set.c_str()) == nullptr)
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");
-    const auto range = body.motion().travel_range(end_time()).value();
-    lines.place(body.shape(), soil, range.second, -range.first);
+    const auto travel = schedule.travel_to_hold();
+    lines.place(body.shape(), soil, travel.second, -travel.first);
   }
 
   void
-  Simulation::set_up(const std::string &output_directory, const bool restart)
+  Simulation::set_up(const std::string &scene_file,
+                     const std::string &output_directory,
+                     const bool         restart)
   {
     validate();
-    if (!output_directory.empty())
-      directory = output_directory;
-    prepare_output_directory(directory);
-    console = std::make_unique<Console>(
-      !grid.is_first_rank() ? Console::Verbosity::silent :
-      terminal == "full"    ? Console::Verbosity::full :
-      terminal == "plain"   ? Console::Verbosity::plain :
-                              Console::Verbosity::silent);
-    records       = std::make_unique<Records>(directory, observations);
-    visualization = std::make_unique<Visualization>(directory);
-    stop_request.arm(directory);
     kernels = Kernels::select_kernels(instruction_set.c_str());
+    recorder.open(scene_file,
+                  output_directory,
+                  fingerprint_of(changed_physics(prm)),
+                  *kernels);
+    stop_request.arm(recorder.output_directory());
 
+    body.motion().register_totals(totals);
+    body.motion().start();
     grid.create_mesh();
     set_up_part();
     loads.initialize(time_step.mass_scaling);
     materials = soil.kernel_materials(time_step.mass_scaling);
-
-    wrong_error_bar = error_bar.read(scene, fingerprint_of(changed_physics()));
-    schedule_frames();
     if (restart)
       resume();
     else
       start();
-    while (next_frame < frame_times.size() &&
-           frame_times[next_frame] <= time + 1e-9)
-      ++next_frame;
-    first_step   = step;
-    start_of_run = time;
+    // refuses a fixed step that is too large, before any file is written
+    time_step.initialize(grid, points, soil, materials);
+    clock.step_size = schedule.shorten(time_step.step_size());
+    if (restart)
+      recorder.resume();
+    else
+      recorder.start();
   }
 
   void
@@ -193,30 +161,8 @@ namespace CaissonMPM
     set_up_part();
     points.redistribute(traveling);
     // a part is made of whole cells: it may be impossible to do better
-    ++n_repartitions;
+    ++recorder.n_repartitions;
     accepted_imbalance = std::max(1.1, 1.05 * imbalance(points.cell_costs()));
-  }
-
-  void
-  Simulation::schedule_frames()
-  {
-    for (const double depth : frame_penetrations)
-      frame_times.push_back(
-        body.motion()
-          .time_of_travel(depth - body.shape().initial_depth())
-          .value());
-    for (unsigned int i = 1;
-         frame_interval > 0. && i * frame_interval < end_time() - 1e-9;
-         ++i)
-      frame_times.push_back(i * frame_interval);
-    frame_times.push_back(end_time());
-    std::sort(frame_times.begin(), frame_times.end());
-    frame_times.erase(std::unique(frame_times.begin(),
-                                  frame_times.end(),
-                                  [](const double a, const double b) {
-                                    return b - a < 1e-9;
-                                  }),
-                      frame_times.end());
   }
 
   void
@@ -225,117 +171,55 @@ namespace CaissonMPM
     generator.generate(
       grid, body.shape(), soil, time_step.mass_scaling, points);
     balance();
-    body.motion().start();
-    energy.start(point_energies());
-    choose_step(); // refuses a fixed step that is too large
-    if (grid.is_first_rank())
-      records->create();
-    next_record = record_interval;
+    energy.start(find_point_energies(points, materials, grid));
+    schedule.start();
   }
 
   void
   Simulation::resume()
   {
-    const CheckpointState state =
-      read_checkpoint(directory, grid, points, fingerprint());
-    time                  = state.time;
-    step                  = state.step;
-    next_record           = state.more.at(0);
-    last_record           = state.more.at(1);
-    travel_of_last_record = state.more.at(2);
-    RunTotals motion;
-    body.motion().register_totals(motion);
-    NamedNumbers motion_state = motion.state();
-    for (unsigned int i = 0; i < 3; ++i)
-      motion_state[i].second = state.more.at(3 + i);
-    motion.resume(motion_state, grid.is_first_rank());
+    const NamedNumbers state =
+      read_checkpoint(recorder.output_directory(), grid, points, physics(prm));
+    const std::string missing = totals.resume(state, grid.is_first_rank());
+    if (!missing.empty())
+      throw BadInput("the checkpoint in " + recorder.output_directory() +
+                     " lacks the entry " + missing +
+                     ". Run without --restart.");
+    grid.move_to(body.motion().travel());
     balance();
-    if (grid.is_first_rank())
-      {
-        resume_sums(state);
-        records->resume(time);
-      }
-    visualization->resume(time);
+    schedule.resume();
   }
 
-  void
-  Simulation::print_header(const std::string &scene_file)
+  std::vector<std::string>
+  Simulation::known_limits() const
   {
-    double own_mass = 0.;
-    for (const BodyPoint &p : body_points)
-      own_mass += p.mass;
-    const MPI_Comm      communicator = grid.communicator();
-    const double        mass = Utilities::MPI::sum(own_mass, communicator);
-    const unsigned long n_points =
-      Utilities::MPI::sum<unsigned long>(points.n_points(), communicator);
-    const unsigned long n_body_points =
-      Utilities::MPI::sum<unsigned long>(body_points.size(), communicator);
-    const auto text = [](const auto &value) {
-      std::ostringstream s;
-      s << value;
-      return s.str();
-    };
-    choose_step();
-    console->header(
-      {{"caisson_mpm",
-        CAISSON_MPM_VERSION ", deal.II " DEAL_II_PACKAGE_VERSION},
-       {"scene", scene_file},
-       {"output", directory},
-       {"kernels",
-        std::string(kernels->name) + ", " + text(kernels->width) + " lanes"},
-       {"ranks", text(grid.n_ranks())},
-       {"limit of the step", time_step.reason()}});
-    console->summary(
-      {{"title", title},
-       {"grid", lines.description()},
-       {"material points",
-        text(n_points) + ", and " + text(n_body_points) + " of the body (" +
-          text(mass / 1000.) + " t)"},
-       {"method", nodal_motion.description()},
-       {"time step",
-        text(dt) + " s, mass scaling " + text(time_step.mass_scaling)},
-       {"end", text(end_time()) + " s"}});
-    if (!wrong_error_bar.empty())
-      console->warning(wrong_error_bar);
+    std::vector<std::string> result;
     for (const auto &limits : {soil.known_limits(),
                                nodal_motion.known_limits(),
                                generator.known_limits(body.shape()),
                                time_step.known_limits()})
-      for (const std::string &limit : limits)
-        console->warning(limit);
+      result.insert(result.end(), limits.begin(), limits.end());
+    return result;
   }
 
   // ------------------------------------------------------------ one step
-
-  double
-  Simulation::choose_step()
-  {
-    dt = time_step.choose(grid, points, soil, materials);
-    // do not step over the next event; share what is left evenly
-    double event = end_time();
-    if (record_interval > 0.)
-      event = std::min(event, next_record);
-    if (next_frame < frame_times.size())
-      event = std::min(event, frame_times[next_frame]);
-    const double left = event - time;
-    if (left > 0.)
-      dt = left / std::ceil(left / dt * (1. - 1e-9));
-    return dt;
-  }
 
   void
   Simulation::advance()
   {
     const auto view = grid.view();
     NodalWork  work;
-    choose_step();
-    body.motion().advance(dt, 0.);
+    timed("choose step", [&]() { choose_step(); });
+    timed("move body",
+          [&]() { body.motion().advance(clock.step_size, force_on_body()); });
+    const double dt = clock.step_size;
     timed("points to grid", [&]() {
-      nodal_motion.collect(*kernels, points, grid, materials, loads, time);
+      nodal_motion.collect(
+        *kernels, points, grid, materials, loads, clock.time);
     });
     timed("nodal motion", [&]() { nodal_motion.accelerate(dt, contact); });
     timed("contact", [&]() {
-      boundary_conditions.prepare(grid, time, dt);
+      boundary_conditions.prepare(grid, clock.time, dt);
       nodal_motion.constrain(dt,
                              body.mean_velocity(),
                              boundary_conditions,
@@ -352,20 +236,12 @@ namespace CaissonMPM
       grid.advance();
       points.relocate();
     });
-    if (generator.splits_and_merges() && step % steps_between_adaptions == 0)
+    if (generator.splits_and_merges() &&
+        clock.step % steps_between_adaptations == 0)
       timed("split and merge", [&]() { adapt_points(); });
-    energy.add(work, grid.circumference() * points.leaving().stress_work);
-    time += dt;
-    ++step;
-  }
-
-  void
-  Simulation::adapt_points()
-  {
-    const double travel = lines.total_travel();
-    points.adapt([&](const unsigned int cell) {
-      return generator.wanted_size(grid.geometry(cell), body.shape(), travel);
-    });
+    add_step(work);
+    clock.time += dt;
+    ++clock.step;
   }
 
   template <typename Action>
@@ -377,31 +253,70 @@ namespace CaissonMPM
   }
 
   void
+  Simulation::choose_step()
+  {
+    clock.step_size =
+      schedule.shorten(time_step.choose(grid, points, soil, materials));
+  }
+
+  double
+  Simulation::force_on_body() const
+  {
+    if (!body.motion().needs_force() || clock.step == 0)
+      return 0.;
+    const double impulse =
+      Utilities::MPI::sum(impulse_of_step * body.shape().direction(),
+                          grid.communicator());
+    return impulse / clock.step_size;
+  }
+
+  void
+  Simulation::add_step(const NodalWork &work)
+  {
+    energy.add(work, grid.circumference() * points.leaving().stress_work);
+    recorder.add_step(contact.impulse(), boundary_conditions.impulse());
+    impulse_of_step = std::accumulate(contact.impulse().begin(),
+                                      contact.impulse().end(),
+                                      Vector2());
+    contact.reset_impulse();
+    boundary_conditions.reset_impulse();
+  }
+
+  void
+  Simulation::adapt_points()
+  {
+    const double travel = lines.total_travel();
+    points.adapt([&](const unsigned int cell) {
+      return generator.wanted_size(grid.geometry(cell), body.shape(), travel);
+    });
+  }
+
+  void
   Simulation::update_points(const Kernels::GridView &view)
   {
     if (!nodal_motion.is_finite)
       report_not_finite();
-    auto &leaving = points.leaving();
+    const double dt      = clock.step_size;
+    auto        &leaving = points.leaving();
     kernels->grid_to_points(points.view(),
                             view,
                             grid.next(),
                             materials.data(),
                             nodal_motion.update_settings(dt),
                             nodal_motion.integration_settings(
-                              loads.surrounding_pressure(time + dt)),
+                              loads.surrounding_pressure(clock.time + dt)),
                             nodal_motion.fields(),
                             nodal_motion.cell_moments(),
                             leaving);
     n_limited += leaving.n_limited;
-    point_steps += points.n_points();
   }
 
   void
   Simulation::report_not_finite() const
   {
-    std::ostringstream s;
-    s << "the state is not finite in step " << step << " at t = " << time
-      << " s";
+    std::string text = "the state is not finite in step " +
+                       to_text(clock.step) +
+                       " at t = " + to_text(clock.time, 6) + " s";
     bool found = false;
     points.for_each([&](const MaterialPoint &p, const unsigned int) {
       double sum = p.position[0] + p.position[1] + p.velocity[0] +
@@ -411,27 +326,67 @@ namespace CaissonMPM
       if (!found && !std::isfinite(sum))
         {
           found = true;
-          s << ": the first is material point " << static_cast<long>(p.id)
-            << ", which began at r = " << p.initial_position[0]
-            << " m, z = " << p.initial_position[1] << " m";
+          text += ": the first is material point " +
+                  to_text(static_cast<long>(p.id)) +
+                  ", which began at r = " + to_text(p.initial_position[0], 6) +
+                  " m, z = " + to_text(p.initial_position[1], 6) + " m";
         }
     });
-    s << ". Likely causes: a time step too large for the deformed mesh (reduce "
-         "Time/Courant number), an unstable choice in section Method (the "
-         "defaults are MUSL, blend and Mass floor = true), or a parameter of "
-         "the soil that is out of any range. The files written so far are "
-         "kept.";
-    throw RunFailure(s.str());
+    throw RunFailure(
+      text +
+      ". Likely causes: a time step too large for the deformed mesh (reduce "
+      "Time/Courant number), an unstable choice in section Method (the "
+      "defaults are MUSL, blend and Mass floor = true), or a parameter of "
+      "the soil that is out of any range. The files written so far are "
+      "kept.");
   }
 
   // ------------------------------------------------------------ the run
+
+  void
+  Simulation::output()
+  {
+    SectionTimer::Scope scope(timer, timer.section("output"));
+    const Schedule::Due due = schedule.take_due();
+    if (due.record)
+      recorder.record();
+    if (due.frame)
+      recorder.write_frame();
+    if (checkpoint_is_due())
+      {
+        save_checkpoint();
+        last_checkpoint = recorder.seconds_running();
+      }
+  }
+
+  bool
+  Simulation::checkpoint_is_due()
+  {
+    if (!checkpoint_interval)
+      return false;
+    const bool due =
+      recorder.seconds_running() - last_checkpoint > *checkpoint_interval;
+    if (grid.n_ranks() == 1)
+      return due;
+    // clocks differ
+    return clock.step % steps_between_agreements == 0 &&
+           Utilities::MPI::max(due ? 1 : 0, grid.communicator()) == 1;
+  }
+
+  void
+  Simulation::save_checkpoint()
+  {
+    totals.bring_to_first_rank(grid.communicator());
+    write_checkpoint(
+      recorder.output_directory(), grid, points, totals.state(), physics(prm));
+  }
 
   std::string
   Simulation::reason_to_stop()
   {
     if (grid.n_ranks() == 1)
       return stop_request.reason();
-    if (step % 20 != 0)
+    if (clock.step % steps_between_agreements != 0)
       return "";
     const std::string  reason = stop_request.reason();
     const unsigned int rank =
@@ -444,14 +399,22 @@ namespace CaissonMPM
              Utilities::MPI::broadcast(grid.communicator(), reason, rank);
   }
 
-  bool
-  Simulation::verify()
+  ExitStatus
+  Simulation::stop(const std::string &reason)
   {
-    const AllPoints all_points(points, grid.communicator());
-    const bool      passed =
-      !grid.is_first_rank() ||
-      verification.run(all_points, *records, time, directory, *console);
-    return Utilities::MPI::min(passed ? 1 : 0, grid.communicator()) == 1;
+    save_checkpoint();
+    recorder.write_summary("stopped");
+    recorder.message("stopped: " + reason + "; go on with --restart");
+    return ExitStatus::stopped;
+  }
+
+  ExitStatus
+  Simulation::finish()
+  {
+    const bool passed = recorder.verify();
+    recorder.write_summary(passed ? "finished" : "verification failed");
+    recorder.print_report();
+    return passed ? ExitStatus::success : ExitStatus::failure;
   }
 
   ExitStatus
@@ -459,36 +422,23 @@ namespace CaissonMPM
                   const std::string &output_directory,
                   const bool         restart)
   {
-    start_time = std::chrono::steady_clock::now();
-    scene      = scene_file;
-    set_up(output_directory, restart);
-    print_header(scene_file);
+    set_up(scene_file, output_directory, restart);
+    recorder.print_header(known_limits());
     if (!restart)
       {
-        write_frame();
-        record();
+        recorder.write_frame();
+        recorder.record();
       }
-    const double end = end_time();
-    while (time < end - 1e-9 * std::max(1., end))
+    while (!schedule.is_finished())
       {
         advance();
         output();
-        if (grid.n_ranks() > 1 && step % 200 == 0)
+        if (grid.n_ranks() > 1 && clock.step % steps_between_balances == 0)
           timed("balance", [this]() { balance(); });
         const std::string reason = reason_to_stop();
         if (!reason.empty())
-          {
-            save_checkpoint();
-            write_summary("stopped");
-            console->message("stopped: " + reason + "; go on with --restart");
-            return ExitStatus::stopped;
-          }
+          return stop(reason);
       }
-    const bool passed = verification.empty() || verify();
-    write_summary(passed ? "finished" : "verification failed");
-    print_counts();
-    print_energies();
-    print_times();
-    return passed ? ExitStatus::success : ExitStatus::failure;
+    return finish();
   }
 } // namespace CaissonMPM

@@ -40,10 +40,10 @@ namespace CaissonMPM
   public:
     Verification();
 
-    /** Throws BadInput for a check that cannot be understood; @p observed are
-     * the names of the observations. */
+    /** Throws BadInput for a check that cannot be understood; @p series are
+     * the names of all columns and observations. */
     void
-    check_parameters(const std::vector<std::string> &observed) const;
+    check_parameters(const std::vector<std::string> &series) const;
 
     /** Whether there is nothing to check. */
     bool

@@ -4,6 +4,7 @@
 #ifndef caisson_mpm_domain_material_points_h
 #define caisson_mpm_domain_material_points_h
 
+#include <caisson_mpm/base/run_totals.h>
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_point.h>
 #include <caisson_mpm/domain/point_exchange.h>
@@ -89,20 +90,9 @@ namespace CaissonMPM
     void
     redistribute(const std::vector<TravelingPoint> &traveling);
 
-    /** Points that this rank held back at the body's surface, since the start.
-     */
-    unsigned long
-    n_held_back() const
-    {
-      return n_held_back_;
-    }
-
-    /** Go on counting from here, after a restart. */
+    /** Register the counts of what this rank did with points. */
     void
-    set_n_held_back(const unsigned long n)
-    {
-      n_held_back_ = n;
-    }
+    register_totals(RunTotals &totals);
 
     /** The size that points are to have in a cell, in r and z. Units: m. */
     using WantedSize =
@@ -116,9 +106,6 @@ namespace CaissonMPM
      */
     void
     adapt(const WantedSize &wanted);
-
-    /** Points that were split and pairs that were merged by this process. */
-    unsigned long n_split = 0, n_merged = 0;
 
     /** Call action(position, velocity, mass, material) for every point: less
      * work than for_each(). */
@@ -225,7 +212,9 @@ namespace CaissonMPM
     std::vector<Kernels::LeavingPoint> leaving_storage;
     Kernels::LeavingPoints             leaving_view = {};
     unsigned int                       n_points_    = 0;
-    unsigned long                      n_held_back_ = 0;
+    // how often this rank held a point back at the body's surface, split one,
+    // and merged two
+    unsigned long n_held_back = 0, n_split = 0, n_merged = 0;
   };
 } // namespace CaissonMPM
 

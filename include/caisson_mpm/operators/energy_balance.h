@@ -11,6 +11,7 @@
 #ifndef caisson_mpm_operators_energy_balance_h
 #define caisson_mpm_operators_energy_balance_h
 
+#include <caisson_mpm/base/run_totals.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 
 #include <string>
@@ -26,6 +27,12 @@ namespace CaissonMPM
     double potential = 0.; // of the weight
     double weight    = 0.; // sum of |terms| of the potential energy
   };
+
+  /** Find these sums, of all ranks and the whole circumference. Collective. */
+  PointEnergies
+  find_point_energies(const MaterialPoints                 &points,
+                      const std::vector<Kernels::Material> &materials,
+                      const BackgroundGrid                 &grid);
 
   /**
    * The balance of a run. add() is called in every step, close() at records;
@@ -47,17 +54,9 @@ namespace CaissonMPM
     void
     close(const PointEnergies &points);
 
-    using Members = std::vector<double EnergyBalance::*>;
-
-    /** What add() sums. */
-    static const Members &
-    works();
-
-    /** All that a continued run needs, and back. */
-    std::vector<double>
-    state() const;
+    /** Register what add() sums and what a continued run needs. */
     void
-    resume(const std::vector<double> &state);
+    register_totals(RunTotals &totals);
 
     /** A term of the balance with its name and unit. */
     struct Term
@@ -87,10 +86,6 @@ namespace CaissonMPM
     double relative      = 0.; // of the largest work so far
 
   private:
-    /** What state() consists of. */
-    static Members
-    state_members();
-
     double force_work = 0., initial_kinetic = 0., initial_potential = 0.,
            largest = 0.;
   };

@@ -17,6 +17,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,17 +29,33 @@ namespace CaissonMPM
   public:
     TimeStep();
 
+    /** Find the step at the start or after a restart. Throws BadInput where a
+     * fixed step is not stable. Collective. */
+    void
+    initialize(const BackgroundGrid           &grid,
+               MaterialPoints                 &points,
+               const Soil                     &soil,
+               std::vector<Kernels::Material> &materials);
+
     /**
-     * The step of the current geometry. The limit is found anew every few
-     * steps only: the mesh moves slowly. So is the p-wave modulus of
+     * Return the step of the current geometry. The limit is found anew every
+     * few steps only: the mesh moves slowly. So is the p-wave modulus of
      * @p materials whose stiffness varies, with a margin for the steps between.
-     * The same on all ranks; collective.
+     * Throws RunFailure where a fixed step is no longer stable. The same on all
+     * ranks; collective.
      */
     double
     choose(const BackgroundGrid           &grid,
            MaterialPoints                 &points,
            const Soil                     &soil,
            std::vector<Kernels::Material> &materials);
+
+    /** The step that was found last. Units: s. */
+    double
+    step_size() const
+    {
+      return fixed_step.value_or(courant * limit);
+    }
 
     /** The cell that limits the step, in words. */
     const std::string &
@@ -69,9 +86,18 @@ namespace CaissonMPM
                const Soil                           &soil,
                const std::vector<Kernels::Material> &materials);
 
-    double courant    = 0.5;
-    double fixed_step = 0.;
-    double limit      = 0.;
+    /** Whether a fixed step exceeds the limit. */
+    bool
+    is_too_large() const
+    {
+      return fixed_step && *fixed_step > limit;
+    }
+    std::string
+    text_of_too_large_step() const;
+
+    double                courant = 0.5;
+    std::optional<double> fixed_step;
+    double                limit = 0.; // s
     // of all ranks; infinite where a zone has no points
     std::array<double, GridLines::n_zones> limit_of_zone;
     unsigned int age = 0; // steps since the limit was found

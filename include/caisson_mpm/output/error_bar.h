@@ -43,10 +43,6 @@ namespace CaissonMPM
     void
     write(const std::string &directory) const;
 
-    /** The largest half-widths of tip and total force, as text; or empty. */
-    std::string
-    description() const;
-
   private:
     struct Row
     {
@@ -60,10 +56,6 @@ namespace CaissonMPM
     std::string      file;
     std::vector<Row> rows;
   };
-
-  /** A short text that differs where @p parameters does (FNV-1a, 64 bits). */
-  std::string
-  fingerprint_of(const std::string &parameters);
 } // namespace CaissonMPM
 
 #endif

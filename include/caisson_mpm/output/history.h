@@ -4,9 +4,9 @@
 #ifndef caisson_mpm_output_history_h
 #define caisson_mpm_output_history_h
 
+#include <caisson_mpm/base/named_numbers.h>
 #include <caisson_mpm/operators/energy_balance.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,8 +31,6 @@ namespace CaissonMPM
     double        added_mass     = 0.;
     double        max_speed      = 0.;
     double        time_step      = 0.;
-    unsigned long limiter_count  = 0;
-    unsigned long held_back      = 0;
     unsigned int  points_in_body = 0;
     unsigned int  contact_nodes  = 0;
     unsigned int  sticking_nodes = 0;
@@ -40,21 +38,13 @@ namespace CaissonMPM
     double        prescribed_r   = 0.;
     double        prescribed_z   = 0.;
     EnergyBalance energy;
+    NamedNumbers  counts; // of RunTotals
   };
 
-  /** The columns of history.csv, and how each follows from a row. Others'
-   * scripts read these names: add new columns at the end. */
-  struct HistoryColumn
-  {
-    std::string                               name;
-    std::function<double(const HistoryRow &)> value;
-  };
-
-  const std::vector<HistoryColumn> &
-  history_columns();
-
+  /** Return the names of the columns, the counts last. Others' scripts read
+   * these names. */
   std::vector<std::string>
-  history_names();
+  history_names(const std::vector<std::string> &counts);
 
   /** One value per column. */
   std::vector<double>

@@ -29,8 +29,11 @@ namespace CaissonMPM
   class Records
   {
   public:
-    /** @p observations must outlive this object. */
-    Records(const std::string &directory, const Observations &observations);
+    /** @p observations must outlive this object; @p counts are the names of
+     * the counts of RunTotals. */
+    Records(const std::string              &directory,
+            const Observations             &observations,
+            const std::vector<std::string> &counts);
 
     /** Begin new files. Throws RunFailure where that is not possible. */
     void
@@ -45,14 +48,15 @@ namespace CaissonMPM
     void
     append(const HistoryRow &row, const std::vector<double> &observed);
 
-    /** The names of all columns but the time; @p observed are those of the
-     * observations. */
+    /** The names of all columns but the time: of history.csv with these
+     * counts, and of the observations. */
     static std::vector<std::string>
-    names(const std::vector<std::string> &observed);
+    names(const std::vector<std::string> &counts,
+          const std::vector<std::string> &observed);
 
-    /** The names of the observations. */
+    /** The names of all columns but the time. */
     std::vector<std::string>
-    observed() const;
+    names() const;
 
     /** A column by its name, from @p begin to @p end. Units: s. */
     Series
@@ -60,6 +64,7 @@ namespace CaissonMPM
 
   private:
     const Observations              &observations;
+    const std::vector<std::string>   counts;
     RowFile                          history;
     std::unique_ptr<RowFile>         observed_file;
     std::vector<std::vector<double>> rows; // of both files

@@ -4,62 +4,50 @@
 //
 // Files in the output directory: the points in checkpoint-a.h5 or
 // checkpoint-b.h5 in turn (point_file.h), and the text checkpoint.info, which
-// says which of the two is valid and has the rest of the state. The points are
-// read back before, and the text is replaced last and at once, so that a run
-// that is killed at any time leaves one complete checkpoint. The mesh follows
-// from the parameters and the travel. Memory: some megabytes, however many
-// points there are.
+// says which of the two is valid and has the rest of the state by name, with
+// checksums of the points and of its own text. The points are read back before,
+// and the text is replaced last and at once, so that a run that is killed at
+// any time leaves one complete checkpoint. The mesh follows from the parameters
+// and the travel. Memory: some megabytes, however many points there are.
 #ifndef caisson_mpm_restart_checkpoint_h
 #define caisson_mpm_restart_checkpoint_h
 
+#include <caisson_mpm/base/named_numbers.h>
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_points.h>
 
 #include <string>
-#include <vector>
 
 namespace CaissonMPM
 {
-  /** What the run must know besides the material points: values of all ranks,
-   * of which the first one's are written. SI units. */
-  struct CheckpointState
-  {
-    double        time          = 0.;
-    double        travel        = 0.;
-    unsigned long step          = 0;
-    unsigned long limiter_count = 0;
-    unsigned long held_back     = 0;
-    double        external_work = 0.;
-    /** Whatever else the caller wants to have back. */
-    std::vector<double> more;
-  };
-
   /**
-   * Write the points and the state. @p fingerprint is the text of all
+   * Write the points and @p state, whatever else the run must know: values of
+   * all ranks, of which the first one's are written. @p fingerprint is the text of all
    * parameters that must be the same when the run goes on, one per line.
    * Throws RunFailure where there is no room or the file is not as it should
    * be; the previous checkpoint is still valid then. Collective.
    */
   void
-  write_checkpoint(const std::string     &directory,
-                   const BackgroundGrid  &grid,
-                   const MaterialPoints  &points,
-                   const CheckpointState &state,
-                   const std::string     &fingerprint);
+  write_checkpoint(const std::string    &directory,
+                   const BackgroundGrid &grid,
+                   const MaterialPoints &points,
+                   const NamedNumbers   &state,
+                   const std::string    &fingerprint);
 
   /**
-   * Bring the points and the grid to the state of the checkpoint, and return
-   * it. The mesh of the same scene must have been created, on as many ranks as
-   * you like; @p points are replaced. Points of a cell keep their order. Throws
+   * Bring the points to the state of the checkpoint, and return the rest of it,
+   * from which the caller moves the grid. The mesh of the same scene must have
+   * been created, on as many ranks as you like; @p points are replaced. Points
+   * of a cell keep their order. Throws
    * BadInput where there is no checkpoint, it is damaged, or @p fingerprint
    * differs from the one it was written with, naming the first line that
    * differs. Collective.
    */
-  CheckpointState
-  read_checkpoint(const std::string &directory,
-                  BackgroundGrid    &grid,
-                  MaterialPoints    &points,
-                  const std::string &fingerprint);
+  NamedNumbers
+  read_checkpoint(const std::string    &directory,
+                  const BackgroundGrid &grid,
+                  MaterialPoints       &points,
+                  const std::string    &fingerprint);
 } // namespace CaissonMPM
 
 #endif

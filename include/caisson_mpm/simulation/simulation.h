@@ -4,13 +4,11 @@
 #ifndef caisson_mpm_simulation_simulation_h
 #define caisson_mpm_simulation_simulation_h
 
-#include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/exceptions.h>
-#include <caisson_mpm/base/output_directory.h>
+#include <caisson_mpm/base/run_totals.h>
 #include <caisson_mpm/base/stop_request.h>
 #include <caisson_mpm/base/timing.h>
 #include <caisson_mpm/bodies/rigid_body.h>
-#include <caisson_mpm/checks/verification.h>
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/body_points.h>
 #include <caisson_mpm/domain/material_points.h>
@@ -23,16 +21,13 @@
 #include <caisson_mpm/operators/loads.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 #include <caisson_mpm/operators/time_step.h>
-#include <caisson_mpm/output/error_bar.h>
-#include <caisson_mpm/output/observations.h>
-#include <caisson_mpm/output/records.h>
-#include <caisson_mpm/output/visualization.h>
-#include <caisson_mpm/restart/checkpoint.h>
+#include <caisson_mpm/simulation/clock.h>
+#include <caisson_mpm/simulation/recorder.h>
+#include <caisson_mpm/simulation/schedule.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
-#include <chrono>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,8 +41,7 @@ namespace CaissonMPM
    * in the order of the method. Collective over MPI.
    *
    * Each rank works on the cells that it owns and the points in them. Sums over
-   * nodes, points and steps are of one rank until bring_sums_to_first_rank();
-   * the first rank prints and writes.
+   * nodes, points and steps are of one rank; see RunTotals.
    */
   class Simulation : public dealii::ParameterAcceptor
   {
@@ -71,7 +65,11 @@ namespace CaissonMPM
 
   private:
     void
-    set_up(const std::string &output_directory, const bool restart);
+    register_totals();
+    void
+    set_up(const std::string &scene_file,
+           const std::string &output_directory,
+           const bool         restart);
     /** Set up what knows the cells or nodes of this rank. */
     void
     set_up_part();
@@ -79,78 +77,49 @@ namespace CaissonMPM
     void
     balance();
     void
-    schedule_frames();
-    void
     start();
     void
     resume();
-    void
-    print_header(const std::string &scene_file);
+    std::vector<std::string>
+    known_limits() const;
 
-    double
-    choose_step();
     void
     advance();
     template <typename Action>
     void
     timed(const char *section, const Action &action);
     void
+    choose_step();
+    /** The force of the soil on the body in the last step, of all ranks, where
+     * the motion needs it; else 0. Units: N. */
+    double
+    force_on_body() const;
+    void
     update_points(const Kernels::GridView &view);
     void
     adapt_points();
+    /** Hand the sums of this step to those who keep them. */
+    void
+    add_step(const NodalWork &work);
     void
     report_not_finite() const;
-    std::string
-    reason_to_stop();
-    bool
-    verify();
 
     void
     output();
     bool
     checkpoint_is_due();
     void
-    bring_sums_to_first_rank();
-    void
-    record();
-    void
-    add_forces(HistoryRow &row);
-    void
-    warn_of_lid(const HistoryRow &row);
-    void
-    add_sums_over_points(HistoryRow &row);
-    PointEnergies
-    point_energies() const;
-    void
-    print_record(const HistoryRow &row);
-    void
-    write_frame();
-    void
     save_checkpoint();
-    void
-    resume_sums(const CheckpointState &state);
-    void
-    write_summary(const std::string &status);
-    void
-    print_counts();
-    void
-    print_energies();
-    void
-    print_times();
     std::string
-    fingerprint() const;
-    std::string
-    changed_physics() const;
-    double
-    end_time() const;
-    double
-    seconds_running() const;
-
-    // the mesh moves less than the finest cell in so many steps
-    static constexpr unsigned int steps_between_adaptions = 25;
+    reason_to_stop();
+    ExitStatus
+    stop(const std::string &reason);
+    ExitStatus
+    finish();
 
     // in the order of their sections in a .prm file
     GridLines          lines;
+    BackgroundGrid     grid;
     Soil               soil;
     RigidBody          body;
     PointGenerator     generator;
@@ -158,56 +127,30 @@ namespace CaissonMPM
     Loads              loads;
     NodalMotion        nodal_motion;
     TimeStep           time_step;
-    Observations       observations;
-    Verification       verification;
-    ErrorBar           error_bar;
     StopRequest        stop_request;
 
-    BackgroundGrid                 grid;
+    // state
+    Clock                          clock;
     MaterialPoints                 points;
     std::vector<BodyPoint>         body_points;
     Contact                        contact;
     std::vector<Kernels::Material> materials;
     const Kernels::KernelTable    *kernels = nullptr;
+    EnergyBalance                  energy;
+    unsigned long                  n_limited = 0;   // velocities of points
+    Vector2                        impulse_of_step; // on the body, this rank's
 
     // parameters
-    std::string         title            = "a scene";
-    std::string         instruction_set  = "auto";
-    double              last_time        = 0.;
-    double              last_penetration = 0.;
-    std::string         directory        = "results";
-    std::string         terminal         = "full";
-    double              record_interval  = 0.1;
-    double              frame_interval   = 0.;
-    std::vector<double> frame_penetrations;
-    double              checkpoint_interval = 600.;
+    std::string           instruction_set     = "auto";
+    std::optional<double> checkpoint_interval = 600.;
 
-    // state
-    double        time = 0., dt = 0.;
-    unsigned long step = 0, n_limited = 0;
-    EnergyBalance energy;
+    RunTotals    totals;
+    SectionTimer timer;
+    Schedule     schedule;
+    Recorder     recorder;
 
-    // of several ranks
-    double       accepted_imbalance = 1.1; // largest over mean work
-    unsigned int n_repartitions     = 0;
-
-    // output
-    std::unique_ptr<Console>       console;
-    std::unique_ptr<Records>       records;
-    std::unique_ptr<Visualization> visualization;
-    SectionTimer                   timer;
-    std::vector<double>            frame_times;
-    std::string                    scene, wrong_error_bar;
-    double        next_record = 0., last_record = 0., next_checkpoint = 0.;
-    double        last_printed          = 0.;
-    unsigned int  next_frame            = 0;
-    unsigned long first_step            = 0; // of this run
-    double        start_of_run          = 0.;
-    double        travel_of_last_record = 0.;
-    unsigned int  max_in_body           = 0;
-    bool          at_lid                = false;
-    double        point_steps           = 0.;
-    std::chrono::steady_clock::time_point start_time;
+    double accepted_imbalance = 1.1; // of the ranks, largest over mean work
+    double last_checkpoint    = 0.;  // wall time, s
   };
 } // namespace CaissonMPM
 

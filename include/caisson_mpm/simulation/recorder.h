@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What a run tells while it goes on: rows, observations, frames, progress.
+#ifndef caisson_mpm_simulation_recorder_h
+#define caisson_mpm_simulation_recorder_h
+
+#include <caisson_mpm/base/console.h>
+#include <caisson_mpm/checks/verification.h>
+#include <caisson_mpm/output/error_bar.h>
+#include <caisson_mpm/output/observations.h>
+#include <caisson_mpm/output/records.h>
+#include <caisson_mpm/output/visualization.h>
+#include <caisson_mpm/simulation/recorded_parts.h>
+#include <caisson_mpm/simulation/run_report.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /**
+   * Owns the terminal and the files of a run, except the checkpoint, and knows
+   * what has happened since the last record. add_step() is called in each step
+   * and is not collective; all other functions are. The first rank prints and
+   * writes.
+   */
+  class Recorder : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit Recorder(const RecordedParts &parts);
+
+    /** Throw BadInput for observations and checks that cannot be understood. */
+    void
+    check_parameters();
+
+    /**
+     * Prepare the directory and the terminal. @p scene_file is for messages; a
+     * non-empty @p output_directory replaces the parameter. @p fingerprint is
+     * that of the physics. Throws BadInput where the directory or the file of
+     * the error bar cannot be used.
+     */
+    void
+    open(const std::string          &scene_file,
+         const std::string          &output_directory,
+         const std::string          &fingerprint,
+         const Kernels::KernelTable &kernels);
+
+    /** Begin new files. */
+    void
+    start();
+
+    /** Continue the files of the run whose totals have been resumed. */
+    void
+    resume();
+
+    /** Register what is summed up between records. */
+    void
+    register_totals(RunTotals &totals);
+
+    /** Print what is run, and what is known to limit its use. */
+    void
+    print_header(const std::vector<std::string> &known_limits);
+
+    /** Add a step: the impulses of this rank's nodes, for the whole
+     * circumference. Units: N s. */
+    void
+    add_step(const SurfaceForces &on_body, const Vector2 &on_prescribed_soil);
+
+    void
+    record();
+
+    void
+    write_frame();
+
+    /** Make the checks of the scene. Returns whether all are passed. */
+    bool
+    verify();
+
+    /** Write run.json and the error bar. */
+    void
+    write_summary(const std::string &status);
+
+    /** Print sums, energies and times. */
+    void
+    print_report();
+
+    void
+    message(const std::string &text);
+
+    const std::string &
+    output_directory() const
+    {
+      return directory;
+    }
+
+    /** Wall time since open(). Units: s. */
+    double
+    seconds_running() const;
+
+    /** How often the parts of the ranks have been changed. */
+    unsigned int n_repartitions = 0;
+
+  private:
+    Console::Verbosity
+    verbosity() const;
+    void
+    begin();
+    void
+    add_forces(HistoryRow &row);
+    /** The pressure on a cylinder that expands. Units: Pa. */
+    double
+    cavity_pressure(const double interval) const;
+    void
+    add_sums_over_points(HistoryRow &row);
+    std::vector<double>
+    observed_values() const;
+    void
+    warn_of_lid(const HistoryRow &row);
+    void
+    print_record(const HistoryRow &row);
+    RunFacts
+    facts(const std::string &status) const;
+
+    const RecordedParts parts;
+
+    Observations observations;
+    Verification verification;
+    ErrorBar     error_bar;
+
+    enum class Terminal
+    {
+      full,
+      plain,
+      silent
+    };
+    std::string title     = "a scene";
+    std::string directory = "results";
+    Terminal    terminal  = Terminal::full;
+
+    std::unique_ptr<Console>              console;
+    std::unique_ptr<Records>              records;
+    std::unique_ptr<Visualization>        visualization;
+    std::string                           scene, fingerprint;
+    std::string                           wrong_error_bar;
+    const Kernels::KernelTable           *kernels = nullptr;
+    std::chrono::steady_clock::time_point start_time;
+
+    // since the last record
+    SurfaceForces impulse_on_body  = {};
+    Vector2       impulse_on_soil  = Vector2();
+    double        last_record      = 0.;
+    double        travel_at_record = 0.;
+
+    // since the start of this process
+    double        point_steps       = 0.; // of this rank
+    double        fraction_at_start = 0.;
+    double        fraction_printed  = 0.;
+    unsigned long first_step        = 0;
+
+    unsigned int max_in_body = 0;
+    bool         at_lid      = false;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What a run tells at its end: run.json, and the tables on the terminal.
+#ifndef caisson_mpm_simulation_run_report_h
+#define caisson_mpm_simulation_run_report_h
+
+#include <caisson_mpm/base/console.h>
+#include <caisson_mpm/simulation/recorded_parts.h>
+
+#include <string>
+
+namespace CaissonMPM
+{
+  /** What a report needs besides the parts. */
+  struct RunFacts
+  {
+    std::string   status; // how the run ended, for instance "finished"
+    std::string   scene_file;
+    std::string   fingerprint; // of all parameters that are not defaults
+    std::string   kernels;
+    unsigned int  n_repartitions = 0;
+    unsigned int  max_in_body    = 0;  // points at any record
+    unsigned long n_steps        = 0;  // of this process
+    double        point_steps    = 0.; // of all ranks
+    double        wall_time      = 0.; // s
+  };
+
+  /** Write run.json: what was run, how large it was and how long it took. The
+   * counts must have been brought to the first rank. Throws RunFailure where
+   * the file cannot be written. Collective. */
+  void
+  write_run_summary(const std::string   &path,
+                    const RecordedParts &parts,
+                    const RunFacts      &facts);
+
+  /** Print the counts, the energies and the wall times. Not collective. */
+  void
+  print_run_report(Console             &console,
+                   const RecordedParts &parts,
+                   const RunFacts      &facts);
+} // namespace CaissonMPM
+
+#endif

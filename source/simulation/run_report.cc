@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/base/text_file.h>
+#include <caisson_mpm/output/json.h>
+#include <caisson_mpm/simulation/run_report.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/revision.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // ---------------------------------------------------------- run.json
+
+    void
+    append(Json::Members &members, const Json::Members &more)
+    {
+      members.insert(members.end(), more.begin(), more.end());
+    }
+
+    Json::Members
+    about_program(const RunFacts &facts)
+    {
+      return {{"version", Json::text(CAISSON_MPM_VERSION)},
+              {"dealii_version", Json::text(DEAL_II_PACKAGE_VERSION)},
+              {"scene_file", Json::text(facts.scene_file)},
+              {"instruction_set", Json::text(facts.kernels)},
+              {"fingerprint", Json::text(facts.fingerprint)},
+              {"status", Json::text(facts.status)}};
+    }
+
+    Json::Members
+    about_size(const RecordedParts &parts, const RunFacts &facts)
+    {
+      const auto sum = [&parts](const unsigned long value) {
+        return Json::integer(
+          Utilities::MPI::sum(value, parts.grid.communicator()));
+      };
+      return {{"ranks", Json::integer(parts.grid.n_ranks())},
+              {"repartitions", Json::integer(facts.n_repartitions)},
+              {"material_points", sum(parts.points.n_points())},
+              {"cells", Json::integer(parts.grid.n_global_cells())},
+              {"body_points", sum(parts.body_points.size())},
+              {"steps", Json::integer(facts.n_steps)}};
+    }
+
+    Json::Members
+    counts(const RecordedParts &parts, const RunFacts &facts)
+    {
+      Json::Members members;
+      for (const auto &[name, value] : parts.totals.counts())
+        members.emplace_back(name, Json::integer(value));
+      members.emplace_back("max_points_in_body",
+                           Json::integer(facts.max_in_body));
+      return members;
+    }
+
+    Json::Members
+    about_speed(const RecordedParts &parts, const RunFacts &facts)
+    {
+      return {{"point_steps", Json::number(facts.point_steps)},
+              {"wall_time_s", Json::number(facts.wall_time)},
+              {"point_steps_per_second",
+               Json::number(facts.point_steps / facts.wall_time)},
+              {"peak_memory_bytes", // of all ranks together
+               Json::number(Utilities::MPI::sum(peak_memory_bytes(),
+                                                parts.grid.communicator()))}};
+    }
+
+    Json::Members
+    masses(const RecordedParts &parts)
+    {
+      double body = 0., soil = 0.;
+      for (const BodyPoint &p : parts.body_points)
+        body += p.mass;
+      parts.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+        soil += parts.grid.circumference() * p.mass;
+      });
+      const auto sum = [&parts](const double value) {
+        return Json::number(
+          Utilities::MPI::sum(value, parts.grid.communicator()));
+      };
+      return {{"body_mass_kg", sum(body)}, {"soil_mass_kg", sum(soil)}};
+    }
+
+    Json::Members
+    about_step(const RecordedParts &parts)
+    {
+      return {{"time_step_s", Json::number(parts.clock.step_size)},
+              {"time_step_limit", Json::text(parts.time_step.reason())},
+              {"time_step_limits_s",
+               Json::object(Json::numbers(parts.time_step.zone_limits()), 2)}};
+    }
+
+    NamedNumbers
+    energies(const EnergyBalance &energy)
+    {
+      NamedNumbers result = {{"external_work_J", energy.work_of_body},
+                             {"kinetic_energy_gain_J", energy.kinetic_gain}};
+      for (const auto &entry : energy.entries())
+        result.push_back(entry);
+      return result;
+    }
+
+    /** Lengths and angles that the pictures show. */
+    NamedNumbers
+    about_scene(const RecordedParts &parts)
+    {
+      const Soil  &soil   = parts.soil;
+      NamedNumbers result = parts.body.shape().dimensions();
+      if (!result.empty())
+        result.insert(result.end(),
+                      {{"submerged_unit_weight_N_m3", soil.unit_weight(0)},
+                       {"friction_angle_deg", soil.layer(0).friction_angle()},
+                       {"wall_friction_angle_deg",
+                        parts.body.surface().friction_angle[outer_wall]},
+                       {"K0", soil.layer(0).earth_pressure_at_rest()}});
+      return result;
+    }
+
+    // ---------------------------------------------------------- terminal
+
+    std::string
+    percent(const double part)
+    {
+      return to_text(100. * part, 3) + " %";
+    }
+
+    void
+    print_counts(Console             &console,
+                 const RecordedParts &parts,
+                 const RunFacts      &facts)
+    {
+      Console::Lines lines = {
+        {"points in the body", to_text(facts.max_in_body) + " at any record"}};
+      for (const auto &[name, value] : parts.totals.counts())
+        lines.emplace_back(name, to_text(value, 12));
+      console.header(lines);
+    }
+
+    void
+    print_energies(Console &console, const EnergyBalance &energy)
+    {
+      const auto joule = [](const double value) {
+        return to_text(value, 6) + " J";
+      };
+      console.header({{"work of the body", joule(energy.work_of_body)},
+                      {"work of gravity", joule(energy.gravity_work)},
+                      {"work of loads", joule(energy.load_work)},
+                      {"stress work", joule(energy.stress_work)},
+                      {"friction heat", joule(energy.friction_heat)},
+                      {"kinetic energy", joule(energy.kinetic_gain)},
+                      {"damping, mass floor",
+                       joule(energy.damping) + ", " + joule(energy.floor)},
+                      {"lost in the transfer", joule(energy.dissipation)},
+                      {"energy residual",
+                       joule(energy.residual) + ", " +
+                         percent(energy.relative) + " of the work"}});
+      if (std::abs(energy.relative) > .01)
+        console.warning("the energy residual is " + percent(energy.relative) +
+                        " of the work: see doc/limitations.md, Energy");
+    }
+
+    void
+    print_times(Console &console, const SectionTimer &timer, const double total)
+    {
+      std::vector<TableRow> rows;
+      double                sum = 0.;
+      for (const auto &[name, seconds] : timer.seconds())
+        {
+          rows.push_back({name, seconds, 100. * seconds / total});
+          sum += seconds;
+        }
+      rows.push_back(
+        {"set-up and rest", total - sum, 100. * (1. - sum / total)});
+      rows.push_back({"total", total, 100.});
+      console.table("wall time", rows);
+    }
+  } // namespace
+
+
+
+  void
+  write_run_summary(const std::string   &path,
+                    const RecordedParts &parts,
+                    const RunFacts      &facts)
+  {
+    Json::Members members = about_program(facts);
+    append(members, about_size(parts, facts));
+    append(members, counts(parts, facts));
+    append(members, about_speed(parts, facts));
+    append(members, masses(parts));
+    append(members, about_step(parts));
+    append(members,
+           {{"energies",
+             Json::object(Json::numbers(energies(parts.energy)), 2)},
+            {"sections", Json::object(Json::numbers(parts.timer.seconds()), 2)},
+            {"scene", Json::object(Json::numbers(about_scene(parts)), 2)}});
+    if (parts.grid.is_first_rank())
+      write_atomically(path, Json::object(members) + "\n");
+  }
+
+
+
+  void
+  print_run_report(Console             &console,
+                   const RecordedParts &parts,
+                   const RunFacts      &facts)
+  {
+    print_counts(console, parts, facts);
+    print_energies(console, parts.energy);
+    print_times(console, parts.timer, facts.wall_time);
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/choice.h>
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/simulation/schedule.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double never     = std::numeric_limits<double>::infinity();
+    constexpr double tolerance = 1e-9; // of a time, s
+  }                                    // namespace
+
+  Schedule::Schedule(const RigidBody &body, const Clock &clock)
+    : ParameterAcceptor("/")
+    , body(body)
+    , clock(clock)
+  {
+    const Patterns::Double not_negative(0.);
+    enter_subsection("Time");
+    add_word_or_number(*this,
+                       "End time",
+                       last_time,
+                       "never",
+                       0.,
+                       "The run ends at this time, unless End penetration ends "
+                       "it earlier. Units: s.",
+                       not_negative);
+    add_word_or_number(*this,
+                       "End penetration",
+                       last_penetration,
+                       "never",
+                       0.,
+                       "The run ends when the tip of the body has come to this "
+                       "depth, unless End time ends it earlier. Units: m.",
+                       not_negative);
+    leave_subsection();
+    enter_subsection("Output");
+    add_word_or_number(*this,
+                       "Record interval",
+                       record_interval,
+                       "every step",
+                       0.,
+                       "The rows of history.csv are this time apart, and their "
+                       "forces are means over it. Units: s.",
+                       not_negative);
+    add_word_or_number(*this,
+                       "Frame interval",
+                       frame_interval,
+                       "never",
+                       0.,
+                       "Frames (VTU) are written this time apart, besides the "
+                       "first, the last and those at Frame penetrations. "
+                       "Units: s.",
+                       not_negative);
+    add_parameter("Frame penetrations",
+                  frame_penetrations,
+                  "Further frames are written at these penetrations. Units: "
+                  "m.",
+                  prm,
+                  Patterns::List(Patterns::Double(0.), 0, 1000));
+    leave_subsection();
+  }
+
+
+
+  double
+  Schedule::time_of(const double depth) const
+  {
+    return body.motion().time_of_travel(travel_at(depth)).value_or(never);
+  }
+
+
+
+  bool
+  Schedule::times_are_known() const
+  {
+    return body.motion().time_of_travel(0.).has_value();
+  }
+
+
+
+  bool
+  Schedule::has_reached(const double depth) const
+  {
+    const double travel = body.motion().travel(), wanted = travel_at(depth);
+    return wanted >= 0. ? travel >= wanted : travel <= wanted;
+  }
+
+
+
+  double
+  Schedule::find_end() const
+  {
+    return std::min(last_time.value_or(never),
+                    last_penetration ? time_of(*last_penetration) : never);
+  }
+
+
+
+  void
+  Schedule::check_parameters() const
+  {
+    if (std::isfinite(find_end()) || (last_penetration && !times_are_known()))
+      return;
+    const double depth = body.shape().initial_depth();
+    if (last_penetration && *last_penetration < depth)
+      throw BadInput(
+        "Time/End penetration = " + to_text(*last_penetration) +
+        " m is less than Rigid body/Initial penetration = " + to_text(depth) +
+        " m. Push deeper, start higher, or pull with a negative velocity.");
+    throw BadInput(
+      "the run has no end: set Time/End time, or Time/End penetration to a "
+      "depth that the body reaches with its velocity.");
+  }
+
+
+
+  std::pair<double, double>
+  Schedule::travel_to_hold() const
+  {
+    if (const auto range = body.motion().travel_range(find_end()))
+      return *range;
+    if (!last_penetration)
+      throw BadInput("Time/End penetration must be set: the motion of the body "
+                     "is not known in advance, and the mesh must be made for "
+                     "all of it.");
+    const double travel = travel_at(*last_penetration);
+    return {std::min(0., travel), std::max(0., travel)};
+  }
+
+
+
+  void
+  Schedule::start()
+  {
+    next_record = record_interval.value_or(0.);
+    resume();
+  }
+
+
+
+  void
+  Schedule::resume()
+  {
+    end = find_end();
+    frame_times.clear();
+    frame_depths.clear();
+    for (const double depth : frame_penetrations)
+      if (times_are_known())
+        frame_times.push_back(time_of(depth));
+      else
+        frame_depths.push_back(depth);
+    std::sort(frame_times.begin(), frame_times.end());
+    pass_frames();
+  }
+
+
+
+  void
+  Schedule::pass_frames()
+  {
+    passed = clock.time + tolerance;
+    frame_depths.erase(std::remove_if(frame_depths.begin(),
+                                      frame_depths.end(),
+                                      [this](const double depth) {
+                                        return has_reached(depth);
+                                      }),
+                       frame_depths.end());
+  }
+
+
+
+  double
+  Schedule::next_frame_time() const
+  {
+    double     next = end;
+    const auto listed =
+      std::upper_bound(frame_times.begin(), frame_times.end(), passed);
+    if (listed != frame_times.end())
+      next = std::min(next, *listed);
+    if (frame_interval)
+      {
+        double number = std::floor(passed / *frame_interval);
+        while (number * *frame_interval <= passed)
+          ++number;
+        if (number * *frame_interval < end - tolerance)
+          next = std::min(next, number * *frame_interval);
+      }
+    return next;
+  }
+
+
+
+  double
+  Schedule::shorten(const double step_size) const
+  {
+    double event = std::min(end, next_frame_time());
+    if (record_interval)
+      event = std::min(event, next_record);
+    const double left = event - clock.time;
+    // share what is left evenly
+    return left > 0. && std::isfinite(left) ?
+             left / std::ceil(left / step_size * (1. - 1e-9)) :
+             step_size;
+  }
+
+
+
+  bool
+  Schedule::is_finished() const
+  {
+    if (last_penetration && !times_are_known() &&
+        has_reached(*last_penetration))
+      return true;
+    return clock.time >= end - tolerance * std::max(1., end);
+  }
+
+
+
+  Schedule::Due
+  Schedule::take_due()
+  {
+    const double now      = clock.time + tolerance;
+    const bool   finished = is_finished();
+    Due          due;
+    due.record = finished || now >= next_record;
+    due.frame  = finished || now >= next_frame_time() ||
+                std::any_of(frame_depths.begin(),
+                            frame_depths.end(),
+                            [this](const double d) { return has_reached(d); });
+    if (now >= next_record)
+      next_record += record_interval.value_or(0.);
+    if (due.frame)
+      pass_frames();
+    return due;
+  }
+
+
+
+  double
+  Schedule::fraction_done() const
+  {
+    double fraction = clock.time / end; // 0 where the end is not known
+    if (last_penetration && !times_are_known())
+      {
+        const double travel = travel_at(*last_penetration);
+        fraction =
+          std::max(fraction,
+                   travel != 0. ? body.motion().travel() / travel : 1.);
+      }
+    return fraction;
+  }
+
+
+
+  std::string
+  Schedule::end_description() const
+  {
+    return std::isfinite(end) ?
+             to_text(end, 6) + " s" :
+             "at a penetration of " + to_text(*last_penetration) + " m";
+  }
+
+
+
+  void
+  Schedule::register_totals(RunTotals &totals)
+  {
+    totals.keep("next_record", next_record);
+  }
+} // namespace CaissonMPM
