@@ -3,7 +3,7 @@
 """The scenes of users, prm/*.prm."""
 import unittest
 
-from program import SUCCESS, ProgramTest, checks, summary, user_scene
+from program import SCENES, SUCCESS, ProgramTest, checks, summary, user_scene
 
 VERTICAL_STRESS = "8829*z"
 AT_REST = {
@@ -32,6 +32,11 @@ class UserScenes(ProgramTest):
         )
         self.assertEqual(text.count(": yes"), 4, text)
         self.assertGreaterEqual(summary(path)["steps"], 1000)
+
+    def test_every_user_scene_is_valid(self) -> None:
+        for path in sorted(SCENES.rglob("*.prm")):
+            with self.subTest(path.name):
+                self.run_program(SUCCESS, path, "--validate")
 
     def test_column(self) -> None:
         path = self.directory()

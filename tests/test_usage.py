@@ -8,7 +8,6 @@ import xml.etree.ElementTree as ElementTree
 from program import (
     BAD_INPUT,
     FAILURE,
-    SCENES,
     SUCCESS,
     ProgramTest,
     checks,
@@ -38,11 +37,6 @@ class Options(ProgramTest):
         again = self.run_program(SUCCESS, path, "--print-parameters")
         self.assertEqual(path.read_text(), again)
         self.assertIn("Units: ", again)
-
-    def test_every_user_scene_is_valid(self) -> None:
-        for path in sorted(SCENES.rglob("*.prm")):
-            with self.subTest(path.name):
-                self.run_program(SUCCESS, path, "--validate")
 
     def test_set_overrides(self) -> None:
         text = self.run_program(

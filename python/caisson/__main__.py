@@ -2,6 +2,7 @@
 """The command line: scripts/caisson COMMAND ..."""
 import argparse
 import importlib
+import os
 import sys
 
 STUDY = "caisson.study_command"
@@ -73,4 +74,7 @@ def main(words: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except (BrokenPipeError, KeyboardInterrupt):  # as of `| head`
+        os._exit(1)
