@@ -79,7 +79,7 @@ class ProgramTest(unittest.TestCase):
     """A test that runs the program, and what it asks of its results."""
 
     maxDiff = None
-    program = Path(os.environ.get("CAISSON_MPM_PROGRAM", PROGRAM)).resolve()
+    program = PROGRAM.resolve()
     results = Path(
         os.environ.get("CAISSON_MPM_TEST_DIRECTORY", BUILD / "tests/program")
     ).resolve()

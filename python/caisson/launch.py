@@ -5,6 +5,7 @@ The exit status is the program's: 0 success, 1 bad input, 2 failure, 3 stopped o
 request. Options of caisson_mpm follow the file.
 """
 import argparse
+import signal
 import subprocess
 import sys
 import time
@@ -44,6 +45,22 @@ def draw(directory: Path) -> None:
         print(f"plot: {picture}")
 
 
+def wait_for(process: "subprocess.Popen[bytes]") -> int:
+    """Return the exit status of the program, as a shell would.
+
+    The program ends with a checkpoint when it is asked to stop, so it is waited
+    for. Ctrl-C reaches it without our help; other signals are handed on.
+    """
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, lambda caught, _: process.send_signal(caught))
+    while True:
+        try:
+            status = process.wait()
+            return status if status >= 0 else 128 - status
+        except KeyboardInterrupt:
+            continue
+
+
 def main(options: argparse.Namespace) -> int:
     """Run the program, then draw what it wrote; return its status."""
     if options.ranks < 1 or not options.arguments:
@@ -51,7 +68,7 @@ def main(options: argparse.Namespace) -> int:
         return 1
     directory, begin = directory_of(options.arguments), time.time()
     words = [*mpi_command(options.ranks), str(PROGRAM), *options.arguments]
-    status = subprocess.run(words, env=environment()).returncode
+    status = wait_for(subprocess.Popen(words, env=environment()))
     history = directory / "history.csv" if directory else None
     # only what this run wrote is drawn: --validate, say, writes nothing
     if directory and history and history.exists() and history.stat().st_mtime >= begin:

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Where the parts of the project are."""
+import os
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SCENES = ROOT / "prm"
 BUILD = ROOT / "build/release"
-PROGRAM = BUILD / "caisson_mpm"
+# another program for the tests
+PROGRAM = Path(os.environ.get("CAISSON_MPM_PROGRAM", BUILD / "caisson_mpm"))
 RESULTS = ROOT / "results"
 PICTURES = ROOT / "doc/pictures"
 

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""scripts/caisson run: the directory of the results, signals and statuses."""
+import os
+import signal
+import subprocess
+import time
+import unittest
+from pathlib import Path
+from typing import Any
+
+from program import BAD_INPUT, HERE, STOPPED, SUCCESS, ProgramTest, scene, summary
+
+SHORT = ["--set", "Time/End penetration=0.52"]
+
+
+class Run(ProgramTest):
+    """What scripts/run does after the build."""
+
+    def start_run(self, *words: Any) -> "subprocess.Popen[str]":
+        """Start it in a process group of its own, as a terminal does."""
+        return subprocess.Popen(
+            [str(HERE.parent / "scripts/caisson"), "run", *map(str, words)],
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+            env={**os.environ, "CAISSON_MPM_PROGRAM": str(self.program)},
+        )
+
+    def run_scene_and_draw(self, status: int, *words: Any) -> str:
+        """Run to the end, ask for this status, and return its words."""
+        process = self.start_run(*words)
+        text = process.communicate()[0]
+        self.assertEqual(process.returncode, status, text)
+        return text
+
+    def assert_drawn(self, path: Path) -> None:
+        """Ask for the pictures of a run."""
+        for name in ("forces.png", "stress.png", "displacement.png"):
+            self.assertTrue((path / name).is_file(), name)
+
+    def test_pictures_of_both_ways_to_name_the_directory(self) -> None:
+        for option in ("--output-directory", "--set"):
+            path = self.directory(option.strip("-"))
+            entry = path if option != "--set" else f"Output/Directory={path}"
+            self.run_scene_and_draw(SUCCESS, scene("jack"), *SHORT, option, entry)
+            self.assert_drawn(path)
+
+    def test_several_ranks(self) -> None:
+        path = self.directory()
+        words = ["--ranks", 2, scene("jack"), *SHORT, "--output-directory", path]
+        self.run_scene_and_draw(SUCCESS, *words)
+        self.assertEqual(summary(path)["ranks"], 2)
+        self.assert_drawn(path)
+
+    def test_only_what_was_written_is_drawn(self) -> None:
+        path = self.directory()
+        words = [scene("jack"), *SHORT, "--output-directory", path]
+        self.run_scene_and_draw(SUCCESS, *words)
+        (path / "forces.png").unlink()
+        self.run_scene_and_draw(SUCCESS, *words, "--validate")
+        text = self.run_scene_and_draw(BAD_INPUT, *words, "--set", "Grid/Tip=1")
+        self.assertEqual(text.count("bad input"), 1)
+        self.assertFalse((path / "forces.png").exists())
+
+    def test_ctrl_c_leaves_a_checkpoint(self) -> None:
+        """The terminal sends it to all; nothing may kill the program meanwhile."""
+        path = self.directory()
+        process = self.start_run(scene("jack"), "--output-directory", path)
+        while not (path / "history.csv").exists() and process.poll() is None:
+            time.sleep(0.05)
+        os.killpg(process.pid, signal.SIGINT)
+        text = process.communicate()[0]
+        self.assertEqual(process.returncode, STOPPED, text)
+        self.assertIn("--restart", text)
+        self.assertTrue((path / "checkpoint.info").is_file(), text)
+
+
+if __name__ == "__main__":
+    unittest.main()
