@@ -47,7 +47,8 @@ namespace
     if (command_line.validate)
       {
         simulation.validate();
-        out << command_line.parameter_file << " is valid" << std::endl;
+        out << command_line.parameter_file << " is valid\n"
+            << describe(simulation.estimate_cost()) << std::flush;
         return ExitStatus::success;
       }
     return simulation.run(command_line.parameter_file,

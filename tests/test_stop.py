@@ -91,6 +91,25 @@ class Stop(ProgramTest):
         self.assertEqual(process.wait(), STOPPED, text)
         self.assertFalse((path / "stop").exists(), "the file is left")
 
+    def test_finished_run_is_pushed_deeper(self) -> None:
+        """A finished run goes on to a later end, in the same files."""
+        whole, path = self.directory("whole"), self.directory("pieces")
+        depth = "Time/End penetration"
+        entries: Entries = {"Output/Record interval": 0.25}
+        self.run_scene("jack", whole, entries={**entries, depth: 0.7})
+        self.run_scene("jack", path, entries={**entries, depth: 0.6})
+        text = self.run_scene(
+            "jack", path, SUCCESS, "--restart", entries={**entries, depth: 0.7}
+        )
+        self.assertNotIn("warning: the error", text)
+        self.assertEqual(summary(path)["status"], "finished")
+        a, b = history(whole), history(path)
+        times = [row["time_s"] for row in b]
+        self.assertEqual(times, sorted(set(times)))
+        self.assertLessEqual({row["time_s"] for row in a}, set(times))
+        for key in ("penetration_m", "external_work_J"):
+            self.assertAlmostEqual(a[-1][key] / b[-1][key], 1.0, delta=0.01)
+
     def test_restart_without_checkpoint(self) -> None:
         text = self.run_scene("jack", self.directory(), BAD_INPUT, "--restart")
         self.assertIn("no checkpoint", text)
@@ -108,6 +127,12 @@ class Stop(ProgramTest):
             entries={"Soil/Layer 1/Friction angle": 31},
         )
         self.assertIn("Friction angle", text)
+        info = path / "checkpoint.info"
+        words = info.read_text(encoding="utf-8")
+        info.write_text(words.replace("_travel ", "_travel 1", 1))
+        text = self.run_scene("jack", path, BAD_INPUT, "--restart")
+        self.assertIn("is damaged", text)
+        info.write_text(words, encoding="utf-8")
         flip_a_bit(path)
         text = self.run_scene("jack", path, BAD_INPUT, "--restart")
         self.assertIn("is damaged", text)

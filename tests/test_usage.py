@@ -38,6 +38,16 @@ class Options(ProgramTest):
         self.assertEqual(path.read_text(), again)
         self.assertIn("Units: ", again)
 
+    def test_validate_tells_the_cost(self) -> None:
+        """Without writing a file."""
+        path = self.directory()
+        text = self.run_scene("jack", path, SUCCESS, "--validate")
+        self.assertRegex(text, r"points +\d+\n")
+        self.assertRegex(text, r"time step +[\de.-]+ s, limited by the cell at")
+        for words in (r"steps +about \d", r"memory +about \d", r"duration +about \d"):
+            self.assertRegex(text, words)
+        self.assertFalse((path / "history.csv").exists())
+
     def test_set_overrides(self) -> None:
         text = self.run_program(
             SUCCESS,
@@ -78,6 +88,9 @@ class Files(ProgramTest):
             parts = sum(row[force] for force in forces)
             self.assertAlmostEqual(parts, row["total_force_N"], delta=1e-3)
         about = summary(path)
+        (layer,) = about["scene"]["layers"]
+        self.assertEqual(layer["law"], "Mohr-Coulomb")
+        self.assertEqual(layer["friction_angle_deg"], 30)
         for key in (
             "version dealii_version ranks material_points cells steps wall_time_s"
             " point_steps_per_second peak_memory_bytes limiter_count"
@@ -114,6 +127,10 @@ class Checks(ProgramTest):
         text = self.run_scene("wave_xpic", path, FAILURE, entries=entries)
         self.assertIn("within 1e-09: yes", text)
         self.assertIn("within 0.1: no", text)
+        self.assertIn("1 of 2 checks failed", text)
+        entries["Output/Terminal"] = "silent"
+        text = self.run_scene("wave_xpic", path, FAILURE, entries=entries)
+        self.assertEqual(text.strip(), "1 of 2 checks failed")
         found = checks(path)
         self.assertEqual([check["pass"] for check in found], [True, False])
         for key in "quantity computed exact relative_error tolerance".split():

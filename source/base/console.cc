@@ -69,11 +69,12 @@ namespace CaissonMPM
     std::string
     full_record(const RecordLine &line)
     {
-      const std::string rest =
-        format(" | %5.1f %% | ETA %s | %.1f M point-steps/s\n",
-               100. * line.fraction_done,
-               clock_time(line.eta_seconds).c_str(),
-               1e-6 * line.point_steps_per_second);
+      std::string rest = format(" | %5.1f %%", 100. * line.fraction_done);
+      if (std::isfinite(line.eta_seconds))
+        rest += format(" | ETA %s | %.1f M point-steps/s",
+                       clock_time(line.eta_seconds).c_str(),
+                       1e-6 * line.point_steps_per_second);
+      rest += "\n";
       if (!line.has_body)
         return format("time %8.4f s | kinetic energy %9.3e J | "
                       "max speed %9.3e m/s",
@@ -170,6 +171,14 @@ namespace CaissonMPM
   Console::warning(const std::string &text)
   {
     print("warning: " + text + "\n");
+  }
+
+
+
+  void
+  Console::failure(const std::string &text)
+  {
+    out << text << std::endl;
   }
 
 

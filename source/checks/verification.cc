@@ -335,20 +335,23 @@ namespace CaissonMPM
                     const std::string &directory,
                     Console           &console) const
   {
-    const bool full     = console.get_verbosity() == Console::Verbosity::full;
-    bool       all_pass = true;
+    const bool   full     = console.get_verbosity() == Console::Verbosity::full;
+    unsigned int n_failed = 0;
     std::vector<std::string> items;
     for (const std::string &text : texts_of(entry))
       {
         const Check      check = parse_check(text, records.names());
         const Comparison c     = compare(check, points, records, time);
         const bool       pass  = c.error <= check.tolerance;
-        all_pass               = all_pass && pass;
+        n_failed += !pass;
         items.push_back(json_of(check, c, pass));
         console.message(line_of(check, c, pass, full));
       }
     write_atomically(directory + "/verification.json",
                      Json::list(items) + "\n");
-    return all_pass;
+    if (n_failed > 0)
+      console.failure(to_text(n_failed) + " of " + to_text(items.size()) +
+                      " checks failed");
+    return n_failed == 0;
   }
 } // namespace CaissonMPM

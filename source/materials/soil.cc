@@ -148,6 +148,16 @@ namespace CaissonMPM
              values.at("Friction angle");
   }
 
+  std::optional<double>
+  SoilLayer::law_value(const std::string &entry) const
+  {
+    const LawDescription &description = law_named(law);
+    for (int i = 0; i < description.n_entries; ++i)
+      if (entry == description.entries[i].name)
+        return values.at(entry);
+    return {};
+  }
+
   bool
   SoilLayer::stiffness_varies() const
   {

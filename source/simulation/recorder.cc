@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace CaissonMPM
 {
@@ -324,7 +325,7 @@ namespace CaissonMPM
     line.fraction_done          = done;
     line.point_steps_per_second = all_steps / seconds_running();
     line.eta_seconds =
-      is_first ? 0. :
+      is_first ? std::numeric_limits<double>::quiet_NaN() :
                  seconds_running() * (1. - done) / (done - fraction_at_start);
     console->record(line);
   }
@@ -388,5 +389,41 @@ namespace CaissonMPM
   Recorder::print_report()
   {
     print_run_report(*console, parts, facts(""));
+    print_result();
+  }
+
+  void
+  Recorder::print_result()
+  {
+    Console::Lines lines = {{"finished",
+                             "at t = " + to_text(parts.clock.time, 6) +
+                               " s, after " + to_text(seconds_running(), 3) +
+                               " s"}};
+    if (parts.grid.is_first_rank() && parts.body.shape().exists() &&
+        !parts.body.shape().expands())
+      {
+        constexpr double always = std::numeric_limits<double>::max();
+        const auto force = records->series("total_force_N", 0., always).value,
+                   depth = records->series("penetration_m", 0., always).value;
+        const auto largest =
+          std::max_element(force.begin(),
+                           force.end(),
+                           [](const double a, const double b) {
+                             return std::abs(a) < std::abs(b);
+                           }) -
+          force.begin();
+        lines.emplace_back("largest force",
+                           to_text(1e-3 * force[largest], 5) +
+                             " kN at a penetration of " +
+                             to_text(depth[largest], 5) + " m");
+      }
+    lines.emplace_back("results",
+                       directory +
+                         ": history.csv, run.json, points.pvd, grid.pvd");
+    lines.emplace_back("next",
+                       "scripts/plot " + directory +
+                         " draws the results; --restart with a later end "
+                         "continues the run");
+    console->header(lines);
   }
 } // namespace CaissonMPM

@@ -8,7 +8,8 @@
 #include <deal.II/base/revision.h>
 
 #include <cmath>
-#include <numeric>
+#include <optional>
+#include <utility>
 
 namespace CaissonMPM
 {
@@ -108,20 +109,43 @@ namespace CaissonMPM
       return result;
     }
 
-    /** Lengths and angles that the pictures show. */
-    NamedNumbers
+    /** What design methods need of a layer. */
+    Json::Members
+    about_layer(const Soil &soil, const unsigned int i)
+    {
+      const SoilLayer &layer   = soil.layer(i);
+      Json::Members    members = {
+           {"top_depth_m", Json::number(layer.top_depth)},
+           {"law", Json::text(layer.law)},
+           {"submerged_unit_weight_N_m3", Json::number(soil.unit_weight(i))},
+           {"K0", Json::number(layer.earth_pressure_at_rest())}};
+      const std::pair<const char *, std::optional<double>> values[] = {
+        {"friction_angle_deg", layer.friction_angle()},
+        {"cohesion_Pa", layer.law_value("Cohesion")}};
+      for (const auto &[name, value] : values)
+        if (value)
+          members.emplace_back(name, Json::number(*value));
+      return members;
+    }
+
+    /** The lengths and angles that pictures show. */
+    Json::Members
     about_scene(const RecordedParts &parts)
     {
-      const Soil  &soil   = parts.soil;
-      NamedNumbers result = parts.body.shape().dimensions();
-      if (!result.empty())
-        result.insert(result.end(),
-                      {{"submerged_unit_weight_N_m3", soil.unit_weight(0)},
-                       {"friction_angle_deg", soil.layer(0).friction_angle()},
-                       {"wall_friction_angle_deg",
-                        parts.body.surface().friction_angle[outer_wall]},
-                       {"K0", soil.layer(0).earth_pressure_at_rest()}});
-      return result;
+      Json::Members members = Json::numbers(parts.body.shape().dimensions());
+      if (members.empty())
+        return members;
+      const auto &angles = parts.body.surface().friction_angle;
+      append(
+        members,
+        {{"inner_wall_friction_angle_deg", Json::number(angles[inner_wall])},
+         {"outer_wall_friction_angle_deg", Json::number(angles[outer_wall])}});
+      std::string layers;
+      for (unsigned int i = 0; i < parts.soil.n_layers(); ++i)
+        layers +=
+          (i > 0 ? ", " : "") + Json::flat_object(about_layer(parts.soil, i));
+      append(members, {{"layers", "[" + layers + "]"}});
+      return members;
     }
 
     // ---------------------------------------------------------- terminal
@@ -201,7 +225,7 @@ namespace CaissonMPM
            {{"energies",
              Json::object(Json::numbers(energies(parts.energy)), 2)},
             {"sections", Json::object(Json::numbers(parts.timer.seconds()), 2)},
-            {"scene", Json::object(Json::numbers(about_scene(parts)), 2)}});
+            {"scene", Json::object(about_scene(parts), 2)}});
     if (parts.grid.is_first_rank())
       write_atomically(path, Json::object(members) + "\n");
   }

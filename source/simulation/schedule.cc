@@ -263,6 +263,20 @@ namespace CaissonMPM
 
 
 
+  unsigned int
+  Schedule::n_frames() const
+  {
+    double n = 2. + frame_depths.size() +
+               std::count_if(frame_times.begin(),
+                             frame_times.end(),
+                             [this](const double t) { return t < end; });
+    if (frame_interval && std::isfinite(end))
+      n += std::floor(end / *frame_interval);
+    return std::min(n, 1e9);
+  }
+
+
+
   std::string
   Schedule::end_description() const
   {

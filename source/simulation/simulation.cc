@@ -8,6 +8,7 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
+#include <deal.II/base/timer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,8 +62,8 @@ namespace CaissonMPM
                        checkpoint_interval,
                        "never",
                        0.,
-                       "Checkpoints are written this wall time apart; with "
-                       "never, only when the run is stopped. Units: s.",
+                       "Checkpoints are written this wall time apart, and when "
+                       "the run is stopped or finished. Units: s.",
                        Patterns::Double(0.));
     leave_subsection();
     register_totals();
@@ -83,7 +84,7 @@ namespace CaissonMPM
   // ------------------------------------------------------------ set-up
 
   void
-  Simulation::validate()
+  Simulation::check_parameters()
   {
     soil.check_parameters();
     body.check_parameters();
@@ -99,6 +100,66 @@ namespace CaissonMPM
                      ": this CPU does not have it. Set auto.");
     const auto travel = schedule.travel_to_hold();
     lines.place(body.shape(), soil, travel.second, -travel.first);
+    kernels = Kernels::select_kernels(instruction_set.c_str());
+  }
+
+  void
+  Simulation::make_mesh()
+  {
+    body.motion().register_totals(totals);
+    body.motion().start();
+    grid.create_mesh();
+    set_up_part();
+    loads.initialize(time_step.mass_scaling);
+    materials = soil.kernel_materials(time_step.mass_scaling);
+  }
+
+  void
+  Simulation::validate()
+  {
+    check_parameters();
+    make_mesh();
+    start();
+    time_step.initialize(grid, points, soil, materials);
+  }
+
+  RunCost
+  Simulation::estimate_cost()
+  {
+    constexpr double       enough_seconds = .3;
+    constexpr unsigned int enough_steps   = 20;
+    RunCost                cost;
+    cost.grid      = lines.description();
+    cost.n_points  = Utilities::MPI::sum<unsigned long>(points.n_points(),
+                                                       grid.communicator());
+    cost.n_frames  = schedule.n_frames();
+    cost.step_size = time_step.step_size();
+    cost.limit     = time_step.reason();
+    cost.end_time  = schedule.end_time();
+
+    unsigned int  n = 0;
+    dealii::Timer timer(grid.communicator(), true);
+    const auto    seconds = [&]() {
+      return Utilities::MPI::max(timer.wall_time(), grid.communicator());
+    };
+    try
+      {
+        while (n < enough_steps && !schedule.is_finished() &&
+               seconds() < enough_seconds)
+          {
+            advance();
+            ++n;
+          }
+      }
+    catch (const RunFailure &)
+      {
+        n = 0; // run() will say why
+      }
+    if (n > 0)
+      cost.seconds_per_step = seconds() / n;
+    cost.peak_bytes =
+      Utilities::MPI::sum(peak_memory_bytes(), grid.communicator());
+    return cost;
   }
 
   void
@@ -106,20 +167,14 @@ namespace CaissonMPM
                      const std::string &output_directory,
                      const bool         restart)
   {
-    validate();
-    kernels = Kernels::select_kernels(instruction_set.c_str());
+    check_parameters();
     recorder.open(scene_file,
                   output_directory,
                   fingerprint_of(changed_physics(prm)),
                   *kernels);
     stop_request.arm(recorder.output_directory());
 
-    body.motion().register_totals(totals);
-    body.motion().start();
-    grid.create_mesh();
-    set_up_part();
-    loads.initialize(time_step.mass_scaling);
-    materials = soil.kernel_materials(time_step.mass_scaling);
+    make_mesh();
     if (restart)
       resume();
     else
@@ -411,6 +466,8 @@ namespace CaissonMPM
   ExitStatus
   Simulation::finish()
   {
+    // so that the run can be continued to a later end
+    save_checkpoint();
     const bool passed = recorder.verify();
     recorder.write_summary(passed ? "finished" : "verification failed");
     recorder.print_report();

@@ -26,7 +26,9 @@ namespace CaissonMPM
     double kinetic_energy = 0.;
     double max_speed      = 0.;
     /** Of the whole run, from 0 to 1. */
-    double fraction_done          = 0.;
+    double fraction_done = 0.;
+    /** Not finite where it is not known: then it is left out, with the speed.
+     */
     double eta_seconds            = 0.;
     double point_steps_per_second = 0.;
   };
@@ -81,6 +83,11 @@ namespace CaissonMPM
 
     void
     warning(const std::string &text);
+
+    /** Why the program ends with a failure: printed in all verbosities. One
+     * rank calls this. */
+    void
+    failure(const std::string &text);
 
     Verbosity
     get_verbosity() const;

@@ -51,9 +51,9 @@ namespace CaissonMPM
 
     /**
      * Make all checks, print a line for each, and write them with the values
-     * that decide to verification.json. Returns whether all errors are within
-     * their tolerance. Throws RunFailure where the file cannot be written, or
-     * a check finds no point or record.
+     * that decide to verification.json. Where errors exceed their tolerance, a
+     * last line says how many, and the result is false. Throws RunFailure where
+     * the file cannot be written, or a check finds no point or record.
      */
     bool
     run(const AllPoints   &points,

@@ -13,6 +13,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,10 @@ namespace CaissonMPM
     /** The friction angle of the law (peak, critical). Units: degrees. */
     double
     friction_angle() const;
+
+    /** Return the value of an entry if the layer's law has it. */
+    std::optional<double>
+    law_value(const std::string &entry) const;
 
     /** Whether the stiffness depends on stress or void ratio. */
     bool

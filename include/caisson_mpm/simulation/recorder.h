@@ -84,7 +84,7 @@ namespace CaissonMPM
     void
     write_summary(const std::string &status);
 
-    /** Print sums, energies and times. */
+    /** Print sums, energies, times, and the result. */
     void
     print_report();
 
@@ -122,6 +122,8 @@ namespace CaissonMPM
     warn_of_lid(const HistoryRow &row);
     void
     print_record(const HistoryRow &row);
+    void
+    print_result();
     RunFacts
     facts(const std::string &status) const;
 

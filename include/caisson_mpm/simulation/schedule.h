@@ -92,6 +92,11 @@ namespace CaissonMPM
     double
     fraction_done() const;
 
+    /** Return the number of frames of the whole run, those at the start and at
+     * the end included. */
+    unsigned int
+    n_frames() const;
+
     /** Return the end in words. */
     std::string
     end_description() const;

@@ -23,6 +23,7 @@
 #include <caisson_mpm/operators/time_step.h>
 #include <caisson_mpm/simulation/clock.h>
 #include <caisson_mpm/simulation/recorder.h>
+#include <caisson_mpm/simulation/run_cost.h>
 #include <caisson_mpm/simulation/schedule.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -59,13 +60,23 @@ namespace CaissonMPM
         const std::string &output_directory,
         const bool         restart);
 
-    /** Check all parameters and the mesh, without running. Throws BadInput. */
+    /** Check all parameters and set up the mesh and the points, without
+     * writing a file; run() does not go on from there. Throws BadInput. */
     void
     validate();
+
+    /** Find out how large the run is; after validate(). Takes some steps. */
+    RunCost
+    estimate_cost();
 
   private:
     void
     register_totals();
+    /** Check all parameters and place the lines of the mesh. */
+    void
+    check_parameters();
+    void
+    make_mesh();
     void
     set_up(const std::string &scene_file,
            const std::string &output_directory,

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// How large a run is going to be, before it is started.
+#ifndef caisson_mpm_simulation_run_cost_h
+#define caisson_mpm_simulation_run_cost_h
+
+#include <string>
+
+namespace CaissonMPM
+{
+  /** The size of a scene at its start, of all ranks. */
+  struct RunCost
+  {
+    std::string   grid; // in words
+    unsigned long n_points  = 0;
+    unsigned int  n_frames  = 0;
+    double        step_size = 0.;  // s
+    std::string   limit;           // what limits the step
+    double        end_time   = 0.; // s; infinite where it is not known
+    double        peak_bytes = 0.; // memory so far
+    /** Measured in the first steps; 0 where there is no measurement. */
+    double seconds_per_step = 0.;
+  };
+
+  /** Return the cost in words, a line for each quantity. The number of points
+   * may change by splitting and merging, the step by the deformed mesh. */
+  std::string
+  describe(const RunCost &cost);
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/simulation/run_cost.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace CaissonMPM
+{
+  namespace
+  {
+    // Of a point in a compressed frame, and while the frame is made; frames are
+    // made of pieces of at most so many points.
+    constexpr double bytes_on_disk = 80., bytes_in_memory = 1000.,
+                     points_per_piece = 100000.;
+
+    /** A rough number, without an exponent where it is large. */
+    std::string
+    rough(const double x)
+    {
+      if (x < 100.)
+        return to_text(x, 2);
+      const double unit = std::pow(10., std::floor(std::log10(x)) - 1.);
+      return to_text(static_cast<unsigned long>(std::round(x / unit) * unit));
+    }
+
+    std::string
+    megabytes(const double bytes)
+    {
+      return rough(1e-6 * bytes) + " MB";
+    }
+
+    std::string
+    duration(const double seconds)
+    {
+      if (seconds < 90.)
+        return rough(seconds) + " s";
+      if (seconds < 5400.)
+        return rough(seconds / 60.) + " min";
+      return rough(seconds / 3600.) + " h";
+    }
+  } // namespace
+
+
+
+  std::string
+  describe(const RunCost &cost)
+  {
+    const double n_points = cost.n_points,
+                 n_steps  = std::ceil(cost.end_time / cost.step_size);
+    std::string text      = "  grid       " + cost.grid + "\n  points     " +
+                       to_text(cost.n_points) + "\n  time step  " +
+                       to_text(cost.step_size, 4) + " s, limited by " +
+                       cost.limit;
+    if (std::isfinite(n_steps))
+      text += "\n  steps      about " + rough(n_steps);
+    text += "\n  memory     about " +
+            megabytes(cost.peak_bytes +
+                      bytes_in_memory * std::min(n_points, points_per_piece)) +
+            "\n  frames     " + to_text(cost.n_frames) + ", about " +
+            megabytes(cost.n_frames * bytes_on_disk * n_points) +
+            " on the disk";
+    if (std::isfinite(n_steps) && cost.seconds_per_step > 0.)
+      text += "\n  duration   about " +
+              duration(n_steps * cost.seconds_per_step) +
+              " at the speed of the first steps";
+    return text + "\n";
+  }
+} // namespace CaissonMPM
