@@ -10,8 +10,6 @@ tests of a group, or those that fit a word:
 CAISSON_MPM_PROGRAM names another program than that of build/release, and
 CAISSON_MPM_TEST_DIRECTORY where the results go.
 """
-import csv
-import json
 import os
 import re
 import shutil
@@ -25,6 +23,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "python"))
 
 from caisson.paths import BUILD, PROGRAM, SCENES  # noqa: E402
+from caisson.results import Results  # noqa: E402
 from caisson.run import Status, environment, mpi_command, set_options  # noqa: E402
 
 SUCCESS = Status.SUCCESS
@@ -48,18 +47,19 @@ def user_scene(name: str) -> str:
 
 def history(path: Path, name: str = "history") -> Rows:
     """Return the rows of NAME.csv of a run."""
-    with open(path / f"{name}.csv", encoding="utf-8") as file:
-        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+    columns = Results(path).table(f"{name}.csv", "time_s")
+    rows = zip(*columns.values())
+    return [dict(zip(columns, map(float, row))) for row in rows]
 
 
 def summary(path: Path) -> dict[str, Any]:
     """Return run.json of a run."""
-    return json.loads((path / "run.json").read_text(encoding="utf-8"))
+    return Results(path).summary
 
 
 def checks(path: Path) -> list[dict[str, Any]]:
     """Return verification.json of a run."""
-    return json.loads((path / "verification.json").read_text(encoding="utf-8"))
+    return Results(path).check_list
 
 
 def flip_a_bit(path: Path) -> None:
