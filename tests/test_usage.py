@@ -112,6 +112,35 @@ class Files(ProgramTest):
                 self.assertGreater(file.stat().st_size, 1000, file)
                 self.assertIn(b"<VTKFile", file.read_bytes()[:500], file)
 
+    def test_scene_in_run_json(self) -> None:
+        """What pictures take from there."""
+        path = self.directory()
+        layer = "Soil/Layer 2"
+        entries = {
+            "Time/End penetration": 0.505,
+            "Output/Frame penetrations": "0.502, 0.6",
+            "Soil/Number of layers": 2,
+            f"{layer}/Top depth": 1.5,
+            f"{layer}/Friction angle": 40,
+            f"{layer}/Cohesion": 1000,
+            f"{layer}/K0": 0.7,
+            "Rigid body/Friction angle of the inner wall": 15,
+        }
+        self.run_scene("jack", path, entries=entries)
+        about = summary(path)
+        self.assertEqual(about["scene_file"], scene("jack"))
+        self.assertIn("caisson", about["title"])
+        seen = about["scene"]
+        self.assertEqual(seen["frame_penetrations_m"], [0.502, 0.6])
+        self.assertEqual(seen["inner_wall_friction_angle_deg"], 15)
+        self.assertEqual(seen["outer_wall_friction_angle_deg"], 20)
+        first, second = seen["layers"]
+        self.assertEqual((first["top_depth_m"], second["top_depth_m"]), (0, 1.5))
+        self.assertEqual(second["friction_angle_deg"], 40)
+        self.assertEqual(second["cohesion_Pa"], 1000)
+        self.assertEqual((first["K0"], second["K0"]), (0.5, 0.7))
+        self.assertEqual(first["law"], "Mohr-Coulomb")
+
 
 class Checks(ProgramTest):
     """The sections Verification/Checks and Observations."""

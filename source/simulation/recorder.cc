@@ -365,6 +365,7 @@ namespace CaissonMPM
     RunFacts result;
     result.status         = status;
     result.scene_file     = scene;
+    result.title          = title;
     result.fingerprint    = fingerprint;
     result.kernels        = kernels->name;
     result.n_repartitions = n_repartitions;

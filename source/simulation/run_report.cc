@@ -31,6 +31,7 @@ namespace CaissonMPM
       return {{"version", Json::text(CAISSON_MPM_VERSION)},
               {"dealii_version", Json::text(DEAL_II_PACKAGE_VERSION)},
               {"scene_file", Json::text(facts.scene_file)},
+              {"title", Json::text(facts.title)},
               {"instruction_set", Json::text(facts.kernels)},
               {"fingerprint", Json::text(facts.fingerprint)},
               {"status", Json::text(facts.status)}};
@@ -140,11 +141,15 @@ namespace CaissonMPM
         members,
         {{"inner_wall_friction_angle_deg", Json::number(angles[inner_wall])},
          {"outer_wall_friction_angle_deg", Json::number(angles[outer_wall])}});
-      std::string layers;
+      std::string layers, frames;
       for (unsigned int i = 0; i < parts.soil.n_layers(); ++i)
         layers +=
           (i > 0 ? ", " : "") + Json::flat_object(about_layer(parts.soil, i));
-      append(members, {{"layers", "[" + layers + "]"}});
+      for (const double depth : parts.schedule.penetrations_of_frames())
+        frames += (frames.empty() ? "" : ", ") + Json::number(depth);
+      append(members,
+             {{"layers", "[" + layers + "]"},
+              {"frame_penetrations_m", "[" + frames + "]"}});
       return members;
     }
 

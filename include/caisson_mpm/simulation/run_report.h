@@ -16,6 +16,7 @@ namespace CaissonMPM
   {
     std::string   status; // how the run ended, for instance "finished"
     std::string   scene_file;
+    std::string   title;
     std::string   fingerprint; // of all parameters that are not defaults
     std::string   kernels;
     unsigned int  n_repartitions = 0;

@@ -97,6 +97,13 @@ namespace CaissonMPM
     unsigned int
     n_frames() const;
 
+    /** Return the penetrations at which the scene asks for frames. Units: m. */
+    const std::vector<double> &
+    penetrations_of_frames() const
+    {
+      return frame_penetrations;
+    }
+
     /** Return the end in words. */
     std::string
     end_description() const;
