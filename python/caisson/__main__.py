@@ -63,7 +63,11 @@ def main(words: list[str]) -> int:
         parser.print_help()
         return 1
     name = parser.parse_args(words[:1]).command
-    module = importlib.import_module(COMMANDS[name][0])
+    try:
+        module = importlib.import_module(COMMANDS[name][0])
+    except ModuleNotFoundError as error:
+        print(f"caisson: {error}; scripts/setup pictures installs it", file=sys.stderr)
+        return 1
     own = argparse.ArgumentParser(
         prog=f"caisson {name}",
         description=module.__doc__,
