@@ -28,17 +28,17 @@ compare_points()
 {
   const PointSamples samples = {{5., 0.8}, {4., 1.}, {3., 1.}};
   for (const auto &[name, mode] : point_modes())
-    show(name, mode(samples));
+    show(name, mode.compare(samples));
   std::printf("where the exact value is 0\n");
   const PointSamples zero = {{.5, -.25}, {0., 0.}, {1., 1.}};
   for (const auto &[name, mode] : point_modes())
-    show(name, mode(zero));
+    show(name, mode.compare(zero));
   std::printf("not a number\n");
   const PointSamples none = {{std::nan(""), 1.}, {1., 1.}, {1., 1.}};
   for (const auto &[name, mode] : point_modes())
     std::printf("%s passes: %s\n",
                 name.c_str(),
-                mode(none).error <= 1e9 ? "yes" : "no");
+                mode.compare(none).error <= 1e9 ? "yes" : "no");
 }
 
 void
@@ -49,13 +49,13 @@ compare_series()
                                  {1., 2., 6.}};
   for (const char *name :
        {"trace", "final", "average", "drift", "below", "above", "between"})
-    show(name, series_modes().at(name)(samples));
+    show(name, series_modes().at(name).compare(samples));
   std::printf("within the bounds\n");
   const SeriesSamples inside = {{{0.}, {5.5}}, {5.}, {6.}};
   for (const char *name : {"above", "between"})
-    show(name, series_modes().at(name)(inside));
+    show(name, series_modes().at(name).compare(inside));
   const SeriesSamples less = {{{0.}, {4.5}}, {5.}, {6.}};
-  show("below", series_modes().at("below")(less));
+  show("below", series_modes().at("below").compare(less));
 }
 
 /** w and g are found from 100 values in 2.2 periods, whatever the phase. */
@@ -156,6 +156,7 @@ main()
                                   {1.},
                                   {1.}};
   std::printf("a straight line passes: %s\n",
-              series_modes().at("frequency")(straight).error <= 1e9 ? "yes" :
-                                                                      "no");
+              series_modes().at("frequency").compare(straight).error <= 1e9 ?
+                "yes" :
+                "no");
 }

@@ -201,33 +201,33 @@ namespace CaissonMPM
 
 
 
-  const std::map<std::string, PointMode> &
+  const PointModes &
   point_modes()
   {
-    static const std::map<std::string, PointMode> modes = {{"max", max},
-                                                           {"pointwise",
-                                                            pointwise},
-                                                           {"mean", mean},
-                                                           {"rms", rms},
-                                                           {"spread", spread}};
+    static const PointModes modes = {
+      {"max", {max, CheckForm::exact}},
+      {"pointwise", {pointwise, CheckForm::exact}},
+      {"mean", {mean, CheckForm::exact}},
+      {"rms", {rms, CheckForm::exact}},
+      {"spread", {spread, CheckForm::tolerance}}};
     return modes;
   }
 
 
 
-  const std::map<std::string, SeriesMode> &
+  const SeriesModes &
   series_modes()
   {
-    static const std::map<std::string, SeriesMode> modes = {
-      {"trace", trace},
-      {"final", final},
-      {"average", average},
-      {"frequency", frequency},
-      {"amplitude", amplitude},
-      {"drift", drift},
-      {"below", below},
-      {"above", above},
-      {"between", between}};
+    static const SeriesModes modes = {
+      {"trace", {trace, CheckForm::exact}},
+      {"final", {final, CheckForm::exact}},
+      {"average", {average, CheckForm::exact}},
+      {"frequency", {frequency, CheckForm::exact}},
+      {"amplitude", {amplitude, CheckForm::exact}},
+      {"drift", {drift, CheckForm::tolerance}},
+      {"below", {below, CheckForm::bound}},
+      {"above", {above, CheckForm::bound}},
+      {"between", {between, CheckForm::bounds}}};
     return modes;
   }
 } // namespace CaissonMPM

@@ -71,7 +71,7 @@ namespace CaissonMPM
       return sum;
     }
 
-    /** How often the series crosses its mean. */
+    /** Return the number of times that the series crosses its mean. */
     unsigned int
     n_crossings(const Series &s)
     {

@@ -28,6 +28,8 @@ namespace CaissonMPM
     {
       std::string head; // what stands before the first colon
       std::string mode, name;
+      CheckForm   form      = CheckForm::exact;
+      bool        of_points = false;
       std::string region;         // an expression, or empty
       std::string exact, upper;   // expressions; upper: of between only
       double      begin     = 0.; // of the records
@@ -35,17 +37,11 @@ namespace CaissonMPM
       double      tolerance = 0.;
     };
 
-    /** Whether the check gives a bound instead of an exact value. */
+    /** Whether the check gives one or two bounds instead of a tolerance. */
     bool
-    is_one_sided(const std::string &mode)
+    has_bounds(const Check &check)
     {
-      return mode == "below" || mode == "above" || mode == "between";
-    }
-
-    bool
-    has_exact_value(const std::string &mode)
-    {
-      return mode != "spread" && mode != "drift";
+      return check.form == CheckForm::bound || check.form == CheckForm::bounds;
     }
 
     std::string
@@ -80,8 +76,10 @@ namespace CaissonMPM
                                "quantity or a series, for instance max "
                                "displacement_z.");
       check_known(check.mode, all_modes(), place, "mode");
-      const bool of_points = point_modes().count(check.mode) > 0;
-      if (of_points)
+      check.of_points = point_modes().count(check.mode) > 0;
+      check.form      = check.of_points ? point_modes().at(check.mode).form :
+                                          series_modes().at(check.mode).form;
+      if (check.of_points)
         check_known(check.name,
                     names_of(point_quantities()),
                     place,
@@ -94,12 +92,12 @@ namespace CaissonMPM
       for (std::string word; in >> word;)
         {
           std::string value;
-          if (of_points && word == "where")
+          if (check.of_points && word == "where")
             {
               std::getline(in, check.region);
               Expression(check.region, place + "the region");
             }
-          else if (!of_points && (word == "from" || word == "to"))
+          else if (!check.of_points && (word == "from" || word == "to"))
             {
               in >> value;
               (word == "from" ? check.begin : check.end) =
@@ -124,23 +122,24 @@ namespace CaissonMPM
       const bool        two   = colon != std::string::npos;
       const std::string last =
         Utilities::trim(text.substr(two ? colon + 1 : 0));
-      if (check.mode == "below" || check.mode == "above")
-        check.exact = Utilities::trim(text);
-      else if (has_exact_value(check.mode) && !two)
+      const bool has_two =
+        check.form == CheckForm::exact || check.form == CheckForm::bounds;
+      if (has_two && !two)
         throw BadInput(
           place +
-          (check.mode == "between" ?
+          (check.form == CheckForm::bounds ?
              "it is written as between series : lower : upper." :
              "it is written as mode quantity : exact solution : tolerance, for "
              "instance max displacement_z : -0.01*z : 1e-3."));
-      else if (has_exact_value(check.mode))
+      if (has_two)
         check.exact = Utilities::trim(text.substr(0, colon));
       else
-        check.exact = "0";
-      check.upper = check.mode == "between" ? last : "0";
+        check.exact =
+          check.form == CheckForm::bound ? Utilities::trim(text) : "0";
+      check.upper = check.form == CheckForm::bounds ? last : "0";
       Expression(check.exact, place + "the exact solution");
       Expression(check.upper, place + "the upper bound");
-      if (is_one_sided(check.mode))
+      if (has_bounds(check))
         return;
       check.tolerance = parse_number(last, place, "tolerance");
       if (!(check.tolerance > 0.))
@@ -232,18 +231,20 @@ namespace CaissonMPM
             const Records   &records,
             const double     time)
     {
-      const auto mode = point_modes().find(check.mode);
-      return mode != point_modes().end() ?
-               mode->second(sample_points(check, points, time)) :
-               series_modes().at(check.mode)(sample_records(check, records));
+      return check.of_points ? point_modes()
+                                 .at(check.mode)
+                                 .compare(sample_points(check, points, time)) :
+                               series_modes()
+                                 .at(check.mode)
+                                 .compare(sample_records(check, records));
     }
 
     std::string
     demand_of(const Check &check)
     {
-      if (check.mode == "between")
+      if (check.form == CheckForm::bounds)
         return " " + check.exact + " and " + check.upper;
-      if (is_one_sided(check.mode))
+      if (check.form == CheckForm::bound)
         return " " + check.exact;
       return ": within " + to_text(check.tolerance, 6);
     }
@@ -286,22 +287,23 @@ namespace CaissonMPM
     add_parameter(
       "Checks",
       entry,
-      "Comparisons with an exact solution at the end of the run, separated by "
-      "semicolons. Of the points: mode quantity : exact solution : tolerance, "
-      "with the modes max (largest error over largest exact value), pointwise "
-      "(largest relative error), mean (of the means over the volume), rms (of "
-      "the error, over the largest exact value), and spread quantity : "
-      "tolerance (largest difference over the mean). Behind the quantity may "
-      "stand where REGION. Of a series, which is an observation or a column of "
-      "history.csv: mode series : exact solution : tolerance, with the modes "
-      "trace (largest error over largest exact value), final (last record), "
-      "average (over the records), frequency (rad/s) and amplitude (exp(-g T) "
-      "after two periods T) of the best fit c + exp(-g t)*(a*cos(w*t) + "
-      "b*sin(w*t)); drift series : tolerance (largest change since the start "
-      "over the largest value); and for the last record below series : bound, "
-      "above series : bound, between series : lower : upper. Behind the series "
-      "may stand from T and to T. Errors are relative except where the exact "
-      "value is 0. " +
+      "The checks, separated by semicolons, compare results with exact "
+      "solutions at the end of the run. A check of the material points is "
+      "written as mode quantity : exact solution : tolerance, with the modes "
+      "max (the largest error over the largest exact value), pointwise (the "
+      "largest relative error), mean (of the means over the volume) and rms "
+      "(of the error, over the largest exact value), or as spread quantity : "
+      "tolerance (the largest difference over the mean); where REGION may "
+      "follow the quantity. A check of a series, which is an observation or a "
+      "column of history.csv, is written as mode series : exact solution : "
+      "tolerance, with the modes trace (the largest error over the largest "
+      "exact value), final (of the last record), average (over the records), "
+      "and frequency (rad/s) and amplitude (exp(-g T) after two periods T) of "
+      "the best fit c + exp(-g t)*(a*cos(w*t) + b*sin(w*t)), as drift series : "
+      "tolerance (the largest change since the start over the largest value), "
+      "or, for the last record, as below series : bound, above series : bound "
+      "or between series : lower : upper; from T and to T may follow the "
+      "series. Errors are relative except where the exact value is 0. " +
         point_quantities_text() +
         " The exact solution and the region are expressions in the initial "
         "coordinates r and z, the time t, and pi. Units: SI.",

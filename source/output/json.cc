@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/output/json.h>
 
 #include <charconv>
@@ -48,7 +49,7 @@ namespace CaissonMPM
     std::string
     integer(const unsigned long value)
     {
-      return std::to_string(value);
+      return to_text(value);
     }
 
 

@@ -18,13 +18,32 @@ namespace CaissonMPM
 {
   using namespace dealii;
 
+  /** What the points of an observation have: [n_points] each. */
+  struct Samples
+  {
+    std::vector<double> value, volume, mass, shape;
+  };
+
+  /** A way to make one number of the points. */
+  struct ObservationKind
+  {
+    /** What its text says besides the quantity. */
+    enum class Operand
+    {
+      none,
+      place,
+      share,
+      shape
+    };
+
+    /** Null where one point is asked for instead of all. */
+    double (*value)(const Observation &, const Samples &);
+    Operand operand;
+  };
+
   namespace
   {
-    /** What the points of an observation have: [n_points] each. */
-    struct Samples
-    {
-      std::vector<double> value, volume, mass, shape;
-    };
+    using Operand = ObservationKind::Operand;
 
     /** sum w v / sum w. */
     double
@@ -103,8 +122,9 @@ namespace CaissonMPM
     double
     at_point(const Observation &o, const AllPoints &points)
     {
-      // initial positions do not change: the same point at all times, also
-      // after a restart; of two at the same distance the first
+      // Of two points at the same distance take the first. Initial positions
+      // change only where points split or merge: then another one may be the
+      // nearest from then on.
       MaterialPoint nearest;
       double        distance = std::numeric_limits<double>::infinity();
       points.for_each([&](const MaterialPoint &p) {
@@ -138,15 +158,14 @@ namespace CaissonMPM
       return samples;
     }
 
-    using Value = double (*)(const Observation &, const Samples &);
-
-    const std::map<std::string, Value> kinds = {{"point", nullptr},
-                                                {"mean", mean},
-                                                {"rms", rms},
-                                                {"min", smallest},
-                                                {"max", largest},
-                                                {"quantile", quantile},
-                                                {"projection", projection}};
+    const std::map<std::string, ObservationKind> kinds = {
+      {"point", {nullptr, Operand::place}},
+      {"mean", {mean, Operand::none}},
+      {"rms", {rms, Operand::none}},
+      {"min", {smallest, Operand::none}},
+      {"max", {largest, Operand::none}},
+      {"quantile", {quantile, Operand::share}},
+      {"projection", {projection, Operand::shape}}};
 
 
 
@@ -204,9 +223,11 @@ namespace CaissonMPM
     {
       std::string        quantity, rest;
       std::istringstream in(text);
-      in >> o.kind;
-      check_known(o.kind, names_of(kinds), place, "kind");
-      if (o.kind == "quantile")
+      std::string        kind;
+      in >> kind;
+      check_known(kind, names_of(kinds), place, "kind");
+      o.kind = &kinds.at(kind);
+      if (o.kind->operand == Operand::share)
         {
           std::string share;
           in >> share;
@@ -240,9 +261,10 @@ namespace CaissonMPM
       const std::string shape  = cut_behind(words, "on");
       const std::string at     = cut_behind(words, "at");
       parse_words(words, place, o);
-      if ((o.kind == "point") != !at.empty() ||
-          (o.kind == "projection") != !shape.empty() ||
-          (o.kind == "point" && !region.empty()))
+      const bool is_point = o.kind->operand == Operand::place;
+      if (is_point != !at.empty() ||
+          (o.kind->operand == Operand::shape) != !shape.empty() ||
+          (is_point && !region.empty()))
         throw BadInput(place + "kind point needs \"at R Z\" and no more, kind "
                                "projection needs \"on SHAPE\", and no other "
                                "kind has them.");
@@ -264,15 +286,16 @@ namespace CaissonMPM
     add_parameter(
       "Observations",
       entry,
-      "Numbers read from the material points at every record and written to "
-      "observations.csv, separated by semicolons. Each is written as name = "
-      "kind quantity. Kinds: point quantity at R Z (of the point that began "
-      "nearest to there); mean, rms, min, max quantity (over the volume); "
-      "quantile F quantity (not exceeded by the share F of the mass); "
-      "projection quantity on SHAPE (sum m q f / sum m f^2). All kinds but "
-      "point may end with where REGION. Shape and region are expressions in "
-      "the initial coordinates r and z, the time t, and pi; a point belongs to "
-      "the region where it is not 0. Quantities: see Checks. Units: SI.",
+      "The observations, separated by semicolons, are numbers that are read "
+      "from the material points at every record and written to "
+      "observations.csv. Each is written as name = kind quantity. The kinds "
+      "are: point quantity at R Z (of the point whose initial position is the "
+      "nearest); mean, rms, min, max quantity (over the volume); quantile F "
+      "quantity (not exceeded by the share F of the mass); projection quantity "
+      "on SHAPE (sum m q f / sum m f^2). All kinds but point may end with where "
+      "REGION. Shape and region are expressions in the initial coordinates r "
+      "and z, the time t, and pi; a point belongs to the region where the "
+      "expression is not 0. The entry Checks names the quantities. Units: SI.",
       prm,
       Patterns::Anything());
   }
@@ -310,9 +333,9 @@ namespace CaissonMPM
   {
     std::vector<double> result;
     for (const Observation &o : observations)
-      result.push_back(o.kind == "point" ?
+      result.push_back(o.kind->value == nullptr ?
                          at_point(o, points) :
-                         kinds.at(o.kind)(o, sample(o, points, time)));
+                         o.kind->value(o, sample(o, points, time)));
     return result;
   }
 } // namespace CaissonMPM

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/output/records.h>
 
 #include <deal.II/base/exceptions.h>
@@ -54,9 +55,9 @@ namespace CaissonMPM
       return;
     const auto others = observed_file->resume(time);
     if (others.size() != rows.size())
-      throw BadInput("observations.csv has " + std::to_string(others.size()) +
+      throw BadInput("observations.csv has " + to_text(others.size()) +
                      " rows up to the checkpoint and history.csv " +
-                     std::to_string(rows.size()) +
+                     to_text(rows.size()) +
                      ", so that the run cannot go on in them. Run without "
                      "--restart, or without Verification/Observations.");
     for (std::size_t i = 0; i < rows.size(); ++i)

@@ -50,13 +50,30 @@ namespace CaissonMPM
     std::vector<double> exact, upper;
   };
 
-  using PointMode  = Comparison (*)(const PointSamples &);
-  using SeriesMode = Comparison (*)(const SeriesSamples &);
+  /** What a check with this mode says behind its first colon. */
+  enum class CheckForm
+  {
+    exact,     // an exact solution, and a tolerance
+    tolerance, // a tolerance alone
+    bound,     // the lower or the upper bound
+    bounds     // the lower and the upper bound
+  };
 
-  const std::map<std::string, PointMode> &
+  /** A way to compare; the name is its key in the lists below. */
+  template <typename Samples>
+  struct CheckMode
+  {
+    Comparison (*compare)(const Samples &);
+    CheckForm form;
+  };
+
+  using PointModes  = std::map<std::string, CheckMode<PointSamples>>;
+  using SeriesModes = std::map<std::string, CheckMode<SeriesSamples>>;
+
+  const PointModes &
   point_modes();
 
-  const std::map<std::string, SeriesMode> &
+  const SeriesModes &
   series_modes();
 } // namespace CaissonMPM
 

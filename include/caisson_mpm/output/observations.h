@@ -4,7 +4,8 @@
 //
 // With the values q of a quantity at all points, or at those whose initial
 // position lies in a region, their volumes V and masses m:
-//   point q at R Z:   q of the point that began nearest to (R, Z),
+//   point q at R Z:   q of the point whose initial position is the nearest to
+//                     (R, Z),
 //   mean q:           sum V q / sum V,
 //   rms q:            sqrt(sum V q^2 / sum V),
 //   min q, max q:     the smallest, the largest,
@@ -26,14 +27,17 @@
 
 namespace CaissonMPM
 {
+  struct ObservationKind;
+
   /** One observation, as read from its text. */
   struct Observation
   {
-    std::string      name, kind;
-    PointQuantity    quantity = nullptr;
-    double           share    = 0.; // of a quantile
-    dealii::Point<2> place;         // of a point
-    Expression       shape, region; // or empty
+    std::string            name;
+    const ObservationKind *kind     = nullptr;
+    PointQuantity          quantity = nullptr;
+    double                 share    = 0.; // of a quantile
+    dealii::Point<2>       place;         // of a point
+    Expression             shape, region; // or empty
   };
 
   /**
