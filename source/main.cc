@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/command_line.h>
-#include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/failure_report.h>
-#include <caisson_mpm/base/parameter_file.h>
-#include <caisson_mpm/simulation/simulation.h>
+#include <caisson_mpm/simulation/run_scene.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/revision.h>
 
 #include <iostream>
@@ -25,35 +22,14 @@ namespace
                        std::cout.rdbuf() :
                        nullptr);
     const CommandLine command_line = parse_command_line(argc, argv);
-    if (command_line.help || command_line.version)
-      {
-        out << (command_line.help ? usage() :
-                                    "caisson_mpm " CAISSON_MPM_VERSION
-                                    " (deal.II " DEAL_II_PACKAGE_VERSION ")\n");
-        return ExitStatus::success;
-      }
-    Simulation simulation(MPI_COMM_WORLD);
-    auto      &prm = dealii::ParameterAcceptor::prm;
-    const auto origins =
-      read_parameters(prm, command_line.parameter_file, command_line.overrides);
-    for (const std::string &text : origins.warnings())
-      out << "warning: " << text << std::endl;
-    if (command_line.print_parameters)
-      {
-        out << describe_parameters(prm);
-        return ExitStatus::success;
-      }
-    dealii::ParameterAcceptor::parse_all_parameters();
-    if (command_line.validate)
-      {
-        simulation.validate();
-        out << command_line.parameter_file << " is valid\n"
-            << describe(simulation.estimate_cost()) << std::flush;
-        return ExitStatus::success;
-      }
-    return simulation.run(command_line.parameter_file,
-                          command_line.output_directory,
-                          command_line.restart);
+    if (command_line.help)
+      out << usage();
+    else if (command_line.version)
+      out << "caisson_mpm " CAISSON_MPM_VERSION
+             " (deal.II " DEAL_II_PACKAGE_VERSION ")\n";
+    else
+      return run_scene(command_line, out);
+    return ExitStatus::success;
   }
 } // namespace
 

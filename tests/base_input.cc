@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The base floor: the command line, the parameter file with every message
-// that it can give, stop requests, timing, and the console.
+// that it can give, expressions, the output directory, stop requests, timing,
+// and the console.
 
+#include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/command_line.h>
 #include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/base/nearest_names.h>
+#include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/base/parameter_file.h>
 #include <caisson_mpm/base/stop_request.h>
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/timing.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/utilities.h>
 
@@ -22,6 +28,7 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <thread>
 
 using namespace CaissonMPM;
@@ -97,6 +104,7 @@ test_command_line()
   print(parse({"a.prm", "--print-parameters"}));
   print(parse({"--version"}));
   print(parse({"--help"}));
+  print(parse({"-h"}));
   for (const std::vector<const char *> &arguments :
        std::vector<std::vector<const char *>>{
          {},
@@ -185,6 +193,46 @@ struct Grid : public ParameterAcceptor
 
 
 
+/** A choice, and words in the place of numbers. */
+struct Method : public ParameterAcceptor
+{
+  enum class Transfer
+  {
+    flip,
+    pic
+  };
+
+  Method()
+    : ParameterAcceptor("/Method")
+  {
+    add_choice(*this,
+               "Velocity transfer",
+               transfer,
+               {{"FLIP", Transfer::flip}, {"PIC", Transfer::pic}},
+               "How points take the velocity of the grid. Units: none.");
+    add_word_or_number(*this,
+                       "Record interval",
+                       interval,
+                       "every step",
+                       0.,
+                       "Time between records. Units: s.",
+                       Patterns::Double(0.));
+    add_word_or_number(*this,
+                       "K0",
+                       k0,
+                       "auto",
+                       {},
+                       "Ratio of stresses. Units: none.",
+                       Patterns::Double(0., 10.));
+  }
+
+  Transfer              transfer = Transfer::pic;
+  std::optional<double> interval = 0.1;
+  std::optional<double> k0;
+};
+
+
+
 ParameterOrigins
 read_text(const std::string              &text,
           const std::vector<std::string> &overrides = {})
@@ -262,7 +310,6 @@ test_bad_statements()
   read("subsection Soil\n  set = 38\nend");
   read("Friction angle = 38");
   read("<?xml version=\"1.0\" encoding=\"utf-8\"?><ParameterHandler><Soil>");
-  read("include soil.prm");
   read("subsection");
   read("subsection Soil\nend Soil");
   read("subsection Soil\nend\nend\n");
@@ -303,6 +350,198 @@ test_bad_statements()
   read("subsection Soil\n  set Model = Tresca\n  set Model = Tresca\n");
   read("subsection Soil\n  set Stiffness = 1\nend\n"
        "subsection Soil\n  set Youngs modulus = 2\n");
+}
+
+
+
+/** Write files, of which the first is read; names come before texts. */
+ParameterOrigins
+read_files(const std::vector<std::pair<std::string, std::string>> &files)
+{
+  for (const auto &[name, text] : files)
+    std::ofstream("scenes/" + name, std::ios::binary) << text;
+  return read_parameters(ParameterAcceptor::prm, "scenes/" + files[0].first);
+}
+
+
+
+void
+test_include(const Soil &soil, const Grid &grid)
+{
+  title("include");
+  std::filesystem::create_directories("scenes/base");
+  const std::pair<std::string, std::string> base = {
+    "base/sand.prm",
+    "subsection Soil\n  set Friction angle = 30\n"
+    "  set Stiffness = 1e6\nend\n"};
+  const std::pair<std::string, std::string> wide = {
+    "base/wide.prm",
+    "# a comment may stand before\ninclude sand.prm\nsubsection Grid\n"
+    "subsection Fine zone\n  set Columns = 20\nend\nend\n"};
+  const ParameterOrigins origins =
+    read_files({{"jack.prm",
+                 "include base/wide.prm # the domain\n"
+                 "subsection Soil\n  set Friction angle = 35\nend\n"},
+                wide,
+                base});
+  std::cout << soil.friction_angle << ' ' << soil.youngs_modulus << ' '
+            << grid.n_columns << '\n';
+  for (const std::string path :
+       {"Soil/Friction angle", "Soil/Youngs modulus", "Grid/Fine zone/Columns"})
+    std::cout << path << ": " << origins.origin(path) << '\n';
+  for (const std::string &text : origins.warnings())
+    std::cout << text << '\n';
+
+  const auto read = [&](const std::string &text, const std::string &included) {
+    print_error(text, [&]() {
+      read_files({{"jack.prm", text}, {"base/sand.prm", included}, wide});
+    });
+  };
+  read("include", "");
+  read("include base/snad.prm", "");
+  read("include base", "");
+  read("subsection Soil\nend\ninclude base/sand.prm", "");
+  read("include jack.prm", "");
+  read("include base/wide.prm", "include ../jack.prm");
+  read("include base/wide.prm\ninclude base/sand.prm", base.second);
+  read("include base/sand.prm", "# nothing\n");
+  read("include base/sand.prm", "subsection Soil\n  set Friction = 3\nend\n");
+  read("include base/wide.prm", "subsection Soil\n");
+  read("include base/wide.prm",
+       "subsection Soil\n  set Model = elastic\n  set Model = Tresca\nend\n");
+  read("include base/wide.prm", base.second);
+}
+
+
+
+void
+test_choices(const Method &method)
+{
+  title("choices, and words for numbers");
+  const auto print = [&]() {
+    std::cout << (method.transfer == Method::Transfer::pic ? "PIC" : "FLIP")
+              << ' ' << (method.interval ? to_text(*method.interval) : "-")
+              << ' ' << (method.k0 ? to_text(*method.k0) : "-") << '\n';
+  };
+  const auto read = [&](const std::string &text) {
+    print_error(text, [&]() {
+      const ParameterOrigins origins =
+        read_text("subsection Method\n" + text + "\nend\n");
+      for (const std::string &warning : origins.warnings())
+        std::cout << warning << '\n';
+      print();
+    });
+  };
+  print();
+  read("set Velocity transfer = FLIP");
+  read("set Velocity transfer = flip");
+  read("set Record interval = every step");
+  read("set Record interval = 0.5");
+  read("set Record interval = 0.0");
+  read("set Record interval = never");
+  read("set Record interval = -1");
+  read("set K0 = 0");
+  read("set K0 = auto");
+}
+
+
+
+void
+test_places()
+{
+  title("places and entries that are not used");
+  std::ofstream("sand.prm") << "subsection Soil\n  set Model = Tresca\nend\n";
+  ParameterOrigins origins =
+    read_text("include sand.prm\nsubsection Soil\n  set Youngs modulus = 1\n"
+              "end\nsubsection Grid\nsubsection Fine zone\n"
+              "  set Rows = 1\n  set Columns = 2\nend\nend\n",
+              {"Soil/Friction angle=3"});
+  std::cout << origins.places_of_entries_in(
+                 "Soil/Friction angle = 3 does not fit Soil/Youngs modulus = 1 "
+                 "and Soil/Model, Soil/Youngs moduli; Method/K0 = 2.")
+            << '\n';
+  std::cout << '"' << origins.places_of_entries_in("no entry at all") << "\"\n";
+  origins.add_unused({"Grid"}, "there is no mesh");
+  origins.add_unused({"Grid/Fine zone"},
+                     "Grid/Fine zone/Columns is less than 3");
+  origins.add_unused({"Soil/Model", "Method"}, "this is never said");
+  origins.add_unused({"Soil"}, "Soil/Youngs modulus is 1");
+  for (const std::string &text : origins.warnings())
+    std::cout << text << '\n';
+}
+
+
+
+void
+test_expressions()
+{
+  title("expressions");
+  for (const std::string text :
+       {"r + z*t", "r+*z", "r + ", "", "sin(r", "2*x", "if(r > 1, 2)"})
+    print_error(text, [&]() {
+      const Expression expression(text, "Soil/Initial velocity");
+      std::cout << expression(dealii::Point<2>(1., 2.), 3.) << '\n';
+    });
+}
+
+
+
+void
+test_numbers()
+{
+  title("numbers");
+  for (const double x :
+       {0., 0.1, 1. / 3., 1.2e-7, -2500., 5e6, 1234567., 0.30000000000000004})
+    std::cout << to_text(x) << ' ';
+  std::cout << to_text(7u) << ' ' << to_text(1. / 3., 3) << '\n';
+}
+
+
+
+void
+test_output_directory()
+{
+  title("output directory");
+  const auto use = [](const std::string &path) {
+    const OutputDirectory directory(path, MPI_COMM_WORLD);
+    std::cout << "cleared of " << directory.clear() << " files\n";
+  };
+  print_error("new", [&]() { use("mesh/results"); });
+  for (const std::string name : {"points_0001.vtu",
+                                 "points_0001.2.vtu",
+                                 "points_0001.pvtu",
+                                 "grid.pvd",
+                                 "history.csv",
+                                 "checkpoint-a.h5",
+                                 "checkpoint.info",
+                                 "run.json",
+                                 "forces.png",
+                                 "my_points_0001.vtu",
+                                 "history.csv.bak"})
+    std::ofstream("mesh/results/" + name) << name;
+  print_error("again", [&]() { use("mesh/results"); });
+  print_error("in use", [&]() {
+    const OutputDirectory directory("mesh/results", MPI_COMM_WORLD);
+    try
+      {
+        use("mesh/results");
+      }
+    catch (const BadInput &error)
+      {
+        // without the names of process and host
+        const std::string text = error.what();
+        const auto        name = text.find(", process ");
+        std::cout << text.substr(0, name) << " ..."
+                  << text.substr(text.find(". Choose")) << '\n';
+      }
+  });
+  std::ofstream("mesh/results/.lock") << "process 1 on a host of old";
+  print_error("a lock that was left", [&]() { use("mesh/results"); });
+  std::ofstream("mesh/file") << "";
+  print_error("a file", [&]() { use("mesh/file"); });
+  for (const auto &item : std::filesystem::directory_iterator("mesh/results"))
+    if (item.path().extension() != ".png" && item.path().extension() != ".bak")
+      std::cout << item.path().filename() << '\n';
 }
 
 
@@ -352,7 +591,9 @@ test_descriptions()
     std::make_shared<Patterns::Map>(Patterns::Anything(), Patterns::Double(0.)),
     std::make_shared<Patterns::Anything>(),
     std::make_shared<Patterns::FileName>(),
-    std::make_shared<Patterns::DirectoryName>()};
+    std::make_shared<Patterns::DirectoryName>(),
+    std::make_shared<WordOrNumber>("auto", -1., Patterns::Double(0., 10.)),
+    std::make_shared<WordOrNumber>("never", std::nullopt, Patterns::Double())};
   for (const auto &pattern : patterns)
     std::cout << allowed_values(pattern->description()) << '\n';
 
@@ -395,6 +636,15 @@ test_stop_request()
     std::raise(SIGTERM);
     ask(request);
   }
+  for (const int signal : {SIGHUP, SIGUSR1, SIGXCPU})
+    {
+      StopRequest request;
+      request.arm("results");
+      std::raise(SIGPIPE);
+      ask(request);
+      std::raise(signal);
+      ask(request);
+    }
   {
     StopRequest request;
     request.arm("results/");
@@ -492,16 +742,24 @@ test_console()
 
 
 int
-main()
+main(int argc, char *argv[])
 {
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   test_command_line();
+  test_numbers();
+  test_expressions();
+  test_output_directory();
   {
     Soil        soil;
     Grid        grid;
+    Method      method;
     StopRequest stop_request;
     test_good_file(soil, grid);
     test_bad_files();
     test_bad_statements();
+    test_include(soil, grid);
+    test_choices(method);
+    test_places();
     test_bad_overrides();
     test_descriptions();
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/base/text.h>
 
 #include <cstdlib>
@@ -38,6 +39,8 @@ namespace CaissonMPM
             const std::function<void(const std::string &)> &set)
   {
     auto &prm = ParameterAcceptor::prm;
+    if (auto *const section = dynamic_cast<Section *>(&owner))
+      section->remember(entry);
     owner.enter_my_subsection(prm);
     prm.declare_entry(entry, default_value, pattern, text);
     prm.add_action(entry, set);

@@ -32,7 +32,7 @@ namespace CaissonMPM
       add("validate", "check the input without running it, and stop");
       add("restart", "continue from the checkpoint in the output directory");
       add("version", "print the version and stop");
-      add("help", "print this text and stop");
+      add("help,h", "print this text and stop");
       return options;
     }
 

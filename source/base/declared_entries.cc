@@ -2,6 +2,7 @@
 
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/declared_entries.h>
+#include <caisson_mpm/base/text.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -146,8 +147,8 @@ namespace CaissonMPM
       using Limits = std::numeric_limits<int>;
       return "a whole number" +
              range_in_words(between(pattern, "[Integer range ", " (inclusive)"),
-                            std::to_string(Limits::min()),
-                            std::to_string(Limits::max()));
+                            to_text(Limits::min()),
+                            to_text(Limits::max()));
     }
 
     std::string
@@ -174,7 +175,7 @@ namespace CaissonMPM
       const std::string least = range.substr(0, dots);
       const std::string most  = range.substr(dots + 3);
       const bool        no_upper_bound =
-        most == std::to_string(std::numeric_limits<unsigned int>::max());
+        most == to_text(std::numeric_limits<unsigned int>::max());
       if (least == most)
         return least + " items";
       if (no_upper_bound)
@@ -326,6 +327,8 @@ namespace CaissonMPM
 
 
 
+  // deal.II has words of its own, but writes the bounds of unbounded numbers
+  // ("-MAX_DOUBLE <= v"), and pattern_factory() misreads a list of lists.
   std::string
   allowed_values(const std::string &pattern)
   {

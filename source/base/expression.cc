@@ -2,37 +2,92 @@
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/base/text.h>
 
-#include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
 
+#include <iostream>
 #include <sstream>
 
 namespace CaissonMPM
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Keeps std::cerr to itself: deal.II prints there what muParser says. */
+    class CapturedErrors
+    {
+    public:
+      CapturedErrors()
+        : previous(std::cerr.rdbuf(text.rdbuf()))
+      {}
+
+      ~CapturedErrors()
+      {
+        std::cerr.rdbuf(previous);
+      }
+
+      CapturedErrors(const CapturedErrors &) = delete;
+      CapturedErrors &
+      operator=(const CapturedErrors &) = delete;
+
+      /** The field of a line such as "Position: <2>". */
+      std::string
+      field(const std::string &name) const
+      {
+        const std::string all   = text.str();
+        const std::size_t begin = all.find('<', all.find(name + ":"));
+        const std::size_t end   = all.find(">\n", begin);
+        if (all.find(name + ":") == std::string::npos ||
+            begin == std::string::npos || end == std::string::npos)
+          return "";
+        return all.substr(begin + 1, end - begin - 1);
+      }
+
+    private:
+      std::ostringstream    text;
+      std::streambuf *const previous;
+    };
+
+    /** One line of what is wrong with an expression, and where. */
+    std::string
+    explain(const std::string &expression, const CapturedErrors &errors)
+    {
+      std::string message = errors.field("Message");
+      for (const std::string end : {" at position", " at expression position"})
+        message = message.substr(0, message.find(end));
+      message = message.substr(0, message.rfind('.'));
+      if (message.empty())
+        message = expression.empty() ? "it is empty" : "it cannot be parsed";
+      // muParser counts from 0, and in a text that deal.II may have changed
+      const std::string token    = errors.field("Token");
+      const std::string position = errors.field("Position");
+      const std::size_t at =
+        position.empty() ? std::string::npos : std::stoul(position);
+      if (!token.empty() && at < expression.size() &&
+          expression.compare(at, token.size(), token) == 0)
+        message += " at column " + to_text(at + 1);
+      return message;
+    }
+  } // namespace
+
   Expression::Expression(const std::string &text, const std::string &where)
     : function(std::make_unique<FunctionParser<2>>(1))
     , zero(text == "0")
   {
-    std::ostringstream reason;
+    const CapturedErrors errors;
     try
       {
         function->initialize("r,z,t", text, {{"pi", pi}}, true);
         // the parser looks at the expression when it is used first
         function->value(Point<2>(1., -1.));
-        return;
       }
-    catch (const ExceptionBase &e)
+    catch (const std::exception &)
       {
-        e.print_info(reason);
+        throw BadInput(where + " must be an expression in r, z, t and pi: " +
+                       explain(text, errors) + ".");
       }
-    std::string        words;
-    std::istringstream in(reason.str());
-    for (std::string word; in >> word;)
-      words += " " + word;
-    throw BadInput(where + " must be an expression in r, z, t and pi:" + words);
   }
 
   VectorExpression

@@ -74,7 +74,7 @@ namespace CaissonMPM
     const std::string a = lower_case(first), b = lower_case(second);
 
     // Row i holds the distances of the first i characters of a to the first j
-    // of b; three rows are enough to see swapped neighbours.
+    // of b; three rows are enough to see swapped neighbors.
     std::vector<unsigned int> before(b.size() + 1), last(b.size() + 1),
       row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j)

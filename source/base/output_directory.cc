@@ -1,30 +1,147 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/output_directory.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/base/text_file.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 namespace CaissonMPM
 {
-  void
-  prepare_output_directory(const std::string &directory)
+  namespace
   {
-    const std::string advice =
-      " Choose another one with Output/Directory or --output-directory.";
+    namespace fs = std::filesystem;
+
+    /** The names of all files that a run writes. */
+    const std::regex
+      result_names(R"((points|grid)(_\d+([._]\d+)*\.p?vtu|\.pvd)(\.tmp)?|)"
+                   R"((history|history_error|observations)\.csv(\.tmp)?|)"
+                   R"((run|verification)\.json(\.tmp)?|)"
+                   R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5))");
+
+    std::string
+    this_process()
+    {
+      char host[256] = "";
+      gethostname(host, sizeof(host) - 1);
+      return "process " + to_text(getpid()) + " on " + host;
+    }
+
+    /** Whether the open file is still the one of this path. */
+    bool
+    is_file_at(const int file, const std::string &path)
+    {
+      struct stat by_file, by_path;
+      return fstat(file, &by_file) == 0 && stat(path.c_str(), &by_path) == 0 &&
+             by_file.st_ino == by_path.st_ino &&
+             by_file.st_dev == by_path.st_dev;
+    }
+  } // namespace
+
+
+
+  OutputDirectory::OutputDirectory(const std::string &path,
+                                   const MPI_Comm     communicator)
+    : path_(path)
+  {
+    namespace MPI = dealii::Utilities::MPI;
+    std::string reason;
+    if (MPI::this_mpi_process(communicator) == 0)
+      reason = prepare();
+    reason = MPI::broadcast(communicator, reason);
+    if (!reason.empty())
+      throw BadInput("the output directory " + path + " " + reason +
+                     ". Choose another one with Output/Directory or "
+                     "--output-directory.");
+  }
+
+
+
+  OutputDirectory::~OutputDirectory()
+  {
+    if (lock_file < 0)
+      return;
     std::error_code error;
-    std::filesystem::create_directories(directory, error);
-    if (!std::filesystem::is_directory(directory))
-      throw BadInput("the output directory " + directory + " cannot be made: " +
-                     (error ? error.message() : "a file is in its place") +
-                     "." + advice);
-    const std::string probe = directory + "/.writable";
+    fs::remove(path_ + "/.lock", error);
+    close(lock_file); // and thereby unlock
+  }
+
+
+
+  std::string
+  OutputDirectory::prepare()
+  {
+    std::error_code error;
+    fs::create_directories(path_, error);
+    std::error_code is_missing;
+    if (!fs::is_directory(path_, is_missing))
+      return "cannot be made: " +
+             (error ? error.message() : "a file is in its place");
+    const std::string probe = path_ + "/.writable";
     std::ofstream     file(probe);
     file << "writable" << std::endl;
     if (!file)
-      throw BadInput("the output directory " + directory +
-                     " cannot be written." + advice);
+      return "cannot be written";
     file.close();
-    std::filesystem::remove(probe, error);
+    fs::remove(probe, error);
+    return lock();
+  }
+
+
+
+  std::string
+  OutputDirectory::lock()
+  {
+    const std::string path = path_ + "/.lock";
+    do
+      {
+        // a run that ended in between has removed the file that was opened
+        if (lock_file >= 0)
+          close(lock_file);
+        lock_file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (lock_file < 0)
+          return std::string("cannot be locked: ") + std::strerror(errno);
+        if (flock(lock_file, LOCK_EX | LOCK_NB) != 0)
+          {
+            const bool is_in_use = errno == EWOULDBLOCK;
+            close(lock_file);
+            lock_file = -1;
+            // some file systems have no locks: then go without
+            return is_in_use ? "is in use by another run, " + read_text(path) :
+                               "";
+          }
+      }
+    while (!is_file_at(lock_file, path));
+    const std::string owner = this_process();
+    if (ftruncate(lock_file, 0) != 0 ||
+        write(lock_file, owner.data(), owner.size()) < 0)
+      return std::string("cannot be locked: ") + std::strerror(errno);
+    return "";
+  }
+
+
+
+  unsigned int
+  OutputDirectory::clear() const
+  {
+    std::vector<fs::path> found;
+    std::error_code       error;
+    for (const auto &item : fs::directory_iterator(path_, error))
+      if (item.is_regular_file(error) &&
+          std::regex_match(item.path().filename().string(), result_names))
+        found.push_back(item.path());
+    unsigned int n_removed = 0;
+    for (const fs::path &file : found)
+      n_removed += fs::remove(file, error) ? 1 : 0;
+    return n_removed;
   }
 } // namespace CaissonMPM

@@ -5,141 +5,20 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/nearest_names.h>
 #include <caisson_mpm/base/parameter_file.h>
+#include <caisson_mpm/base/parameter_text.h>
+#include <caisson_mpm/base/text.h>
 
-#include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace CaissonMPM
 {
+  using namespace ParameterText;
+
   namespace
   {
     const std::string list_hint =
       "\n  \"caisson_mpm --print-parameters\" lists all entries.";
-
-    bool
-    is_space(const char c)
-    {
-      return std::isspace(static_cast<unsigned char>(c)) != 0;
-    }
-
-    std::string
-    trim(const std::string &text)
-    {
-      std::size_t begin = 0, end = text.size();
-      while (begin < end && is_space(text[begin]))
-        ++begin;
-      while (end > begin && is_space(text[end - 1]))
-        --end;
-      return text.substr(begin, end - begin);
-    }
-
-    /** Trim, and make one space of each run of white space. */
-    std::string
-    condense(const std::string &text)
-    {
-      std::string result;
-      for (const char c : trim(text))
-        if (!is_space(c))
-          result += c;
-        else if (result.back() != ' ')
-          result += ' ';
-      return result;
-    }
-
-    /** A piece of the user's text, safe to print and in quotation marks. */
-    std::string
-    quote(const std::string &text)
-    {
-      std::string result;
-      for (const char c : text.substr(0, 60))
-        result += std::iscntrl(static_cast<unsigned char>(c)) ? '?' : c;
-      return "\"" + result + (text.size() > 60 ? "..." : "") + "\"";
-    }
-
-    /** " Soil /  Friction angle" is understood as "Soil/Friction angle". */
-    std::string
-    normalize_path(const std::string &path)
-    {
-      std::string        result;
-      std::istringstream stream(path);
-      for (std::string part; std::getline(stream, part, '/');)
-        result += (result.empty() ? "" : "/") + condense(part);
-      return result;
-    }
-
-    /** The parameter files in the directory of the one that is missing. */
-    std::vector<std::string>
-    neighbouring_files(const std::filesystem::path &missing_file)
-    {
-      namespace fs                     = std::filesystem;
-      const fs::path           parent  = missing_file.parent_path();
-      const fs::path           to_list = parent.empty() ? "." : parent;
-      std::vector<std::string> result;
-      std::error_code          error;
-      for (const auto &item : fs::directory_iterator(to_list, error))
-        if (item.path().extension() == ".prm")
-          result.push_back((parent / item.path().filename()).string());
-      return result;
-    }
-
-    std::string
-    read_text(const std::string &file_name)
-    {
-      const std::string file = "The parameter file " + quote(file_name);
-      std::error_code   error;
-      if (std::filesystem::is_directory(file_name, error))
-        throw BadInput(file + " is a directory.\n  Give a file in it.");
-      if (!std::filesystem::exists(file_name, error))
-        throw BadInput(
-          file + " does not exist." +
-          did_you_mean(
-            nearest_names(file_name, neighbouring_files(file_name))) +
-          "\n  A path is relative to the directory in which caisson_mpm is "
-          "started.");
-
-      std::ifstream stream(file_name, std::ios::binary);
-      if (!stream)
-        throw BadInput(file + " cannot be opened.\n  Is reading permitted?");
-      std::ostringstream content;
-      content << stream.rdbuf();
-      std::string text = content.str();
-      if (text.find('\0') != std::string::npos)
-        throw BadInput(file + " is not a text file.");
-      if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) // byte order mark
-        text.erase(0, 3);
-      return text;
-    }
-
-    /** A line of the file, continuation lines joined to it. */
-    struct Line
-    {
-      unsigned int number;
-      std::string  text;
-    };
-
-    std::vector<Line>
-    read_lines(const std::string &content)
-    {
-      std::vector<Line>  lines;
-      std::istringstream stream(content);
-      bool               continues = false;
-      unsigned int       number    = 0;
-      for (std::string raw; std::getline(stream, raw);)
-        {
-          ++number;
-          std::string text = trim(raw.substr(0, raw.find('#')));
-          if (!continues)
-            lines.push_back({number, ""});
-          continues = !text.empty() && text.back() == '\\';
-          if (continues)
-            text.pop_back();
-          lines.back().text += text;
-        }
-      return lines;
-    }
 
     /**
      * Goes through the statements of the file and of the command line, checks
@@ -151,15 +30,21 @@ namespace CaissonMPM
       explicit Reader(dealii::ParameterHandler &prm)
         : prm(prm)
         , entries(prm)
+        , origins(entries.entry_paths())
       {}
 
+      /** @p place is the line that includes the file, empty if none. */
       void
-      read_file(const std::string &name);
+      read_file(const std::string &name, const std::string &place = "");
 
       void
       read_overrides(const std::vector<std::string> &overrides);
 
-      ParameterOrigins origins;
+      const ParameterOrigins &
+      get_origins() const
+      {
+        return origins;
+      }
 
     private:
       struct OpenSubsection
@@ -168,8 +53,21 @@ namespace CaissonMPM
         unsigned int line;
       };
 
+      /** A file that is being read; below it are those that include it. */
+      struct OpenFile
+      {
+        std::string                        name;
+        std::string                        included_at;
+        bool                               may_include  = true;
+        bool                               has_included = false;
+        std::vector<OpenSubsection>        open;
+        std::map<std::string, std::string> place_of_entry;
+      };
+
       void
       read_line(const Line &line);
+      void
+      include(const std::string &name, const unsigned int line);
       void
       read_set(const std::string &assignment, const unsigned int line);
       void
@@ -209,14 +107,31 @@ namespace CaissonMPM
       std::string
       missing_end_hint(const std::string &name) const;
 
+      /** The line's place, and that of the "include" that leads to it. */
       std::string
       at(const unsigned int line) const;
 
+      /** Refuse a file that has been read before. */
+      void
+      check_new(const std::string &name, const std::string &place);
+
+      /** The subsections that are open in the present file. */
+      std::vector<OpenSubsection> &
+      open()
+      {
+        return files.back().open;
+      }
+      const std::vector<OpenSubsection> &
+      open() const
+      {
+        return files.back().open;
+      }
+
       dealii::ParameterHandler          &prm;
       const DeclaredEntries              entries;
-      std::string                        file_name;
-      std::vector<OpenSubsection>        open;
-      std::map<std::string, std::string> place_of_entry;
+      ParameterOrigins                   origins;
+      std::vector<OpenFile>              files;
+      std::map<std::string, std::string> place_of_include;
     };
 
 
@@ -224,7 +139,10 @@ namespace CaissonMPM
     std::string
     Reader::at(const unsigned int line) const
     {
-      return file_name + ":" + std::to_string(line);
+      const OpenFile &file = files.back();
+      return file.name + ":" + to_text(line) +
+             (file.included_at.empty() ? "" :
+                                         ", included by " + file.included_at);
     }
 
 
@@ -232,26 +150,70 @@ namespace CaissonMPM
     std::string
     Reader::full_path(const std::string &name) const
     {
-      return open.empty() ? name : open.back().path + "/" + name;
+      return open().empty() ? name : open().back().path + "/" + name;
     }
 
 
 
     void
-    Reader::read_file(const std::string &name)
+    Reader::check_new(const std::string &name, const std::string &place)
     {
-      file_name = name;
-      for (const Line &line : read_lines(read_text(name)))
+      const auto key             = std::filesystem::weakly_canonical(name);
+      const auto [entry, is_new] = place_of_include.insert({key, place});
+      if (is_new)
+        return;
+      for (const OpenFile &file : files)
+        if (std::filesystem::weakly_canonical(file.name) == key)
+          throw BadInput(place + ": the file " + quote(name) +
+                         " includes itself.\n  Remove one of the \"include\" "
+                         "lines on the way.");
+      throw BadInput(place + ": the file " + quote(name) +
+                     " is included a second time, first at " + entry->second +
+                     ".\n  It would undo what was set since. Remove one of "
+                     "the two.");
+    }
+
+
+
+    void
+    Reader::read_file(const std::string &name, const std::string &place)
+    {
+      const std::string text = read_text(name, place);
+      check_new(name, place);
+      files.push_back({name, place, true, false, {}, {}});
+      for (const Line &line : read_lines(text))
         read_line(line);
-      if (!open.empty())
-        throw BadInput(at(open.back().line) + ": subsection " +
-                       quote(open.back().path) +
+      if (!open().empty())
+        throw BadInput(at(open().back().line) + ": subsection " +
+                       quote(open().back().path) +
                        " is opened here and never closed.\n  Add \"end\".");
-      if (place_of_entry.empty())
-        throw BadInput("The parameter file " + quote(name) +
+      if (files.back().place_of_entry.empty() && !files.back().has_included)
+        throw BadInput((place.empty() ? "The" : place + ": the") +
+                       " parameter file " + quote(name) +
                        " sets no entry.\n  Is it the right file? Start from "
                        "one of the examples in prm/." +
                        list_hint);
+      files.pop_back();
+    }
+
+
+
+    void
+    Reader::include(const std::string &name, const unsigned int line)
+    {
+      const std::string place = at(line);
+      if (name.empty())
+        throw BadInput(place + ": \"include\" lacks a file.\n  Write "
+                               "\"include other.prm\".");
+      if (!files.back().may_include)
+        throw BadInput(place +
+                       ": \"include\" must stand before the first \"set\" and "
+                       "\"subsection\".\n  A file then changes what it "
+                       "includes, and not the other way round.");
+      const auto directory = std::filesystem::path(files.back().name);
+      read_file((directory.parent_path() / name).lexically_normal().string(),
+                place);
+      files.back().has_included = true;
     }
 
 
@@ -267,21 +229,20 @@ namespace CaissonMPM
       const std::string word = line.text.substr(0, length);
       const std::string rest = trim(line.text.substr(length));
 
+      if (word == "include" || word == "INCLUDE")
+        return include(rest, line.number);
+      files.back().may_include = false;
       if (word == "set" || word == "SET")
         read_set(rest, line.number);
       else if (word == "subsection" || word == "SUBSECTION")
         enter_subsection(condense(rest), line.number);
       else if (word == "end" || word == "END")
         leave_subsection(rest, line.number);
-      else if (word == "include" || word == "INCLUDE")
-        throw BadInput(at(line.number) +
-                       ": \"include\" is not supported.\n  Copy the entries "
-                       "into this file, or give them with --set.");
       else
         throw BadInput(at(line.number) + ": " + quote(line.text) +
                        " cannot be read.\n  A line is \"subsection Name\", "
-                       "\"set Name = value\", \"end\", or a comment after "
-                       "\"#\".");
+                       "\"set Name = value\", \"end\", \"include FILE\", or "
+                       "a comment after \"#\".");
     }
 
 
@@ -325,7 +286,7 @@ namespace CaissonMPM
           at(line) + ": there is no subsection " + quote(path) + "." +
           did_you_mean(nearest_names(path, entries.subsection_paths())) +
           missing_end_hint(name) + list_hint);
-      open.push_back({path, line});
+      open().push_back({path, line});
     }
 
 
@@ -337,11 +298,11 @@ namespace CaissonMPM
         throw BadInput(at(line) + ": " + quote("end " + rest) +
                        " cannot be read.\n  \"end\" stands alone on its line; "
                        "a comment begins with \"#\".");
-      if (open.empty())
+      if (open().empty())
         throw BadInput(at(line) +
                        ": this \"end\" closes no subsection.\n  Remove it, or "
                        "add the \"subsection\" that it belongs to.");
-      open.pop_back();
+      open().pop_back();
     }
 
 
@@ -361,15 +322,15 @@ namespace CaissonMPM
     std::string
     Reader::missing_end_hint(const std::string &name) const
     {
-      for (std::size_t n_open = open.size(); n_open > 0; --n_open)
+      for (std::size_t n_open = open().size(); n_open > 0; --n_open)
         {
           const std::string outside =
-            n_open > 1 ? open[n_open - 2].path + "/" + name : name;
+            n_open > 1 ? open()[n_open - 2].path + "/" + name : name;
           if (entries.find(outside) != nullptr ||
               entries.has_subsection(outside))
             return "\n  Or is an \"end\" missing? Subsection " +
-                   quote(open[n_open - 1].path) + " is open since line " +
-                   std::to_string(open[n_open - 1].line) + ".";
+                   quote(open()[n_open - 1].path) + " is open since line " +
+                   to_text(open()[n_open - 1].line) + ".";
         }
       return "";
     }
@@ -380,7 +341,7 @@ namespace CaissonMPM
     Reader::read_overrides(const std::vector<std::string> &overrides)
     {
       // An override replaces what the file says, but not another override.
-      place_of_entry.clear();
+      files.push_back({});
       for (const std::string &text : overrides)
         {
           const std::string place      = "--set " + quote(text);
@@ -394,6 +355,7 @@ namespace CaissonMPM
             throw BadInput(unknown_entry(path, place) + list_hint);
           set(path, trim(text.substr(equal_sign + 1)), place);
         }
+      files.pop_back();
     }
 
 
@@ -403,14 +365,15 @@ namespace CaissonMPM
                 const std::string &value,
                 const std::string &place)
     {
-      const DeclaredEntry &entry   = resolve_alias(*entries.find(path), place);
-      const auto [earlier, is_new] = place_of_entry.insert({entry.path, place});
+      const DeclaredEntry &entry = resolve_alias(*entries.find(path), place);
+      const auto [earlier, is_new] =
+        files.back().place_of_entry.insert({entry.path, place});
       if (!is_new)
         throw BadInput(place + ": " + quote(entry.path) +
                        " is set a second time, first at " + earlier->second +
                        ".\n  Remove one of the two.");
       set_value(entry, present_value(entry, value, place), place);
-      origins.record(entry.path, place);
+      origins.record(entry.path, place, files.size() > 1);
     }
 
 
@@ -484,49 +447,6 @@ namespace CaissonMPM
 
 
 
-  void
-  ParameterOrigins::record(const std::string &path, const std::string &place)
-  {
-    // The quoted text of --set would only repeat what a check says anyway.
-    places[path] =
-      place.compare(0, 6, "--set ") == 0 ? "by --set" : "in " + place;
-  }
-
-
-
-  void
-  ParameterOrigins::add_warning(const std::string &text)
-  {
-    notes.push_back(text);
-  }
-
-
-
-  std::string
-  ParameterOrigins::origin(const std::string &path) const
-  {
-    const auto place = places.find(path);
-    return place == places.end() ? "the default" : "set " + place->second;
-  }
-
-
-
-  bool
-  ParameterOrigins::is_set(const std::string &path) const
-  {
-    return places.count(path) > 0;
-  }
-
-
-
-  const std::vector<std::string> &
-  ParameterOrigins::warnings() const
-  {
-    return notes;
-  }
-
-
-
   ParameterOrigins
   read_parameters(dealii::ParameterHandler       &prm,
                   const std::string              &file_name,
@@ -536,6 +456,6 @@ namespace CaissonMPM
     if (!file_name.empty())
       reader.read_file(file_name);
     reader.read_overrides(overrides);
-    return reader.origins;
+    return reader.get_origins();
   }
 } // namespace CaissonMPM

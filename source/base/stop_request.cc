@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/stop_request.h>
+#include <caisson_mpm/base/text.h>
 
 #include <deal.II/base/patterns.h>
 
 #include <filesystem>
-#include <sstream>
 
 namespace CaissonMPM
 {
@@ -19,6 +20,28 @@ namespace CaissonMPM
     {
       received_signal = signal;
     }
+
+    /** The signals that ask for an end in order; the first one is Ctrl-C. */
+    constexpr StopRequest::Signals caught_signals = {
+      {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU}};
+
+    std::string
+    name_of_signal(const int signal)
+    {
+      switch (signal)
+        {
+          case SIGINT:
+            return "SIGINT";
+          case SIGTERM:
+            return "SIGTERM";
+          case SIGHUP:
+            return "SIGHUP";
+          case SIGUSR1:
+            return "SIGUSR1";
+          default:
+            return "SIGXCPU";
+        }
+    }
   } // namespace
 
 
@@ -28,17 +51,19 @@ namespace CaissonMPM
     , start_time(Clock::now())
     , next_look(start_time)
   {
-    add_parameter("Wall time limit",
-                  wall_time_limit,
-                  "Wall time after which the run stops with a checkpoint; "
-                  "0 means no limit. Units: s",
-                  prm,
-                  dealii::Patterns::Double(0.));
+    add_word_or_number(*this,
+                       "Wall time limit",
+                       wall_time_limit,
+                       "never",
+                       0.,
+                       "The run stops with a checkpoint after this wall time, "
+                       "or never because of it. Units: s.",
+                       dealii::Patterns::Double(0.));
     add_parameter("Stop file",
                   stop_file,
-                  "Name of a file; when it appears in the output directory, "
-                  "the run stops with a checkpoint and removes it. Empty means "
-                  "none. Units: none",
+                  "The run stops with a checkpoint when a file of this name "
+                  "appears in the output directory, and removes the file; an "
+                  "empty name stands for no file. Units: none.",
                   prm,
                   dealii::Patterns::Anything());
   }
@@ -49,8 +74,9 @@ namespace CaissonMPM
   {
     if (!is_armed)
       return;
-    sigaction(SIGINT, &previous_interrupt_action, nullptr);
-    sigaction(SIGTERM, &previous_terminate_action, nullptr);
+    for (std::size_t i = 0; i < caught_signals.size(); ++i)
+      sigaction(caught_signals[i], &previous_actions[i], nullptr);
+    sigaction(SIGPIPE, &previous_pipe_action, nullptr);
   }
 
 
@@ -70,11 +96,17 @@ namespace CaissonMPM
     struct sigaction action = {};
     action.sa_handler       = remember_signal;
     sigemptyset(&action.sa_mask);
-    action.sa_flags = SA_RESTART;
-    sigaction(SIGTERM, &action, &previous_terminate_action);
-    // The first SIGINT brings back the default action for the second.
-    action.sa_flags |= static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, &previous_interrupt_action);
+    for (std::size_t i = 0; i < caught_signals.size(); ++i)
+      {
+        // The first SIGINT brings back the default action for the second.
+        action.sa_flags =
+          SA_RESTART |
+          (caught_signals[i] == SIGINT ? static_cast<int>(SA_RESETHAND) : 0);
+        sigaction(caught_signals[i], &action, &previous_actions[i]);
+      }
+    // A reader of the output that has gone, as "| head", does not end the run.
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &action, &previous_pipe_action);
     is_armed = true;
   }
 
@@ -94,17 +126,13 @@ namespace CaissonMPM
   StopRequest::find_reason()
   {
     if (received_signal != 0)
-      return received_signal == SIGINT ? "SIGINT received" : "SIGTERM received";
+      return name_of_signal(received_signal) + " received";
 
     const Clock::time_point now = Clock::now();
-    if (wall_time_limit > 0. &&
+    if (wall_time_limit &&
         std::chrono::duration<double>(now - start_time).count() >=
-          wall_time_limit)
-      {
-        std::ostringstream text;
-        text << "wall time limit of " << wall_time_limit << " s reached";
-        return text.str();
-      }
+          *wall_time_limit)
+      return "wall time limit of " + to_text(*wall_time_limit) + " s reached";
 
     if (is_armed && now >= next_look)
       {

@@ -43,6 +43,14 @@ namespace CaissonMPM
   }
 
   void
+  PrescribedMotion::name_unused_entries(ParameterOrigins &origins) const
+  {
+    if (!table_text.empty())
+      origins.add_unused({"Rigid body/Velocity", "Rigid body/Ramp time"},
+                         "Rigid body/Velocity table replaces them");
+  }
+
+  void
   PrescribedMotion::fill_table()
   {
     velocity_table.clear();

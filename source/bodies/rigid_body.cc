@@ -164,4 +164,23 @@ namespace CaissonMPM
                      "expanding cylinder changes, adhesion on it is not "
                      "possible. Set it to 0.");
   }
+
+
+
+  void
+  RigidBody::name_unused_entries(ParameterOrigins &origins) const
+  {
+    if (!shape().exists())
+      return origins.add_unused({"Rigid body"}, "Rigid body/Kind is none");
+    name_entries_of_others(origins,
+                           shape(),
+                           shapes,
+                           "Rigid body/Kind is " + shape().name());
+    name_entries_of_others(origins,
+                           motion(),
+                           motions,
+                           "Rigid body/Motion is " + motion().name());
+    shape().name_unused_entries(origins);
+    motion().name_unused_entries(origins);
+  }
 } // namespace CaissonMPM

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/kernels/laws.h>
 #include <caisson_mpm/materials/soil.h>
 
@@ -52,17 +54,18 @@ namespace CaissonMPM
   } // namespace
 
   SoilLayer::SoilLayer(const unsigned int index)
-    : ParameterAcceptor("/Soil/Layer " + std::to_string(index))
+    : ParameterAcceptor("/Soil/Layer " + to_text(index))
   {
     add_parameter("Top depth",
                   top_depth,
-                  "Depth of the layer's upper boundary below the soil surface; "
-                  "0 for layer 1. Units: m.",
+                  "The depth of the layer's upper boundary below the soil "
+                  "surface must be 0 for layer 1. Units: m.",
                   prm,
                   Patterns::Double(0.));
     add_parameter("Law",
                   law,
-                  "The constitutive law. Units: none.",
+                  "The constitutive law gives the stress in the layer. Units: "
+                  "none.",
                   prm,
                   Patterns::Selection(names_of_laws()));
     for_each_law([this](const LawDescription &law) {
@@ -81,36 +84,58 @@ namespace CaissonMPM
     });
     add_parameter("Porosity",
                   porosity,
-                  "Initial porosity n. Units: none.",
+                  "The porosity is the share of the pores in the volume of the "
+                  "soil at the start. Units: none.",
                   prm,
                   Patterns::Double(0., 0.95));
     add_parameter("Solid density",
                   solid_density,
-                  "Density of the grains. Units: kg/m3.",
+                  "The solid density is that of the grains, without pores. "
+                  "Units: kg/m3.",
                   prm,
                   Patterns::Double(1e-12));
-    add_parameter("K0",
-                  k0,
-                  "Horizontal over vertical effective stress at the start; -1 "
-                  "for 1 - sin(phi) or, without a friction angle, nu / (1 - "
-                  "nu). Units: none.",
-                  prm,
-                  Patterns::Double(-1., 10.));
+    add_word_or_number(*this,
+                       "K0",
+                       k0,
+                       "auto",
+                       -1.,
+                       "K0 is the ratio of the horizontal to the vertical "
+                       "effective stress at the start; auto takes the value of "
+                       "the layer's law, 1 - sin(phi) or, without a friction "
+                       "angle, nu / (1 - nu). Units: none.",
+                       Patterns::Double(0., 10.));
   }
 
   void
   SoilLayer::check_parameters() const
   {
-    const std::string where = get_section_name().substr(1) + "/";
-    if (k0 < 0. && k0 != -1.)
-      throw BadInput(where + "K0 = " + std::to_string(k0) +
-                     " is negative. Set a value of 0 or more, or -1 for the "
-                     "law's own value.");
     Kernels::LawMessage message;
     if (!law_named(law).check(law_values().data(),
                               {earth_pressure_at_rest(), void_ratio()},
                               message))
-      throw BadInput(where + message.text);
+      throw BadInput(section() + "/" + message.text);
+  }
+
+  void
+  SoilLayer::name_unused_entries(ParameterOrigins &origins) const
+  {
+    const LawDescription    &description = law_named(law);
+    std::vector<std::string> unused;
+    for (const auto &entry : values)
+      {
+        bool is_used = false;
+        for (int i = 0; i < description.n_entries; ++i)
+          is_used = is_used || entry.first == description.entries[i].name;
+        if (!is_used)
+          unused.push_back(section() + "/" + entry.first);
+      }
+    origins.add_unused(unused, section() + "/Law is " + law);
+  }
+
+  std::string
+  SoilLayer::section() const
+  {
+    return get_section_name().substr(1);
   }
 
   std::vector<double>
@@ -132,20 +157,27 @@ namespace CaissonMPM
   double
   SoilLayer::earth_pressure_at_rest() const
   {
-    if (k0 >= 0.)
-      return k0;
+    if (k0)
+      return *k0;
     Kernels::Material material;
     set_law(material);
     return law_named(law).earth_pressure_at_rest(material);
   }
 
-  double
+  std::optional<double>
   SoilLayer::friction_angle() const
   {
-    const LawDescription &description = law_named(law);
-    return description.friction_entry >= 0 ?
-             law_values()[description.friction_entry] :
-             values.at("Friction angle");
+    const int entry = law_named(law).friction_entry;
+    if (entry < 0)
+      return {};
+    return law_values()[entry];
+  }
+
+  std::string
+  SoilLayer::known_limit() const
+  {
+    const char *const limit = law_named(law).warning(law_values().data());
+    return limit == nullptr ? "" : section() + ": " + limit;
   }
 
   std::optional<double>
@@ -196,45 +228,48 @@ namespace CaissonMPM
   {
     add_parameter("Number of layers",
                   n_layers_,
-                  "Number of soil layers; layer k is described in section "
-                  "Layer k. Units: none.",
+                  "The soil consists of this number of layers; layer k is "
+                  "described in section Layer k. Units: none.",
                   prm,
                   Patterns::Integer(1, max_layers));
     add_parameter("Submerged",
                   submerged,
-                  "Whether the soil is saturated and below water: its weight "
-                  "is then the buoyant one, and its mass contains the water. "
-                  "Units: none.");
+                  "Submerged soil is saturated and below water: its weight is "
+                  "the buoyant one, and its mass contains the water. Units: "
+                  "none.");
     add_parameter("Fluid density",
                   fluid_density,
-                  "Density of the pore water. Units: kg/m3.",
+                  "The fluid density is that of the pore water. Units: kg/m3.",
                   prm,
                   Patterns::Double(0.));
     add_parameter("Gravity",
                   gravity_text,
-                  "Acceleration of gravity, its r and z components. Units: "
-                  "m/s2.",
+                  "The acceleration of gravity has these r and z components. "
+                  "Units: m/s2.",
                   prm,
                   Patterns::List(Patterns::Double(), 2, 2));
-    add_parameter("Initial stress",
-                  initial_state,
-                  "K0: geostatic effective stress under the soil's own weight; "
-                  "none: no stress at the start; uniform: see Uniform stress. "
-                  "Units: none.",
-                  prm,
-                  Patterns::Selection("K0|none|uniform"));
+    add_choice(*this,
+               "Initial stress",
+               stress_state,
+               {{"K0", InitialStress::k0},
+                {"none", InitialStress::none},
+                {"uniform", InitialStress::uniform}},
+               "The stress in the soil at the start: K0 is the geostatic "
+               "effective stress under the soil's own weight, none is no "
+               "stress, and uniform takes the entry Uniform stress. Units: "
+               "none.");
     add_parameter("Uniform stress",
                   uniform_text,
-                  "Effective stress everywhere at the start where Initial "
-                  "stress = uniform: rr, zz, tt (hoop), rz, tension positive. "
-                  "Units: Pa.",
+                  "With Initial stress = uniform, the effective stress is this "
+                  "one everywhere at the start: rr, zz, tt (hoop) and rz, "
+                  "positive in tension. Units: Pa.",
                   prm,
                   Patterns::List(Patterns::Double(), 4, 4));
     add_parameter("Initial velocity",
                   velocity_text,
-                  "Velocity at the start: two expressions in r, z and pi, for "
-                  "its r and z components, with a semicolon between them. "
-                  "Units: m/s.");
+                  "The velocity at the start is given by two expressions in r, "
+                  "z and pi, for its r and z components, with a semicolon "
+                  "between them. Units: m/s.");
     parse_parameters_call_back.connect([this]() {
       const auto components = Utilities::split_string_list(gravity_text);
       gravity               = {{Utilities::string_to_double(components[0]),
@@ -256,24 +291,47 @@ namespace CaissonMPM
         if (i == 0 ? layers[0]->top_depth != 0. :
                      layers[i]->top_depth <= layers[i - 1]->top_depth)
           throw BadInput(
-            "Soil/Layer " + std::to_string(i + 1) +
-            "/Top depth = " + std::to_string(layers[i]->top_depth) +
+            "Soil/Layer " + to_text(i + 1) +
+            "/Top depth = " + to_text(layers[i]->top_depth) +
             " m: layers must be listed from the surface (Top "
             "depth = 0) downward, each deeper than the one above.");
         if (submerged && layers[i]->solid_density <= fluid_density)
-          throw BadInput(
-            "Soil/Layer " + std::to_string(i + 1) +
-            "/Solid density = " + std::to_string(layers[i]->solid_density) +
-            " kg/m3 does not exceed Soil/Fluid density = " +
-            std::to_string(fluid_density) +
-            " kg/m3: the soil would float. Correct one of them, "
-            "or set Soil/Submerged = false.");
+          throw BadInput("Soil/Layer " + to_text(i + 1) + "/Solid density = " +
+                         to_text(layers[i]->solid_density) +
+                         " kg/m3 does not exceed Soil/Fluid density = " +
+                         to_text(fluid_density) +
+                         " kg/m3: the soil would float. Correct one of them, "
+                         "or set Soil/Submerged = false.");
       }
-    if (initial_state == "K0" && gravity[radial] != 0.)
+    if (stress_state == InitialStress::k0 && gravity[radial] != 0.)
       throw BadInput(
         "Soil/Gravity has a horizontal component, and Soil/Initial "
         "stress = K0 needs it vertical. Set Initial stress = none.");
     initial_velocity();
+  }
+
+  void
+  Soil::name_unused_entries(ParameterOrigins &origins) const
+  {
+    const std::string stress =
+      std::string("Soil/Initial stress is ") +
+      (stress_state == InitialStress::none ? "none" : "uniform");
+    for (unsigned int i = 0; i < max_layers; ++i)
+      {
+        const std::string section = "Soil/Layer " + to_text(i + 1);
+        if (i >= n_layers_)
+          origins.add_unused({section},
+                             "Soil/Number of layers is " + to_text(n_layers_));
+        else
+          layers[i]->name_unused_entries(origins);
+        if (i < n_layers_ && stress_state != InitialStress::k0)
+          origins.add_unused({section + "/K0"}, stress);
+      }
+    if (stress_state != InitialStress::uniform)
+      origins.add_unused({"Soil/Uniform stress"},
+                         "Soil/Initial stress is not uniform");
+    if (!submerged)
+      origins.add_unused({"Soil/Fluid density"}, "Soil/Submerged is false");
   }
 
   unsigned int
@@ -312,9 +370,9 @@ namespace CaissonMPM
   Stress
   Soil::initial_stress(const double z) const
   {
-    if (initial_state == "uniform")
+    if (stress_state == InitialStress::uniform)
       return uniform_stress;
-    if (initial_state == "none" || z >= 0.)
+    if (stress_state == InitialStress::none || z >= 0.)
       return {{0., 0., 0., 0.}};
     double sigma_zz = 0.;
     for (unsigned int i = 0; i < n_layers_ && -z > layers[i]->top_depth; ++i)
@@ -339,22 +397,8 @@ namespace CaissonMPM
   {
     std::vector<std::string> limits;
     for (unsigned int i = 0; i < n_layers(); ++i)
-      {
-        const SoilLayer  &layer = *layers[i];
-        const std::string place = "Soil/Layer " + std::to_string(i + 1);
-        if (layer.law == "Mohr-Coulomb" &&
-            layer.values.at("Dilatancy angle") > 0.)
-          limits.push_back(place + ": Mohr-Coulomb sand with a dilatancy angle "
-                                   "grows in volume without limit; where it is "
-                                   "large take Method/Pressure in full cells = "
-                                   "mean, or a law with a critical state: see "
-                                   "doc/limitations.md");
-        if (layer.law == "Mohr-Coulomb with softening")
-          limits.push_back(place +
-                           ": softening is not regularised: shear bands "
-                           "are about a cell wide, so compare meshes: see "
-                           "doc/limitations.md");
-      }
+      if (const std::string limit = layers[i]->known_limit(); !limit.empty())
+        limits.push_back(limit);
     return limits;
   }
 

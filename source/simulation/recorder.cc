@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
-#include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/domain/all_points.h>
 #include <caisson_mpm/simulation/recorder.h>
@@ -91,7 +90,8 @@ namespace CaissonMPM
     wrong_error_bar   = error_bar.read(scene, fingerprint);
     if (!output_directory.empty())
       directory = output_directory;
-    prepare_output_directory(directory);
+    locked_directory =
+      std::make_unique<OutputDirectory>(directory, parts.grid.communicator());
     console       = std::make_unique<Console>(verbosity());
     records       = std::make_unique<Records>(directory,
                                         observations,
@@ -103,7 +103,13 @@ namespace CaissonMPM
   Recorder::start()
   {
     if (parts.grid.is_first_rank())
-      records->create();
+      {
+        if (const unsigned int n_files = locked_directory->clear())
+          console->header(
+            {{"removed",
+              to_text(n_files) + " files of an earlier run in " + directory}});
+        records->create();
+      }
     begin();
   }
 

@@ -118,6 +118,11 @@ namespace CaissonMPM
         "Time/End penetration = " + to_text(*last_penetration) +
         " m is less than Rigid body/Initial penetration = " + to_text(depth) +
         " m. Push deeper, start higher, or pull with a negative velocity.");
+    if (last_penetration && !body.shape().exists())
+      throw BadInput(
+        "Rigid body/Kind is none, so there is no body that Time/End "
+        "penetration could end: the run has no end. Set Rigid body/Kind, or "
+        "Time/End time.");
     throw BadInput(
       "the run has no end: set Time/End time, or Time/End penetration to a "
       "depth that the body reaches with its velocity.");

@@ -163,6 +163,13 @@ namespace CaissonMPM
   }
 
   void
+  Simulation::name_unused_entries(ParameterOrigins &origins) const
+  {
+    body.name_unused_entries(origins);
+    soil.name_unused_entries(origins);
+  }
+
+  void
   Simulation::set_up(const std::string &scene_file,
                      const std::string &output_directory,
                      const bool         restart)

@@ -20,7 +20,8 @@ namespace CaissonMPM
 
   /**
    * The user's input cannot be used. The text says what is wrong, the value
-   * found, where it was set, and what to do.
+   * found and what to do. It names entries by their paths: the program adds
+   * where they were set (ParameterOrigins).
    */
   class BadInput : public std::runtime_error
   {

@@ -12,7 +12,7 @@ namespace CaissonMPM
 {
   /**
    * The number of characters to insert, delete, replace or swap with their
-   * neighbour that turn one name into the other. Upper and lower case count
+   * neighbor that turn one name into the other. Upper and lower case count
    * as equal.
    */
   unsigned int

@@ -4,16 +4,60 @@
 #ifndef caisson_mpm_base_output_directory_h
 #define caisson_mpm_base_output_directory_h
 
+#include <deal.II/base/mpi.h>
+
 #include <string>
 
 namespace CaissonMPM
 {
   /**
-   * Make the directory if it is missing, and try to write in it. Throws
-   * BadInput if that fails.
+   * The output directory while a run uses it. Two runs in one directory would
+   * mix their files, so the first rank locks the file ".lock" in it, which
+   * names the run. The system drops the lock when the process ends, however it
+   * ends: a file that was left behind locks nothing.
+   *
+   * Construction is collective, the rest is not.
    */
-  void
-  prepare_output_directory(const std::string &directory);
+  class OutputDirectory
+  {
+  public:
+    /**
+     * Make the directory if it is missing, try to write in it, and lock it.
+     * Throws BadInput on all ranks if one of these fails.
+     */
+    OutputDirectory(const std::string &path, const MPI_Comm communicator);
+
+    ~OutputDirectory();
+
+    OutputDirectory(const OutputDirectory &) = delete;
+    OutputDirectory &
+    operator=(const OutputDirectory &) = delete;
+
+    /**
+     * Remove the files of an earlier run: those with names that the program
+     * gives. Returns their number. For the first rank.
+     */
+    unsigned int
+    clear() const;
+
+    const std::string &
+    path() const
+    {
+      return path_;
+    }
+
+  private:
+    /** Return why the directory cannot be used, or nothing. */
+    std::string
+    prepare();
+
+    /** Return why it cannot be locked, or nothing. */
+    std::string
+    lock();
+
+    const std::string path_;
+    int               lock_file = -1;
+  };
 } // namespace CaissonMPM
 
 #endif

@@ -7,8 +7,10 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
+#include <optional>
 #include <string>
 
 namespace CaissonMPM
@@ -16,10 +18,11 @@ namespace CaissonMPM
   /**
    * Tells the time loop when it has been asked to stop.
    *
-   * From arm() to the destructor SIGINT and SIGTERM are caught; a second
-   * SIGINT ends the program at once. The wall time is counted from the
-   * construction of the object, so construct it early. Only one object may be
-   * armed at a time.
+   * From arm() to the destructor SIGINT, SIGTERM, SIGHUP (the terminal is
+   * closed), SIGUSR1 and SIGXCPU (a batch system announces its limit) are
+   * caught; a second SIGINT ends the program at once. SIGPIPE is ignored. The
+   * wall time is counted from the construction of the object, so construct it
+   * early. Only one object may be armed at a time.
    *
    * The answer is local to a rank (a signal or file may be seen by one rank
    * first): the time loop agrees on it before it acts.
@@ -37,6 +40,8 @@ namespace CaissonMPM
   class StopRequest : public dealii::ParameterAcceptor
   {
   public:
+    using Signals = std::array<int, 5>;
+
     StopRequest();
 
     StopRequest(const StopRequest &) = delete;
@@ -71,16 +76,16 @@ namespace CaissonMPM
     bool
     take_stop_file() const;
 
-    double      wall_time_limit = 0.;
-    std::string stop_file       = "stop";
+    std::optional<double> wall_time_limit;
+    std::string           stop_file = "stop";
 
     const Clock::time_point start_time;
     Clock::time_point       next_look;
     std::string             stop_file_path;
     std::string             found_reason;
     bool                    is_armed = false;
-    struct sigaction        previous_interrupt_action;
-    struct sigaction        previous_terminate_action;
+    struct sigaction        previous_actions[std::tuple_size<Signals>::value];
+    struct sigaction        previous_pipe_action;
   };
 } // namespace CaissonMPM
 

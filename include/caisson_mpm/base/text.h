@@ -4,6 +4,7 @@
 #ifndef caisson_mpm_base_text_h
 #define caisson_mpm_base_text_h
 
+#include <charconv>
 #include <string>
 #include <type_traits>
 
@@ -26,7 +27,8 @@ namespace CaissonMPM
   std::enable_if_t<std::is_integral<Integer>::value, std::string>
   to_text(const Integer value)
   {
-    return std::to_string(value);
+    char buffer[32];
+    return {buffer, std::to_chars(buffer, buffer + sizeof(buffer), value).ptr};
   }
 } // namespace CaissonMPM
 

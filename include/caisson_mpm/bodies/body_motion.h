@@ -5,8 +5,7 @@
 #define caisson_mpm_bodies_body_motion_h
 
 #include <caisson_mpm/base/run_totals.h>
-
-#include <deal.II/base/parameter_acceptor.h>
+#include <caisson_mpm/base/section.h>
 
 #include <optional>
 #include <string>
@@ -23,12 +22,12 @@ namespace CaissonMPM
    * line in the list of rigid_body.cc. It is the same on all ranks; not
    * collective.
    */
-  class BodyMotion : public dealii::ParameterAcceptor
+  class BodyMotion : public Section
   {
   public:
     /** @p section is that of the entries of the motion. */
     explicit BodyMotion(const std::string &section)
-      : ParameterAcceptor(section)
+      : Section(section)
     {}
 
     /** The value of the entry Motion that chooses this motion. */

@@ -6,8 +6,8 @@
 
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/base/named_numbers.h>
+#include <caisson_mpm/base/section.h>
 
-#include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/point.h>
 
 #include <string>
@@ -24,13 +24,13 @@ namespace CaissonMPM
    * those at the start; a travel says how far the body has moved since. Nothing
    * here is in a loop of the time step, and nothing is collective.
    */
-  class BodyShape : public dealii::ParameterAcceptor
+  class BodyShape : public Section
   {
   public:
     using Point = dealii::Point<2>;
 
     BodyShape()
-      : ParameterAcceptor("/Rigid body")
+      : Section("/Rigid body")
     {}
 
     /** The value of the entry Kind that chooses this shape. */

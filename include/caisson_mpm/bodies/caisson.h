@@ -83,6 +83,13 @@ namespace CaissonMPM
     }
 
     void
+    name_unused_entries(ParameterOrigins &origins) const override
+    {
+      if (tip == Tip::flat)
+        origins.add_unused({"Rigid body/Tip angle"}, "Rigid body/Tip is flat");
+    }
+
+    void
     check_not_chosen() const override
     {
       if (has_lid())

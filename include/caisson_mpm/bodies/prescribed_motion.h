@@ -34,6 +34,9 @@ namespace CaissonMPM
     check_parameters() const override;
 
     void
+    name_unused_entries(ParameterOrigins &origins) const override;
+
+    void
     start() override;
 
     std::optional<double>

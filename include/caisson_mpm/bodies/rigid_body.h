@@ -29,6 +29,10 @@ namespace CaissonMPM
     void
     check_parameters() const;
 
+    /** Tell which entries of the section have no effect. */
+    void
+    name_unused_entries(ParameterOrigins &origins) const;
+
     const BodyShape &
     shape() const
     {

@@ -65,54 +65,56 @@ namespace CaissonMPM
         static constexpr const char *name      = "hypoplastic sand";
         static constexpr LawEntry    entries[] = {
              {"Critical friction angle",
-              "Friction angle phi_c in the critical state (hypoplastic sand). "
-                 "Units: degrees.",
+              "The friction angle phi_c of hypoplastic sand is that of the "
+                 "critical state. Units: degrees.",
               30.,
               10.,
               60.},
              {"Granulate hardness",
-              "h_s of Bauer's law of compression (hypoplastic sand). Units: Pa.",
+              "The granulate hardness of hypoplastic sand is h_s of Bauer's law "
+                 "of compression. Units: Pa.",
               5.8e9,
               1e5,
               no_limit},
              {"Compression exponent",
-              "n of Bauer's law of compression (hypoplastic sand). Units: none.",
+              "The compression exponent of hypoplastic sand is n of Bauer's law "
+                 "of compression. Units: none.",
               0.28,
               0.05,
               0.95},
              {"Densest void ratio",
-              "e_d0, the smallest void ratio at zero pressure (hypoplastic sand). "
-                 "Units: none.",
+              "The smallest void ratio of hypoplastic sand at zero pressure is "
+                 "e_d0. Units: none.",
               0.53,
               0.01,
               10.},
              {"Critical void ratio",
-              "e_c0, the void ratio of the critical state at zero pressure "
-                 "(hypoplastic sand). Units: none.",
+              "The void ratio of hypoplastic sand in the critical state at zero "
+                 "pressure is e_c0. Units: none.",
               0.84,
               0.01,
               10.},
              {"Loosest void ratio",
-              "e_i0, the largest void ratio at zero pressure (hypoplastic sand). "
-                 "Units: none.",
+              "The largest void ratio of hypoplastic sand at zero pressure is "
+                 "e_i0. Units: none.",
               1.,
               0.01,
               10.},
              {"Density exponent of strength",
-              "alpha, which sets the peak strength of dense sand (hypoplastic "
-                 "sand). Units: none.",
+              "The exponent alpha sets the peak strength of dense hypoplastic "
+                 "sand. Units: none.",
               0.13,
               0.,
               1.},
              {"Density exponent of stiffness",
-              "beta, which sets the stiffness of dense sand (hypoplastic sand). "
+              "The exponent beta sets the stiffness of dense hypoplastic sand. "
                  "Units: none.",
               1.05,
               0.,
               10.},
              {"Smallest mean stress",
-              "p_t: the law sees the mean effective stress increased by this, and "
-                 "soil under tension beyond it parts (hypoplastic sand). Units: Pa.",
+              "Hypoplastic sand behaves as if its mean effective stress were "
+                 "larger by this, p_t, and parts under a larger tension. Units: Pa.",
               100.,
               1.,
               1e5}};
@@ -286,8 +288,8 @@ namespace CaissonMPM
             __builtin_snprintf(
               message.text,
               sizeof(message.text),
-              "Densest void ratio = %f, Critical void ratio = %f and Loosest "
-              "void ratio = %f must grow in this order. Correct them.",
+              "Densest void ratio = %g, Critical void ratio = %g and Loosest "
+              "void ratio = %g must grow in this order. Correct them.",
               e_d,
               e_c,
               e_i);
@@ -298,8 +300,8 @@ namespace CaissonMPM
             __builtin_snprintf(
               message.text,
               sizeof(message.text),
-              "Porosity = %f, a void ratio of %f, lies outside Densest void "
-              "ratio = %f to Loosest void ratio = %f (porosities %f to %f). "
+              "Porosity = %g, a void ratio of %g, lies outside Densest void "
+              "ratio = %g to Loosest void ratio = %g (porosities %g to %g). "
               "Change one of them.",
               context.void_ratio / (1. + context.void_ratio),
               context.void_ratio,
@@ -313,7 +315,7 @@ namespace CaissonMPM
           {
             __builtin_snprintf(message.text,
                                sizeof(message.text),
-                               "Density exponent of strength = %f leaves the "
+                               "Density exponent of strength = %g leaves the "
                                "loosest sand without stiffness. Lower it.",
                                values[6]);
             return false;

@@ -108,6 +108,9 @@ namespace CaissonMPM
         /** Whether the values fit together; if not, why. */
         bool (*check)(const double *values, const LawContext &, LawMessage &);
 
+        /** What the law is known not to describe with these values, or null. */
+        const char *(*warning)(const double *values);
+
         /** Write the law and its parameters into the material. */
         void (*set)(Material &, const double *values);
 
@@ -121,6 +124,27 @@ namespace CaissonMPM
         /** The variables of a point at the start [n_state_variables]. */
         void (*start)(const Material &, double *variable);
       };
+
+      inline const char *
+      no_warning(const double * /*values*/)
+      {
+        return nullptr;
+      }
+
+      /** Law::warning() if the law has one; chosen for the argument 0. */
+      template <typename Law>
+      constexpr auto
+      warning_of(int) -> decltype(&Law::warning)
+      {
+        return &Law::warning;
+      }
+
+      template <typename Law>
+      constexpr auto
+      warning_of(long) -> decltype(&no_warning)
+      {
+        return &no_warning;
+      }
 
       /** The functions of a description. */
       template <int slot>
@@ -186,6 +210,7 @@ namespace CaissonMPM
                     Law::friction_entry,
                     Law::stiffness_varies,
                     &Law::check,
+                    warning_of<Law>(0),
                     &F::set,
                     &F::earth_pressure_at_rest,
                     &F::p_wave_modulus,

@@ -14,6 +14,7 @@
 //
 //   static Parameters make(const double *values);
 //   static bool check(const double *values, const LawContext &, LawMessage &);
+//   static const char *warning(const double *values); // optional; null: none
 //   static double earth_pressure_at_rest(const Parameters &);
 //   static double p_wave_modulus(const StressState<Lanes<1>> &,
 //                                double void_ratio, const Parameters &);
@@ -47,7 +48,7 @@ namespace CaissonMPM
       struct LawEntry
       {
         const char *name;
-        const char *text; // ends with "Units: ..."
+        const char *text; // one sentence, and "Units: ...."
         double      value, smallest, largest;
       };
 
@@ -89,40 +90,40 @@ namespace CaissonMPM
       {
         constexpr LawEntry youngs_modulus = {
           "Youngs modulus",
-          "Young's modulus of the skeleton. Units: Pa.",
+          "Young's modulus is that of the drained soil. Units: Pa.",
           5e6,
           1e-12,
           no_limit};
         constexpr LawEntry poisson_ratio = {
           "Poisson ratio",
-          "Poisson's ratio of the skeleton. Units: none.",
+          "Poisson's ratio is that of the drained soil. Units: none.",
           0.3,
           0.,
           0.4999};
         constexpr LawEntry friction_angle = {
           "Friction angle",
-          "Effective friction angle phi; the peak value where the law softens. "
-          "Units: degrees.",
+          "The effective friction angle phi is the peak value where the law "
+          "softens. Units: degrees.",
           30.,
           0.,
           60.};
         constexpr LawEntry dilatancy_angle = {
           "Dilatancy angle",
-          "Dilatancy angle psi, at most phi; the peak value where the law "
-          "softens. Units: degrees.",
+          "The dilatancy angle psi, at most phi, is the peak value where the "
+          "law softens. Units: degrees.",
           0.,
           0.,
           60.};
         constexpr LawEntry cohesion = {
           "Cohesion",
-          "Effective cohesion c; the peak value where the law softens. Units: "
-          "Pa.",
+          "The effective cohesion c is the peak value where the law softens. "
+          "Units: Pa.",
           0.,
           0.,
           no_limit};
         constexpr LawEntry tension_cutoff = {
           "Tension cut-off",
-          "Largest tensile principal stress. Units: Pa.",
+          "No principal stress exceeds this tension. Units: Pa.",
           0.,
           0.,
           no_limit};

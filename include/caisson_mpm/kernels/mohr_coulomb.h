@@ -252,6 +252,17 @@ namespace CaissonMPM
         static bool
         check(const double *values, const LawContext &, LawMessage &);
 
+        static const char *
+        warning(const double *values)
+        {
+          return values[3] > 0. ?
+                   "Mohr-Coulomb sand with a dilatancy angle grows in volume "
+                   "without limit; where it is large take Method/Pressure in "
+                   "full cells = mean, or a law with a critical state: see "
+                   "doc/limitations.md" :
+                   nullptr;
+        }
+
         /** 1 - sin phi (Jaky). */
         static double
         earth_pressure_at_rest(const Parameters &p)
@@ -300,7 +311,7 @@ namespace CaissonMPM
             __builtin_snprintf(
               message.text,
               sizeof(message.text),
-              "Dilatancy angle = %f exceeds Friction angle = %f degrees: "
+              "Dilatancy angle = %g exceeds Friction angle = %g degrees: "
               "plastic flow would create energy. Lower the dilatancy angle.",
               dilatancy,
               friction);
@@ -315,8 +326,8 @@ namespace CaissonMPM
             __builtin_snprintf(
               message.text,
               sizeof(message.text),
-              "K0 = %f lies outside what Friction angle = %f degrees without "
-              "cohesion can carry (%f to %f). Change one of them.",
+              "K0 = %g lies outside what Friction angle = %g degrees without "
+              "cohesion can carry (%g to %g). Change one of them.",
               k,
               friction,
               1. / passive,

@@ -43,26 +43,26 @@ namespace CaissonMPM
              Entries::cohesion,
              Entries::tension_cutoff,
              {"Residual friction angle",
-              "Friction angle after much plastic strain, where the law softens. "
+              "The residual friction angle is that after much plastic strain. "
                  "Units: degrees.",
               30.,
               0.,
               60.},
              {"Residual dilatancy angle",
-              "Dilatancy angle after much plastic strain, where the law softens. "
+              "The residual dilatancy angle is that after much plastic strain. "
                  "Units: degrees.",
               0.,
               0.,
               60.},
              {"Residual cohesion",
-              "Cohesion after much plastic strain, where the law softens. Units: "
-                 "Pa.",
+              "The residual cohesion is that after much plastic strain. Units: Pa.",
               0.,
               0.,
               no_limit},
              {"Softening shape factor",
-              "eta: strength falls with exp(-eta times the accumulated "
-                 "deviatoric plastic strain). Units: none.",
+              "The strength falls from its peak to its residual value with "
+                 "exp(-eta e), where eta is this factor and e the accumulated "
+                 "deviatoric plastic strain. Units: none.",
               10.,
               0.,
               no_limit}};
@@ -96,6 +96,13 @@ namespace CaissonMPM
                   values[5]};
         }
 
+        static const char *
+        warning(const double * /*values*/)
+        {
+          return "softening is not regularized: shear bands are about a cell "
+                 "wide, so compare meshes: see doc/limitations.md";
+        }
+
         static bool
         check(const double     *values,
               const LawContext &context,
@@ -107,7 +114,7 @@ namespace CaissonMPM
               {
                 __builtin_snprintf(message.text,
                                    sizeof(message.text),
-                                   "%s = %f exceeds %s = %f: the law softens. "
+                                   "%s = %g exceeds %s = %g: the law softens. "
                                    "Lower the residual value.",
                                    entries[residual[i]].name,
                                    values[residual[i]],
@@ -120,8 +127,8 @@ namespace CaissonMPM
               __builtin_snprintf(
                 message.text,
                 sizeof(message.text),
-                "Residual dilatancy angle = %f exceeds Residual friction "
-                "angle = %f degrees: plastic flow would create energy. Lower "
+                "Residual dilatancy angle = %g exceeds Residual friction "
+                "angle = %g degrees: plastic flow would create energy. Lower "
                 "the dilatancy angle.",
                 values[7],
                 values[6]);

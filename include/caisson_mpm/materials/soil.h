@@ -7,6 +7,7 @@
 
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/kernels/layout.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -36,6 +37,10 @@ namespace CaissonMPM
     void
     check_parameters() const;
 
+    /** Name the entries of laws other than the layer's own. */
+    void
+    name_unused_entries(ParameterOrigins &origins) const;
+
     /** Mass of solids per volume of soil. Units: kg/m3. */
     double
     dry_density() const;
@@ -51,13 +56,18 @@ namespace CaissonMPM
       return porosity / (1. - porosity);
     }
 
-    /** The friction angle of the law (peak, critical). Units: degrees. */
-    double
+    /** The friction angle of the law (peak, critical) if it has one. Units:
+     * degrees. */
+    std::optional<double>
     friction_angle() const;
 
     /** Return the value of an entry if the layer's law has it. */
     std::optional<double>
     law_value(const std::string &entry) const;
+
+    /** What the law is known not to describe; empty if nothing. */
+    std::string
+    known_limit() const;
 
     /** Whether the stiffness depends on stress or void ratio. */
     bool
@@ -71,16 +81,20 @@ namespace CaissonMPM
     StateVariables
     start_of_state() const;
 
-    double      top_depth     = 0.;
-    std::string law           = "Mohr-Coulomb";
-    double      porosity      = 0.4;
-    double      solid_density = 2500.;
-    double      k0            = -1.;
+    double                top_depth     = 0.;
+    std::string           law           = "Mohr-Coulomb";
+    double                porosity      = 0.4;
+    double                solid_density = 2500.;
+    std::optional<double> k0; // no value: the law's own
 
     /** The entries of all laws by name, in the units of the entries. */
     std::map<std::string, double> values;
 
   private:
+    /** "Soil/Layer k". */
+    std::string
+    section() const;
+
     /** The values that the layer's law asks for, in its order. */
     std::vector<double>
     law_values() const;
@@ -106,6 +120,10 @@ namespace CaissonMPM
     /** Throws BadInput where the entries contradict each other. */
     void
     check_parameters() const;
+
+    /** Tell which entries of the section have no effect. */
+    void
+    name_unused_entries(ParameterOrigins &origins) const;
 
     unsigned int
     n_layers() const
@@ -158,10 +176,18 @@ namespace CaissonMPM
     std::array<double, 2> gravity = {{0., -9.81}};
 
   private:
+    /** The effective stress in the soil at the start. */
+    enum class InitialStress
+    {
+      k0,
+      none,
+      uniform
+    };
+
     unsigned int                            n_layers_      = 1;
     bool                                    submerged      = true;
     double                                  fluid_density  = 1000.;
-    std::string                             initial_state  = "K0";
+    InitialStress                           stress_state   = InitialStress::k0;
     std::string                             uniform_text   = "0, 0, 0, 0";
     std::string                             velocity_text  = "0 ; 0";
     std::string                             gravity_text   = "0, -9.81";

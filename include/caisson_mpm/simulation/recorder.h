@@ -5,6 +5,7 @@
 #define caisson_mpm_simulation_recorder_h
 
 #include <caisson_mpm/base/console.h>
+#include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/checks/verification.h>
 #include <caisson_mpm/output/error_bar.h>
 #include <caisson_mpm/output/observations.h>
@@ -143,6 +144,7 @@ namespace CaissonMPM
     std::string directory = "results";
     Terminal    terminal  = Terminal::full;
 
+    std::unique_ptr<OutputDirectory>      locked_directory;
     std::unique_ptr<Console>              console;
     std::unique_ptr<Records>              records;
     std::unique_ptr<Visualization>        visualization;

@@ -5,6 +5,7 @@
 #define caisson_mpm_simulation_simulation_h
 
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/base/run_totals.h>
 #include <caisson_mpm/base/stop_request.h>
 #include <caisson_mpm/base/timing.h>
@@ -68,6 +69,10 @@ namespace CaissonMPM
     /** Find out how large the run is; after validate(). Takes some steps. */
     RunCost
     estimate_cost();
+
+    /** Tell which entries have no effect in this scene. */
+    void
+    name_unused_entries(ParameterOrigins &origins) const;
 
   private:
     void

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Where the entries of a run were set, for messages about them.
+#ifndef caisson_mpm_base_parameter_origins_h
+#define caisson_mpm_base_parameter_origins_h
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /**
+   * Knows for each entry where it got its value, and collects notes on the
+   * input for the user. A check need not ask for places: it names entries by
+   * their paths, and the program adds with places_of_entries_in() where they
+   * were set.
+   */
+  class ParameterOrigins
+  {
+  public:
+    ParameterOrigins() = default;
+
+    /** @p paths are all entries that can be set. */
+    explicit ParameterOrigins(const std::vector<std::string> &paths);
+
+    /**
+     * Remember that the entry "Section/Sub/Entry" was set at this place;
+     * @p is_included says whether by a file that another one includes.
+     */
+    void
+    record(const std::string &path,
+           const std::string &place,
+           const bool         is_included = false);
+
+    /** Add a note for the user that is not an error. */
+    void
+    add_warning(const std::string &text);
+
+    /**
+     * Warn if the user has set entries that this run does not use; each path
+     * is that of an entry or of a section. @p reason is a clause ("Rigid
+     * body/Tip is flat"); the entries that it names are used. What an included
+     * file sets is passed over: it may serve other runs.
+     */
+    void
+    add_unused(const std::vector<std::string> &paths,
+               const std::string              &reason);
+
+    /** Return "set in prm/jack.prm:12", "set by --set", or "the default". */
+    std::string
+    origin(const std::string &path) const;
+
+    bool
+    is_set(const std::string &path) const;
+
+    /**
+     * Return lines to append to a message (each after a line break) that say
+     * where the entries were set that the message names by their paths.
+     */
+    std::string
+    places_of_entries_in(const std::string &message) const;
+
+    /** Notes on the input, to be printed. */
+    const std::vector<std::string> &
+    warnings() const;
+
+  private:
+    struct Place
+    {
+      std::string text;
+      bool        is_included;
+    };
+
+    /** Return the paths of the entries that a text names, in its order. */
+    std::vector<std::string>
+    entries_named_in(const std::string &text) const;
+
+    std::vector<std::string>     paths;
+    std::map<std::string, Place> places;
+    std::vector<std::string>     notes;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The text of a parameter file, before anyone knows what it means.
+#ifndef caisson_mpm_base_parameter_text_h
+#define caisson_mpm_base_parameter_text_h
+
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  namespace ParameterText
+  {
+    bool
+    is_space(const char c);
+
+    std::string
+    trim(const std::string &text);
+
+    /** Trim, and make one space of each run of white space. */
+    std::string
+    condense(const std::string &text);
+
+    /** Return a piece of the user's text, safe to print and in quotation
+     * marks. */
+    std::string
+    quote(const std::string &text);
+
+    /** Make "Soil/Friction angle" of " Soil /  Friction angle". */
+    std::string
+    normalize_path(const std::string &path);
+
+    /** Read a file; @p place is the line that includes it, empty if none.
+     * Throws BadInput where it cannot be read. */
+    std::string
+    read_text(const std::string &file_name, const std::string &place);
+
+    /** A line of the file, continuation lines joined to it, without comment
+     * and without white space at its ends. */
+    struct Line
+    {
+      unsigned int number;
+      std::string  text;
+    };
+
+    std::vector<Line>
+    read_lines(const std::string &content);
+  } // namespace ParameterText
+} // namespace CaissonMPM
+
+#endif

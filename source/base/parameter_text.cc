@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/nearest_names.h>
+#include <caisson_mpm/base/parameter_text.h>
+
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace CaissonMPM
+{
+  namespace ParameterText
+  {
+    namespace
+    {
+      /** The parameter files in the directory of the one that is missing. */
+      std::vector<std::string>
+      neighboring_files(const std::filesystem::path &missing_file)
+      {
+        namespace fs                     = std::filesystem;
+        const fs::path           parent  = missing_file.parent_path();
+        const fs::path           to_list = parent.empty() ? "." : parent;
+        std::vector<std::string> result;
+        std::error_code          error;
+        for (const auto &item : fs::directory_iterator(to_list, error))
+          if (item.path().extension() == ".prm")
+            result.push_back((parent / item.path().filename()).string());
+        return result;
+      }
+    } // namespace
+
+
+
+    bool
+    is_space(const char c)
+    {
+      return std::isspace(static_cast<unsigned char>(c)) != 0;
+    }
+
+
+
+    std::string
+    trim(const std::string &text)
+    {
+      std::size_t begin = 0, end = text.size();
+      while (begin < end && is_space(text[begin]))
+        ++begin;
+      while (end > begin && is_space(text[end - 1]))
+        --end;
+      return text.substr(begin, end - begin);
+    }
+
+
+
+    std::string
+    condense(const std::string &text)
+    {
+      std::string result;
+      for (const char c : trim(text))
+        if (!is_space(c))
+          result += c;
+        else if (result.back() != ' ')
+          result += ' ';
+      return result;
+    }
+
+
+
+    std::string
+    quote(const std::string &text)
+    {
+      std::string result;
+      for (const char c : text.substr(0, 60))
+        result += std::iscntrl(static_cast<unsigned char>(c)) ? '?' : c;
+      return "\"" + result + (text.size() > 60 ? "..." : "") + "\"";
+    }
+
+
+
+    std::string
+    normalize_path(const std::string &path)
+    {
+      std::string        result;
+      std::istringstream stream(path);
+      for (std::string part; std::getline(stream, part, '/');)
+        result += (result.empty() ? "" : "/") + condense(part);
+      return result;
+    }
+
+
+
+    std::string
+    read_text(const std::string &file_name, const std::string &place)
+    {
+      const std::string file = (place.empty() ? "The" : place + ": the") +
+                               " parameter file " + quote(file_name);
+      std::error_code error;
+      if (std::filesystem::is_directory(file_name, error))
+        throw BadInput(file + " is a directory.\n  Give a file in it.");
+      if (!std::filesystem::exists(file_name, error))
+        throw BadInput(
+          file + " does not exist." +
+          did_you_mean(nearest_names(file_name, neighboring_files(file_name))) +
+          "\n  A path is relative to the directory " +
+          (place.empty() ? "in which caisson_mpm is started." :
+                           "of the file that includes it."));
+
+      std::ifstream stream(file_name, std::ios::binary);
+      if (!stream)
+        throw BadInput(file + " cannot be opened.\n  Is reading permitted?");
+      std::ostringstream content;
+      content << stream.rdbuf();
+      std::string text = content.str();
+      if (text.find('\0') != std::string::npos)
+        throw BadInput(file + " is not a text file.");
+      if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) // byte order mark
+        text.erase(0, 3);
+      return text;
+    }
+
+
+
+    std::vector<Line>
+    read_lines(const std::string &content)
+    {
+      std::vector<Line>  lines;
+      std::istringstream stream(content);
+      bool               continues = false;
+      unsigned int       number    = 0;
+      for (std::string raw; std::getline(stream, raw);)
+        {
+          ++number;
+          std::string text = trim(raw.substr(0, raw.find('#')));
+          if (!continues)
+            lines.push_back({number, ""});
+          continues = !text.empty() && text.back() == '\\';
+          if (continues)
+            text.pop_back();
+          lines.back().text += text;
+        }
+      return lines;
+    }
+  } // namespace ParameterText
+} // namespace CaissonMPM

@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The output directory, and how a run ends that is not asked to."""
+import signal
+import subprocess
+import unittest
+
+from program import BAD_INPUT, STOPPED, SUCCESS, ProgramTest, scene, summary
+
+# many seconds, with a line soon
+SLOW = {"Output/Record interval": 0.01, "Time/Courant number": 0.02}
+
+
+class Directory(ProgramTest):
+    """Runs that write to the same directory."""
+
+    def test_second_run_is_refused(self) -> None:
+        path = self.directory()
+        first = self.start(scene("jack"), "--output-directory", path, entries=SLOW)
+        assert first.stdout
+        with first.stdout as words:
+            words.readline()
+            text = self.run_scene("jack", path, BAD_INPUT)
+            self.assertIn("in use by another run", text)
+            self.assertIn(str(first.pid), text)
+            first.kill()
+            words.read()
+        first.wait()
+        self.run_scene("jack", path, SUCCESS, "--validate")
+        self.run_scene("jack", path, entries={"Time/End penetration": 0.5})
+
+    def test_old_results_are_cleared(self) -> None:
+        path = self.made_directory()
+        for name in ("points_0009.vtu", "checkpoint.info", "notes.txt"):
+            (path / name).write_text("old")
+        text = self.run_scene(
+            "jack",
+            path,
+            entries={"Time/End penetration": 0.51, "Output/Terminal": "full"},
+        )
+        self.assertIn("2 files of an earlier run", text)
+        self.assertFalse((path / "points_0009.vtu").exists())
+        self.assertTrue((path / "notes.txt").exists())
+
+
+class Signals(ProgramTest):
+    """Signals other than those of test_stop.py."""
+
+    def test_a_closed_terminal_stops_in_order(self) -> None:
+        path = self.directory()
+        process = self.start(scene("jack"), "--output-directory", path, entries=SLOW)
+        assert process.stdout
+        with process.stdout as words:
+            for line in words:
+                if line.startswith("pen"):
+                    break
+            process.send_signal(signal.SIGHUP)
+            text = words.read()
+        self.assertEqual(process.wait(), STOPPED, text)
+        self.assert_words(["SIGHUP"], text)
+        self.assertEqual(summary(path)["status"], "stopped")
+
+    def test_a_closed_pipe_does_not_end_the_run(self) -> None:
+        path = self.directory()
+        command = self.command(
+            scene("jack"), "--output-directory", path, entries={**SLOW}
+        )
+        process = subprocess.Popen(command, text=True, stdout=subprocess.PIPE)
+        assert process.stdout
+        process.stdout.readline()
+        process.stdout.close()
+        with self.assertRaises(subprocess.TimeoutExpired):
+            process.wait(2)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(), STOPPED)
+
+
+if __name__ == "__main__":
+    unittest.main()
