@@ -263,7 +263,7 @@ namespace CaissonMPM
           std::max(fraction,
                    travel != 0. ? body.motion().travel() / travel : 1.);
       }
-    return fraction;
+    return std::min(1., fraction);
   }
 
 

@@ -74,6 +74,7 @@ namespace CaissonMPM
   {
     totals.keep("time", clock.time);
     totals.keep("step", clock.step);
+    totals.keep("force_on_body", force_on_body);
     totals.count("limiter_count", n_limited);
     points.register_totals(totals);
     energy.register_totals(totals);
@@ -273,7 +274,7 @@ namespace CaissonMPM
     NodalWork  work;
     timed("choose step", [&]() { choose_step(); });
     timed("move body",
-          [&]() { body.motion().advance(clock.step_size, force_on_body()); });
+          [&]() { body.motion().advance(clock.step_size, force_on_body); });
     const double dt = clock.step_size;
     timed("points to grid", [&]() {
       nodal_motion.collect(
@@ -321,25 +322,20 @@ namespace CaissonMPM
       schedule.shorten(time_step.choose(grid, points, soil, materials));
   }
 
-  double
-  Simulation::force_on_body() const
-  {
-    if (!body.motion().needs_force() || clock.step == 0)
-      return 0.;
-    const double impulse =
-      Utilities::MPI::sum(impulse_of_step * body.shape().direction(),
-                          grid.communicator());
-    return impulse / clock.step_size;
-  }
-
   void
   Simulation::add_step(const NodalWork &work)
   {
     energy.add(work, grid.circumference() * points.leaving().stress_work);
     recorder.add_step(contact.impulse(), boundary_conditions.impulse());
-    impulse_of_step = std::accumulate(contact.impulse().begin(),
-                                      contact.impulse().end(),
-                                      Vector2());
+    if (body.motion().needs_force())
+      {
+        const Vector2 impulse = std::accumulate(contact.impulse().begin(),
+                                                contact.impulse().end(),
+                                                Vector2());
+        force_on_body = Utilities::MPI::sum(impulse * body.shape().direction(),
+                                            grid.communicator()) /
+                        clock.step_size;
+      }
     contact.reset_impulse();
     boundary_conditions.reset_impulse();
   }

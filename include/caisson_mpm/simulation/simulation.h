@@ -106,10 +106,6 @@ namespace CaissonMPM
     timed(const char *section, const Action &action);
     void
     choose_step();
-    /** The force of the soil on the body in the last step, of all ranks, where
-     * the motion needs it; else 0. Units: N. */
-    double
-    force_on_body() const;
     void
     update_points(const Kernels::GridView &view);
     void
@@ -153,8 +149,8 @@ namespace CaissonMPM
     std::vector<Kernels::Material> materials;
     const Kernels::KernelTable    *kernels = nullptr;
     EnergyBalance                  energy;
-    unsigned long                  n_limited = 0;   // velocities of points
-    Vector2                        impulse_of_step; // on the body, this rank's
+    unsigned long                  n_limited = 0; // velocities of points
+    double force_on_body = 0.; // in the last step, if the motion needs it; N
 
     // parameters
     std::string           instruction_set     = "auto";
