@@ -108,6 +108,16 @@ namespace CaissonMPM
 
 
   void
+  Schedule::name_unused_entries(ParameterOrigins &origins) const
+  {
+    if (!body.shape().exists())
+      origins.add_unused({"Time/End penetration", "Output/Frame penetrations"},
+                         "Rigid body/Kind is none");
+  }
+
+
+
+  void
   Schedule::check_parameters() const
   {
     if (std::isfinite(find_end()) || (last_penetration && !times_are_known()))

@@ -168,6 +168,7 @@ namespace CaissonMPM
   {
     body.name_unused_entries(origins);
     soil.name_unused_entries(origins);
+    schedule.name_unused_entries(origins);
   }
 
   void

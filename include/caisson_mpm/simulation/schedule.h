@@ -54,6 +54,10 @@ namespace CaissonMPM
     void
     check_parameters() const;
 
+    /** Tell which entries have no effect without a body. */
+    void
+    name_unused_entries(ParameterOrigins &origins) const;
+
     /** Return the smallest and the largest travel of the body that the mesh
      * must be able to hold. Units: m. */
     std::pair<double, double>
