@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/domain/graded_lines.h>
@@ -17,96 +18,132 @@ namespace CaissonMPM
   GridLines::GridLines()
     : ParameterAcceptor("/Grid")
   {
-    const Patterns::Double positive(1e-9), not_negative(0.);
-    add_parameter("Geometry",
-                  geometry_text,
-                  "axisymmetric about r = 0, or plane strain. Units: none.",
+    declare_domain();
+    declare_cells();
+    declare_motion();
+    add_parameter(
+      "Distortion",
+      distortion,
+      "Columns and the heights of nodes are displaced irregularly "
+      "by up to this share of the cell size, except at the sides of "
+      "the domain, the soil surface and the boundaries of layers; "
+      "this tests the method in scenes without a body. Units: "
+      "none.",
+      prm,
+      Patterns::Double(0., 0.4));
+    add_parameter("Refinement",
+                  refinement,
+                  "All cell sizes are divided by this number, for studies of "
+                  "convergence. Units: none.",
                   prm,
-                  Patterns::Selection("axisymmetric|plane strain"));
+                  Patterns::Integer(1, 256));
+  }
+
+  namespace
+  {
+    const Patterns::Double positive(1e-9), not_negative(0.);
+  }
+
+  void
+  GridLines::declare_domain()
+  {
+    add_choice<Geometry>(*this,
+                         "Geometry",
+                         geometry,
+                         {{"axisymmetric", Geometry::axisymmetric},
+                          {"plane strain", Geometry::plane_strain}},
+                         "The scene is axisymmetric about r = 0, or in plane "
+                         "strain. Units: none.");
     add_parameter("Inner radius",
                   inner_radius,
-                  "Smallest r of the domain. Units: m.",
+                  "The domain begins at this r. Units: m.",
                   prm,
                   not_negative);
     add_parameter("Outer radius",
                   outer_radius,
-                  "Largest r of the domain. Units: m.",
+                  "The domain ends at this r. Units: m.",
                   prm,
                   positive);
-    add_parameter("Bottom", bottom, "Lowest z of the domain. Units: m.");
+    add_parameter("Bottom",
+                  bottom,
+                  "The domain begins at this z, below the soil surface at z = "
+                  "0. Units: m.");
     add_parameter("Top",
                   top,
-                  "Highest z of the domain at the start. Units: m.");
+                  "The domain ends at this z at the start, on or above the "
+                  "soil surface at z = 0. Units: m.");
+  }
+
+  void
+  GridLines::declare_cells()
+  {
     add_parameter("Cell width",
                   cell_width,
-                  "Width of the cells far from a caisson; of all cells where "
-                  "there is none. Units: m.",
+                  "Cells far from the body, and all cells of a scene without a "
+                  "body, have this width. Units: m.",
                   prm,
                   positive);
     add_parameter("Cell height",
                   cell_height,
-                  "Height of the cells far from a caisson's tip; of all cells "
-                  "where there is none. Units: m.",
+                  "Cells far above and below the tip of the body, and all "
+                  "cells of a scene without a body, have this height. Units: "
+                  "m.",
                   prm,
                   positive);
     add_parameter("Growth ratio",
                   growth,
-                  "Ratio of the sizes of neighboring cells away from the fine "
-                  "cells. Units: none.",
+                  "Away from the fine cells the sizes of neighboring cells "
+                  "have this ratio. Units: none.",
                   prm,
                   Patterns::Double(1.001, 2.));
     add_parameter("Fine width",
                   fine_width,
-                  "Distance from the wall, on both sides, with cells as wide "
-                  "as those of the wall (or of the cone, the cylinder). Units: "
-                  "m.",
+                  "Cells up to this distance from the wall, on both sides, are "
+                  "as wide as those of the wall (or of the cone, the "
+                  "cylinder). Units: m.",
                   prm,
                   not_negative);
     add_parameter("Fine height",
                   fine_height,
-                  "Distance from the tip, above and below, with cells as high "
-                  "as those of the wall are wide. Units: m.",
+                  "Cells up to this distance above and below the tip are as "
+                  "high as those of the wall are wide. Units: m.",
                   prm,
                   not_negative);
-    add_parameter("Fine cell size",
-                  fine_size,
-                  "Width and height of the finest cells; 0: of a caisson, cone "
-                  "or cylinder by Cells across the wall, of a box Cell width "
-                  "and Cell height. Units: m.",
-                  prm,
-                  not_negative);
+    add_word_or_number(*this,
+                       "Fine cell size",
+                       fine_size,
+                       "auto",
+                       0.,
+                       "The finest cells have this width and height; auto "
+                       "takes what Rigid body/Cells across the wall gives for "
+                       "a caisson, cone or cylinder, and Cell width and Cell "
+                       "height for a box. Units: m.",
+                       positive);
+  }
+
+  void
+  GridLines::declare_motion()
+  {
     add_parameter("Moving zone below tip",
                   zone_below_tip,
-                  "How far the zone that moves with the body reaches below its "
-                  "tip. Units: m.",
+                  "The zone that moves with the body reaches this far below "
+                  "its tip. Units: m.",
                   prm,
                   not_negative);
-    add_parameter("Upper zone",
-                  upper_text,
-                  "Above the body, the mesh moves with it (free), or extends "
-                  "to a fixed top (extending). Units: none.",
-                  prm,
-                  Patterns::Selection("free|extending"));
+    add_choice<UpperZone>(*this,
+                          "Upper zone",
+                          upper_zone,
+                          {{"free", UpperZone::free},
+                           {"extending", UpperZone::extending}},
+                          "The mesh above the body moves with it (free), or "
+                          "stretches up to a fixed top (extending). Units: "
+                          "none.");
     add_parameter("Smallest row height",
                   smallest_row,
                   "Rows of the compressing zone must stay at least this high, "
                   "and columns around a cylinder this wide. Units: m.",
                   prm,
                   positive);
-    add_parameter("Distortion",
-                  distortion,
-                  "Displace columns and the heights of nodes irregularly by up "
-                  "to this share of the cell size, except at the domain's "
-                  "sides, the soil surface and the boundaries of layers; for "
-                  "tests of the method, without a body. Units: none.",
-                  prm,
-                  Patterns::Double(0., 0.4));
-    add_parameter("Refinement",
-                  refinement,
-                  "All cell sizes are divided by this number; for studies of "
-                  "convergence. Units: none.",
-                  prm,
-                  Patterns::Integer(1, 256));
   }
 
   void
@@ -131,7 +168,7 @@ namespace CaissonMPM
   double
   GridLines::finest_cell(const BodyShape &body, const double otherwise) const
   {
-    return fine_size > 0.         ? fine_size :
+    return fine_size              ? *fine_size :
            body.cell_width() > 0. ? body.cell_width() :
                                     otherwise;
   }
@@ -314,7 +351,7 @@ namespace CaissonMPM
     double rate = -1.;
     if (z0 < zone_bottom)
       rate = -(z0 - bottom) / (zone_bottom - bottom);
-    else if (z0 > zone_top && upper_text == "extending")
+    else if (z0 > zone_top && upper_zone == UpperZone::extending)
       rate = -(top - z0) / (top - zone_top);
     return z0 + rate * travel;
   }
@@ -394,7 +431,7 @@ namespace CaissonMPM
     const double z = rows[row_of(cell)];
     if (z < zone_bottom - 1e-9)
       return Zone::compressing;
-    if (z >= zone_top - 1e-9 && upper_text == "extending")
+    if (z >= zone_top - 1e-9 && upper_zone == UpperZone::extending)
       return Zone::upper;
     return Zone::moving;
   }

@@ -58,7 +58,7 @@ namespace CaissonMPM
                      "tip = " +
                      meters(zone_below_tip) +
                      ". Reduce that, or lower Grid/Bottom.");
-    if (upper_text == "free")
+    if (upper_zone == UpperZone::free)
       return;
     if (top <= zone_top)
       throw BadInput("Grid/Upper zone = extending needs cells above the body: "
@@ -120,7 +120,7 @@ namespace CaissonMPM
              "Reduce") +
           " Grid/Smallest row height.");
       }
-    if (upper_text == "free" && height_at(top, travel_to_hold) <= 0.)
+    if (upper_zone == UpperZone::free && height_at(top, travel_to_hold) <= 0.)
       throw BadInput("After a travel of " + meters(travel_to_hold) +
                      " the top of the mesh lies at z = " +
                      meters(height_at(top, travel_to_hold)) +
@@ -128,7 +128,7 @@ namespace CaissonMPM
                      meters(travel_to_hold) +
                      " plus the expected heave, or set Grid/Upper zone = "
                      "extending.");
-    if (upper_text == "extending" && top <= zone_top)
+    if (upper_zone == UpperZone::extending && top <= zone_top)
       throw BadInput("Grid/Upper zone = extending needs cells above the body: "
                      "raise Grid/Top above " +
                      meters(zone_top) + ".");

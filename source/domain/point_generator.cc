@@ -15,65 +15,13 @@ namespace CaissonMPM
   PointGenerator::PointGenerator()
     : ParameterAcceptor("/Material points")
   {
-    const Patterns::Integer per_direction(1, 16);
-    const Patterns::Double  not_negative(0.);
-    add_parameter("Per direction in path",
-                  in_path,
-                  "Material points per cell and direction in the path of the "
-                  "wall. Units: none.",
-                  prm,
-                  per_direction);
-    add_parameter("Per direction near",
-                  near,
-                  "Material points per cell and direction near the wall. "
-                  "Units: none.",
-                  prm,
-                  per_direction);
-    add_parameter("Per direction far",
-                  far,
-                  "Material points per cell and direction elsewhere. Units: "
-                  "none.",
-                  prm,
-                  per_direction);
-    add_parameter("Path margin",
-                  path_margin,
-                  "The path reaches this far beyond both faces of the wall. "
-                  "Units: m.",
-                  prm,
-                  not_negative);
-    add_parameter("Path below final depth",
-                  path_below,
-                  "The path ends this far below the deepest position of the "
-                  "tip. Units: m.",
-                  prm,
-                  not_negative);
-    add_parameter("Near distance",
-                  near_distance,
-                  "Cells within this distance of the wall's faces count as "
-                  "near. Units: m.",
-                  prm,
-                  not_negative);
-    add_parameter("Region left",
-                  region_left,
-                  "Smallest r with soil. Units: m.",
-                  prm,
-                  not_negative);
-    add_parameter("Region right",
-                  region_right,
-                  "Largest r with soil. Units: m.");
-    add_parameter("Region bottom",
-                  region_bottom,
-                  "Lowest z with soil. Units: m.");
-    add_parameter("Region top", region_top, "Highest z with soil. Units: m.");
-    add_parameter("Region",
-                  region,
-                  "Further limit of the soil: an expression in r, z and pi; "
-                  "points lie where it is positive. Empty: no further limit. "
-                  "Units: none.");
+    declare_numbers();
+    declare_region();
     add_parameter("Random positions",
                   randomness,
-                  "How far points lie from the regular lattice, at random: 0 "
-                  "on it, 1 anywhere in their part of the cell. Units: none.",
+                  "Material points lie this far from their regular lattice, at "
+                  "random: 0 on it, 1 anywhere in their part of the cell. "
+                  "Units: none.",
                   prm,
                   Patterns::Double(0., 1.));
     add_parameter("Random seed",
@@ -83,10 +31,78 @@ namespace CaissonMPM
                   Patterns::Integer(0));
     add_parameter("Split and merge",
                   adaptive,
-                  "Begin with the points that the mesh needs at the start, "
-                  "split those that come into smaller cells and merge those "
-                  "that come into larger ones; else begin with all that the "
-                  "smallest cells on the way will need. Units: none.");
+                  "The run begins with the material points that the mesh needs "
+                  "at the start, splits those that come into smaller cells and "
+                  "merges those that come into larger ones; otherwise it "
+                  "begins with all that the smallest cells on the way will "
+                  "need. Units: none.");
+  }
+
+  void
+  PointGenerator::declare_numbers()
+  {
+    const Patterns::Integer per_direction(1, 16);
+    const Patterns::Double  not_negative(0.);
+    add_parameter("Per direction in path",
+                  in_path,
+                  "Cells in the path of the wall hold this many material "
+                  "points per direction. Units: none.",
+                  prm,
+                  per_direction);
+    add_parameter("Per direction near",
+                  near,
+                  "Cells near the wall hold this many material points per "
+                  "direction. Units: none.",
+                  prm,
+                  per_direction);
+    add_parameter("Per direction far",
+                  far,
+                  "Cells neither in the path of the wall nor near it hold this "
+                  "many material points per direction. Units: none.",
+                  prm,
+                  per_direction);
+    add_parameter("Path margin",
+                  path_margin,
+                  "The path of the wall reaches this far beyond both of its "
+                  "faces. Units: m.",
+                  prm,
+                  not_negative);
+    add_parameter("Path below final depth",
+                  path_below,
+                  "The path of the wall ends this far below the deepest "
+                  "position of the tip. Units: m.",
+                  prm,
+                  not_negative);
+    add_parameter("Near distance",
+                  near_distance,
+                  "Cells within this distance of the wall's faces count as "
+                  "near the wall. Units: m.",
+                  prm,
+                  not_negative);
+  }
+
+  void
+  PointGenerator::declare_region()
+  {
+    add_parameter("Region left",
+                  region_left,
+                  "The soil begins at this r. Units: m.",
+                  prm,
+                  Patterns::Double(0.));
+    add_parameter("Region right",
+                  region_right,
+                  "The soil ends at this r. Units: m.");
+    add_parameter("Region bottom",
+                  region_bottom,
+                  "The soil begins at this z. Units: m.");
+    add_parameter("Region top",
+                  region_top,
+                  "The soil ends at this z. Units: m.");
+    add_parameter("Region",
+                  region,
+                  "Soil is generated only where this expression in r, z and pi "
+                  "is positive; an empty one sets no further limit. Units: "
+                  "none.");
   }
 
   Expression

@@ -25,6 +25,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -181,7 +182,7 @@ namespace CaissonMPM
     bool
     axisymmetric() const
     {
-      return geometry_text == "axisymmetric";
+      return geometry == Geometry::axisymmetric;
     }
 
     /** Return what the values per radian that the program computes with are
@@ -217,6 +218,24 @@ namespace CaissonMPM
     description() const;
 
   private:
+    enum class Geometry
+    {
+      axisymmetric,
+      plane_strain
+    };
+    /** What the mesh above the body does. */
+    enum class UpperZone
+    {
+      free,     // moves with the body
+      extending // stretches up to a fixed top
+    };
+
+    void
+    declare_domain();
+    void
+    declare_cells();
+    void
+    declare_motion();
     void
     place_columns(const BodyShape &body);
     void
@@ -252,22 +271,22 @@ namespace CaissonMPM
     bool
     inside_body(const unsigned int column, const unsigned int row) const;
 
-    std::string  geometry_text  = "axisymmetric";
-    double       inner_radius   = 0.;
-    double       outer_radius   = 15.;
-    double       bottom         = -18.;
-    double       top            = 8.;
-    double       cell_width     = 1.;
-    double       cell_height    = 1.;
-    double       growth         = 1.15;
-    double       fine_width     = 0.2;
-    double       fine_height    = 0.2;
-    double       fine_size      = 0.;
-    double       zone_below_tip = 1.5;
-    std::string  upper_text     = "free";
-    double       smallest_row   = 0.01;
-    double       distortion     = 0.;
-    unsigned int refinement     = 1;
+    Geometry              geometry     = Geometry::axisymmetric;
+    double                inner_radius = 0.;
+    double                outer_radius = 15.;
+    double                bottom       = -18.;
+    double                top          = 8.;
+    double                cell_width   = 1.;
+    double                cell_height  = 1.;
+    double                growth       = 1.15;
+    double                fine_width   = 0.2;
+    double                fine_height  = 0.2;
+    std::optional<double> fine_size; // or auto
+    double                zone_below_tip = 1.5;
+    UpperZone             upper_zone     = UpperZone::free;
+    double                smallest_row   = 0.01;
+    double                distortion     = 0.;
+    unsigned int          refinement     = 1;
 
     // lines at the start; rows before they bend around the tip
     std::vector<double> columns, rows;

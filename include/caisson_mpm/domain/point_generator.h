@@ -65,6 +65,10 @@ namespace CaissonMPM
     }
 
   private:
+    void
+    declare_numbers();
+    void
+    declare_region();
     unsigned int
     points_per_direction(const Kernels::CellGeometry &g,
                          const BodyShape             &body,
