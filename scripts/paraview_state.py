@@ -25,7 +25,7 @@ shown.SetRepresentationType("Points")
 shown.PointSize = 3
 simple.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
 simple.GetAnimationScene().GoToLast()
-simple.ColorBy(shown, ("POINTS", "effective_stress_zz"))
+simple.ColorBy(shown, ("POINTS", "stress_zz"))
 shown.RescaleTransferFunctionToDataRange()
 shown.SetScalarBarVisibility(view, True)
 view.InteractionMode = "2D"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/domain/material_points.h>
+#include <caisson_mpm/domain/point_fields.h>
 
 #include <sys/mman.h>
 
@@ -24,52 +25,22 @@ namespace CaissonMPM
   MaterialPoint
   MaterialPoints::get(const int block, const int lane) const
   {
-    const PointBlock   &b = blocks[block];
-    const PointHistory &h = histories[block];
-    MaterialPoint       p;
-    p.position    = Point<2>(b.r[lane], b.z[lane]);
-    p.velocity[0] = b.velocity_r[lane];
-    p.velocity[1] = b.velocity_z[lane];
-    for (unsigned int c = 0; c < 4; ++c)
-      p.stress[c] = b.stress[c][lane];
-    p.mass               = b.mass[lane];
-    p.volume             = b.volume[lane];
-    p.plastic_deviatoric = b.plastic_deviatoric[lane];
-    p.plastic_volumetric = b.plastic_volumetric[lane];
-    for (int i = 0; i < n_state_variables; ++i)
-      p.state[i] = h.state[i][lane];
-    p.initial_position = Point<2>(h.initial_r[lane], h.initial_z[lane]);
-    p.initial_volume   = h.initial_volume[lane];
-    p.id               = h.id[lane];
-    p.size[0]          = h.size_r[lane];
-    p.size[1]          = h.size_z[lane];
-    p.material         = headers[block].material;
+    MaterialPoint p;
+    p.material = headers[block].material;
+    for_each_field(
+      [&](const PointField &, const auto &in_block, const auto &in_point) {
+        in_point(p) = in_block(blocks[block], histories[block])[lane];
+      });
     return p;
   }
 
   void
   MaterialPoints::set(const int block, const int lane, const MaterialPoint &p)
   {
-    PointBlock   &b    = blocks[block];
-    PointHistory &h    = histories[block];
-    b.r[lane]          = p.position[0];
-    b.z[lane]          = p.position[1];
-    b.velocity_r[lane] = p.velocity[0];
-    b.velocity_z[lane] = p.velocity[1];
-    for (unsigned int c = 0; c < 4; ++c)
-      b.stress[c][lane] = p.stress[c];
-    b.mass[lane]               = p.mass;
-    b.volume[lane]             = p.volume;
-    b.plastic_deviatoric[lane] = p.plastic_deviatoric;
-    b.plastic_volumetric[lane] = p.plastic_volumetric;
-    for (int i = 0; i < n_state_variables; ++i)
-      h.state[i][lane] = p.state[i];
-    h.initial_r[lane]      = p.initial_position[0];
-    h.initial_z[lane]      = p.initial_position[1];
-    h.initial_volume[lane] = p.initial_volume;
-    h.id[lane]             = p.id;
-    h.size_r[lane]         = p.size[0];
-    h.size_z[lane]         = p.size[1];
+    for_each_field(
+      [&](const PointField &, const auto &in_block, const auto &in_point) {
+        in_block(blocks[block], histories[block])[lane] = in_point(p);
+      });
   }
 
   // ------------------------------------------------------------ blocks
@@ -405,150 +376,6 @@ namespace CaissonMPM
     settle();
   }
 
-  // ------------------------------------------------------------ splitting
-
-  namespace
-  {
-    constexpr double too_large = 1.05, too_small = .45; // times the wanted size
-
-    bool
-    is_too_large(const double size, const double wanted)
-    {
-      return size > too_large * wanted;
-    }
-
-    bool
-    is_too_small(const double size, const double wanted)
-    {
-      return size > 0. && size < too_small * wanted;
-    }
-
-    /** Half of the point, from the middle to one side of it. */
-    MaterialPoint
-    half_of(const MaterialPoint &point,
-            const unsigned int   direction,
-            const double         side) // -1 or 1
-    {
-      MaterialPoint half  = point;
-      const double  shift = .25 * side * point.size[direction];
-      half.position[direction] += shift;
-      half.initial_position[direction] += shift;
-      half.mass *= .5;
-      half.volume *= .5;
-      half.initial_volume *= .5;
-      half.size[direction] *= .5;
-      return half;
-    }
-
-    /** Whether two points lie side by side in a direction. */
-    bool
-    are_neighbors(const MaterialPoint &a,
-                  const MaterialPoint &b,
-                  const unsigned int   direction)
-    {
-      const unsigned int across = 1 - direction;
-      const auto         distance =
-                   std::abs(a.position[direction] - b.position[direction]),
-                 aside = std::abs(a.position[across] - b.position[across]);
-      return a.material == b.material &&
-             distance < .75 * (a.size[direction] + b.size[direction]) &&
-             aside < .375 * (a.size[across] + b.size[across]);
-    }
-
-    /** Make one point of two that lie side by side in a direction. */
-    MaterialPoint
-    one_of(const MaterialPoint &a,
-           const MaterialPoint &b,
-           const unsigned int   direction)
-    {
-      MaterialPoint result   = a;
-      result.mass            = a.mass + b.mass;
-      result.volume          = a.volume + b.volume;
-      const double by_mass   = b.mass / result.mass,
-                   by_volume = b.volume / result.volume;
-      const auto mix = [](double &x, const double y, const double share) {
-        x += share * (y - x);
-      };
-      for (unsigned int d = 0; d < 2; ++d)
-        {
-          mix(result.position[d], b.position[d], by_mass);
-          mix(result.initial_position[d], b.initial_position[d], by_mass);
-          mix(result.velocity[d], b.velocity[d], by_mass);
-          mix(result.size[d], b.size[d], by_mass);
-        }
-      for (unsigned int c = 0; c < 4; ++c)
-        mix(result.stress[c], b.stress[c], by_volume);
-      mix(result.plastic_deviatoric, b.plastic_deviatoric, by_mass);
-      mix(result.plastic_volumetric, b.plastic_volumetric, by_mass);
-      for (int i = 0; i < n_state_variables; ++i)
-        mix(result.state[i], b.state[i], by_mass);
-      result.initial_volume += b.initial_volume;
-      result.size[direction] = a.size[direction] + b.size[direction];
-      result.id              = std::min(a.id, b.id);
-      return result;
-    }
-  } // namespace
-
-  std::vector<MaterialPoints::PlacedPoint>
-  MaterialPoints::take_out_of_size(const unsigned int           cell,
-                                   const std::array<double, 2> &wanted)
-  {
-    std::vector<LeavingPoint> places;
-    for_each_lane(cell, [&](const int b, const int lane) {
-      const double size[2] = {histories[b].size_r[lane],
-                              histories[b].size_z[lane]};
-      bool         is_out  = false;
-      for (unsigned int d = 0; d < 2; ++d)
-        is_out |=
-          is_too_large(size[d], wanted[d]) || is_too_small(size[d], wanted[d]);
-      if (is_out)
-        places.push_back({cell, b, lane});
-    });
-    return take_out(places.data(), places.size());
-  }
-
-  void
-  MaterialPoints::split(const std::array<double, 2> &wanted,
-                        std::vector<PlacedPoint>    &points)
-  {
-    for (unsigned int d = 0; d < 2; ++d)
-      for (unsigned int i = 0; i < points.size(); ++i)
-        {
-          const unsigned int  cell  = points[i].first;
-          const MaterialPoint whole = points[i].second;
-          if (!is_too_large(whole.size[d], wanted[d]))
-            continue;
-          const MaterialPoint lower = half_of(whole, d, -1.),
-                              upper = half_of(whole, d, 1.);
-          // beside the body or the end of the mesh it waits
-          if (!is_in_soil(cell, lower.position) ||
-              !is_in_soil(cell, upper.position))
-            continue;
-          points[i].second = lower;
-          points.emplace_back(cell, upper);
-          ++n_split;
-        }
-  }
-
-  void
-  MaterialPoints::merge(const std::array<double, 2> &wanted,
-                        std::vector<PlacedPoint>    &points)
-  {
-    for (unsigned int d = 0; d < 2; ++d)
-      for (unsigned int i = 0; i < points.size(); ++i)
-        for (unsigned int j = i + 1; j < points.size(); ++j)
-          {
-            MaterialPoint &a = points[i].second, &b = points[j].second;
-            if (!is_too_small(a.size[d], wanted[d]))
-              break;
-            if (!is_too_small(b.size[d], wanted[d]) || !are_neighbors(a, b, d))
-              continue;
-            a = one_of(a, b, d);
-            points.erase(points.begin() + j);
-            ++n_merged;
-          }
-  }
-
   void
   MaterialPoints::register_totals(RunTotals &totals)
   {
@@ -557,20 +384,7 @@ namespace CaissonMPM
     totals.count("points_merged", n_merged);
   }
 
-  void
-  MaterialPoints::adapt(const WantedSize &wanted)
-  {
-    std::vector<PlacedPoint> moving;
-    for (const unsigned int cell : active_cells)
-      {
-        const auto size   = wanted(cell);
-        auto       points = take_out_of_size(cell, size);
-        merge(size, points);
-        split(size, points);
-        moving.insert(moving.end(), points.begin(), points.end());
-      }
-    bring_to_cells(moving);
-  }
+  // ------------------------------------------------------------ places
 
   namespace
   {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/output/point_quantities.h>
 
 #include <cmath>
@@ -8,21 +7,24 @@ namespace CaissonMPM
 {
   namespace
   {
+    using P = const MaterialPoint &;
+
     double
-    speed(const MaterialPoint &p)
+    speed(P p)
     {
       return std::hypot(p.velocity[0], p.velocity[1]);
     }
 
     double
-    mean_stress(const MaterialPoint &p)
+    mean_stress(P p)
     {
       return (p.stress[rr] + p.stress[zz] + p.stress[tt]) / 3.;
     }
 
-    /** sqrt(3 J2). */
+    /** sqrt(3 J2): the difference of axial and radial stress in a triaxial
+     * test. */
     double
-    deviator(const MaterialPoint &p)
+    deviator(P p)
     {
       const double mean = mean_stress(p);
       double       j2   = p.stress[rz] * p.stress[rz];
@@ -30,38 +32,114 @@ namespace CaissonMPM
         j2 += .5 * std::pow(p.stress[component] - mean, 2);
       return std::sqrt(3. * j2);
     }
+
+    constexpr auto drawn = InFrames::drawn, not_drawn = InFrames::not_drawn;
+
+    /** The field, whose values cannot be merged, and its function. */
+    NamedQuantity
+    derived(const char                   *owner,
+            const char                   *component,
+            const char                   *unit,
+            const InFrames                in_frames,
+            const char                   *text,
+            const PointQuantity::Function function)
+    {
+      return {{owner, component, unit, Merge::by_mass, in_frames, text},
+              function};
+    }
+
+    std::vector<NamedQuantity>
+    quantities_of_fields()
+    {
+      std::vector<NamedQuantity> result;
+      const MaterialPoint        any;
+      for_each_value(any, [&](const PointField &field, const double &value) {
+        const auto *const begin = reinterpret_cast<const char *>(&any);
+        const std::size_t offset =
+          reinterpret_cast<const char *>(&value) - begin;
+        result.push_back({field, PointQuantity(offset)});
+      });
+      return result;
+    }
+
+    const std::vector<NamedQuantity> derived_quantities = {
+      derived("displacement",
+              "r",
+              "m",
+              drawn,
+              "",
+              [](P p) { return p.position[0] - p.initial_position[0]; }),
+      derived("displacement",
+              "z",
+              "m",
+              drawn,
+              "",
+              [](P p) { return p.position[1] - p.initial_position[1]; }),
+      derived("speed", "", "m/s", not_drawn, "", speed),
+      derived("stress_ratio",
+              "",
+              "none",
+              not_drawn,
+              "rr over zz",
+              [](P p) { return p.stress[rr] / p.stress[zz]; }),
+      derived("mean_stress", "", "Pa", drawn, "tension positive", mean_stress),
+      derived("deviator", "", "Pa", drawn, "sqrt(3 J2)", deviator),
+      derived("volume_ratio",
+              "",
+              "none",
+              not_drawn,
+              "to the initial volume",
+              [](P p) { return p.volume / p.initial_volume; }),
+      derived("density",
+              "",
+              "kg/m3",
+              not_drawn,
+              "scaled",
+              [](P p) { return p.mass / p.volume; }),
+      derived("kinetic_energy",
+              "",
+              "J/m3",
+              not_drawn,
+              "per volume",
+              [](P p) { return .5 * p.mass / p.volume * speed(p) * speed(p); }),
+      derived("material",
+              "",
+              "none",
+              drawn,
+              "number of its layer, from 0",
+              [](P p) { return double(p.material); })};
   } // namespace
+
+
+
+  const std::vector<NamedQuantity> &
+  all_point_quantities()
+  {
+    static const std::vector<NamedQuantity> quantities = [] {
+      auto all = quantities_of_fields();
+      all.insert(all.end(),
+                 derived_quantities.begin(),
+                 derived_quantities.end());
+      return all;
+    }();
+    return quantities;
+  }
 
 
 
   const std::map<std::string, PointQuantity> &
   point_quantities()
   {
-    using P = const MaterialPoint &;
-    static const std::map<std::string, PointQuantity> quantities = {
-      {"position_r", [](P p) { return p.position[0]; }},
-      {"position_z", [](P p) { return p.position[1]; }},
-      {"displacement_r",
-       [](P p) { return p.position[0] - p.initial_position[0]; }},
-      {"displacement_z",
-       [](P p) { return p.position[1] - p.initial_position[1]; }},
-      {"velocity_r", [](P p) { return p.velocity[0]; }},
-      {"velocity_z", [](P p) { return p.velocity[1]; }},
-      {"speed", speed},
-      {"stress_rr", [](P p) { return p.stress[rr]; }},
-      {"stress_zz", [](P p) { return p.stress[zz]; }},
-      {"stress_tt", [](P p) { return p.stress[tt]; }},
-      {"stress_rz", [](P p) { return p.stress[rz]; }},
-      {"stress_ratio", [](P p) { return p.stress[rr] / p.stress[zz]; }},
-      {"mean_stress", mean_stress},
-      {"deviator", deviator},
-      {"plastic_strain", [](P p) { return p.plastic_deviatoric; }},
-      {"plastic_volume_strain", [](P p) { return p.plastic_volumetric; }},
-      {"volume_ratio", [](P p) { return p.volume / p.initial_volume; }},
-      {"density", [](P p) { return p.mass / p.volume; }},
-      {"kinetic_energy",
-       [](P p) { return .5 * p.mass / p.volume * speed(p) * speed(p); }}};
-    return quantities;
+    static const std::map<std::string, PointQuantity> by_name = [] {
+      std::map<std::string, PointQuantity> result;
+      for (const NamedQuantity &quantity : all_point_quantities())
+        result[quantity.about.name()] = quantity.value;
+      // names of earlier versions
+      result["plastic_strain"]        = result.at("plastic_deviatoric");
+      result["plastic_volume_strain"] = result.at("plastic_volumetric");
+      return result;
+    }();
+    return by_name;
   }
 
 
@@ -69,11 +147,15 @@ namespace CaissonMPM
   std::string
   point_quantities_text()
   {
-    return "Quantities: position_r, position_z, displacement_r, "
-           "displacement_z, velocity_r, velocity_z, speed, stress_rr, "
-           "stress_zz, stress_tt, stress_rz, stress_ratio (rr over zz), "
-           "mean_stress (tension positive), deviator (sqrt(3 J2)), "
-           "plastic_strain, plastic_volume_strain, volume_ratio, density "
-           "(scaled), kinetic_energy (J/m3).";
+    std::string text;
+    for (const NamedQuantity &quantity : all_point_quantities())
+      {
+        const PointField &about = quantity.about;
+        const std::string unit = about.unit, meaning = about.text;
+        text += (text.empty() ? "Quantities: " : ", ") + about.name() + " (" +
+                (meaning.empty() ? "" : meaning + "; ") +
+                (unit == "none" ? "no unit" : unit) + ")";
+      }
+    return text + ".";
   }
 } // namespace CaissonMPM

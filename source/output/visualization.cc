@@ -2,6 +2,7 @@
 #include <caisson_mpm/base/compat.h>
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/base/text_file.h>
+#include <caisson_mpm/output/point_quantities.h>
 #include <caisson_mpm/output/visualization.h>
 
 #include <deal.II/base/mpi.h>
@@ -12,7 +13,6 @@
 #include <deal.II/particles/particle_handler.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -24,111 +24,97 @@ namespace CaissonMPM
 
   namespace
   {
-    /** The properties of a written particle, in the order of the names. */
-    enum Property : unsigned int
+    /** The values of a point that are written: the quantities that are drawn,
+     * and two that the scene decides. */
+    class WrittenFields
     {
-      velocity_r,
-      velocity_z,
-      displacement_r,
-      displacement_z,
-      effective_stress_rr,
-      effective_stress_zz,
-      effective_stress_tt,
-      effective_stress_rz,
-      mean_effective_stress,
-      deviatoric_stress,
-      plastic_strain,
-      plastic_volumetric_strain,
-      void_ratio,
-      pore_pressure,
-      volume,
-      material,
-      n_written
+    public:
+      WrittenFields(const Soil &soil, const double circumference)
+        : soil(soil)
+        , circumference(circumference)
+      {
+        for (const NamedQuantity &quantity : all_point_quantities())
+          if (quantity.about.in_frames == InFrames::drawn)
+            {
+              quantities.push_back(quantity.value);
+              add_name(quantity.about);
+            }
+        names.insert(names.end(), {"void_ratio", "whole_volume"});
+        interpretation.resize(names.size(),
+                              Interpretation::component_is_scalar);
+      }
+
+      std::vector<double>
+      of(const MaterialPoint &p) const
+      {
+        std::vector<double> values;
+        for (const PointQuantity &quantity : quantities)
+          values.push_back(quantity(p));
+        values.push_back(p.void_ratio(soil.layer(p.material).void_ratio()));
+        values.push_back(circumference * p.volume);
+        return values;
+      }
+
+      std::vector<double>
+      of(const BodyPoint &p, const RigidBody &body) const
+      {
+        MaterialPoint moved;
+        moved.initial_position = p.position;
+        moved.position = body.shape().moved(p.position, body.motion().travel());
+        const Vector2 velocity =
+          body.motion().velocity() * body.shape().direction();
+        for (unsigned int d = 0; d < 2; ++d)
+          moved.velocity[d] = velocity[d];
+        std::vector<double> values;
+        for (std::size_t i = 0; i < quantities.size(); ++i)
+          values.push_back(names[i] == "material" ? -1. : quantities[i](moved));
+        values.insert(values.end(), {0., p.volume});
+        return values;
+      }
+
+      using Interpretation =
+        DataComponentInterpretation::DataComponentInterpretation;
+      std::vector<std::string>    names;
+      std::vector<Interpretation> interpretation;
+
+    private:
+      /** The components r and z of a vector share its name. */
+      void
+      add_name(const PointField &field)
+      {
+        const std::string component = field.component;
+        const bool        of_vector = component == "r" || component == "z";
+        names.push_back(of_vector ? field.owner : field.name());
+        interpretation.push_back(of_vector ?
+                                   Interpretation::component_is_part_of_vector :
+                                   Interpretation::component_is_scalar);
+      }
+
+      const Soil                &soil;
+      const double               circumference;
+      std::vector<PointQuantity> quantities;
     };
-
-    const std::vector<std::string> property_names = {
-      "velocity",
-      "velocity",
-      "displacement",
-      "displacement",
-      "effective_stress_rr",
-      "effective_stress_zz",
-      "effective_stress_tt",
-      "effective_stress_rz",
-      "mean_effective_stress",
-      "deviatoric_stress",
-      "plastic_strain",
-      "plastic_volumetric_strain",
-      "void_ratio",
-      "pore_pressure",
-      "volume",
-      "material"};
-
-    using Properties = std::array<double, n_written>;
-
-    double
-    mean(const Stress &s)
-    {
-      return (s[rr] + s[zz] + s[tt]) / 3.;
-    }
-
-    /** sqrt(3 J2): the difference of axial and radial stress in a triaxial
-     * test. */
-    double
-    deviator(const Stress &s)
-    {
-      const double m  = mean(s);
-      const double J2 = .5 * (std::pow(s[rr] - m, 2) + std::pow(s[zz] - m, 2) +
-                              std::pow(s[tt] - m, 2)) +
-                        std::pow(s[rz], 2);
-      return std::sqrt(3. * J2);
-    }
-
-    Properties
-    properties_of(const MaterialPoint &p,
-                  const Soil          &soil,
-                  const double         circumference)
-    {
-      Properties v                 = {};
-      v[velocity_r]                = p.velocity[0];
-      v[velocity_z]                = p.velocity[1];
-      v[displacement_r]            = p.position[0] - p.initial_position[0];
-      v[displacement_z]            = p.position[1] - p.initial_position[1];
-      v[effective_stress_rr]       = p.stress[rr];
-      v[effective_stress_zz]       = p.stress[zz];
-      v[effective_stress_tt]       = p.stress[tt];
-      v[effective_stress_rz]       = p.stress[rz];
-      v[mean_effective_stress]     = -mean(p.stress);
-      v[deviatoric_stress]         = deviator(p.stress);
-      v[plastic_strain]            = p.plastic_deviatoric;
-      v[plastic_volumetric_strain] = p.plastic_volumetric;
-      v[void_ratio] = p.void_ratio(soil.layer(p.material).void_ratio());
-      v[volume]     = circumference * p.volume;
-      v[material]   = p.material;
-      return v;
-    }
 
     /** A particle handler with everything that is to be written. */
     class PointCloud
     {
     public:
-      explicit PointCloud(const BackgroundGrid &grid)
+      PointCloud(const BackgroundGrid &grid, const WrittenFields &fields)
         : grid(grid)
-        , handler(grid.triangulation(), grid.mapping(), n_written)
+        , fields(fields)
+        , handler(grid.triangulation(), grid.mapping(), fields.names.size())
       {}
 
-      /** The points of this rank from number begin to end. */
+      /** Add the points of this rank from number begin to end. */
       void
       add_soil(const MaterialPoints    &points,
-               const Soil              &soil,
                const unsigned long long begin,
                const unsigned long long end)
       {
-        const double       circumference = grid.circumference();
-        unsigned long long i             = 0;
+        unsigned long long i = 0;
         points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
           if (i >= begin && i < end)
-            add(p.position, properties_of(p, soil, circumference), cell);
+            add(p.position, fields.of(p), cell);
           ++i;
         });
       }
@@ -137,45 +123,28 @@ namespace CaissonMPM
       add_body(const std::vector<BodyPoint> &points, const RigidBody &body)
       {
         for (const BodyPoint &p : points)
-          {
-            const Point<2> position =
-              body.shape().moved(p.position, body.motion().travel());
-            const Tensor<1, 2> moved    = position - p.position,
-                               velocity = body.motion().velocity() *
-                                          body.shape().direction();
-            Properties v      = {};
-            v[velocity_r]     = velocity[radial];
-            v[velocity_z]     = velocity[vertical];
-            v[displacement_r] = moved[radial];
-            v[displacement_z] = moved[vertical];
-            v[volume]         = p.volume;
-            v[material]       = -1.;
-            add(position, v, p.cell);
-          }
+          add(body.shape().moved(p.position, body.motion().travel()),
+              fields.of(p, body),
+              p.cell);
       }
 
       Particles::DataOut<2>
       build()
       {
-        namespace Interpretation = DataComponentInterpretation;
         handler.update_cached_numbers();
-        std::vector<Interpretation::DataComponentInterpretation> interpretation(
-          n_written, Interpretation::component_is_scalar);
-        for (unsigned int i = velocity_r; i <= displacement_z; ++i)
-          interpretation[i] = Interpretation::component_is_part_of_vector;
         Particles::DataOut<2> data_out;
-        data_out.build_patches(handler, property_names, interpretation);
+        data_out.build_patches(handler, fields.names, fields.interpretation);
         return data_out;
       }
 
     private:
       void
-      add(const Tensor<1, 2> &position,
-          const Properties   &values,
-          const unsigned int  cell)
+      add(const Point<2>            &position,
+          const std::vector<double> &values,
+          const unsigned int         cell)
       {
         // the place in the reference cell is not written
-        handler.insert_particle(Point<2>(position),
+        handler.insert_particle(position,
                                 Point<2>(),
                                 n_points++,
                                 grid.cell_iterator(cell),
@@ -184,6 +153,7 @@ namespace CaissonMPM
       }
 
       const BackgroundGrid         &grid;
+      const WrittenFields          &fields;
       Particles::ParticleHandler<2> handler;
       types::particle_index         n_points = 0; // numbers are not written
     };
@@ -373,16 +343,16 @@ namespace CaissonMPM
       Utilities::MPI::max(static_cast<unsigned int>(
                             points.n_points() / points_per_piece + 1),
                           communicator);
-    const std::string point_file =
+    const WrittenFields fields(soil, grid.circumference());
+    const std::string   point_file =
       write_vtu(directory,
                 numbered("points", number),
                 time,
                 communicator,
                 n_pieces,
                 [&](const unsigned int i) {
-                  PointCloud cloud(grid);
+                  PointCloud cloud(grid, fields);
                   cloud.add_soil(points,
-                                 soil,
                                  i * points_per_piece,
                                  (i + 1) * points_per_piece);
                   if (i == 0)

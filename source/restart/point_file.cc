@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/domain/point_fields.h>
 #include <caisson_mpm/restart/point_file.h>
 
-#include <algorithm>
 #include <cstring>
 
 namespace CaissonMPM
 {
   namespace
   {
-    constexpr unsigned int n_columns = 20 + Kernels::n_state_variables;
-
-    static_assert(sizeof(TravelingPoint) == n_columns * sizeof(double),
-                  "every member is a column");
+    // the cell and the material are columns besides the fields
+    constexpr unsigned int n_columns = n_point_fields + 2;
 
     // by value: a damaged file may contain anything
     unsigned int
@@ -20,30 +18,31 @@ namespace CaissonMPM
       return x >= 0. && x < 4294967296. ? static_cast<unsigned int>(x) : 0u;
     }
 
-    /** Call action(name, values, n) for all numbers of a point, in the order of
-     * the columns. They may be changed. */
+    /** Call action(value) for all numbers of a point, in the order of the
+     * columns. They may be changed. */
     template <typename Action>
     void
     for_each_column(TravelingPoint &traveling, const Action &action)
     {
-      MaterialPoint &p    = traveling.point;
-      double         cell = index_of(traveling.cell), material = p.material;
-      action("cell", &cell, 1);
-      action("id", &p.id, 1);
-      action("material", &material, 1);
-      action("position", p.position.begin_raw(), 2);
-      action("velocity", p.velocity, 2);
-      action("stress", p.stress.data(), 4);
-      action("mass", &p.mass, 1);
-      action("volume", &p.volume, 1);
-      action("plastic_deviatoric", &p.plastic_deviatoric, 1);
-      action("plastic_volumetric", &p.plastic_volumetric, 1);
-      action("state", p.state.data(), Kernels::n_state_variables);
-      action("initial_position", p.initial_position.begin_raw(), 2);
-      action("initial_volume", &p.initial_volume, 1);
-      action("size", p.size, 2);
+      MaterialPoint &p        = traveling.point;
+      double         cell     = index_of(traveling.cell);
+      double         material = p.material;
+      action(cell);
+      action(material);
+      for_each_value(p, [&](const PointField &, double &x) { action(x); });
       traveling.cell = GlobalCell(whole_number(cell));
       p.material     = whole_number(material);
+    }
+
+    std::string
+    names_of_columns()
+    {
+      std::string         names = "cell material";
+      const MaterialPoint any;
+      for_each_value(any, [&](const PointField &field, const double) {
+        names += " " + field.name();
+      });
+      return names;
     }
 
     /** Every step can be undone, so that no single change is lost. */
@@ -129,14 +128,8 @@ namespace CaissonMPM
   void
   PointFile::name_columns()
   {
-    std::string    names;
-    TravelingPoint any = {};
-    for_each_column(any, [&](const char *name, const double *, const int n) {
-      for (int i = 0; i < n; ++i)
-        names += (names.empty() ? "" : " ") + std::string(name) +
-                 (n > 1 ? "_" + std::to_string(i) : "");
-    });
-    const hid_t type = check(H5Tcopy(H5T_C_S1));
+    const std::string names = names_of_columns();
+    const hid_t       type  = check(H5Tcopy(H5T_C_S1));
     check(H5Tset_size(type, names.size() + 1));
     const hid_t space     = check(H5Screate(H5S_SCALAR));
     const hid_t attribute = check(
@@ -164,8 +157,25 @@ namespace CaissonMPM
       }
     hsize_t dimensions[2] = {0, 0};
     check(H5Sget_simple_extent_dims(dataspace, dimensions, nullptr));
-    if (dimensions[0] != n_points || dimensions[1] != n_columns)
+    if (dimensions[0] != n_points || dimensions[1] != n_columns ||
+        read_names_of_columns() != names_of_columns())
       succeeded = false;
+  }
+
+
+
+  std::string
+  PointFile::read_names_of_columns()
+  {
+    const hid_t attribute = check(H5Aopen(dataset, "columns", H5P_DEFAULT));
+    if (!succeeded)
+      return "";
+    const hid_t type = check(H5Aget_type(attribute));
+    std::string names(H5Tget_size(type), ' ');
+    check(H5Aread(attribute, type, &names[0]));
+    check(H5Tclose(type));
+    check(H5Aclose(attribute));
+    return names.substr(0, names.find('\0'));
   }
 
 
@@ -198,9 +208,7 @@ namespace CaissonMPM
     std::vector<double> rows;
     rows.reserve(points.size() * n_columns);
     for (TravelingPoint p : points)
-      for_each_column(p, [&](const char *, const double *values, const int n) {
-        rows.insert(rows.end(), values, values + n);
-      });
+      for_each_column(p, [&](const double x) { rows.push_back(x); });
     transfer(first_row, rows, H5Dwrite);
   }
 
@@ -214,10 +222,7 @@ namespace CaissonMPM
     std::vector<TravelingPoint> points(n);
     const double               *next = rows.data();
     for (TravelingPoint &p : points)
-      for_each_column(p, [&](const char *, double *values, const int n_values) {
-        std::copy(next, next + n_values, values);
-        next += n_values;
-      });
+      for_each_column(p, [&](double &x) { x = *next++; });
     return points;
   }
 

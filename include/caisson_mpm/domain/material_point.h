@@ -12,21 +12,25 @@
 
 namespace CaissonMPM
 {
-  /** Its state; SI units. */
+  using Kernels::n_state_variables;
+
+// the members that are not a component of a vector, from the list of fields
+#define CAISSON_NO_MEMBER(...)
+#define CAISSON_LIST_MEMBER(name, n, ...) std::array<double, n> name = {};
+#define CAISSON_MEMBER(name, ...) double name = 0.;
+
+  /** Its state; kernels/point_fields.h tells what the members are. SI units. */
   struct MaterialPoint
   {
     dealii::Point<2> position;
-    double           velocity[2]        = {0., 0.};
-    Stress           stress             = {{0., 0., 0., 0.}};
-    double           mass               = 0.; // scaled, kg per radian
-    double           volume             = 0.; // m3 per radian
-    double           plastic_deviatoric = 0., plastic_volumetric = 0.;
-    StateVariables   state = {}; // of the material law
+    double           velocity[2] = {0., 0.};
     dealii::Point<2> initial_position;
-    double           initial_volume = 0.;
-    double           size[2]        = {0., 0.}; // in r and z when it was made
-    double           id             = 0.;
-    unsigned int     material       = 0;
+    double           size[2]  = {0., 0.}; // in r and z when it was made
+    unsigned int     material = 0;
+    CAISSON_BLOCK_FIELDS(CAISSON_NO_MEMBER, CAISSON_LIST_MEMBER, CAISSON_MEMBER)
+    CAISSON_HISTORY_FIELDS(CAISSON_NO_MEMBER,
+                           CAISSON_LIST_MEMBER,
+                           CAISSON_MEMBER)
 
     double
     void_ratio(const double initial_void_ratio) const
@@ -34,6 +38,10 @@ namespace CaissonMPM
       return (1. + initial_void_ratio) * volume / initial_volume - 1.;
     }
   };
+
+#undef CAISSON_NO_MEMBER
+#undef CAISSON_LIST_MEMBER
+#undef CAISSON_MEMBER
 } // namespace CaissonMPM
 
 #endif

@@ -16,6 +16,8 @@
 #ifndef caisson_mpm_kernels_layout_h
 #define caisson_mpm_kernels_layout_h
 
+#include <caisson_mpm/kernels/point_fields.h>
+
 namespace CaissonMPM
 {
   namespace Kernels
@@ -25,27 +27,24 @@ namespace CaissonMPM
     /** What a material law may keep of a point besides its plastic strains. */
     constexpr int n_state_variables = 2;
 
+// the members of a block, from the list of fields
+#define CAISSON_LANES(name, ...) double name[block_size];
+#define CAISSON_LISTED_LANES(name, n, ...) double name[n][block_size];
+
     /** The state of up to eight MPs. SI units; volume and mass per radian. */
     struct alignas(64) PointBlock
     {
-      double r[block_size], z[block_size];
-      double velocity_r[block_size], velocity_z[block_size];
-      // effective stress, tension positive, in the order rr, zz, tt, rz
-      double stress[4][block_size];
-      double mass[block_size], volume[block_size];
-      double plastic_deviatoric[block_size], plastic_volumetric[block_size];
+      CAISSON_BLOCK_FIELDS(CAISSON_LANES, CAISSON_LISTED_LANES, CAISSON_LANES)
     };
 
     /** What a block keeps of the past of its MPs. SI units, volume per
      * radian. */
     struct alignas(64) PointHistory
     {
-      double state[n_state_variables][block_size]; // of the law
-      double initial_r[block_size], initial_z[block_size];
-      double initial_volume[block_size];
-      double id[block_size];
-      double size_r[block_size], size_z[block_size]; // when it was made
+      CAISSON_HISTORY_FIELDS(CAISSON_LANES, CAISSON_LISTED_LANES, CAISSON_LANES)
     };
+#undef CAISSON_LANES
+#undef CAISSON_LISTED_LANES
 
     /** What is known of a block without touching it. */
     struct BlockHeader

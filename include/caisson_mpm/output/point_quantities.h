@@ -1,24 +1,67 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What can be read at a material point, by name: for checks and observations.
+// What can be read at a material point, by name: for frames, checks and
+// observations.
 #ifndef caisson_mpm_output_point_quantities_h
 #define caisson_mpm_output_point_quantities_h
 
-#include <caisson_mpm/domain/material_points.h>
+#include <caisson_mpm/domain/point_fields.h>
 
+#include <cstddef>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace CaissonMPM
 {
-  using PointQuantity = double (*)(const MaterialPoint &);
+  /** How a quantity follows from a material point: a field of it, or a function
+   * of several. */
+  class PointQuantity
+  {
+  public:
+    using Function = double (*)(const MaterialPoint &);
 
-  /** All quantities by name. SI units; stresses tension positive. */
+    PointQuantity(const Function function = nullptr)
+      : function(function)
+    {}
+
+    /** The field at this distance from the begin of a point. Units: bytes. */
+    explicit PointQuantity(const std::size_t offset)
+      : offset(offset)
+    {}
+
+    double
+    operator()(const MaterialPoint &p) const
+    {
+      return function != nullptr ?
+               function(p) :
+               *reinterpret_cast<const double *>(
+                 reinterpret_cast<const char *>(&p) + offset);
+    }
+
+  private:
+    Function    function = nullptr;
+    std::size_t offset   = 0;
+  };
+
+  /** A quantity with its name, unit and meaning, as a field has them. */
+  struct NamedQuantity
+  {
+    PointField    about;
+    PointQuantity value;
+  };
+
+  /** Return all quantities: the fields of a point (kernels/point_fields.h), and
+   * what follows from them. SI units; stresses are positive in tension. */
+  const std::vector<NamedQuantity> &
+  all_point_quantities();
+
+  /** Return the same by name, also by the names of earlier versions. */
   const std::map<std::string, PointQuantity> &
   point_quantities();
 
-  /** Their names with the meaning of those that need one, for the text of a
-   * parameter. */
+  /** Return their names with the meaning of those that need one, for the text
+   * of a parameter. */
   std::string
   point_quantities_text();
 } // namespace CaissonMPM

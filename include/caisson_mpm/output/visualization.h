@@ -2,13 +2,14 @@
 //
 // Frames of the material points and of the background grid for ParaView.
 //
-// Stresses are effective, in Pa, and positive in tension, as everywhere; the
-// mean effective stress alone is positive in compression:
-//   mean_effective_stress = -(rr + zz + tt) / 3,
-//   deviatoric_stress     = sqrt(3 J2),  J2 = s:s / 2.
+// The quantities of points are those of output/point_quantities.h that are
+// drawn: SI units, stresses effective and positive in tension,
+//   mean_stress = (rr + zz + tt) / 3,
+//   deviator    = sqrt(3 J2),  J2 = s:s / 2.
 // The void ratio follows from the initial porosity n of the point's layer and
 // its change of volume J: e = (1 + e0) J - 1 with e0 = n / (1 - n).
-// Volumes (m3) are those of the whole circumference, in plane strain per metre.
+// whole_volume (m3) is the volume of a point for the whole circumference, in
+// plane strain per meter.
 #ifndef caisson_mpm_output_visualization_h
 #define caisson_mpm_output_visualization_h
 

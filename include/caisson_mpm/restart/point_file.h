@@ -16,9 +16,9 @@ namespace CaissonMPM
 {
   /**
    * A file with one dataset of doubles, "points" [n_points][n_columns]. A row
-   * is a point: the global number of its cell and all that MaterialPoint has,
-   * to the last digit, in SI units. The attribute "columns" of the dataset
-   * names the columns; components are numbered as in base/conventions.h.
+   * is a point: the global number of its cell, its material, and its fields
+   * (kernels/point_fields.h) to the last digit, in SI units. The attribute
+   * "columns" of the dataset names the columns; a file with others is not read.
    *
    * Any number of ranks share a file. To open and to close it is collective; in
    * between each rank writes or reads whichever rows it likes. Nothing throws
@@ -82,6 +82,8 @@ namespace CaissonMPM
     open(const std::string &path, const hid_t access, const hsize_t n_points);
     void
     name_columns();
+    std::string
+    read_names_of_columns();
     /** Write or read rows by H5Dwrite or H5Dread, and add their checksum. */
     template <typename Rows, typename Operation>
     void

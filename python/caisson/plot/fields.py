@@ -37,7 +37,7 @@ class Frame:
         corners, material = read_cells(nearest[1])
         self.body = corners[material == 1]
         self.means = CellMeans(
-            self.soil["position"], self.soil["volume"], corners, material == 1
+            self.soil["position"], self.soil["whole_volume"], corners, material == 1
         )
         self.label = f"t = {time:.3g} s"
         if penetration(history) is not None:
@@ -204,7 +204,7 @@ def shown_values(
 def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
     """Draw the vertical effective stress at each frame."""
     fields = [
-        frame.means.of(-frame.soil["effective_stress_zz"] / 1e3) for frame in frames
+        frame.means.of(-frame.soil["stress_zz"] / 1e3) for frame in frames
     ]
     highest = np.percentile(shown_values(frames, fields, window), 99)
     style = {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
@@ -303,9 +303,9 @@ def draw_displacement(
     soil, box = frame.soil, tip_box(frame, window, scene)
     moved = np.linalg.norm(soil["displacement"][:, :2], axis=1)
     fields = [("displacement (m)", moved, "viridis")]
-    if "plastic_strain" in soil:
+    if "plastic_deviatoric" in soil:
         label = "plastic deviatoric strain (-)"
-        fields.append((label, soil["plastic_strain"], "magma_r"))
+        fields.append((label, soil["plastic_deviatoric"], "magma_r"))
     n = 1 + len(fields) if box else 1
     figure = Figure(figsize=(5.3 * n, 4.5), constrained_layout=True)
     axes = figure.subplots(1, n, squeeze=False)[0]

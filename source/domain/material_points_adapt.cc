@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Points are split where they are too large for their cell, and merged where
+// they are too small.
+#include <caisson_mpm/domain/material_points.h>
+#include <caisson_mpm/domain/point_fields.h>
+
+#include <cmath>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+  using namespace Kernels;
+
+  namespace
+  {
+    constexpr double too_large = 1.05, too_small = .45; // times the wanted size
+
+    bool
+    is_too_large(const double size, const double wanted)
+    {
+      return size > too_large * wanted;
+    }
+
+    bool
+    is_too_small(const double size, const double wanted)
+    {
+      return size > 0. && size < too_small * wanted;
+    }
+
+    /** Whether two points lie side by side in a direction. */
+    bool
+    are_neighbors(const MaterialPoint &a,
+                  const MaterialPoint &b,
+                  const unsigned int   direction)
+    {
+      const unsigned int across = 1 - direction;
+      const auto         distance =
+                   std::abs(a.position[direction] - b.position[direction]),
+                 aside = std::abs(a.position[across] - b.position[across]);
+      return a.material == b.material &&
+             distance < .75 * (a.size[direction] + b.size[direction]) &&
+             aside < .375 * (a.size[across] + b.size[across]);
+    }
+  } // namespace
+
+  std::vector<MaterialPoints::PlacedPoint>
+  MaterialPoints::take_out_of_size(const unsigned int           cell,
+                                   const std::array<double, 2> &wanted)
+  {
+    std::vector<LeavingPoint> places;
+    for_each_lane(cell, [&](const int b, const int lane) {
+      const double size[2] = {histories[b].size_r[lane],
+                              histories[b].size_z[lane]};
+      bool         is_out  = false;
+      for (unsigned int d = 0; d < 2; ++d)
+        is_out |=
+          is_too_large(size[d], wanted[d]) || is_too_small(size[d], wanted[d]);
+      if (is_out)
+        places.push_back({cell, b, lane});
+    });
+    return take_out(places.data(), places.size());
+  }
+
+  void
+  MaterialPoints::split(const std::array<double, 2> &wanted,
+                        std::vector<PlacedPoint>    &points)
+  {
+    for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int i = 0; i < points.size(); ++i)
+        {
+          const unsigned int  cell  = points[i].first;
+          const MaterialPoint whole = points[i].second;
+          if (!is_too_large(whole.size[d], wanted[d]))
+            continue;
+          const MaterialPoint lower = half_of(whole, d, -1.),
+                              upper = half_of(whole, d, 1.);
+          // beside the body or the end of the mesh it waits
+          if (!is_in_soil(cell, lower.position) ||
+              !is_in_soil(cell, upper.position))
+            continue;
+          points[i].second = lower;
+          points.emplace_back(cell, upper);
+          ++n_split;
+        }
+  }
+
+  void
+  MaterialPoints::merge(const std::array<double, 2> &wanted,
+                        std::vector<PlacedPoint>    &points)
+  {
+    for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int i = 0; i < points.size(); ++i)
+        for (unsigned int j = i + 1; j < points.size(); ++j)
+          {
+            MaterialPoint &a = points[i].second, &b = points[j].second;
+            if (!is_too_small(a.size[d], wanted[d]))
+              break;
+            if (!is_too_small(b.size[d], wanted[d]) || !are_neighbors(a, b, d))
+              continue;
+            a = one_of(a, b, d);
+            points.erase(points.begin() + j);
+            ++n_merged;
+          }
+  }
+
+  void
+  MaterialPoints::adapt(const WantedSize &wanted)
+  {
+    std::vector<PlacedPoint> moving;
+    for (const unsigned int cell : active_cells)
+      {
+        const auto size   = wanted(cell);
+        auto       points = take_out_of_size(cell, size);
+        merge(size, points);
+        split(size, points);
+        moving.insert(moving.end(), points.begin(), points.end());
+      }
+    bring_to_cells(moving);
+  }
+} // namespace CaissonMPM
