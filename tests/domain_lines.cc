@@ -163,6 +163,20 @@ check_refusals()
   refuse("", 4.49);
   refuse("subsection Grid\nset Moving zone below tip = 0.1\nend\n", 1.);
   refuse("subsection Grid\nset Upper zone = extending\nend\n", 0., 1.49);
+  // a thin layer is named
+  refuse("subsection Soil\nset Number of layers = 3\n"
+         "subsection Layer 2\nset Top depth = 4\nend\n"
+         "subsection Layer 3\nset Top depth = 4.001\nend\nend\n",
+         1.);
+  // more cells than memory holds, by each of the entries that may be wrong
+  refuse("subsection Rigid body\nset Wall thickness = 1e-9\nset Tip = flat\n"
+         "end\n");
+  refuse("subsection Grid\nset Top = 1e9\nend\n");
+  refuse("subsection Grid\nset Bottom = -1e9\nend\n");
+  refuse("subsection Grid\nset Fine cell size = 1e-6\nend\n");
+  refuse("subsection Grid\nset Cell width = 1e-7\nend\n"
+         "subsection Rigid body\nset Kind = none\nend\n");
+  refuse("subsection Grid\nset Largest number of cells = 100\nend\n");
 }
 
 int

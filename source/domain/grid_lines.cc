@@ -2,7 +2,6 @@
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
-#include <caisson_mpm/domain/graded_lines.h>
 #include <caisson_mpm/domain/grid_lines.h>
 
 #include <deal.II/base/patterns.h>
@@ -31,6 +30,12 @@ namespace CaissonMPM
       "none.",
       prm,
       Patterns::Double(0., 0.4));
+    add_parameter("Largest number of cells",
+                  largest_number,
+                  "A mesh of more cells is refused before it is made; a cell "
+                  "takes about 2 kB of memory. Units: none.",
+                  prm,
+                  Patterns::Integer(1));
     add_parameter("Refinement",
                   refinement,
                   "All cell sizes are divided by this number, for studies of "
@@ -163,184 +168,6 @@ namespace CaissonMPM
   GridLines::meters(const double x)
   {
     return to_text(x) + " m";
-  }
-
-  double
-  GridLines::finest_cell(const BodyShape &body, const double otherwise) const
-  {
-    return fine_size              ? *fine_size :
-           body.cell_width() > 0. ? body.cell_width() :
-                                    otherwise;
-  }
-
-  void
-  GridLines::place(const BodyShape &body,
-                   const Soil      &soil,
-                   const double     travel,
-                   const double     uplift)
-  {
-    if (distortion > 0. && body.exists())
-      throw BadInput("Grid/Distortion is for scenes without a rigid body: the "
-                     "mesh must fit the body. Set Distortion = 0.");
-    travel_to_hold = travel;
-    uplift_to_hold = uplift;
-    place_columns(body);
-    place_rows(body, soil);
-    check_travel();
-  }
-
-  namespace
-  {
-    unsigned int
-    line_at(const std::vector<double> &lines, const double x)
-    {
-      const auto it =
-        std::min_element(lines.begin(),
-                         lines.end(),
-                         [x](const double a, const double b) {
-                           return std::abs(a - x) < std::abs(b - x);
-                         });
-      return it - lines.begin();
-    }
-  } // namespace
-
-  void
-  GridLines::place_columns(const BodyShape &body)
-  {
-    if (!body.exists())
-      {
-        columns =
-          graded_lines({inner_radius, outer_radius}, [this](const double) {
-            return cell_width / refinement;
-          });
-        return;
-      }
-    const bool expands = body.expands();
-    // one column of the cylinder is enough
-    const double left  = expands ? inner_radius : body.left(),
-                 right = body.right();
-    if (expands)
-      expanding_radius = right;
-    if (expands && right <= inner_radius)
-      throw BadInput("Rigid body/Outer diameter: the radius of the cylinder, " +
-                     meters(right) + ", must exceed Grid/Inner radius = " +
-                     meters(inner_radius) +
-                     ". Reduce Grid/Inner radius, for instance to 0.");
-    if (left < inner_radius || right > outer_radius)
-      throw BadInput("The body, from r = " + meters(left) + " to " +
-                     meters(right) + ", does not fit in the mesh, from r = " +
-                     meters(inner_radius) + " to " + meters(outer_radius) +
-                     ". Change Grid/Outer radius or the body.");
-    const double fine = finest_cell(body, cell_width);
-    columns           = graded_lines({inner_radius, left, right, outer_radius},
-                           [=](const double r) {
-                             if (expands && r < right)
-                               return right - inner_radius;
-                             const double distance =
-                               std::max({left - r, r - right, 0.}) - fine_width;
-                             return std::min(std::max(cell_width, fine),
-                                             fine + (growth - 1.) *
-                                                      std::max(0., distance)) /
-                                    refinement;
-                           });
-    body_column_begin = line_at(columns, left);
-    body_column_end   = line_at(columns, right);
-    dip.assign(columns.size(), 0.);
-    if (expands)
-      return;
-    shoulder = body.bottom() + body.tip_height();
-    for (unsigned int i = body_column_begin; i <= body_column_end; ++i)
-      dip[i] = shoulder - body.lower_surface(columns[i]);
-  }
-
-  void
-  GridLines::place_rows(const BodyShape &body, const Soil &soil)
-  {
-    std::vector<double> fixed = {bottom, 0., top};
-    for (const double z : soil.interfaces())
-      fixed.push_back(z);
-    zone_bottom = bottom;
-    zone_top    = top;
-    if (!body.exists() || body.expands())
-      {
-        rows = graded_lines(fixed, [this](double) {
-          return cell_height / refinement;
-        });
-        if (distortion > 0.)
-          distort(fixed);
-        // of a cylinder all rows; empty without a body
-        body_row_end = lid_row_begin = rows.size() - 1;
-        return;
-      }
-    if (body.bottom() < bottom || body.top() > top)
-      throw BadInput("The body, from z = " + meters(body.bottom()) + " to " +
-                     meters(body.top()) +
-                     ", does not fit in the mesh, from z = " + meters(bottom) +
-                     " to " + meters(top) +
-                     ". Change Grid/Bottom, Grid/Top or the body.");
-    const double fine = finest_cell(body, cell_height);
-    zone_bottom       = std::max(bottom, body.bottom() - zone_below_tip);
-    zone_top          = body.top();
-    decay_below       = body.height_of_bent_rows();
-    decay_above       = std::min(decay_below, zone_top - shoulder);
-    if (travel_to_hold > 0. || uplift_to_hold > 0.)
-      fixed.push_back(zone_bottom);
-    fixed.push_back(shoulder);
-    fixed.push_back(zone_top);
-    if (body.has_lid())
-      fixed.push_back(body.lower_face_of_lid());
-    rows           = graded_lines(fixed, [=](const double z) {
-      const double distance = std::abs(z - shoulder) - fine_height;
-      return std::min(std::max(cell_height, fine),
-                      fine + (growth - 1.) * std::max(0., distance)) /
-             refinement;
-    });
-    body_row_begin = line_at(rows, shoulder);
-    body_row_end   = line_at(rows, zone_top);
-    lid_row_begin =
-      body.has_lid() ? line_at(rows, body.lower_face_of_lid()) : body_row_end;
-  }
-
-  namespace
-  {
-    /** A number from -1 to 1 that looks random, the same on all machines. */
-    double
-    scatter(const unsigned int i, const unsigned int j)
-    {
-      // the finalizer of MurmurHash3 on both numbers
-      std::uint64_t h = 0x9e3779b97f4a7c15u * (i + 1) + j;
-      h               = (h ^ (h >> 33)) * 0xff51afd7ed558ccdu;
-      h               = (h ^ (h >> 33)) * 0xc4ceb9fe1a85ec53u;
-      return ((h ^ (h >> 33)) >> 11) * 0x1p-52 - 1.;
-    }
-
-    /** The shorter distance of an inner line to its neighbors. */
-    double
-    distance_to_next(const std::vector<double> &lines, const unsigned int i)
-    {
-      return std::min(lines[i + 1] - lines[i], lines[i] - lines[i - 1]);
-    }
-  } // namespace
-
-  void
-  GridLines::distort(const std::vector<double> &straight_rows)
-  {
-    const std::vector<double> regular = columns;
-    for (unsigned int i = 1; i + 1 < columns.size(); ++i)
-      columns[i] += distortion * scatter(i, 0) * distance_to_next(regular, i);
-    node_shift.assign(rows.size(), std::vector<double>(columns.size(), 0.));
-    for (unsigned int j = 1; j + 1 < rows.size(); ++j)
-      {
-        const bool is_straight =
-          std::any_of(straight_rows.begin(),
-                      straight_rows.end(),
-                      [&](const double z) {
-                        return std::abs(z - rows[j]) < 1e-9;
-                      });
-        for (unsigned int i = 1; i + 1 < columns.size() && !is_straight; ++i)
-          node_shift[j][i] =
-            distortion * scatter(i, j) * distance_to_next(rows, j);
-      }
   }
 
   double

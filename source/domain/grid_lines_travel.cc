@@ -38,15 +38,41 @@ namespace CaissonMPM
   }
 
   double
-  GridLines::smallest_row_at(const double travel, const bool above_body) const
+  GridLines::height_of_row(const unsigned int row, const double travel) const
   {
-    double smallest = 1e300;
-    for (unsigned int j = 0; j + 1 < rows.size(); ++j)
+    return height_at(rows[row + 1], travel) - height_at(rows[row], travel);
+  }
+
+  unsigned int
+  GridLines::flattest_row_at(const double travel, const bool above_body) const
+  {
+    unsigned int flattest = n_rows();
+    for (unsigned int j = 0; j < n_rows(); ++j)
       if (above_body ? rows[j] > zone_top - 1e-9 : rows[j] < zone_bottom - 1e-9)
-        smallest =
-          std::min(smallest,
-                   height_at(rows[j + 1], travel) - height_at(rows[j], travel));
-    return smallest;
+        if (flattest == n_rows() ||
+            height_of_row(j, travel) < height_of_row(flattest, travel))
+          flattest = j;
+    return flattest;
+  }
+
+  std::string
+  GridLines::neighbors_of_row(const unsigned int row) const
+  {
+    std::string text;
+    for (const double z : {rows[row + 1], rows[row]})
+      {
+        const auto line =
+          std::find_if(fixed_rows.begin(),
+                       fixed_rows.end(),
+                       [z](const FixedLine &fixed) {
+                         return std::abs(fixed.place - z) < 1e-9;
+                       });
+        if (line == fixed_rows.end())
+          return "";
+        text += (text.empty() ? "" : " and ") + line->reason +
+                " (z = " + meters(z) + ")";
+      }
+    return text;
   }
 
   void
@@ -64,7 +90,8 @@ namespace CaissonMPM
       throw BadInput("Grid/Upper zone = extending needs cells above the body: "
                      "raise Grid/Top above " +
                      meters(zone_top) + ".");
-    const double smallest = smallest_row_at(-uplift_to_hold, true);
+    const unsigned int row      = flattest_row_at(-uplift_to_hold, true);
+    const double       smallest = height_of_row(row, -uplift_to_hold);
     if (smallest < smallest_row)
       throw BadInput(
         "Moving up by " + meters(uplift_to_hold) +
@@ -104,22 +131,9 @@ namespace CaissonMPM
                      meters(travel_to_hold) + ". Lower Grid/Bottom below " +
                      meters(zone_bottom - travel_to_hold) +
                      ", reduce Grid/Moving zone below tip, or push less far.");
-    const double smallest = smallest_row_at(travel_to_hold, false);
-    if (smallest < smallest_row)
-      {
-        const double factor = 1. - travel_to_hold / available;
-        const double needed =
-          travel_to_hold / (1. - smallest_row * factor / smallest);
-        throw BadInput(
-          "The travel of " + meters(travel_to_hold) +
-          " compresses the lowest row to " + meters(smallest) +
-          ", below Grid/Smallest row height = " + meters(smallest_row) + ". " +
-          (smallest_row * factor < smallest ?
-             "Lower Grid/Bottom to about " + meters(zone_bottom - needed) +
-               ", or reduce" :
-             "Reduce") +
-          " Grid/Smallest row height.");
-      }
+    const unsigned int row = flattest_row_at(travel_to_hold, false);
+    if (row < n_rows() && height_of_row(row, travel_to_hold) < smallest_row)
+      refuse_flat_row(row);
     if (upper_zone == UpperZone::free && height_at(top, travel_to_hold) <= 0.)
       throw BadInput("After a travel of " + meters(travel_to_hold) +
                      " the top of the mesh lies at z = " +
@@ -134,6 +148,34 @@ namespace CaissonMPM
                      meters(zone_top) + ".");
   }
 
+  void
+  GridLines::refuse_flat_row(const unsigned int row) const
+  {
+    const double smallest       = height_of_row(row, travel_to_hold),
+                 available      = zone_bottom - bottom;
+    const std::string neighbors = neighbors_of_row(row);
+    if (!neighbors.empty())
+      throw BadInput(
+        "The row between " + neighbors + ", " +
+        meters(rows[row + 1] - rows[row]) + " high, is compressed to " +
+        meters(smallest) + " by the travel of " + meters(travel_to_hold) +
+        ", below Grid/Smallest row height = " + meters(smallest_row) +
+        ". Move one of these lines, or reduce Grid/Smallest row "
+        "height; the row also limits the time step.");
+    const double factor = 1. - travel_to_hold / available;
+    const double needed =
+      travel_to_hold / (1. - smallest_row * factor / smallest);
+    throw BadInput(
+      "The travel of " + meters(travel_to_hold) +
+      " compresses the lowest row to " + meters(smallest) +
+      ", below Grid/Smallest row height = " + meters(smallest_row) + ". " +
+      (smallest_row * factor < smallest ?
+         "Lower Grid/Bottom to about " + meters(zone_bottom - needed) +
+           ", or reduce" :
+         "Reduce") +
+      " Grid/Smallest row height.");
+  }
+
   double
   GridLines::line_height(const unsigned int column,
                          const unsigned int row,
@@ -144,6 +186,24 @@ namespace CaissonMPM
       !dip.empty() && dip[column] > dip[column + 1] ? column : column + 1;
     return reference_height(side, row) + height_at(rows[row], travel) -
            rows[row];
+  }
+
+  unsigned int
+  GridLines::first_row_above(const unsigned int column,
+                             const unsigned int first,
+                             const double       z,
+                             const double       travel) const
+  {
+    unsigned int begin = first, end = n_rows();
+    while (begin < end)
+      {
+        const unsigned int middle = (begin + end) / 2;
+        if (line_height(column, middle + 1, travel) > z)
+          end = middle;
+        else
+          begin = middle + 1;
+      }
+    return begin;
   }
 
   double
@@ -159,7 +219,9 @@ namespace CaissonMPM
     double       smallest        = high - low;
     const unsigned int n_samples = 100;
     const auto meet = [&](const unsigned int first, const double travel) {
-      for (unsigned int k = first; k < n_rows(); ++k)
+      for (unsigned int k = first_row_above(i, first, low, travel);
+           k < n_rows();
+           ++k)
         {
           const double z0 = line_height(i, k, travel),
                        z1 = line_height(i, k + 1, travel);

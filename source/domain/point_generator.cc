@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/domain/point_generator.h>
 
 #include <deal.II/base/patterns.h>
@@ -41,26 +42,32 @@ namespace CaissonMPM
   void
   PointGenerator::declare_numbers()
   {
-    const Patterns::Integer per_direction(1, 16);
+    const Patterns::Integer number(1, 16);
     const Patterns::Double  not_negative(0.);
     add_parameter("Per direction in path",
-                  in_path,
+                  per_direction[0],
                   "Cells in the path of the wall hold this many material "
                   "points per direction. Units: none.",
                   prm,
-                  per_direction);
+                  number);
     add_parameter("Per direction near",
-                  near,
+                  per_direction[1],
                   "Cells near the wall hold this many material points per "
                   "direction. Units: none.",
                   prm,
-                  per_direction);
+                  number);
     add_parameter("Per direction far",
-                  far,
+                  per_direction[2],
                   "Cells neither in the path of the wall nor near it hold this "
                   "many material points per direction. Units: none.",
                   prm,
-                  per_direction);
+                  number);
+    add_parameter("Largest number of points",
+                  largest_number,
+                  "More material points than this are refused before they are "
+                  "made; a point takes about 220 bytes of memory. Units: none.",
+                  prm,
+                  Patterns::Integer(1));
     add_parameter("Path margin",
                   path_margin,
                   "The path of the wall reaches this far beyond both of its "
@@ -118,20 +125,28 @@ namespace CaissonMPM
     parse_region();
   }
 
-  unsigned int
-  PointGenerator::points_per_direction(const Kernels::CellGeometry &g,
-                                       const BodyShape             &body,
-                                       const double travel) const
+  PointGenerator::Place
+  PointGenerator::place_of(const Kernels::CellGeometry &g,
+                           const BodyShape             &body,
+                           const double                 travel) const
   {
     if (!body.exists())
-      return far;
+      return Place::far;
     const double middle = g.left + .5 * g.width;
     const double distance =
       std::max({body.left() - middle, middle - body.right(), 0.});
     if (distance < path_margin &&
         g.bottom_left + g.height_left > body.bottom() - travel - path_below)
-      return in_path;
-    return distance < near_distance ? near : far;
+      return Place::path;
+    return distance < near_distance ? Place::near : Place::far;
+  }
+
+  unsigned int
+  PointGenerator::points_per_direction(const Kernels::CellGeometry &g,
+                                       const BodyShape             &body,
+                                       const double travel) const
+  {
+    return per_direction[static_cast<unsigned int>(place_of(g, body, travel))];
   }
 
   std::array<double, 2>
@@ -192,7 +207,7 @@ namespace CaissonMPM
   std::vector<std::string>
   PointGenerator::known_limits(const BodyShape &body) const
   {
-    if (body.cells_across_wall() > 3 && in_path < 7)
+    if (body.cells_across_wall() > 3 && per_direction[0] < 7)
       return {"with four cells or more across the wall and fewer than seven "
               "points per direction in the path, the tip has been seen to "
               "break loose: set Material points/Per direction in path = 7; see "
@@ -233,10 +248,42 @@ namespace CaissonMPM
   PointGenerator::number_of_parts(const GridLines &lines,
                                   const BodyShape &body) const
   {
-    std::vector<Parts> parts;
-    for (unsigned int cell = 0; cell < lines.n_cells(); ++cell)
-      parts.push_back(number_of_parts(lines, body, GlobalCell(cell)));
+    std::vector<Parts>    parts;
+    std::array<double, 3> n_points = {{0., 0., 0.}}; // by place
+    for (unsigned int c = 0; c < lines.n_cells(); ++c)
+      {
+        const auto  g     = lines.initial_geometry(GlobalCell(c));
+        const Place place = place_of(g, body, lines.total_travel());
+        parts.push_back(number_of_parts(lines, body, GlobalCell(c)));
+        n_points[static_cast<unsigned int>(place)] +=
+          double(parts[c][radial]) * parts[c][vertical];
+      }
+    check_number(n_points);
     return parts;
+  }
+
+  void
+  PointGenerator::check_number(const std::array<double, 3> &n_points) const
+  {
+    const double n = n_points[0] + n_points[1] + n_points[2];
+    if (n <= largest_number)
+      return;
+    constexpr double      bytes_per_point = 220.;
+    constexpr const char *names[]         = {"in path", "near", "far"};
+    const unsigned int    most =
+      std::max_element(n_points.begin(), n_points.end()) - n_points.begin();
+    throw BadInput(
+      "The soil would have up to " + to_text(n, 6) +
+      " material points and take about " +
+      to_text(n * bytes_per_point * 1e-9, 3) +
+      " GB of memory, more than Material points/Largest number of points = " +
+      to_text(largest_number) + ". Most of them, " +
+      to_text(n_points[most], 6) +
+      ", are those of Material points/Per direction " + names[most] + " = " +
+      to_text(per_direction[most]) +
+      (adaptive ? ": reduce it, or take larger cells." :
+                  ": reduce it, take larger cells, or set Split and merge = "
+                  "true where the rows below the body are compressed."));
   }
 
   namespace

@@ -131,6 +131,14 @@ namespace CaissonMPM
       return 0.;
     }
 
+    /** Return the entry that sets cell_width(), with its value, for messages.
+     */
+    virtual std::string
+    entry_of_cell_width() const
+    {
+      return "";
+    }
+
     /** Return the number of cells across a thin wall; 0 without one. */
     virtual unsigned int
     cells_across_wall() const

@@ -158,6 +158,12 @@ namespace CaissonMPM
       return wall_thickness / cells_across;
     }
 
+    std::string
+    entry_of_cell_width() const override
+    {
+      return "Rigid body/Wall thickness = " + to_text(wall_thickness) + " m";
+    }
+
     unsigned int
     cells_across_wall() const override
     {

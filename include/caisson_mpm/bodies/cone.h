@@ -107,6 +107,12 @@ namespace CaissonMPM
       return right() / cells_across;
     }
 
+    std::string
+    entry_of_cell_width() const override
+    {
+      return "Rigid body/Outer diameter = " + to_text(outer_diameter) + " m";
+    }
+
     bool
     contains(const Point &p, const double travel) const override
     {

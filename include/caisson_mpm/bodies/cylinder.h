@@ -4,6 +4,7 @@
 #ifndef caisson_mpm_bodies_cylinder_h
 #define caisson_mpm_bodies_cylinder_h
 
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/bodies/body_shape.h>
 
 #include <limits>
@@ -73,6 +74,12 @@ namespace CaissonMPM
     cell_width() const override
     {
       return right() / cells_across;
+    }
+
+    std::string
+    entry_of_cell_width() const override
+    {
+      return "Rigid body/Outer diameter = " + to_text(outer_diameter) + " m";
     }
 
     bool

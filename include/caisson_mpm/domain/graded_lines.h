@@ -10,8 +10,8 @@
 namespace CaissonMPM
 {
   /**
-   * Lines from the smallest to the largest of @p fixed, through all of them,
-   * with cells about as large as @p size says at their place. Between two fixed
+   * Return lines from the smallest to the largest of @p fixed, through all of
+   * them, with cells about as large as @p size says at their place. Between two fixed
    * lines the number of cells is int dx / size(x), rounded up, and the lines
    * share this integral evenly: exact for a constant size, and a constant ratio
    * of neighbors for a size that grows linearly. Units: m.
@@ -19,6 +19,13 @@ namespace CaissonMPM
   std::vector<double>
   graded_lines(std::vector<double>                  fixed,
                const std::function<double(double)> &size);
+
+  /** Return how many cells graded_lines() makes between two fixed lines, which
+   * may be more than memory holds. */
+  double
+  number_of_cells(const double                         a,
+                  const double                         b,
+                  const std::function<double(double)> &size);
 } // namespace CaissonMPM
 
 #endif

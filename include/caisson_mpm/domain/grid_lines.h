@@ -25,8 +25,10 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CaissonMPM
@@ -236,14 +238,55 @@ namespace CaissonMPM
     declare_cells();
     void
     declare_motion();
+    /** A line that the grid must have, and why, for messages. */
+    struct FixedLine
+    {
+      double      place;
+      std::string reason;
+    };
+
+    /** What is wanted of the lines in one direction. Units: m. */
+    struct Spacing
+    {
+      std::vector<FixedLine>        fixed;
+      std::function<double(double)> size; // of the cells at a place
+      double                        finest;
+      std::string                   finest_entry; // that sets it, or empty
+    };
+
+    /** Find the zones that follow the body. */
     void
-    place_columns(const BodyShape &body);
+    follow(const BodyShape &body);
+    Spacing
+    spacing_in_r(const BodyShape &body) const;
+    Spacing
+    spacing_in_z(const BodyShape &body, const Soil &soil) const;
+    Spacing
+    even_spacing(const std::vector<FixedLine> &fixed, const double size) const;
+    /** Return the size of the finest cells and the entry that sets it. */
+    std::pair<double, std::string>
+    finest_cell(const BodyShape  &body,
+                const double      otherwise,
+                const std::string entry) const;
+    static std::vector<double>
+    lines_of(const Spacing &spacing);
+    /** Sort the lines and return the number of cells from each to the next. */
+    static std::vector<double>
+    cells_between(std::vector<FixedLine>              &fixed,
+                  const std::function<double(double)> &size);
     void
-    place_rows(const BodyShape &body, const Soil &soil);
+    check_number_of_cells(const Spacing &in_r, const Spacing &in_z) const;
+    static std::string
+    reason_for_number(const std::string &what,
+                      const std::string &coordinate,
+                      const std::string &entry,
+                      const double       size,
+                      Spacing            spacing);
+    /** Find the lines at the body, and its lower surface. */
     void
-    distort(const std::vector<double> &straight_rows);
-    double
-    finest_cell(const BodyShape &body, const double otherwise) const;
+    find_body(const BodyShape &body);
+    void
+    distort(const std::vector<FixedLine> &straight_rows);
     /** Return a length with its unit, for messages. */
     static std::string
     meters(const double x);
@@ -256,18 +299,37 @@ namespace CaissonMPM
     check_travel_up() const;
     void
     check_expansion() const;
+    /** Return the lower line of the flattest row above the body, or below the
+     * moving zone; n_rows() if there is none. */
+    unsigned int
+    flattest_row_at(const double travel, const bool above_body) const;
     double
-    smallest_row_at(const double travel, const bool above_body) const;
+    height_of_row(const unsigned int row, const double travel) const;
+    /** Return the lines that keep a row apart from others, if it lies between
+     * two fixed lines, or else nothing. */
+    std::string
+    neighbors_of_row(const unsigned int row) const;
 
     double
     radial_rate(const double r0) const;
     double
     reference_height(const unsigned int column_line,
                      const unsigned int row_line) const;
+    /** Throw BadInput: this row becomes too flat. */
+    [[noreturn]] void
+    refuse_flat_row(const unsigned int row) const;
+    /** Return the height of a line in a column after a travel. */
     double
     line_height(const unsigned int column,
                 const unsigned int row_line,
                 const double       travel) const;
+    /** Return the first row from @p first on that reaches above the height z in
+     * a column. */
+    unsigned int
+    first_row_above(const unsigned int column,
+                    const unsigned int first,
+                    const double       z,
+                    const double       travel) const;
     bool
     inside_body(const unsigned int column, const unsigned int row) const;
 
@@ -287,9 +349,11 @@ namespace CaissonMPM
     double                smallest_row   = 0.01;
     double                distortion     = 0.;
     unsigned int          refinement     = 1;
+    unsigned int          largest_number = 1000000;
 
     // lines at the start; rows before they bend around the tip
-    std::vector<double> columns, rows;
+    std::vector<double>    columns, rows;
+    std::vector<FixedLine> fixed_rows;
     // displacement of the nodes by the distortion, [row][column]; or empty
     std::vector<std::vector<double>> node_shift;
     double                           zone_bottom = 0., zone_top = 0.;

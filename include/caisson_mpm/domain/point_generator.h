@@ -29,17 +29,18 @@ namespace CaissonMPM
   public:
     PointGenerator();
 
-    /** Throws BadInput where the entries contradict each other. */
+    /** Throw BadInput where the entries contradict each other. */
     void
     check_parameters() const;
 
-    /** What is known to go wrong with these entries, for a warning. */
+    /** Return what is known to go wrong with these entries, for a warning. */
     std::vector<std::string>
     known_limits(const BodyShape &body) const;
 
     /**
      * Create all points, with the soil's initial stress. Those that @p points
-     * has are forgotten. Collective.
+     * has are forgotten. Throws BadInput where there would be none, or too many.
+     * Collective.
      */
     void
     generate(const BackgroundGrid &grid,
@@ -49,9 +50,9 @@ namespace CaissonMPM
              MaterialPoints       &points) const;
 
     /**
-     * The size that points are to have in a cell of the current mesh, in r and
-     * z, where splits_and_merges(): the cell's over the number per direction.
-     * Units: m.
+     * Return the size that points are to have in a cell of the current mesh, in
+     * r and z, where splits_and_merges(): the cell's over the number per
+     * direction. Units: m.
      */
     std::array<double, 2>
     wanted_size(const Kernels::CellGeometry &g,
@@ -65,10 +66,22 @@ namespace CaissonMPM
     }
 
   private:
+    /** Where a cell is, in the order of per_direction. */
+    enum class Place : unsigned int
+    {
+      path,
+      near,
+      far
+    };
+
     void
     declare_numbers();
     void
     declare_region();
+    Place
+    place_of(const Kernels::CellGeometry &g,
+             const BodyShape             &body,
+             const double                 travel) const;
     unsigned int
     points_per_direction(const Kernels::CellGeometry &g,
                          const BodyShape             &body,
@@ -81,6 +94,9 @@ namespace CaissonMPM
                     const GlobalCell cell) const;
     std::vector<Parts> // [n_global_cells]
     number_of_parts(const GridLines &lines, const BodyShape &body) const;
+    /** Throw BadInput where these are too many, by place. */
+    void
+    check_number(const std::array<double, 3> &n_points) const;
     bool
     may_hold_soil(const GridLines &lines, const GlobalCell cell) const;
     bool
@@ -89,7 +105,9 @@ namespace CaissonMPM
     Expression
     parse_region() const;
 
-    unsigned int in_path = 4, near = 3, far = 2;
+    std::array<unsigned int, 3> per_direction  = {{4, 3, 2}};
+    unsigned int                largest_number = 10000000;
+
     double       path_margin   = 0.1;
     double       path_below    = 0.5;
     double       near_distance = 1.;

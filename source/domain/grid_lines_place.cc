@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Where the lines are at the start, and whether there are too many of them.
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/domain/graded_lines.h>
+#include <caisson_mpm/domain/grid_lines.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  void
+  GridLines::place(const BodyShape &body,
+                   const Soil      &soil,
+                   const double     travel,
+                   const double     uplift)
+  {
+    if (distortion > 0. && body.exists())
+      throw BadInput("Grid/Distortion is for scenes without a rigid body: the "
+                     "mesh must fit the body. Set Distortion = 0.");
+    travel_to_hold = travel;
+    uplift_to_hold = uplift;
+    follow(body);
+    const Spacing in_r = spacing_in_r(body), in_z = spacing_in_z(body, soil);
+    check_number_of_cells(in_r, in_z);
+    columns    = lines_of(in_r);
+    rows       = lines_of(in_z);
+    fixed_rows = in_z.fixed;
+    if (distortion > 0.)
+      distort(fixed_rows);
+    find_body(body);
+    check_travel();
+  }
+
+  void
+  GridLines::follow(const BodyShape &body)
+  {
+    zone_bottom = bottom;
+    zone_top    = top;
+    if (!body.exists())
+      return;
+    if (body.expands())
+      {
+        expanding_radius = body.right();
+        return;
+      }
+    shoulder    = body.bottom() + body.tip_height();
+    zone_bottom = std::max(bottom, body.bottom() - zone_below_tip);
+    zone_top    = body.top();
+    decay_below = body.height_of_bent_rows();
+    decay_above = std::min(decay_below, zone_top - shoulder);
+  }
+
+  // ------------------------------------------------------------ spacing
+
+  std::vector<double>
+  GridLines::lines_of(const Spacing &spacing)
+  {
+    std::vector<double> fixed;
+    for (const FixedLine &line : spacing.fixed)
+      fixed.push_back(line.place);
+    return graded_lines(fixed, spacing.size);
+  }
+
+  GridLines::Spacing
+  GridLines::even_spacing(const std::vector<FixedLine> &fixed,
+                          const double                  size) const
+  {
+    const double refined = size / refinement;
+    return {fixed, [=](double) { return refined; }, refined, ""};
+  }
+
+  std::pair<double, std::string>
+  GridLines::finest_cell(const BodyShape  &body,
+                         const double      otherwise,
+                         const std::string entry) const
+  {
+    if (fine_size)
+      return {*fine_size, "Grid/Fine cell size = " + meters(*fine_size)};
+    if (body.cell_width() > 0.)
+      return {body.cell_width(), body.entry_of_cell_width()};
+    return {otherwise, entry + " = " + meters(otherwise)};
+  }
+
+  GridLines::Spacing
+  GridLines::spacing_in_r(const BodyShape &body) const
+  {
+    const FixedLine inner = {inner_radius, "Grid/Inner radius"},
+                    outer = {outer_radius, "Grid/Outer radius"};
+    if (!body.exists())
+      return even_spacing({inner, outer}, cell_width);
+    const bool expands = body.expands();
+    // one column of the cylinder is enough
+    const double left  = expands ? inner_radius : body.left(),
+                 right = body.right();
+    if (expands && right <= inner_radius)
+      throw BadInput("Rigid body/Outer diameter: the radius of the cylinder, " +
+                     meters(right) + ", must exceed Grid/Inner radius = " +
+                     meters(inner_radius) +
+                     ". Reduce Grid/Inner radius, for instance to 0.");
+    if (left < inner_radius || right > outer_radius)
+      throw BadInput("The body, from r = " + meters(left) + " to " +
+                     meters(right) + ", does not fit in the mesh, from r = " +
+                     meters(inner_radius) + " to " + meters(outer_radius) +
+                     ". Change Grid/Outer radius or the body.");
+    const auto   finest = finest_cell(body, cell_width, "Grid/Cell width");
+    const double fine   = finest.first;
+    const auto   size   = [=](const double r) {
+      if (expands && r < right)
+        return right - inner_radius;
+      const double distance = std::max({left - r, r - right, 0.}) - fine_width;
+      return std::min(std::max(cell_width, fine),
+                      fine + (growth - 1.) * std::max(0., distance)) /
+             refinement;
+    };
+    return {{inner, {left, "the body"}, {right, "the body"}, outer},
+            size,
+            fine / refinement,
+            finest.second + " or Grid/Fine width = " + meters(fine_width)};
+  }
+
+  GridLines::Spacing
+  GridLines::spacing_in_z(const BodyShape &body, const Soil &soil) const
+  {
+    std::vector<FixedLine> fixed = {{bottom, "Grid/Bottom"},
+                                    {0., "the soil surface"},
+                                    {top, "Grid/Top"}};
+    for (const double z : soil.interfaces())
+      fixed.push_back(
+        {z, "Soil/Layer " + to_text(fixed.size() - 1) + "/Top depth"});
+    if (!body.exists() || body.expands())
+      return even_spacing(fixed, cell_height);
+    if (body.bottom() < bottom || body.top() > top)
+      throw BadInput("The body, from z = " + meters(body.bottom()) + " to " +
+                     meters(body.top()) +
+                     ", does not fit in the mesh, from z = " + meters(bottom) +
+                     " to " + meters(top) +
+                     ". Change Grid/Bottom, Grid/Top or the body.");
+    if (travel_to_hold > 0. || uplift_to_hold > 0.)
+      fixed.push_back({zone_bottom, "Grid/Moving zone below tip"});
+    fixed.push_back({shoulder, "the tip of the body"});
+    fixed.push_back({zone_top, "the top of the body"});
+    if (body.has_lid())
+      fixed.push_back({body.lower_face_of_lid(), "the lid of the body"});
+    const auto   finest = finest_cell(body, cell_height, "Grid/Cell height");
+    const double fine   = finest.first;
+    const auto   size   = [=](const double z) {
+      const double distance = std::abs(z - shoulder) - fine_height;
+      return std::min(std::max(cell_height, fine),
+                      fine + (growth - 1.) * std::max(0., distance)) /
+             refinement;
+    };
+    return {fixed,
+            size,
+            fine / refinement,
+            finest.second + " or Grid/Fine height = " + meters(fine_height)};
+  }
+
+  // ------------------------------------------------------------ number
+
+  namespace
+  {
+    double
+    sum(const std::vector<double> &numbers)
+    {
+      double result = 0.;
+      for (const double n : numbers)
+        result += n;
+      return result;
+    }
+  } // namespace
+
+  std::vector<double>
+  GridLines::cells_between(std::vector<FixedLine>              &fixed,
+                           const std::function<double(double)> &size)
+  {
+    std::sort(fixed.begin(),
+              fixed.end(),
+              [](const FixedLine &a, const FixedLine &b) {
+                return a.place < b.place;
+              });
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i + 1 < fixed.size(); ++i)
+      numbers.push_back(
+        number_of_cells(fixed[i].place, fixed[i + 1].place, size));
+    return numbers;
+  }
+
+  void
+  GridLines::check_number_of_cells(const Spacing &in_r,
+                                   const Spacing &in_z) const
+  {
+    auto         fixed_in_r = in_r.fixed, fixed_in_z = in_z.fixed;
+    const double n_columns = sum(cells_between(fixed_in_r, in_r.size)),
+                 n_rows    = sum(cells_between(fixed_in_z, in_z.size)),
+                 n         = n_columns * n_rows;
+    if (n <= largest_number)
+      return;
+    constexpr double bytes_per_cell = 2000.;
+    throw BadInput(
+      "The mesh would have " + to_text(n_columns, 6) + " x " +
+      to_text(n_rows, 6) + " = " + to_text(n, 6) + " cells and take about " +
+      to_text(n * bytes_per_cell * 1e-9, 3) +
+      " GB of memory, more than Grid/Largest number of cells = " +
+      to_text(largest_number) + ". " +
+      (n_columns > n_rows ?
+         reason_for_number(
+           "columns", "r", "Grid/Cell width", cell_width, in_r) :
+         reason_for_number(
+           "rows", "z", "Grid/Cell height", cell_height, in_z)) +
+      (refinement > 1 ? " Grid/Refinement = " + to_text(refinement) + "." :
+                        ""));
+  }
+
+  std::string
+  GridLines::reason_for_number(const std::string &what,
+                               const std::string &coordinate,
+                               const std::string &entry,
+                               const double       size,
+                               Spacing            spacing)
+  {
+    const auto  numbers = cells_between(spacing.fixed, spacing.size);
+    const auto  largest = std::max_element(numbers.begin(), numbers.end());
+    const auto &from    = spacing.fixed[largest - numbers.begin()],
+               &to      = spacing.fixed[largest - numbers.begin() + 1];
+    const double n_finest =
+      number_of_cells(from.place, to.place, [&](const double x) {
+        const double here = spacing.size(x);
+        return here < 1.001 * spacing.finest ?
+                 here :
+                 std::numeric_limits<double>::infinity();
+      });
+    const std::string most = to_text(*largest, 6) + " of the " + what;
+    if (!spacing.finest_entry.empty() && n_finest > .5 * *largest)
+      return most + " are " + meters(spacing.finest) + " fine: change " +
+             spacing.finest_entry + ".";
+    const auto place = [&](const FixedLine &line) {
+      return line.reason + " (" + coordinate + " = " + meters(line.place) + ")";
+    };
+    return most + " lie between " + place(from) + " and " + place(to) +
+           ": check these lengths, which are in meters, and " + entry + " = " +
+           meters(size) + ".";
+  }
+
+  // ------------------------------------------------------------ the body
+
+  namespace
+  {
+    unsigned int
+    line_at(const std::vector<double> &lines, const double x)
+    {
+      const auto it =
+        std::min_element(lines.begin(),
+                         lines.end(),
+                         [x](const double a, const double b) {
+                           return std::abs(a - x) < std::abs(b - x);
+                         });
+      return it - lines.begin();
+    }
+  } // namespace
+
+  void
+  GridLines::find_body(const BodyShape &body)
+  {
+    // of a cylinder all rows; no columns without a body
+    body_row_end = lid_row_begin = n_rows();
+    if (!body.exists())
+      return;
+    body_column_begin =
+      line_at(columns, body.expands() ? inner_radius : body.left());
+    body_column_end = line_at(columns, body.right());
+    dip.assign(columns.size(), 0.);
+    if (body.expands())
+      return;
+    for (unsigned int i = body_column_begin; i <= body_column_end; ++i)
+      dip[i] = shoulder - body.lower_surface(columns[i]);
+    body_row_begin = line_at(rows, shoulder);
+    body_row_end   = line_at(rows, zone_top);
+    lid_row_begin =
+      body.has_lid() ? line_at(rows, body.lower_face_of_lid()) : body_row_end;
+  }
+
+  // ------------------------------------------------------------ distortion
+
+  namespace
+  {
+    /** A number from -1 to 1 that looks random, the same on all machines. */
+    double
+    scatter(const unsigned int i, const unsigned int j)
+    {
+      // the finalizer of MurmurHash3 on both numbers
+      std::uint64_t h = 0x9e3779b97f4a7c15u * (i + 1) + j;
+      h               = (h ^ (h >> 33)) * 0xff51afd7ed558ccdu;
+      h               = (h ^ (h >> 33)) * 0xc4ceb9fe1a85ec53u;
+      return ((h ^ (h >> 33)) >> 11) * 0x1p-52 - 1.;
+    }
+
+    /** The shorter distance of an inner line to its neighbors. */
+    double
+    distance_to_next(const std::vector<double> &lines, const unsigned int i)
+    {
+      return std::min(lines[i + 1] - lines[i], lines[i] - lines[i - 1]);
+    }
+  } // namespace
+
+  void
+  GridLines::distort(const std::vector<FixedLine> &straight_rows)
+  {
+    const std::vector<double> regular = columns;
+    for (unsigned int i = 1; i + 1 < columns.size(); ++i)
+      columns[i] += distortion * scatter(i, 0) * distance_to_next(regular, i);
+    node_shift.assign(rows.size(), std::vector<double>(columns.size(), 0.));
+    for (unsigned int j = 1; j + 1 < rows.size(); ++j)
+      {
+        const bool is_straight =
+          std::any_of(straight_rows.begin(),
+                      straight_rows.end(),
+                      [&](const FixedLine &line) {
+                        return std::abs(line.place - rows[j]) < 1e-9;
+                      });
+        for (unsigned int i = 1; i + 1 < columns.size() && !is_straight; ++i)
+          node_shift[j][i] =
+            distortion * scatter(i, j) * distance_to_next(rows, j);
+      }
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A scene that is far too large is refused at once, with the reason."""
+import time
+import unittest
+
+from program import BAD_INPUT, Entries, ProgramTest, user_scene
+
+# words of the message, entries
+TOO_MANY_CELLS: tuple[tuple[list[str], Entries], ...] = (
+    (["Rigid body/Wall thickness = 1e-09 m"], {"Rigid body/Wall thickness": 1e-9}),
+    (["Grid/Top (z = 1e+09 m)", "Cell height"], {"Grid/Top": 1e9}),
+    (["Grid/Bottom (z = -1e+09 m)", "Cell height"], {"Grid/Bottom": -1e9}),
+    (["Grid/Fine cell size = 1e-06 m"], {"Grid/Fine cell size": 1e-6}),
+    (["Grid/Bottom (z = -18000 m)", "in meters"], {"Grid/Bottom": -18000}),
+    (["Refinement = 256"], {"Grid/Refinement": 256}),
+    (
+        ["more than Grid/Largest number of cells = 100"],
+        {"Grid/Largest number of cells": 100},
+    ),
+)
+TOO_MANY_POINTS: tuple[tuple[list[str], Entries], ...] = (
+    (
+        ["more than Material points/Largest number of points = 1000"],
+        {"Material points/Largest number of points": 1000},
+    ),
+    (
+        ["Per direction far = 16", "Split and merge"],
+        {
+            "Material points/Per direction far": 16,
+            "Grid/Cell width": 0.1,
+            "Grid/Cell height": 0.05,
+        },
+    ),
+)
+SECONDS = 10.0  # also on a busy machine
+
+
+class Limits(ProgramTest):
+    """--validate and a run refuse alike, before anything is made."""
+
+    def check(self, words: list[str], entries: Entries, *options: str) -> None:
+        """Ask for these words within some seconds."""
+        began = time.monotonic()
+        said = self.run_program(
+            BAD_INPUT, user_scene("jack_coarse"), *options, entries=entries
+        )
+        self.assertLess(time.monotonic() - began, SECONDS)
+        for word in [*words, "GB of memory"]:
+            self.assertIn(word, said)
+
+    def test_cells(self) -> None:
+        """More cells than memory holds."""
+        for words, entries in TOO_MANY_CELLS:
+            with self.subTest(**entries):
+                self.check(words, entries, "--validate")
+
+    def test_points(self) -> None:
+        """More material points than memory holds."""
+        for words, entries in TOO_MANY_POINTS:
+            with self.subTest(**entries):
+                self.check(words, entries, "--validate")
+
+    def test_run(self) -> None:
+        """A run, not only --validate."""
+        directory = str(self.directory())
+        for words, entries in (TOO_MANY_CELLS[1], TOO_MANY_POINTS[0]):
+            with self.subTest(**entries):
+                self.check(words, entries, "--output-directory", directory)
+
+
+if __name__ == "__main__":
+    unittest.main()
