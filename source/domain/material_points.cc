@@ -111,6 +111,15 @@ namespace CaissonMPM
   void
   MaterialPoints::add(const unsigned int cell, const MaterialPoint &point)
   {
+    is_settled = false;
+    insert(cell, point);
+  }
+
+  void
+  MaterialPoints::insert(const unsigned int cell, const MaterialPoint &point)
+  {
+    Assert(grid.is_owned(cell),
+           ExcMessage("a point belongs to the rank that owns its cell"));
     filled_volume[cell] += point.volume;
     changed[cell]        = true;
     const short material = point.material;
@@ -267,8 +276,7 @@ namespace CaissonMPM
   PointsView
   MaterialPoints::view()
   {
-    if (active_cells_changed)
-      collect_active_cells();
+    assert_settled();
     return {blocks.data(),
             histories.data(),
             headers.data(),
@@ -277,6 +285,20 @@ namespace CaissonMPM
             static_cast<unsigned int>(active_cells.size()),
             filled_volume.data(),
             changed.data()};
+  }
+
+  const std::vector<unsigned int> &
+  MaterialPoints::cells_with_points() const
+  {
+    assert_settled();
+    return active_cells;
+  }
+
+  void
+  MaterialPoints::assert_settled() const
+  {
+    Assert(is_settled && !active_cells_changed,
+           ExcMessage("settle() must follow add() and take_all()"));
   }
 
   // ------------------------------------------------------------ relocation
@@ -294,10 +316,13 @@ namespace CaissonMPM
   void
   MaterialPoints::relocate()
   {
+    assert_settled();
+    Assert(leaving_view.n <= leaving_view.capacity,
+           ExcMessage("more points are listed than there is room for"));
     // the kernel lists points in the order of their blocks
     auto moving = take_out(leaving_view.points, leaving_view.n);
     bring_to_cells(moving);
-    if (++n_relocations % 200 == 0)
+    if (++n_relocations % steps_between_orderings == 0)
       put_blocks_in_order();
   }
 
@@ -325,7 +350,7 @@ namespace CaissonMPM
       {
         cell = find_cell(cell, point);
         if (grid.is_owned(cell))
-          add(cell, point);
+          insert(cell, point);
         else
           abroad[grid.owner_of(cell)].push_back(
             {grid.global_number(cell), point});
@@ -333,7 +358,7 @@ namespace CaissonMPM
     if (grid.n_ranks() > 1)
       {
         for (const TravelingPoint &p : point_exchange.exchange(abroad))
-          add(grid.local_number(p.cell), p.point);
+          insert(grid.local_number(p.cell), p.point);
         point_exchange.update_occupied(first_block);
       }
     if (active_cells_changed)
@@ -495,6 +520,7 @@ namespace CaissonMPM
     changed.assign(grid.n_cells(), true);
     n_points_            = 0;
     active_cells_changed = true;
+    is_settled           = false;
   }
 
   void
@@ -514,6 +540,7 @@ namespace CaissonMPM
   MaterialPoints::settle()
   {
     collect_active_cells();
+    is_settled = true;
     if (grid.n_ranks() == 1)
       return;
     point_exchange.set_up(grid);

@@ -71,7 +71,7 @@ namespace CaissonMPM
 
   double
   TimeStep::choose(const BackgroundGrid           &grid,
-                   MaterialPoints                 &points,
+                   const MaterialPoints           &points,
                    const Soil                     &soil,
                    std::vector<Kernels::Material> &materials)
   {
@@ -131,13 +131,14 @@ namespace CaissonMPM
   {
     /** The largest of the wave speeds squared of what lies in a cell. */
     double
-    square_of_speed(const Kernels::PointsView &points,
+    square_of_speed(const MaterialPoints      &points,
                     const unsigned int         cell,
                     const std::vector<double> &squares)
     {
       double largest = 0.;
-      for (int b = points.first_block[cell]; b >= 0; b = points.headers[b].next)
-        largest = std::max(largest, squares[points.headers[b].material]);
+      points.for_each_material(cell, [&](const unsigned int material) {
+        largest = std::max(largest, squares[material]);
+      });
       return largest;
     }
 
@@ -176,7 +177,7 @@ namespace CaissonMPM
 
   void
   TimeStep::find_limit(const BackgroundGrid                 &grid,
-                       MaterialPoints                       &points,
+                       const MaterialPoints                 &points,
                        const Soil                           &soil,
                        const std::vector<Kernels::Material> &materials)
   {
@@ -184,14 +185,12 @@ namespace CaissonMPM
     for (unsigned int i = 0; i < soil.n_layers(); ++i)
       squares.push_back(materials[i].p_wave_modulus /
                         (mass_scaling * soil.inertial_density(i)));
-    const auto          view     = points.view();
     unsigned int        limiting = 0;
     double              worst = 0., speed = 0.; // 1 / s2, m/s
     std::vector<double> worst_of_zone(GridLines::n_zones, 0.);
-    for (unsigned int i = 0; i < view.n_active_cells; ++i)
+    for (const unsigned int cell : points.cells_with_points())
       {
-        const unsigned int cell   = view.active_cells[i];
-        const double       square = square_of_speed(view, cell, squares),
+        const double square = square_of_speed(points, cell, squares),
                      frequency =
                        square * inverse_square_of_size(grid.geometry(cell));
         double &of_zone = worst_of_zone[static_cast<int>(grid.zone(cell))];

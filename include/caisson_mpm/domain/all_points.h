@@ -12,8 +12,9 @@
 namespace CaissonMPM
 {
   /**
-   * On one rank a reference to its points; of several the first has a copy of
-   * all, and the others none. Valid until the points change.
+   * Access to every point. On one rank it refers to the points of that rank; of
+   * several ranks the first holds a copy of all points, and the others hold
+   * none. Valid until the points change.
    */
   class AllPoints
   {

@@ -23,9 +23,9 @@ namespace CaissonMPM
   };
 
   /**
-   * One point in every cell of the body that this rank owns. They carry its
-   * mass and are drawn, and take no part in the time step. The grid must be in
-   * its initial position.
+   * Make one point in every cell of the body that this rank owns. The points
+   * carry the mass of the body and are drawn, and take no part in the time
+   * step. The grid must be in its initial position.
    */
   std::vector<BodyPoint>
   generate_body_points(const BackgroundGrid &grid, const RigidBody &body);

@@ -20,9 +20,9 @@ namespace CaissonMPM
   /**
    * All material points of the soil.
    *
-   * They lie in blocks of eight per cell and material (kernels/layout.h), which
-   * only this class and the kernels know; others see one point at a time as a
-   * MaterialPoint.
+   * They lie in blocks of eight per cell and material (kernels/layout.h), whose
+   * lists only this class and the kernels follow; others see one point at a
+   * time as a MaterialPoint.
    *
    * Invariants: of the blocks of one cell and material all but the last are
    * full; every point lies in the cell that owns its block, up to round-off,
@@ -45,22 +45,38 @@ namespace CaissonMPM
     void
     add(const unsigned int cell, const MaterialPoint &point);
 
-    /** Make view() complete after add(). Collective. */
+    /** Make the points complete after add(): until then neither view() nor
+     * relocate() may be called. Collective. */
     void
     settle();
 
-    /** Points of this rank. */
+    /** Return the number of points of this rank. */
     unsigned int
     n_points() const
     {
       return n_points_;
     }
 
-    /** What the kernels work on. Valid until a point is added or moved. */
+    /** Return what the kernels work on. Valid until points are added, moved to
+     * other cells, split or merged. */
     Kernels::PointsView
     view();
 
-    /** Room for the points that leave their cells in one step. */
+    /** Return the cells of this rank that have points. Valid as view(). */
+    const std::vector<unsigned int> &
+    cells_with_points() const;
+
+    /** Call action(material) for the materials of a cell of this rank, some of
+     * them several times. */
+    template <typename Action>
+    void
+    for_each_material(const unsigned int cell, const Action &action) const
+    {
+      for (int b = first_block[cell]; b >= 0; b = headers[b].next)
+        action(headers[b].material);
+    }
+
+    /** Return room for the points that leave their cells in one step. */
     Kernels::LeavingPoints &
     leaving();
 
@@ -74,9 +90,9 @@ namespace CaissonMPM
     relocate();
 
     /**
-     * What the cells of this rank cost in a step, by their global number; 0 for
-     * all others. A block costs as much as the work at two cells without
-     * points. [n_global_cells]
+     * Return what the cells of this rank cost in a step, by their global
+     * number; 0 for all others. A block costs as much as the work at two cells
+     * without points. [n_global_cells]
      */
     std::vector<unsigned int>
     cell_costs() const;
@@ -94,15 +110,17 @@ namespace CaissonMPM
     void
     register_totals(RunTotals &totals);
 
-    /** The size that points are to have in a cell, in r and z. Units: m. */
+    /** Gives the size that points are to have in a cell, in r and z. Units:
+     * m. */
     using WantedSize =
       std::function<std::array<double, 2>(const unsigned int cell)>;
 
     /**
-     * Split the points that are more than 1.5 times as large as wanted in their
-     * cell, and merge those below 0.6 with a neighbor. Both keep mass,
-     * momentum, volume, the integral of stress over it, and the center of mass.
-     * Halves and pairs keep the number of the (first) point. Collective.
+     * Split the points that are more than 1.05 times as large as wanted in
+     * their cell, and merge those below 0.45 times that size with a neighbor.
+     * Both keep mass, momentum, volume, the integral of stress over it, and the
+     * center of mass. Halves keep the number of the point, and a pair takes the
+     * smaller one. Collective.
      */
     void
     adapt(const WantedSize &wanted);
@@ -136,6 +154,9 @@ namespace CaissonMPM
     }
 
   private:
+    // blocks of neighboring cells drift apart in memory slowly
+    static constexpr unsigned int steps_between_orderings = 200;
+
     // with a cell in or near which it lies
     using PlacedPoint = std::pair<unsigned int, MaterialPoint>;
 
@@ -153,6 +174,9 @@ namespace CaissonMPM
     std::vector<PlacedPoint>
     take_out(const Kernels::LeavingPoint *places, const unsigned int n);
 
+    /** Add a point, while the points may be settled. */
+    void
+    insert(const unsigned int cell, const MaterialPoint &point);
     MaterialPoint
     get(const int block, const int lane) const;
     void
@@ -190,6 +214,8 @@ namespace CaissonMPM
     [[noreturn]] void
     report_lost(const MaterialPoint &point) const;
     void
+    assert_settled() const;
+    void
     collect_active_cells();
     void
     reserve(const unsigned long n_blocks);
@@ -202,13 +228,17 @@ namespace CaissonMPM
     std::vector<Kernels::PointHistory> histories; // of the blocks
     std::vector<Kernels::BlockHeader>  headers;
     std::vector<int>                   free_blocks;
-    // by cell, -1: none; of a ghost cell 0 where its owner has points in it
-    std::vector<int>                   first_block;
-    std::vector<unsigned int>          active_cells;
-    std::vector<double>                filled_volume; // of the cells
-    std::vector<unsigned char>         changed;       // the cells
+    // [n_cells], -1: none. For a ghost cell it is only a flag and leads to no
+    // block: 0 = its owner has points there, -1 = none
+    std::vector<int>          first_block;
+    std::vector<unsigned int> active_cells;
+    std::vector<double>       filled_volume; // [n_cells]
+    // [n_cells], whether points came or went: whatever adds or removes a point
+    // sets it, and the kernels then sum the moments of the cell anew
+    std::vector<unsigned char>         changed;
     unsigned int                       n_relocations        = 0;
     bool                               active_cells_changed = true;
+    bool                               is_settled           = false;
     std::vector<Kernels::LeavingPoint> leaving_storage;
     Kernels::LeavingPoints             leaving_view = {};
     unsigned int                       n_points_    = 0;

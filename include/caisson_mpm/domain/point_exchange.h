@@ -24,8 +24,8 @@ namespace CaissonMPM
 
   /**
    * The messages between ranks whose cells touch. In each step every rank sends
-   * one message of either kind to each of its neighbors, also an empty one, so
-   * that nobody need ask how many there are. Collective among neighbors.
+   * one message of either kind to each of its neighbors, even an empty one, so
+   * that no rank has to ask how many there are. Collective among neighbors.
    */
   class PointExchange
   {
@@ -34,15 +34,15 @@ namespace CaissonMPM
     void
     set_up(const BackgroundGrid &grid);
 
-    /** Send each neighbor its points. Returns those for this rank. */
+    /** Send each neighbor its points, and return those for this rank. */
     std::vector<TravelingPoint>
     exchange(
       const std::map<unsigned int, std::vector<TravelingPoint>> &abroad) const;
 
     /**
-     * Tell the neighbors which cells at the border have points, those whose
-     * @p first_block [n_cells] is not negative, and set it to 0 or -1 for the
-     * ghost cells of this rank.
+     * Tell the neighbors which cells at the border have points: those whose
+     * @p first_block [n_cells] is not negative. For a ghost cell of this rank
+     * it becomes only a flag: 0 = its owner has points there, -1 = none.
      */
     void
     update_occupied(std::vector<int> &first_block);
@@ -61,7 +61,7 @@ namespace CaissonMPM
     std::vector<Neighbor> neighbors;
   };
 
-  /** Send points to the owners of their cells, wherever these are. Returns
+  /** Send points to the owners of their cells, wherever these are, and return
    * those for this rank. Collective. */
   std::vector<TravelingPoint>
   send_to_owners(const BackgroundGrid              &grid,

@@ -46,7 +46,7 @@ namespace CaissonMPM
      */
     double
     choose(const BackgroundGrid           &grid,
-           MaterialPoints                 &points,
+           const MaterialPoints           &points,
            const Soil                     &soil,
            std::vector<Kernels::Material> &materials);
 
@@ -82,7 +82,7 @@ namespace CaissonMPM
                 std::vector<Kernels::Material> &materials);
     void
     find_limit(const BackgroundGrid                 &grid,
-               MaterialPoints                       &points,
+               const MaterialPoints                 &points,
                const Soil                           &soil,
                const std::vector<Kernels::Material> &materials);
 
