@@ -275,7 +275,7 @@ check_point_file(const Scene &s)
               written.first && read("points.h5", 10) == written ? "yes" : "no");
   const std::string text = read_text(path("points.h5"));
   std::printf("columns are named: %s\n",
-              text.find("cell id material position_0 position_1 velocity_0") !=
+              text.find("cell material position_r position_z velocity_r") !=
                   std::string::npos ?
                 "yes" :
                 "no");

@@ -9,6 +9,37 @@
 
 #include "scene.h"
 
+double
+volume_of(const BackgroundGrid &grid, const bool rigid_only)
+{
+  double volume = 0.;
+  for (unsigned int c = 0; c < grid.n_cells(); ++c)
+    if (grid.is_rigid(c) || !rigid_only)
+      {
+        const auto  &g = grid.geometry(c);
+        const double r = g.left + .5 * g.width;
+        volume += 2. * pi * g.width *
+                  (r * .5 * (g.height_left + g.height_right) +
+                   g.width * (g.height_right - g.height_left) / 12.);
+      }
+  return volume;
+}
+
+/** The volumes of a caisson and of its mesh, at the start. */
+void
+check_volumes(const Scene &s)
+{
+  const double h = s.body.shape().tip_height();
+  verdict("rigid cells: volume error",
+          std::abs(volume_of(s.grid, true) /
+                     (pi * (9. - 2.8 * 2.8) * (3. - .5 * h)) -
+                   1.),
+          1e-12);
+  verdict("all cells: volume error",
+          std::abs(volume_of(s.grid, false) / (pi * 64. * 11.) - 1.),
+          1e-12);
+}
+
 void
 check_mesh(const std::string &upper, const bool fixed_top)
 {
@@ -18,25 +49,7 @@ check_mesh(const std::string &upper, const bool fixed_top)
   std::vector<double> z0;
   for (unsigned int n = 0; n < s.grid.n_nodes(); ++n)
     z0.push_back(s.grid.z_of(n));
-  double rigid = 0., total = 0.;
-  for (unsigned int c = 0; c < s.grid.n_cells(); ++c)
-    {
-      const auto  &g = s.grid.geometry(c);
-      const double r = g.left + .5 * g.width,
-                   V = 2. * pi * g.width *
-                       (r * .5 * (g.height_left + g.height_right) +
-                        g.width * (g.height_right - g.height_left) / 12.);
-      total += V;
-      if (s.grid.is_rigid(c))
-        rigid += V;
-    }
-  const double h = s.body.shape().tip_height();
-  verdict("rigid cells: volume error",
-          std::abs(rigid / (pi * (9. - 2.8 * 2.8) * (3. - .5 * h)) - 1.),
-          1e-12);
-  verdict("all cells: volume error",
-          std::abs(total / (pi * 64. * 11.) - 1.),
-          1e-12);
+  check_volumes(s);
 
   s.grid.prepare_motion(d);
   s.grid.advance();
@@ -73,22 +86,6 @@ check_mesh(const std::string &upper, const bool fixed_top)
   verdict("motion error", motion, 1e-12);
   verdict("vertices of deal.II: error", vertices, 1e-12);
   std::printf("all cells have height: %s\n", smallest > 0. ? "yes" : "no");
-}
-
-double
-volume_of(const BackgroundGrid &grid, const bool rigid_only)
-{
-  double volume = 0.;
-  for (unsigned int c = 0; c < grid.n_cells(); ++c)
-    if (grid.is_rigid(c) || !rigid_only)
-      {
-        const auto  &g = grid.geometry(c);
-        const double r = g.left + .5 * g.width;
-        volume += 2. * pi * g.width *
-                  (r * .5 * (g.height_left + g.height_right) +
-                   g.width * (g.height_right - g.height_left) / 12.);
-      }
-  return volume;
 }
 
 /** The smallest height of a cell over that of its row. */

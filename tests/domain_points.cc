@@ -174,7 +174,14 @@ check_split_and_merge()
     for (unsigned int d = 0; d < 2; ++d)
       too_large += p.size[d] > .6 * largest[d];
   });
-  std::printf("points split: %s\n", s.points.n_split > n / 10 ? "many" : "few");
+  RunTotals totals;
+  s.points.register_totals(totals);
+  const auto counts = totals.counts();
+  const auto n_split =
+    std::find_if(counts.begin(), counts.end(), [](const auto &count) {
+      return count.first == "points_split";
+    })->second;
+  std::printf("points split: %s\n", n_split > n / 10 ? "many" : "few");
   verdict("halves of the largest points left whole", too_large, 0.);
   verdict("halves outside their cell", outside, 0.);
   verdict("splitting changes mass, moments, momentum, volume, stress by",

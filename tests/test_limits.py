@@ -27,8 +27,7 @@ TOO_MANY_POINTS: tuple[tuple[list[str], Entries], ...] = (
         ["Per direction far = 16", "Split and merge"],
         {
             "Material points/Per direction far": 16,
-            "Grid/Cell width": 0.1,
-            "Grid/Cell height": 0.05,
+            "Grid/Refinement": 8,
         },
     ),
 )
