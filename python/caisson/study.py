@@ -174,10 +174,10 @@ class Reader:
 
     def is_asked_for(self, table: dict[str, Any]) -> bool:
         """Return whether the study fits the options."""
-        text = f"{table.get('id', '')} {table.get('title', '')}"
         if self.options.quick and not table.get("quick", False):
             return False
-        return re.search(self.options.only, text) is not None
+        texts = (table.get("id", ""), table.get("title", ""))
+        return any(re.search(self.options.only, text) for text in texts)
 
     def refuse_unknown(self, table: dict[str, Any], known: set[str], of: str) -> None:
         """Raise StudyError for a key that is not known."""

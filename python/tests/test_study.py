@@ -89,7 +89,7 @@ quick = {seconds = 1, mine = "fast"}
         (study,) = self.read(text, quick=True)
         self.assertEqual((study.id, study.runs[0].seconds), ("quick", 1))
         self.assertEqual(study.keys["mine"], "fast")
-        self.assertEqual([s.id for s in self.read(text, only="^slo")], ["slow"])
+        self.assertEqual([s.id for s in self.read(text, only="^slow$")], ["slow"])
 
     def test_unknown_keys_are_refused(self) -> None:
         with self.assertRaisesRegex(StudyError, "no key secnds; known: .*seconds"):
