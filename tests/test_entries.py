@@ -32,9 +32,7 @@ class Unused(ProgramTest):
         )
 
     def test_entry_of_another_kind(self) -> None:
-        self.warning(
-            ["Apex angle", "Kind is caisson"], {"Rigid body/Apex angle": 70}
-        )
+        self.warning(["Apex angle", "Kind is caisson"], {"Rigid body/Apex angle": 70})
 
     def test_entries_that_another_one_replaces(self) -> None:
         self.warning(["Tip is flat"], {f"{BODY}/Tip": "flat", f"{BODY}/Tip angle": 30})
