@@ -203,9 +203,7 @@ def shown_values(
 
 def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
     """Draw the vertical effective stress at each frame."""
-    fields = [
-        frame.means.of(-frame.soil["stress_zz"] / 1e3) for frame in frames
-    ]
+    fields = [frame.means.of(-frame.soil["stress_zz"] / 1e3) for frame in frames]
     highest = np.percentile(shown_values(frames, fields, window), 99)
     style = {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
     return draw_frames(
