@@ -39,8 +39,8 @@ namespace CaissonMPM
 
     /**
      * Create all points, with the soil's initial stress. Those that @p points
-     * has are forgotten. Throws BadInput where there would be none, or too many.
-     * Collective.
+     * has are forgotten. Throws BadInput where there would be none, or too
+     * many. Collective.
      */
     void
     generate(const BackgroundGrid &grid,
