@@ -99,6 +99,14 @@ class Pictures(Directory):
             self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
             self.assertGreater(picture.stat().st_size, 10_000)
 
+    def test_frames_of_another_version(self) -> None:
+        path = Path(shutil.copytree(TINY, self.path / "run"))
+        for file in path.glob("points_*.vtu"):
+            text = file.read_text(encoding="utf-8")
+            file.write_text(text.replace('"stress_zz"', '"other"'), encoding="utf-8")
+        with self.assertRaisesRegex(ResultsError, "no field stress_zz"):
+            plot.draw(path)
+
     def test_history_alone(self) -> None:
         shutil.copy(TINY / "history.csv", self.path)
         with contextlib.redirect_stdout(io.StringIO()) as words:

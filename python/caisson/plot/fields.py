@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from caisson.plot.cells import CellMeans
 from caisson.plot.forces import penetration
 from caisson.plot.vtu import read_cells, read_points
-from caisson.results import Results, Table
+from caisson.results import Results, ResultsError, Table
 
 Series = list[tuple[float, list[Path]]]  # [(time, [files])]
 Window = tuple[float, float, float]  # radius, bottom, top (m)
@@ -21,6 +21,7 @@ Style = dict[str, Any]
 
 MOST_FRAMES = 4  # of a picture
 RIGID = "#8c8c8c"
+NEEDED = {"whole_volume", "stress_zz", "displacement"}  # of the fields of a point
 
 
 class Frame:
@@ -29,8 +30,15 @@ class Frame:
     def __init__(
         self, time: float, files: Sequence[Path], grids: Series, history: Table
     ) -> None:
-        """files: of the points; grids: the series of the background grid."""
+        """files: of the points; grids: the series of the background grid. Raises
+        ResultsError where a field is missing."""
         points = read_points(files)
+        missing = NEEDED - points.keys()
+        if missing:
+            raise ResultsError(
+                f"{files[0]} has no field {', '.join(sorted(missing))}: it is of another"
+                " version of the program"
+            )
         material = points.get("material", np.zeros(len(points["position"])))
         self.soil = {name: values[material >= 0] for name, values in points.items()}
         nearest = min(grids, key=lambda entry: abs(entry[0] - time))
