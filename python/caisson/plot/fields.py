@@ -36,8 +36,8 @@ class Frame:
         missing = NEEDED - points.keys()
         if missing:
             raise ResultsError(
-                f"{files[0]} has no field {', '.join(sorted(missing))}: it is of another"
-                " version of the program"
+                f"{files[0]} has no field {', '.join(sorted(missing))}: it is of"
+                " another version of the program"
             )
         material = points.get("material", np.zeros(len(points["position"])))
         self.soil = {name: values[material >= 0] for name, values in points.items()}
