@@ -9,6 +9,7 @@
 //
 //   mpirun -n RANKS particle_handler prm/jack.prm [TRAVEL]
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/bodies/rigid_body.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_fields.h>
 #include <caisson_mpm/domain/point_generator.h>
