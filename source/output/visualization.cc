@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/compat.h>
 #include <caisson_mpm/base/conventions.h>
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/output/point_quantities.h>
 #include <caisson_mpm/output/visualization.h>
@@ -220,7 +221,7 @@ namespace CaissonMPM
       const unsigned int n =
         n_pieces * Utilities::MPI::n_mpi_processes(communicator);
       const auto file = [&](const unsigned int i) {
-        return name + (n > 1 ? "." + std::to_string(i) : "") + ".vtu";
+        return name + (n > 1 ? "." + to_text(i) : "") + ".vtu";
       };
       int error = 0;
       for (unsigned int i = 0; i < n_pieces; ++i)
