@@ -18,7 +18,7 @@ FLOORS = [
         "the run: set-up, step, end",
         "Simulation, Schedule, Recorder",
     ),
-    ("restart", "#cfd8dc", "checkpoints", "Checkpoint, PointFile"),
+    ("restart", "#cfd8dc", "checkpoints", "write_checkpoint, PointFile"),
     ("checks", "#cfd8dc", "comparisons with exact values", "Verification"),
     (
         "output",
@@ -55,7 +55,7 @@ FLOORS = [
         "base",
         "#e8e8e4",
         "what the user wrote, terminal, errors, totals",
-        "ParameterFile, Expression, Console, RunTotals",
+        "read_parameters, Expression, Console, RunTotals",
     ),
 ]
 COLORS = {name: color for name, color, *_ in FLOORS}
