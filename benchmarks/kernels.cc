@@ -164,41 +164,29 @@ namespace
     std::vector<NodalSums>    sums(s.n_nodes, NodalSums());
     std::vector<CellMoments>  moments(s.active.size());
     std::vector<NodalVector>  rest(s.n_nodes), v(s.n_nodes), out(s.n_nodes);
-    std::vector<LeavingPoint> leaving_points(s.n_points);
-    LeavingPoints leaving = {leaving_points.data(), s.n_points, 0, 0, 0.};
+    std::vector<LeavingPoint> leaving(s.n_points);
+    UpdateResult              result = {leaving.data(), s.n_points, 0, 0, 0.};
     for (unsigned int c = 0; c < s.active.size(); ++c)
       for (int k = 0; k < 4; ++k)
         {
           const double z = s.geometry[c].bottom_left + (k / 2) * cell_size;
           v[s.nodes[c].node[k]] = {{shear_rate * z, 0.}};
         }
-    const IntegrationSettings integration = {.9, .5, true, false, 0.};
-    const UpdateSettings      settings    = {1e-6, .9, true, 0., .01, 0.};
+    const StepContext step = {
+      s.view(), s.grid(), &s.material, {.9, .5, true, false}, moments.data()};
     // the points stay where they are, and their stresses change
-    const NodalFields fields = {rest.data(), rest.data(), v.data()};
+    const PointUpdate update = {s.grid(),
+                                {1e-6, .9, true, 0., .01},
+                                {rest.data(), rest.data(), v.data()}};
 
     const double to_grid   = best_time(repetitions, [&]() {
-      kernels->points_to_grid(s.view(),
-                              s.grid(),
-                              &s.material,
-                              integration,
-                              sums.data(),
-                              moments.data());
+      kernels->points_to_grid(step, sums.data());
     });
     const double mass      = best_time(repetitions, [&]() {
-      kernels->apply_mass(
-        s.view(), s.grid(), moments.data(), v.data(), out.data());
+      kernels->apply_mass(step, v.data(), out.data());
     });
     const double to_points = best_time(repetitions, [&]() {
-      kernels->grid_to_points(s.view(),
-                              s.grid(),
-                              s.grid(),
-                              &s.material,
-                              settings,
-                              integration,
-                              fields,
-                              moments.data(),
-                              leaving);
+      kernels->grid_to_points(step, update, result);
     });
     const auto   print     = [&](const char *kernel, const double seconds) {
       std::printf("%s,%u,%u,%g,%s,%.2f\n",

@@ -263,9 +263,9 @@ namespace
   void
   list_leaving(Scene &scene)
   {
-    auto &leaving = scene.points.leaving();
-    auto  view    = scene.points.view();
-    leaving.n     = 0;
+    auto &result     = scene.points.update_result();
+    auto  view       = scene.points.view();
+    result.n_leaving = 0;
     for (unsigned int i = 0; i < view.n_active_cells; ++i)
       {
         const unsigned int cell = view.active_cells[i];
@@ -277,7 +277,7 @@ namespace
                                           Point<2>(view.blocks[b].r[lane],
                                                    view.blocks[b].z[lane]));
               if (x[0] < 0. || x[0] > 1. || x[1] < 0. || x[1] > 1.)
-                leaving.points[leaving.n++] = {cell, b, lane};
+                result.leaving[result.n_leaving++] = {cell, b, lane};
             }
       }
   }
@@ -324,8 +324,9 @@ namespace
     if (scene.grid.n_ranks() == 1)
       return;
     handler.exchange_ghost_particles(true);
-    const double tell = seconds([&]() { scene.points.leaving().n = 0; },
-                                [&]() { scene.points.relocate(); });
+    const double tell =
+      seconds([&]() { scene.points.update_result().n_leaving = 0; },
+              [&]() { scene.points.relocate(); });
     print("tell neighbors of a step",
           tell,
           seconds([]() {}, [&]() { handler.update_ghost_particles(); }));

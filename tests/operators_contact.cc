@@ -75,11 +75,11 @@ try_node(const std::string &parameters,
   const unsigned int                n = node_at(s.grid, r, z);
   std::vector<double>               mass(s.grid.n_nodes(), 0.);
   std::vector<Kernels::NodalVector> v(s.grid.n_nodes(), {{0., 0.}}), other = v;
-  mass[n]           = m;
-  v[n].value[0]     = vr;
-  v[n].value[1]     = vz;
-  other[n]          = {{.25 + V[0], -.5 + V[1]}};
-  const double work = contact.apply(V, dt, mass, v.data());
+  mass[n]                    = m;
+  v[n].value[0]              = vr;
+  v[n].value[1]              = vz;
+  other[n]                   = {{.25 + V[0], -.5 + V[1]}};
+  const ContactResult result = contact.apply(V, dt, mass, v.data());
   contact.constrain(V, other.data());
   std::printf("%s: v %.6f %.6f, held %.4f %.4f, touching %d sticking %d, "
               "work %.4f",
@@ -88,16 +88,16 @@ try_node(const std::string &parameters,
               v[n].value[1] + 0.,
               other[n].value[0] + 0.,
               other[n].value[1] + 0.,
-              contact.n_touching,
-              contact.n_sticking,
-              work + 0.);
+              result.n_touching,
+              result.n_sticking,
+              result.work + 0.);
   const char *names[] = {"tip", "inner", "outer", "top", "lid"};
   for (unsigned int i = 0; i < n_surfaces; ++i)
-    if (contact.impulse()[i].norm() > 0.)
+    if (result.impulse[i].norm() > 0.)
       std::printf(", %s %.6f %.6f",
                   names[i],
-                  contact.impulse()[i][0],
-                  contact.impulse()[i][1]);
+                  result.impulse[i][0],
+                  result.impulse[i][1]);
   std::printf("\n");
 }
 

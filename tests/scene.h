@@ -16,8 +16,9 @@
 #include <caisson_mpm/operators/contact.h>
 
 #include <cmath>
-#include <cstdio>
 #include <string>
+
+#include "verdict.h"
 
 using namespace CaissonMPM;
 
@@ -78,16 +79,5 @@ inline const std::string caisson = R"(
     set Moving zone below tip = 2
   end
   )";
-
-inline void
-verdict(const char *what, const double error, const double tolerance)
-{
-  std::printf("%s <= %g: %s\n",
-              what,
-              tolerance,
-              error <= tolerance ? "yes" : "no");
-  if (!(error <= tolerance))
-    std::printf("  found %.3e\n", error);
-}
 
 #endif

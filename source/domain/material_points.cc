@@ -303,14 +303,14 @@ namespace CaissonMPM
 
   // ------------------------------------------------------------ relocation
 
-  LeavingPoints &
-  MaterialPoints::leaving()
+  UpdateResult &
+  MaterialPoints::update_result()
   {
     if (leaving_storage.size() < n_points_)
       leaving_storage.resize(n_points_);
-    leaving_view.points   = leaving_storage.data();
-    leaving_view.capacity = leaving_storage.size();
-    return leaving_view;
+    update_result_.leaving  = leaving_storage.data();
+    update_result_.capacity = leaving_storage.size();
+    return update_result_;
   }
 
   void
@@ -320,7 +320,9 @@ namespace CaissonMPM
     Assert(leaving_view.n <= leaving_view.capacity,
            ExcMessage("more points are listed than there is room for"));
     // the kernel lists points in the order of their blocks
-    auto moving = take_out(leaving_view.points, leaving_view.n);
+    AssertThrow(update_result_.n_leaving <= update_result_.capacity,
+                ExcInternalError());
+    auto moving = take_out(update_result_.leaving, update_result_.n_leaving);
     bring_to_cells(moving);
     if (++n_relocations % steps_between_orderings == 0)
       put_blocks_in_order();

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Compiled once per instruction set, with CAISSON_KERNEL_ISA naming it.
+#include <caisson_mpm/kernels/apply_mass.h>
 #include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/kernels/grid_to_points.h>
 #include <caisson_mpm/kernels/points_to_grid.h>
+#include <caisson_mpm/kernels/pressure_force.h>
 
 #define CAISSON_CONCATENATE(a, b) a##b
 #define CAISSON_TABLE(isa) CAISSON_CONCATENATE(kernels_, isa)
@@ -20,6 +22,7 @@ namespace CaissonMPM
       static constexpr KernelTable table = {CAISSON_QUOTE(CAISSON_KERNEL_ISA),
                                             NativeLanes::width,
                                             &points_to_grid<NativeLanes>,
+                                            &pressure_force<NativeLanes>,
                                             &apply_mass,
                                             &grid_to_points<NativeLanes>};
       return table;

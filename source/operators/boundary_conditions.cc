@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
-
-#include <deal.II/base/patterns.h>
 
 namespace CaissonMPM
 {
@@ -11,38 +10,48 @@ namespace CaissonMPM
   BoundaryConditions::BoundaryConditions()
     : ParameterAcceptor("/Boundary conditions")
   {
-    const Patterns::Selection kinds("roller|fixed|free");
-    const std::string         text =
-      " roller: no normal velocity; fixed: no velocity; free. Units: none.";
-    add_parameter("Axis",
-                  axis,
-                  "On the side of the smallest r, the axis if that is 0." +
-                    text,
-                  prm,
-                  kinds);
-    add_parameter(
-      "Side", outer, "On the side of the largest r." + text, prm, kinds);
-    add_parameter("Bottom", bottom, "On the lower side." + text, prm, kinds);
-    add_parameter("Top", top, "On the upper side." + text, prm, kinds);
+    const Choices<SideCondition> kinds = {{"roller", SideCondition::roller},
+                                          {"fixed", SideCondition::fixed},
+                                          {"free", SideCondition::free}};
+    const std::string            text =
+      ": roller sets its normal velocity to zero, fixed sets both components "
+      "to zero, and free does nothing. Units: none.";
+    add_choice(*this,
+               "Axis",
+               sides[0],
+               kinds,
+               "Condition on the side of the smallest r, which is the axis if "
+               "that r is 0" +
+                 text);
+    add_choice(*this,
+               "Side",
+               sides[1],
+               kinds,
+               "Condition on the side of the largest r" + text);
+    add_choice(
+      *this, "Bottom", sides[2], kinds, "Condition on the lower side" + text);
+    add_choice(
+      *this, "Top", sides[3], kinds, "Condition on the upper side" + text);
     add_parameter(
       "Prescribed region",
       region_text,
-      "Nodes whose velocity is prescribed: an expression in the "
-      "current place r and z of a node, the time t and pi, positive "
-      "at these nodes. Empty: none. Units: none.");
+      "The velocity is prescribed at nodes where this expression in the "
+      "current place r and z of a node, the time t and pi is positive; if it "
+      "is empty, no velocity is prescribed. Units: none.");
     add_parameter(
       "Prescribed velocity",
       velocity_text,
-      "Velocity of these nodes: two expressions as above, for its r "
-      "and z components, with a semicolon between them; a component "
-      "that reads free is not prescribed. It takes precedence over "
-      "the sides and the contact. Units: m/s.");
+      "Velocity of the nodes in the prescribed region: two expressions in the "
+      "same variables for its r and z components, with a semicolon between "
+      "them; a component that reads free is not prescribed. It takes "
+      "precedence over the sides and the contact. Units: m/s.");
   }
 
   void
   BoundaryConditions::check_parameters(const GridLines &lines) const
   {
-    if (lines.axisymmetric() && axis == "free" && lines.reaches_axis())
+    if (lines.axisymmetric() && sides[0] == SideCondition::free &&
+        lines.reaches_axis())
       throw BadInput("Boundary conditions/Axis = free: on the axis of an "
                      "axisymmetric mesh nothing can move radially. Set Axis = "
                      "roller, or Grid/Inner radius above 0.");
@@ -71,11 +80,10 @@ namespace CaissonMPM
   void
   BoundaryConditions::initialize(const BackgroundGrid &grid)
   {
-    const std::string kinds[4] = {axis, outer, bottom, top};
-    region                     = parse_region();
-    velocity                   = parse_velocity();
-    circumference              = grid.circumference();
-    n_owned_nodes              = grid.n_owned_nodes();
+    region        = parse_region();
+    velocity      = parse_velocity();
+    circumference = grid.circumference();
+    n_owned_nodes = grid.n_owned_nodes();
     prescribed.clear();
     fixed[0].clear();
     fixed[1].clear();
@@ -85,8 +93,9 @@ namespace CaissonMPM
         for (unsigned int side = 0; side < 4; ++side)
           if (grid.is_at(node, BackgroundGrid::Side(side)))
             for (unsigned int d = 0; d < 2; ++d)
-              is_fixed[d] = is_fixed[d] || kinds[side] == "fixed" ||
-                            (kinds[side] == "roller" && d == side / 2);
+              is_fixed[d] =
+                is_fixed[d] || sides[side] == SideCondition::fixed ||
+                (sides[side] == SideCondition::roller && d == side / 2);
         for (unsigned int d = 0; d < 2; ++d)
           if (is_fixed[d])
             fixed[d].push_back(node);
@@ -112,22 +121,22 @@ namespace CaissonMPM
       }
   }
 
-  double
-  BoundaryConditions::apply(const std::vector<double> &mass,
+  PrescribedResult
+  BoundaryConditions::apply(const std::vector<double> &inertia,
                             Kernels::NodalVector      *v)
   {
-    double work = 0.;
+    PrescribedResult result;
     for (const Prescribed &p : prescribed)
       {
         if (p.node >= n_owned_nodes)
           continue;
-        const double impulse = circumference * mass[p.node] *
+        const double impulse = circumference * inertia[p.node] *
                                (p.velocity - v[p.node].value[p.component]);
-        impulse_[p.component] += impulse;
-        work += impulse * p.velocity;
+        result.impulse[p.component] += impulse;
+        result.work += impulse * p.velocity;
       }
     constrain(v);
-    return work;
+    return result;
   }
 
   void

@@ -68,54 +68,84 @@ namespace CaissonMPM
     circumference  = grid.circumference();
     n_owned_nodes  = grid.n_owned_nodes();
     on_body.assign(grid.n_nodes(), false);
+    collect_surface_nodes(grid, body);
+    collect_inner_nodes(grid);
+    results.assign(nodes.size(), NodeResult());
+  }
+
+  namespace
+  {
+    /** Call action(face) for all faces between the body and soil cells. */
+    template <typename Action>
+    void
+    for_each_face(const BackgroundGrid &grid, const Action &action)
+    {
+      for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+        for (unsigned int f = 0; grid.is_rigid(cell) && f < 4; ++f)
+          {
+            const int neighbor = grid.neighbor(cell, f);
+            if (neighbor >= 0 && !grid.is_rigid(neighbor))
+              action(make_face(grid, cell, f));
+          }
+    }
+  } // namespace
+
+  void
+  Contact::collect_surface_nodes(const BackgroundGrid &grid,
+                                 const BodySurface    &body)
+  {
     std::map<unsigned int, Node> found;
-    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
-      for (unsigned int f = 0; grid.is_rigid(cell) && f < 4; ++f)
+    for_each_face(grid, [&](const Face &face) {
+      for (unsigned int i = 0; i < 2; ++i)
         {
-          const int neighbor = grid.neighbor(cell, f);
-          if (neighbor < 0 || grid.is_rigid(neighbor))
-            continue;
-          const Face face = make_face(grid, cell, f);
-          for (unsigned int i = 0; i < 2; ++i)
-            {
-              const bool is_new = found.count(face.nodes[i]) == 0;
-              Node      &node   = found[face.nodes[i]];
-              if (is_new)
-                node = {
-                  face.nodes[i], face.surface, 0, {}, Vector2(), false, 0., 0.};
-              node.surface = dominant(node.surface, face.surface);
-              if (node.n_normals == 0 ||
-                  (node.n_normals == 1 &&
-                   node.normal[0] * face.normal < 1. - 1e-9))
-                node.normal[node.n_normals++] = face.normal;
-              node.adhesion += body.adhesion[face.surface] * face.areas[i];
-            }
+          const bool is_new = found.count(face.nodes[i]) == 0;
+          Node      &node   = found[face.nodes[i]];
+          if (is_new)
+            node = {
+              face.nodes[i], face.surface, 0, {}, Vector2(), false, 0., 0.};
+          node.surface = dominant(node.surface, face.surface);
+          if (node.n_normals == 0 ||
+              (node.n_normals == 1 && node.normal[0] * face.normal < 1. - 1e-9))
+            node.normal[node.n_normals++] = face.normal;
+          node.adhesion += body.adhesion[face.surface] * face.areas[i];
         }
-    nodes.clear();
-    inner_nodes.clear();
+    });
     std::vector<unsigned int> n_rigid(grid.n_nodes(), 0);
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       for (const unsigned int node : grid.cell_nodes(cell).node)
         n_rigid[node] += grid.is_rigid(cell);
+    nodes.clear();
     for (auto &entry : found)
       {
         Node &node    = entry.second;
         node.concave  = n_rigid[node.node] == 3;
         node.friction = body.friction_coefficient(node.surface);
-        // by symmetry: the point of a cone
-        if (grid.lines().reaches_axis() &&
-            grid.is_at(node.node, BackgroundGrid::Side::axis))
-          for (unsigned int i = 0; i < node.n_normals; ++i)
-            {
-              node.normal[i][radial] = 0.;
-              node.normal[i] /= node.normal[i].norm();
-            }
-        for (unsigned int i = 0; i < node.n_normals; ++i)
-          node.mean_normal += node.normal[i];
-        node.mean_normal /= node.mean_normal.norm();
+        find_normals(grid, node);
         nodes.push_back(node);
         on_body[entry.first] = true;
       }
+  }
+
+  void
+  Contact::find_normals(const BackgroundGrid &grid, Node &node) const
+  {
+    // by symmetry: the point of a cone
+    if (grid.lines().reaches_axis() &&
+        grid.is_at(node.node, BackgroundGrid::Side::axis))
+      for (unsigned int i = 0; i < node.n_normals; ++i)
+        {
+          node.normal[i][radial] = 0.;
+          node.normal[i] /= node.normal[i].norm();
+        }
+    for (unsigned int i = 0; i < node.n_normals; ++i)
+      node.mean_normal += node.normal[i];
+    node.mean_normal /= node.mean_normal.norm();
+  }
+
+  void
+  Contact::collect_inner_nodes(const BackgroundGrid &grid)
+  {
+    inner_nodes.clear();
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       if (grid.is_rigid(cell))
         for (const unsigned int node : grid.cell_nodes(cell).node)
@@ -124,16 +154,14 @@ namespace CaissonMPM
               on_body[node] = true;
               inner_nodes.push_back(node);
             }
-    results.assign(nodes.size(), Result());
   }
 
-  Contact::Result
+  Contact::NodeResult
   Contact::find_contact(const Node &node, const Vector2 &w) const
   {
-    using Corner       = BodySurface::CornerNormals;
     const auto against = [&w](const Vector2 &normal) {
-      return w * normal < 0. ? Result{State::sliding, normal} :
-                               Result{State::apart, normal};
+      return w * normal < 0. ? NodeResult{State::sliding, normal} :
+                               NodeResult{State::apart, normal};
     };
     if (node.n_normals == 1)
       return against(node.normal[0]);
@@ -141,18 +169,28 @@ namespace CaissonMPM
     // At rest a tip bears on both faces of a corner, whatever it does in
     // motion.
     const bool at_rest = node.surface == tip && velocity.norm_square() == 0.;
-    if (!at_rest && !node.concave && corner_normals != Corner::both)
-      {
-        const bool first_is_wall  = std::abs(node.normal[0][1]) < 1e-9,
-                   second_is_wall = std::abs(node.normal[1][1]) < 1e-9;
-        if (corner_normals == Corner::average ||
-            first_is_wall == second_is_wall)
-          return against(node.mean_normal);
-        const bool take_first =
-          (corner_normals == Corner::wall) == first_is_wall;
-        return against(node.normal[take_first ? 0 : 1]);
-      }
-    // into neither face: slide on one if that leads away from the other
+    if (at_rest || node.concave ||
+        corner_normals == BodySurface::CornerNormals::both)
+      return find_contact_at_corner(node, w);
+    return against(corner_normal(node));
+  }
+
+  Vector2
+  Contact::corner_normal(const Node &node) const
+  {
+    using Corner              = BodySurface::CornerNormals;
+    const bool first_is_wall  = std::abs(node.normal[0][1]) < 1e-9,
+               second_is_wall = std::abs(node.normal[1][1]) < 1e-9;
+    if (corner_normals == Corner::average || first_is_wall == second_is_wall)
+      return node.mean_normal;
+    const bool take_first = (corner_normals == Corner::wall) == first_is_wall;
+    return node.normal[take_first ? 0 : 1];
+  }
+
+  Contact::NodeResult
+  Contact::find_contact_at_corner(const Node &node, const Vector2 &w) const
+  {
+    // Into neither face: slide on one if that leads away from the other.
     bool apart = true;
     for (unsigned int i = 0; i < 2; ++i)
       {
@@ -164,57 +202,64 @@ namespace CaissonMPM
         if ((w - speed * n) * other >= 0.)
           return {State::sliding, n};
       }
-    return apart ? Result() : Result{State::sticking, node.mean_normal};
+    return apart ? NodeResult() : NodeResult{State::sticking, node.mean_normal};
   }
 
-  double
+  Contact::NodeResult
+  Contact::apply_to_node(const Node  &node,
+                         const double dt,
+                         const double m,
+                         double      *u) const
+  {
+    Vector2 w;
+    for (unsigned int d = 0; d < 2; ++d)
+      w[d] = u[d] - velocity[d];
+    NodeResult result = find_contact(node, w);
+    if (result.state == State::apart)
+      return result;
+    const double  into    = std::min(0., w * result.normal);
+    const Vector2 tangent = w - into * result.normal;
+    const double  speed   = tangent.norm();
+    // the change of the tangential velocity that friction and adhesion bear
+    const double bearable = -node.friction * into + node.adhesion * dt / m;
+    if (speed <= bearable)
+      result.state = State::sticking;
+    Vector2 left; // of the relative velocity
+    if (result.state == State::sliding)
+      left = tangent * (1. - bearable / speed);
+    result.impulse = m * (w - left);
+    for (unsigned int d = 0; d < 2; ++d)
+      u[d] = velocity[d] + left[d];
+    return result;
+  }
+
+  ContactResult
   Contact::apply(const Vector2             &body_velocity,
                  const double               dt,
-                 const std::vector<double> &mass,
+                 const std::vector<double> &inertia,
                  Kernels::NodalVector      *v)
   {
-    velocity   = body_velocity;
-    n_touching = n_sticking = 0;
-    Vector2 total;
+    velocity = body_velocity;
+    ContactResult sums;
+    Vector2       total;
     for (unsigned int i = 0; i < nodes.size(); ++i)
       {
         const Node  &node = nodes[i];
-        const double m    = mass[node.node];
-        results[i]        = Result();
-        if (m <= 0.)
+        const double m    = inertia[node.node];
+        results[i] = m > 0. ? apply_to_node(node, dt, m, v[node.node].value) :
+                              NodeResult();
+        if (results[i].state == State::apart || node.node >= n_owned_nodes)
           continue;
-        double *const u = v[node.node].value;
-        Vector2       w;
-        for (unsigned int d = 0; d < 2; ++d)
-          w[d] = u[d] - velocity[d];
-        Result &result = results[i];
-        result         = find_contact(node, w);
-        if (result.state == State::apart)
-          continue;
-        const double  into    = std::min(0., w * result.normal);
-        const Vector2 tangent = w - into * result.normal;
-        const double  speed   = tangent.norm();
-        const double  limit   = -node.friction * into + node.adhesion * dt / m;
-        if (speed <= limit)
-          result.state = State::sticking;
-        Vector2 left; // of the relative velocity
-        if (result.state == State::sliding)
-          left = tangent * (1. - limit / speed);
-        result.impulse = m * (w - left);
-        if (node.node < n_owned_nodes)
-          {
-            ++n_touching;
-            n_sticking += result.state == State::sticking;
-            impulses[node.surface] += circumference * result.impulse;
-            total += circumference * result.impulse;
-          }
-        for (unsigned int d = 0; d < 2; ++d)
-          u[d] = velocity[d] + left[d];
+        ++sums.n_touching;
+        sums.n_sticking += results[i].state == State::sticking;
+        sums.impulse[node.surface] += circumference * results[i].impulse;
+        total += circumference * results[i].impulse;
       }
     for (const unsigned int node : inner_nodes)
       for (unsigned int d = 0; d < 2; ++d)
         v[node].value[d] = velocity[d];
-    return -(total * velocity);
+    sums.work = -(total * velocity);
+    return sums;
   }
 
   double
@@ -250,11 +295,5 @@ namespace CaissonMPM
     for (const unsigned int node : inner_nodes)
       for (unsigned int d = 0; d < 2; ++d)
         v[node].value[d] = body_velocity[d];
-  }
-
-  void
-  Contact::reset_impulse(const SurfaceForces &start)
-  {
-    impulses = start;
   }
 } // namespace CaissonMPM

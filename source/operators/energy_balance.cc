@@ -55,7 +55,7 @@ namespace CaissonMPM
     load_work += nodes.load;
     friction_heat += nodes.friction;
     damping += nodes.damping;
-    floor += nodes.floor;
+    floor += nodes.mass_floor;
     stress_work += stress;
   }
 

@@ -170,7 +170,7 @@ namespace CaissonMPM
                       {"material points",
                        n_points + ", and " + n_body_points + " of the body (" +
                          to_text(mass / 1000., 6) + " t)"},
-                      {"method", parts.nodal_motion.description()},
+                      {"method", parts.nodal_motion.settings().description()},
                       {"time step",
                        to_text(parts.clock.step_size, 6) + " s, mass scaling " +
                          to_text(parts.time_step.mass_scaling, 6)},
@@ -204,9 +204,11 @@ namespace CaissonMPM
     row.step        = parts.clock.step;
     row.time_step   = parts.clock.step_size;
     row.contact_nodes =
-      Utilities::MPI::sum(parts.contact.n_touching, communicator);
+      Utilities::MPI::sum(parts.nodal_motion.reactions().contact.n_touching,
+                          communicator);
     row.sticking_nodes =
-      Utilities::MPI::sum(parts.contact.n_sticking, communicator);
+      Utilities::MPI::sum(parts.nodal_motion.reactions().contact.n_sticking,
+                          communicator);
     row.counts = parts.totals.counts();
     add_forces(row);
     add_sums_over_points(row);
@@ -280,7 +282,7 @@ namespace CaissonMPM
     row.energy         = parts.energy;
     row.added_mass =
       parts.grid.circumference() *
-      Utilities::MPI::sum(parts.nodal_motion.added_mass, communicator);
+      Utilities::MPI::sum(parts.nodal_motion.added_inertia(), communicator);
   }
 
   std::vector<double>

@@ -39,7 +39,6 @@ namespace CaissonMPM
                 body,
                 time_step,
                 nodal_motion,
-                contact,
                 points,
                 body_points,
                 materials,
@@ -92,8 +91,8 @@ namespace CaissonMPM
     lines.check_parameters();
     generator.check_parameters();
     boundary_conditions.check_parameters(lines);
-    loads.check_parameters();
-    nodal_motion.check_parameters();
+    nodal_forces.check_parameters();
+    nodal_motion.settings().check_parameters();
     recorder.check_parameters();
     schedule.check_parameters();
     if (Kernels::select_kernels(instruction_set.c_str()) == nullptr)
@@ -111,7 +110,7 @@ namespace CaissonMPM
     body.motion().start();
     grid.create_mesh();
     set_up_part();
-    loads.initialize(time_step.mass_scaling);
+    nodal_forces.initialize(time_step.mass_scaling);
     materials = soil.kernel_materials(time_step.mass_scaling);
   }
 
@@ -259,7 +258,7 @@ namespace CaissonMPM
   {
     std::vector<std::string> result;
     for (const auto &limits : {soil.known_limits(),
-                               nodal_motion.known_limits(),
+                               nodal_motion.settings().known_limits(),
                                generator.known_limits(body.shape()),
                                time_step.known_limits()})
       result.insert(result.end(), limits.begin(), limits.end());
@@ -271,31 +270,25 @@ namespace CaissonMPM
   void
   Simulation::advance()
   {
-    const auto view = grid.view();
-    NodalWork  work;
+    NodalWork work;
     timed("choose step", [&]() { choose_step(); });
     timed("move body",
           [&]() { body.motion().advance(clock.step_size, force_on_body); });
     const double dt = clock.step_size;
     timed("points to grid", [&]() {
-      nodal_motion.collect(
-        *kernels, points, grid, materials, loads, clock.time);
+      nodal_motion.collect({*kernels, points, grid, materials},
+                           nodal_forces,
+                           clock.time);
     });
     timed("nodal motion", [&]() { nodal_motion.accelerate(dt, contact); });
-    timed("contact", [&]() {
-      boundary_conditions.prepare(grid, clock.time, dt);
-      nodal_motion.constrain(dt,
-                             body.mean_velocity(),
-                             boundary_conditions,
-                             contact);
-    });
+    timed("contact", [&]() { constrain_nodes(); });
     timed("transfer", [&]() {
-      nodal_motion.prepare_transfer(
-        *kernels, points.view(), view, boundary_conditions, contact);
-      work = nodal_motion.work_of_step(dt, boundary_conditions, contact);
+      const NodalConstraints constraints = {contact, boundary_conditions};
+      nodal_motion.prepare_transfer(constraints);
+      work = nodal_motion.work_of_step(dt, nodal_forces, constraints);
     });
     timed("move mesh", [&]() { grid.prepare_motion(body.motion().travel()); });
-    timed("grid to points", [&]() { update_points(view); });
+    timed("grid to points", [&]() { update_points(); });
     timed("relocate", [&]() {
       grid.advance();
       points.relocate();
@@ -326,19 +319,18 @@ namespace CaissonMPM
   void
   Simulation::add_step(const NodalWork &work)
   {
-    energy.add(work, grid.circumference() * points.leaving().stress_work);
-    recorder.add_step(contact.impulse(), boundary_conditions.impulse());
+    energy.add(work, grid.circumference() * points.update_result().stress_work);
+    const NodalReactions &reactions = nodal_motion.reactions();
+    const SurfaceForces  &on_body   = reactions.contact.impulse;
+    recorder.add_step(on_body, reactions.prescribed.impulse);
     if (body.motion().needs_force())
       {
-        const Vector2 impulse = std::accumulate(contact.impulse().begin(),
-                                                contact.impulse().end(),
-                                                Vector2());
+        const Vector2 impulse =
+          std::accumulate(on_body.begin(), on_body.end(), Vector2());
         force_on_body = Utilities::MPI::sum(impulse * body.shape().direction(),
                                             grid.communicator()) /
                         clock.step_size;
       }
-    contact.reset_impulse();
-    boundary_conditions.reset_impulse();
   }
 
   void
@@ -351,23 +343,21 @@ namespace CaissonMPM
   }
 
   void
-  Simulation::update_points(const Kernels::GridView &view)
+  Simulation::constrain_nodes()
   {
-    if (!nodal_motion.is_finite)
+    NodalConstraints constraints = {contact, boundary_conditions};
+    boundary_conditions.prepare(grid, clock.time, clock.step_size);
+    nodal_motion.constrain(clock.step_size, body.mean_velocity(), constraints);
+  }
+
+  void
+  Simulation::update_points()
+  {
+    if (!nodal_motion.is_finite())
       report_not_finite();
-    const double dt      = clock.step_size;
-    auto        &leaving = points.leaving();
-    kernels->grid_to_points(points.view(),
-                            view,
-                            grid.next(),
-                            materials.data(),
-                            nodal_motion.update_settings(dt),
-                            nodal_motion.integration_settings(
-                              loads.surrounding_pressure(clock.time + dt)),
-                            nodal_motion.fields(),
-                            nodal_motion.cell_moments(),
-                            leaving);
-    n_limited += leaving.n_limited;
+    auto &result = points.update_result();
+    nodal_motion.update_points(clock.step_size, grid.next(), result);
+    n_limited += result.n_limited;
   }
 
   void

@@ -76,14 +76,15 @@ namespace CaissonMPM
         action(headers[b].material);
     }
 
-    /** Return room for the points that leave their cells in one step. */
-    Kernels::LeavingPoints &
-    leaving();
+    /** Return what the update of the points returns in a step, with room for
+     * all points that leave their cells. */
+    Kernels::UpdateResult &
+    update_result();
 
     /**
-     * Bring the points listed in leaving() to the cells that they are in now,
-     * and to the ranks that own these. A point that would enter the body is
-     * held back at its surface. Throws RunFailure for a point that left the
+     * Bring the points listed in update_result() to the cells that they are in
+     * now, and to the ranks that own these. A point that would enter the body
+     * is held back at its surface. Throws RunFailure for a point that left the
      * mesh or is not finite. Collective.
      */
     void
@@ -240,8 +241,8 @@ namespace CaissonMPM
     bool                               active_cells_changed = true;
     bool                               is_settled           = false;
     std::vector<Kernels::LeavingPoint> leaving_storage;
-    Kernels::LeavingPoints             leaving_view = {};
-    unsigned int                       n_points_    = 0;
+    Kernels::UpdateResult              update_result_ = {};
+    unsigned int                       n_points_      = 0;
     // how often this rank held a point back at the body's surface, split one,
     // and merged two
     unsigned long n_held_back = 0, n_split = 0, n_merged = 0;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// From the nodes of each cell to its points: velocity, stress, position.
+// From the nodes of each cell to its points: stress (update_stress.h), velocity
+// and place, and the sums over the points for the next step.
 //
-// Stress rate: Jaumann with the in-plane spin, strain increment with the mean
-// volume change of the cell (B-bar).
+//   V_p <- keep V_p + sum_I N_I(x_p) v_I^transfer,
+//   x_p <- x_p + dt sum_I N_I(x_p) v_I^advection.
 #ifndef caisson_mpm_kernels_grid_to_points_h
 #define caisson_mpm_kernels_grid_to_points_h
 
-#include <caisson_mpm/kernels/laws.h>
-#include <caisson_mpm/kernels/points_to_grid.h>
+#include <caisson_mpm/kernels/cell_sums.h>
+#include <caisson_mpm/kernels/update_stress.h>
 
 namespace CaissonMPM
 {
@@ -16,92 +17,6 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** Coefficients of both components of a nodal field, in one cell or in
-       * one cell in each lane. */
-      template <typename Real = double>
-      struct CellField
-      {
-        Real r[4], z[4];
-
-        CellField() = default;
-
-        CAISSON_INLINE
-        CellField(const NodalVector *field, const CellNodes &cell)
-        {
-          using Pair = Lanes<2>; // both components of a node
-          Pair corner[4], coefficient[4];
-          for (int i = 0; i < 4; ++i)
-            corner[i] = Pair::load(field[cell.node[i]].value);
-          coefficients(corner, coefficient);
-          for (int i = 0; i < 4; i += 2)
-            {
-              Pair component[2];
-              transpose(coefficient + i, component);
-              component[0].store(r + i);
-              component[1].store(z + i);
-            }
-        }
-      };
-
-      /** The velocity gradient at a point, L_tt included. */
-      template <typename Number>
-      struct VelocityGradient
-      {
-        Number rr, rz, zr, zz, tt;
-
-        template <typename Real>
-        CAISSON_INLINE
-        VelocityGradient(const CellField<Real>    &v,
-                         const LocalPoint<Number> &p,
-                         const Real                inverse_width,
-                         const Number              inverse_r)
-        {
-          gradient(v.r, p, inverse_width, rr, rz);
-          gradient(v.z, p, inverse_width, zr, zz);
-          tt = evaluate(v.r, p) * inverse_r;
-        }
-
-        CAISSON_INLINE Number
-        trace() const
-        {
-          return rr + zz + tt;
-        }
-      };
-
-      /** The mean of div v over the volume of cells, by Gauss integration. */
-      template <typename Number>
-      CAISSON_INLINE Number
-      mean_divergence(const CellMap<Number>   &map,
-                      const double             axisymmetric,
-                      const CellField<Number> &v)
-      {
-        Number change(0.), volume(0.);
-        for (int i = 0; i < GaussPoint<Number>::n; ++i)
-          {
-            const GaussPoint<Number>       gauss(map, axisymmetric, i);
-            const VelocityGradient<Number> L(v,
-                                             gauss.point,
-                                             map.inverse_width,
-                                             gauss.inverse_r);
-            change += gauss.volume * L.trace();
-            volume += gauss.volume;
-          }
-        return change / volume;
-      }
-
-      /** What all points of a cell share. */
-      struct CellUpdate
-      {
-        CellMap<>     map, moved;
-        CellField<>   advection, transfer, strain;
-        bool          full;
-        double        axisymmetric;
-        double        mean_divergence; // used where B-bar is on
-        double        speed_limit;     // 0: none
-        const double *fit;             // of the stress filter; null: no filter
-        double        inverse_mean_height;
-      };
-
       /** Reduce a velocity above the limit to it; returns the lanes cut. */
       template <typename Number>
       CAISSON_INLINE unsigned int
@@ -113,94 +28,6 @@ namespace CaissonMPM
         r *= scale;
         z *= scale;
         return to_integer(fast);
-      }
-
-      /**
-       * New stress and volume of the points in the given lanes. Returns the
-       * work of the stress per volume, with the mean of old and new stress
-       * (after the rotation) and volume, beyond the surrounding pressure.
-       */
-      template <typename Law, typename Number>
-      CAISSON_INLINE Number
-      update_stress(PointBlock                     &b,
-                    PointHistory                   &history,
-                    const int                       lane,
-                    const LocalPoint<Number>       &p,
-                    const CellUpdate               &cell,
-                    const UpdateSettings           &settings,
-                    const double                    initial_void_ratio,
-                    const typename Law::Parameters &parameters)
-      {
-        const auto load = [lane](const double *field) {
-          return Number::load(field + lane);
-        };
-        const Number dt(settings.time_step);
-        const Number inverse_r = Number(cell.axisymmetric) / load(b.r);
-        const VelocityGradient<Number> L(cell.strain,
-                                         p,
-                                         cell.map.inverse_width,
-                                         inverse_r);
-        StrainIncrement<Number>        strain{dt * L.rr,
-                                       dt * L.zz,
-                                       dt * L.tt,
-                                       dt * Number(.5) * (L.rz + L.zr)};
-        Number                         volume_change = dt * L.trace();
-        if (settings.mean_volume_change)
-          {
-            const Number mean(settings.time_step * cell.mean_divergence);
-            const Number third =
-              (mean - volume_change) * Number(1. / (2. + cell.axisymmetric));
-            strain.rr += third;
-            strain.zz += third;
-            strain.tt += third * Number(cell.axisymmetric);
-            volume_change = mean;
-          }
-        const Number spin = dt * Number(.5) * (L.rz - L.zr);
-        Number       rr = load(b.stress[0]), zz = load(b.stress[1]),
-               tt = load(b.stress[2]), rz = load(b.stress[3]);
-        if (cell.fit != nullptr)
-          {
-            const Number share(settings.stress_filter);
-            const Number x = p.xi - Number(.5),
-                         y = (load(b.z) - Number(cell.map.center_z())) *
-                             Number(cell.inverse_mean_height);
-            rr += share * (evaluate_fit(cell.fit, x, y) - rr);
-            zz += share * (evaluate_fit(cell.fit + 3, x, y) - zz);
-            tt += share * (evaluate_fit(cell.fit + 6, x, y) - tt);
-            rz += share * (evaluate_fit(cell.fit + 9, x, y) - rz);
-          }
-        const Number        turn = Number(2.) * spin * rz;
-        StressState<Number> stress{rr + turn,
-                                   zz - turn,
-                                   tt,
-                                   rz + spin * (zz - rr)};
-        LawState<Number>    state;
-        state.plastic_deviatoric = load(b.plastic_deviatoric);
-        state.plastic_volumetric = load(b.plastic_volumetric);
-        const Number volume      = load(b.volume);
-        if (Law::uses_void_ratio)
-          state.void_ratio = Number(1. + initial_void_ratio) *
-                               (volume / load(history.initial_volume)) -
-                             Number(1.);
-        for (int i = 0; i < Law::n_state; ++i)
-          state.variable[i] = load(history.state[i]);
-        const StressState<Number> old = stress;
-        Law::update(stress, strain, state, parameters);
-        stress.rr.store(b.stress[0] + lane);
-        stress.zz.store(b.stress[1] + lane);
-        stress.tt.store(b.stress[2] + lane);
-        stress.rz.store(b.stress[3] + lane);
-        state.plastic_deviatoric.store(b.plastic_deviatoric + lane);
-        state.plastic_volumetric.store(b.plastic_volumetric + lane);
-        for (int i = 0; i < Law::n_state; ++i)
-          state.variable[i].store(history.state[i] + lane);
-        (volume * (Number(1.) + volume_change)).store(b.volume + lane);
-        const Number twice_power =
-          (old.rr + stress.rr) * strain.rr + (old.zz + stress.zz) * strain.zz +
-          (old.tt + stress.tt) * strain.tt +
-          Number(2.) * (old.rz + stress.rz) * strain.rz +
-          Number(2. * settings.surrounding_pressure) * volume_change;
-        return (Number(.5) + Number(.25) * volume_change) * twice_power;
       }
 
       /** Sums over the points of a cell after the update. */
@@ -251,21 +78,54 @@ namespace CaissonMPM
                 (half - y) * (inverse.xy * slope_x + inverse.yy * slope_y));
       }
 
+      /** New velocity and place of the points in the lanes from @p lane on;
+       * returns the lanes whose velocity was cut. */
+      template <typename Number>
+      CAISSON_INLINE unsigned int
+      move_points(PointBlock               &b,
+                  const int                 lane,
+                  const LocalPoint<Number> &p,
+                  const CellUpdate         &cell,
+                  const UpdateSettings     &settings,
+                  Number                   &r,
+                  Number                   &z)
+      {
+        // V_p <- keep V_p + S v_transfer;  x_p <- x_p + dt S v_advection
+        const Number dt(settings.time_step), keep(settings.keep_velocity);
+        Number       velocity_r = keep * Number::load(b.velocity_r + lane) +
+                            evaluate(cell.transfer.r, p);
+        Number velocity_z = keep * Number::load(b.velocity_z + lane) +
+                            evaluate(cell.transfer.z, p);
+        Number move_r = evaluate(cell.advection.r, p),
+               move_z = evaluate(cell.advection.z, p);
+        // Beside the body a cell may be squeezed flat: |v| <= k H / dt keeps a
+        // point from passing more than a share of it in a step.
+        unsigned int limited = 0;
+        if (cell.speed_limit > 0.)
+          limited = limit_speed(cell.speed_limit, velocity_r, velocity_z) |
+                    limit_speed(cell.speed_limit, move_r, move_z);
+        velocity_r.store(b.velocity_r + lane);
+        velocity_z.store(b.velocity_z + lane);
+        r += dt * move_r;
+        z += dt * move_z;
+        r.store(b.r + lane);
+        z.store(b.z + lane);
+        return limited;
+      }
+
       /** Update one block; returns its lanes outside the moved cell. */
       template <typename Law, typename Number>
       CAISSON_INLINE unsigned int
-      update_block(PointBlock                     &b,
-                   PointHistory                   &history,
-                   const CellUpdate               &cell,
-                   const UpdateSettings           &settings,
-                   const double                    initial_void_ratio,
-                   const typename Law::Parameters &parameters,
-                   unsigned int                   &limited,
-                   UpdateSums<Number>             &sums)
+      update_block(PointBlock            &b,
+                   PointHistory          &history,
+                   const CellUpdate      &cell,
+                   const UpdateSettings  &settings,
+                   const MaterialOf<Law> &material,
+                   unsigned int          &limited,
+                   UpdateSums<Number>    &sums)
       {
         unsigned int outside = 0;
         limited              = 0;
-        const Number dt(settings.time_step);
         for (int lane = 0; lane < block_size; lane += Number::width)
           {
             Number r = Number::load(b.r + lane), z = Number::load(b.z + lane);
@@ -274,61 +134,36 @@ namespace CaissonMPM
               Number::load((cell.full ? b.mass : b.volume) + lane);
             sums.add_work(p,
                           weight,
-                          update_stress<Law>(b,
-                                             history,
-                                             lane,
-                                             p,
-                                             cell,
-                                             settings,
-                                             initial_void_ratio,
-                                             parameters));
+                          update_stress<Law>(
+                            b, history, lane, p, cell, settings, material));
             sums.sum[3] += Number::load(b.volume + lane);
-
-            const Number keep(settings.keep_velocity);
-            Number       velocity_r = keep * Number::load(b.velocity_r + lane) +
-                                evaluate(cell.transfer.r, p);
-            Number velocity_z = keep * Number::load(b.velocity_z + lane) +
-                                evaluate(cell.transfer.z, p);
-            Number move_r = evaluate(cell.advection.r, p),
-                   move_z = evaluate(cell.advection.z, p);
-            if (cell.speed_limit > 0.)
-              {
-                limited |= limit_speed(cell.speed_limit, velocity_r, velocity_z)
-                           << lane;
-                limited |= limit_speed(cell.speed_limit, move_r, move_z)
-                           << lane;
-              }
-            velocity_r.store(b.velocity_r + lane);
-            velocity_z.store(b.velocity_z + lane);
-            r += dt * move_r;
-            z += dt * move_z;
-            r.store(b.r + lane);
-            z.store(b.z + lane);
+            limited |= move_points(b, lane, p, cell, settings, r, z) << lane;
             outside |= to_integer(!cell.moved.contains(r, z)) << lane;
           }
         return outside;
       }
 
-      /** All but the mean divergence. */
+      /** Prepare the update of a cell, all but the mean divergence. */
       CAISSON_INLINE void
-      prepare_cell(const unsigned int    cell,
-                   const CellMoments    &moments,
-                   const GridView       &grid,
-                   const GridView       &moved,
-                   const UpdateSettings &settings,
-                   const NodalFields    &fields,
-                   CellUpdate           &update)
+      prepare_cell(const StepContext &step,
+                   const PointUpdate &how,
+                   const unsigned int cell,
+                   CellUpdate        &update)
       {
-        const CellNodes &nodes = grid.nodes[cell];
-        update.map             = CellMap<>(grid.geometry[cell]);
-        update.moved           = CellMap<>(moved.geometry[cell]);
-        update.advection       = CellField<>(fields.advection, nodes);
-        update.transfer        = CellField<>(fields.transfer, nodes);
-        update.strain          = CellField<>(fields.strain, nodes);
-        update.full            = moments.full;
-        update.axisymmetric    = grid.axisymmetric;
-        update.speed_limit     = 0.;
-        update.fit             = nullptr;
+        const GridView       &grid     = step.grid;
+        const CellMoments    &moments  = step.moments[cell];
+        const UpdateSettings &settings = how.settings;
+        const NodalFields    &fields   = how.fields;
+        const CellNodes      &nodes    = grid.nodes[cell];
+        update.map                     = CellMap<>(grid.geometry[cell]);
+        update.moved                   = CellMap<>(how.moved.geometry[cell]);
+        update.advection               = CellField<>(fields.advection, nodes);
+        update.transfer                = CellField<>(fields.transfer, nodes);
+        update.strain                  = CellField<>(fields.strain, nodes);
+        update.full                    = moments.full;
+        update.axisymmetric            = grid.axisymmetric;
+        update.speed_limit             = 0.;
+        update.fit                     = nullptr;
         if (settings.stress_filter > 0. && moments.full)
           {
             update.fit                 = moments.fit;
@@ -342,53 +177,6 @@ namespace CaissonMPM
             h                     = g.height_right < h ? g.height_right : h;
             update.speed_limit    = settings.limiter * h / settings.time_step;
           }
-      }
-
-      /** Update the points of an active cell and list those outside it, of
-       * which there are so many. */
-      template <typename Number>
-      CAISSON_INLINE unsigned int
-      update_points(const PointsView     &points,
-                    const unsigned int    active,
-                    const CellUpdate     &update,
-                    const Material       *materials,
-                    const UpdateSettings &settings,
-                    UpdateSums<Number>   &sums,
-                    LeavingPoints        &leaving)
-      {
-        const unsigned int cell   = points.active_cells[active];
-        const unsigned int before = leaving.n;
-        for (int block = points.first_block[cell]; block >= 0;)
-          {
-            const BlockHeader header = points.headers[block];
-            prefetch(points, header.next, active);
-            unsigned int    outside = 0, limited = 0;
-            const Material &material = materials[header.material];
-            with_law(material,
-                     [&](auto law, const auto &parameters) CAISSON_LAMBDA {
-                       outside = update_block<decltype(law), Number>(
-                         points.blocks[block],
-                         points.histories[block],
-                         update,
-                         settings,
-                         material.initial_void_ratio,
-                         parameters,
-                         limited,
-                         sums);
-                     });
-            const unsigned int real = (1u << header.count) - 1u;
-            leaving.n_limited += __builtin_popcount(limited & real);
-            for (outside &= real; outside != 0; outside &= outside - 1)
-              {
-                if (leaving.n < leaving.capacity)
-                  leaving.points[leaving.n] = {cell,
-                                               block,
-                                               __builtin_ctz(outside)};
-                ++leaving.n;
-              }
-            block = header.next;
-          }
-        return leaving.n - before;
       }
 
       /** The mean divergence of each cell of a group, from the strain fields of
@@ -416,76 +204,146 @@ namespace CaissonMPM
           update[i].mean_divergence = mean[i];
       }
 
+      /** Append the points of a block in the lanes @p outside to the list. */
+      CAISSON_INLINE void
+      list_leaving(const unsigned int cell,
+                   const int          block,
+                   unsigned int       outside,
+                   UpdateResult      &result)
+      {
+        for (; outside != 0; outside &= outside - 1)
+          {
+            if (result.n_leaving < result.capacity)
+              result.leaving[result.n_leaving] = {cell,
+                                                  block,
+                                                  __builtin_ctz(outside)};
+            ++result.n_leaving;
+          }
+      }
+
+      /** Update the points of an active cell; list those that left it, and
+       * return their number. */
+      template <typename Number>
+      CAISSON_INLINE unsigned int
+      update_points(const StepContext    &step,
+                    const unsigned int    active,
+                    const CellUpdate     &update,
+                    const UpdateSettings &settings,
+                    UpdateSums<Number>   &sums,
+                    UpdateResult         &result)
+      {
+        const PointsView  &points = step.points;
+        const unsigned int cell   = points.active_cells[active];
+        const unsigned int before = result.n_leaving;
+        for (int block = points.first_block[cell]; block >= 0;)
+          {
+            const BlockHeader header = points.headers[block];
+            prefetch(points, header.next, active);
+            unsigned int    outside = 0, limited = 0;
+            const Material &material = step.materials[header.material];
+            with_law(material,
+                     [&](auto law, const auto &parameters) CAISSON_LAMBDA {
+                       outside = update_block<decltype(law), Number>(
+                         points.blocks[block],
+                         points.histories[block],
+                         update,
+                         settings,
+                         {material.initial_void_ratio, parameters},
+                         limited,
+                         sums);
+                     });
+            // padding moves like the point that it repeats, but is none
+            const unsigned int real = (1u << header.count) - 1u;
+            result.n_limited += __builtin_popcount(limited & real);
+            list_leaving(cell, block, outside & real, result);
+            block = header.next;
+          }
+        return result.n_leaving - before;
+      }
+
+      /** Update the points of all cells of a group; row i of @p sums takes the
+       * UpdateSums of cell i, and 0 beyond the last one. */
+      template <typename Number>
+      CAISSON_INLINE void
+      update_group(const StepContext       &step,
+                   const PointUpdate       &how,
+                   const CellGroup<Number> &group,
+                   const unsigned int       begin,
+                   const CellUpdate        *update,
+                   Number (*sums)[Number::width],
+                   UpdateResult &result)
+      {
+        constexpr int n_sums = UpdateSums<Number>::size;
+        for (int i = 0; i < Number::width; ++i)
+          for (int k = 0; k < n_sums; ++k)
+            sums[k][i] = Number(0.);
+        for (int i = 0; i < group.n; ++i)
+          {
+            UpdateSums<Number> own;
+            own.clear();
+            const unsigned int n_leaving = update_points(
+              step, begin + i, update[i], how.settings, own, result);
+            for (int k = 0; k < n_sums; ++k)
+              sums[k][i] = own.sum[k];
+            // The sums for the next step, while the points are in the cache. A
+            // cell that points leave is summed by points_to_grid instead.
+            if (n_leaving == 0)
+              sum_points<Number>(step,
+                                 how.moved.geometry[group.cell[i]],
+                                 group.cell[i]);
+          }
+      }
+
+      /** See KernelTable. Lanes are points in update_group(), and cells in the
+       * rest. */
       template <typename Number>
       void
-      grid_to_points(const PointsView          &points,
-                     const GridView            &grid,
-                     const GridView            &moved,
-                     const Material            *materials,
-                     const UpdateSettings      &settings,
-                     const IntegrationSettings &next,
-                     const NodalFields         &fields,
-                     CellMoments               *moments,
-                     LeavingPoints             &leaving)
+      grid_to_points(const StepContext &step,
+                     const PointUpdate &how,
+                     UpdateResult      &result)
       {
-        constexpr int width = Number::width;
-        leaving.n = leaving.n_limited = 0;
-        leaving.stress_work           = 0.;
-        for (unsigned int begin = 0; begin < points.n_active_cells;
+        constexpr int width = Number::width, n_sums = UpdateSums<Number>::size;
+        result.n_leaving = result.n_limited = 0;
+        result.stress_work                  = 0.;
+        for (unsigned int begin = 0; begin < step.points.n_active_cells;
              begin += width)
           {
-            const CellGroup<Number> group(points, begin);
-            const CellMap<Number>   map = group.map(grid.geometry);
-            CellUpdate              update[width];
-            const double           *mass_rows[width];
+            const CellGroup<Number> group(step.points, begin);
+            const CellMap<Number>   map = group.map(step.grid.geometry);
+
+            // 1. The moments of mass, before those of the next step replace
+            //    them: the work of full cells needs them.
+            const double *mass_rows[width];
             for (int i = 0; i < width; ++i)
-              mass_rows[i] = moments[group.cell[i]].mass;
+              mass_rows[i] = step.moments[group.cell[i]].mass;
             LaneSums<Number, 8> mass;
             mass.load_lanes(mass_rows);
-            for (int i = 0; i < group.n; ++i)
-              prepare_cell(group.cell[i],
-                           moments[group.cell[i]],
-                           grid,
-                           moved,
-                           settings,
-                           fields,
-                           update[i]);
-            if (settings.mean_volume_change)
-              find_mean_divergence(group, map, grid.axisymmetric, update);
 
-            constexpr int n_sums = UpdateSums<Number>::size;
-            Number        of_points[n_sums][width];
-            for (int i = 0; i < width; ++i)
-              for (int k = 0; k < n_sums; ++k)
-                of_points[k][i] = Number(0.);
+            // 2. The nodal fields in the basis {1, xi, eta, xi eta} of each
+            //    cell, and the mean of div v over its volume for B-bar.
+            CellUpdate update[width];
             for (int i = 0; i < group.n; ++i)
-              {
-                const unsigned int cell = group.cell[i];
-                UpdateSums<Number> own;
-                own.clear();
-                const unsigned int n_leaving = update_points(points,
-                                                             begin + i,
-                                                             update[i],
-                                                             materials,
-                                                             settings,
-                                                             own,
-                                                             leaving);
-                for (int k = 0; k < n_sums; ++k)
-                  of_points[k][i] = own.sum[k];
-                // while they are in the cache, and if they stay as they are
-                if (n_leaving == 0)
-                  sum_points<Number>(
-                    points, moved, materials, next, cell, moments[cell]);
-              }
+              prepare_cell(step, how, group.cell[i], update[i]);
+            if (how.settings.mean_volume_change)
+              find_mean_divergence(group, map, step.grid.axisymmetric, update);
+
+            // 3. Stress, volume, velocity and place of the points.
+            Number of_points[n_sums][width];
+            update_group(step, how, group, begin, update, of_points, result);
+
+            // 4. The work of the stress, integrated as the internal force was,
+            //    and the volume that the points fill now.
             Number sums[n_sums];
             for (int k = 0; k < n_sums; ++k)
               sums[k] = sum_each(of_points[k]);
             const Number in_full =
-              work_in_full_cells(sums, mass.sum, map.volume(grid.axisymmetric));
+              work_in_full_cells(sums,
+                                 mass.sum,
+                                 map.volume(step.grid.axisymmetric));
             for (int i = 0; i < group.n; ++i)
               {
-                leaving.stress_work += update[i].full ? in_full[i] : sums[0][i];
-                points.filled_volume[group.cell[i]] = sums[3][i];
+                result.stress_work += update[i].full ? in_full[i] : sums[0][i];
+                step.points.filled_volume[group.cell[i]] = sums[3][i];
               }
           }
       }

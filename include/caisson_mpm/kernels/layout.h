@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The memory layout shared by the kernels and the class MaterialPoints, and
-// the plain views that the kernels take. No other file may depend on it.
+// the plain views that the kernels take. Blocks, their headers and histories
+// are walked through by these two only; the geometry of cells, the materials
+// and the nodal structures are also used by the floors above.
 //
 // Material points (MPs) lie in blocks of eight per cell (structure of arrays):
 // a block belongs to one cell and one material, and the blocks of a cell form
@@ -69,7 +71,7 @@ namespace CaissonMPM
       unsigned int node[4];
     };
 
-    /** Per-cell options of the kernels. */
+    /** Options of the kernels for a cell. */
     enum CellFlags : unsigned char
     {
       next_to_body = 1
@@ -126,12 +128,18 @@ namespace CaissonMPM
       short material; // of the first MP
     };
 
+    /**
+     * All MPs of a rank. The view belongs to MaterialPoints::view() and is out
+     * of date as soon as points are added, taken out or moved to other cells.
+     */
     struct PointsView
     {
-      PointBlock         *blocks;
-      PointHistory       *histories; // of the blocks
-      const BlockHeader  *headers;
-      const int          *first_block;  // [n_cells]
+      PointBlock        *blocks;
+      PointHistory      *histories; // of the blocks
+      const BlockHeader *headers;
+      // [n_cells], -1: none. For a ghost cell this is only a flag: 0 = its
+      // owner has MPs there, -1 = none
+      const int          *first_block;
       const unsigned int *active_cells; // [n_active_cells] cells with MPs
       unsigned int        n_active_cells;
       double             *filled_volume; // [n_cells], of the MPs in it
@@ -139,6 +147,7 @@ namespace CaissonMPM
                               // moments are not those of its MPs
     };
 
+    /** The cells that a rank knows, at one position of the moving grid. */
     struct GridView
     {
       const CellGeometry  *geometry; // [n_cells]
@@ -152,29 +161,47 @@ namespace CaissonMPM
     /** How the internal force is integrated. */
     struct IntegrationSettings
     {
-      double full_at_surface;      // filled volume from which a cell is full
-      double full_inside;          // the same where all neighbors have points
-      bool   floor_mass;           // sum the stiffness bound
-      bool   mean_pressure;        // cell mean instead of the affine pressure
-      double surrounding_pressure; // added to the normal stresses (Pa)
+      double full_at_surface; // filled volume from which a cell is full
+      double full_inside;     // the same where all neighbors have points
+      bool   floor_mass;      // sum the stiffness bound
+      bool   mean_pressure;   // cell mean instead of the affine pressure
     };
 
-    /** What grid_to_points needs besides the nodal fields. */
+    /** What all kernels of a step work on. They write to the points and to the
+     * moments, and read the rest. */
+    struct StepContext
+    {
+      PointsView          points;
+      GridView            grid; // at the start of the step
+      const Material     *materials;
+      IntegrationSettings integration;
+      CellMoments        *moments; // [n_cells]
+    };
+
+    /** How grid_to_points updates the points. */
     struct UpdateSettings
     {
       double time_step;
-      double keep_velocity;        // share of the MP's own velocity (FLIP 1)
-      bool   mean_volume_change;   // B-bar
-      double limiter;              // k of |v| <= k H / dt; 0: off
-      double stress_filter;        // share of the misfit removed; 0: off
-      double surrounding_pressure; // at rest when sigma = -p I (Pa)
+      double keep_velocity;      // share of the MP's own velocity (FLIP 1)
+      bool   mean_volume_change; // B-bar
+      double limiter;            // k of |v| <= k H / dt; 0: off
+      double stress_filter;      // share of the misfit removed; 0: off
     };
 
+    /** The nodal velocities that update the points, each [n_nodes]. */
     struct NodalFields
     {
       const NodalVector *advection; // moves the MPs
       const NodalVector *transfer;  // added to keep_velocity * velocity
       const NodalVector *strain;    // its gradient strains the MPs
+    };
+
+    /** What grid_to_points needs besides the context of the step. */
+    struct PointUpdate
+    {
+      GridView       moved; // the grid at the end of the step
+      UpdateSettings settings;
+      NodalFields    fields;
     };
 
     /** An MP that left its cell. */
@@ -185,13 +212,14 @@ namespace CaissonMPM
       int          lane;
     };
 
-    /** MPs that left their cell, and sums: written by grid_to_points. */
-    struct LeavingPoints
+    /** What grid_to_points returns: the MPs that left their cells, in room that
+     * the caller provides, and sums over all MPs. */
+    struct UpdateResult
     {
-      LeavingPoint *points; // [capacity]
-      unsigned int  capacity;
-      unsigned int  n; // may exceed the capacity: then call again is an error
-      unsigned int  n_limited;
+      LeavingPoint *leaving;     // [capacity]
+      unsigned int  capacity;    // at least the number of all MPs
+      unsigned int  n_leaving;   // entries of leaving that are in use
+      unsigned int  n_limited;   // MPs whose velocity was cut
       double        stress_work; // of the soil in this step, J per radian
     };
 
@@ -202,41 +230,40 @@ namespace CaissonMPM
       int         width;
 
       /**
-       * Sum mass, momentum, internal and body force of all MPs to the nodes.
-       * @p sums [n_nodes] must be zero on entry; @p moments [n_cells], those
-       * left by grid_to_points but in changed cells.
+       * Add mass, momentum, internal and body force of all MPs to the nodes.
+       * @p sums [n_nodes] must be zero on entry. The moments are those left by
+       * grid_to_points but in changed cells; on return they are up to date, and
+       * say which cells are full.
        */
-      void (*points_to_grid)(const PointsView &,
-                             const GridView &,
-                             const Material *,
-                             const IntegrationSettings &,
-                             NodalSums *,
-                             CellMoments *);
+      void (*points_to_grid)(const StepContext &, NodalSums *sums);
+
+      /**
+       * Add the nodal forces of a pressure to @p out [n_nodes],
+       *   out_I += int (grad N_I + e_r kappa N_I / r) p dV,
+       * with p = sum_J N_J p_J of the nodal values @p pressure [n_nodes] in Pa,
+       * integrated as the stress is: call it after points_to_grid. Units: N per
+       * radian.
+       */
+      void (*pressure_force)(const StepContext &,
+                             const double *pressure,
+                             NodalVector  *out);
 
       /**
        * out += M x with the consistent mass matrix of the MPs, out and x
        * [n_nodes].
        */
-      void (*apply_mass)(const PointsView &,
-                         const GridView &,
-                         const CellMoments *,
+      void (*apply_mass)(const StepContext &,
                          const NodalVector *x,
                          NodalVector       *out);
 
       /**
        * Update velocity, stress, volume and position of all MPs, list those
-       * outside their cell as @p moved grid has it, and renew the moments for
-       * the next step, in which the force is integrated as @p next says.
+       * outside their cell of the moved grid, and renew the moments for the
+       * next step.
        */
-      void (*grid_to_points)(const PointsView &,
-                             const GridView &,
-                             const GridView &moved,
-                             const Material *,
-                             const UpdateSettings &,
-                             const IntegrationSettings &next,
-                             const NodalFields &,
-                             CellMoments *,
-                             LeavingPoints &);
+      void (*grid_to_points)(const StepContext &,
+                             const PointUpdate &,
+                             UpdateResult &);
     };
   } // namespace Kernels
 } // namespace CaissonMPM

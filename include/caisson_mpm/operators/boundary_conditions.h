@@ -9,16 +9,33 @@
 #include <caisson_mpm/domain/background_grid.h>
 
 #include <deal.II/base/parameter_acceptor.h>
-#include <deal.II/base/tensor.h>
 
 #include <string>
 #include <vector>
 
 namespace CaissonMPM
 {
+  /** What a side of the domain does to the nodes on it. */
+  enum class SideCondition
+  {
+    roller, // no normal velocity
+    fixed,  // no velocity
+    free    // nothing
+  };
+
+  /** What prescribed velocities did in one step, at the nodes that this rank
+   * owns. */
+  struct PrescribedResult
+  {
+    // on the soil, whole circumference (per meter in plane strain); N s
+    Vector2 impulse;
+    double  work = 0.; // on the soil; J
+  };
+
   /**
-   * Sides: roller: no normal velocity; fixed: no velocity; free: nothing. A
-   * prescribed velocity takes precedence over the sides, and over the contact.
+   * Conditions on the four sides, and prescribed velocities, which take
+   * precedence over the sides and over the contact. Each rank treats all nodes
+   * that it knows. Not collective.
    */
   class BoundaryConditions : public dealii::ParameterAcceptor
   {
@@ -38,12 +55,10 @@ namespace CaissonMPM
 
     /**
      * Set the fixed and the prescribed components of the new velocities @p v
-     * [n_nodes], and add the impulse on the soil at prescribed nodes to
-     * impulse(). @p mass [n_nodes] is the mass that accelerates.
-     * Returns the work on the soil there, of the nodes of this rank. Units: J.
+     * [n_nodes]. @p inertia [n_nodes] is the mass that accelerates.
      */
-    double
-    apply(const std::vector<double> &mass, Kernels::NodalVector *v);
+    PrescribedResult
+    apply(const std::vector<double> &inertia, Kernels::NodalVector *v);
 
     /** Hold another velocity field to the conditions of the last apply(). */
     void
@@ -52,19 +67,6 @@ namespace CaissonMPM
     /** The same for the difference of two fields that are held. */
     void
     constrain_difference(Kernels::NodalVector *v) const;
-
-    /** The impulse on the soil at this rank's prescribed nodes since the last
-     * reset. Units: N s, whole circumference (per metre in plane strain). */
-    const dealii::Tensor<1, 2> &
-    impulse() const
-    {
-      return impulse_;
-    }
-    void
-    reset_impulse(const dealii::Tensor<1, 2> &start = dealii::Tensor<1, 2>())
-    {
-      impulse_ = start;
-    }
 
   private:
     /** A component of the velocity of a node. */
@@ -79,14 +81,16 @@ namespace CaissonMPM
     VectorExpression
     parse_velocity() const;
 
-    std::string axis = "roller", outer = "roller", bottom = "fixed",
-                top = "free";
+    // in the order of BackgroundGrid's sides: axis, outer, bottom, top
+    SideCondition             sides[4] = {SideCondition::roller,
+                                          SideCondition::roller,
+                                          SideCondition::fixed,
+                                          SideCondition::free};
     std::string               region_text, velocity_text = "0 ; 0";
     std::vector<unsigned int> fixed[2]; // nodes by component
     Expression                region;
     VectorExpression          velocity;
     std::vector<Prescribed>   prescribed; // in this step
-    dealii::Tensor<1, 2>      impulse_;
     double                    circumference = 2. * pi;
     unsigned int              n_owned_nodes = 0;
   };

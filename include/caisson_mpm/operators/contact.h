@@ -7,7 +7,8 @@
 // w.n < 0 is in contact. Its normal part is taken away, and the tangential part
 // as far as friction allows:
 //   |change of w_t| <= mu |w.n| + a A dt / m   (adhesion a on the area A).
-// The force on the soil is m dw / dt; the body bears its opposite.
+// The force on the soil is m dw / dt; the body bears its opposite. Here m is
+// the inertia of the node, the mass that accelerates.
 #ifndef caisson_mpm_operators_contact_h
 #define caisson_mpm_operators_contact_h
 
@@ -20,24 +21,32 @@
 
 namespace CaissonMPM
 {
-  /** Forces on the body by surface, whole circumference. Units: N. */
+  /** A vector for each surface of the body, for the whole circumference (per
+   * meter in plane strain): forces in N, impulses in N s. */
   using SurfaceForces = std::array<Vector2, n_surfaces>;
 
+  /** What the contact did in one step, at the nodes that this rank owns. */
+  struct ContactResult
+  {
+    SurfaceForces impulse    = {}; // on the body; units: N s
+    double        work       = 0.; // of the body on the soil; units: J
+    unsigned int  n_touching = 0, n_sticking = 0; // the second of the first
+  };
+
   /**
-   * The contact nodes and what they do in a step. They are found on their own:
-   * nodes of the body's surface to which soil has brought mass. The grid moves
-   * with the body, so that normals never change, nor do areas (but for an
-   * expanding cylinder, which has no adhesion).
+   * The contact nodes and what they do in a step. No list of contact nodes is
+   * given: they are the nodes of the body's surface to which soil has brought
+   * mass. The grid moves with the body, so that normals never change, nor do
+   * areas (but for an expanding cylinder, which has no adhesion).
    *
    * Every rank treats all nodes that it knows. It knows the whole surroundings
    * of those at cells that it owns; what it finds at the others is not used.
-   * What is summed are the nodes that it owns. Not collective.
+   * Results are of the nodes that it owns: sum them over ranks. Not collective.
    */
   class Contact
   {
   public:
-    /** Collect the surface nodes of the body from the grid's rigid cells. The
-     * impulses stay. */
+    /** Collect the surface nodes of the body from the grid's rigid cells. */
     void
     initialize(const BackgroundGrid &grid, const BodySurface &body);
 
@@ -48,16 +57,13 @@ namespace CaissonMPM
     }
 
     /**
-     * Correct the new nodal velocities @p v for the body's velocity, and add
-     * the impulse on the body to impulse(). @p mass [n_nodes] is the mass that
-     * accelerates; a node without soil has mass 0.
-     * Returns the work that the body does on the soil, of the nodes of this
-     * rank. Units: J.
+     * Correct the new nodal velocities @p v for the body's velocity. @p inertia
+     * [n_nodes] is the mass that accelerates; a node without soil has none.
      */
-    double
+    ContactResult
     apply(const Vector2             &body_velocity,
           const double               dt,
-          const std::vector<double> &mass,
+          const std::vector<double> &inertia,
           Kernels::NodalVector      *v);
 
     /**
@@ -90,21 +96,6 @@ namespace CaissonMPM
       return on_body[node];
     }
 
-    /** The impulse on the body since the last reset, per surface, of the nodes
-     * of this rank. Units: N s, whole circumference (per metre in plane
-     * strain). */
-    const SurfaceForces &
-    impulse() const
-    {
-      return impulses;
-    }
-    void
-    reset_impulse(const SurfaceForces &start = SurfaceForces());
-
-    /** Nodes of this rank in contact, and of them those that stick, in the last
-     * step. */
-    unsigned int n_touching = 0, n_sticking = 0;
-
   private:
     struct Node
     {
@@ -123,26 +114,51 @@ namespace CaissonMPM
       sliding,
       sticking
     };
-    struct Result
+    /** The result of contact at one node. */
+    struct NodeResult
     {
       State   state   = State::apart;
       Vector2 normal  = Vector2();
       Vector2 impulse = Vector2(); // on the body, N s per radian
     };
 
-    Result
+    /** Find the state and the normal of a node with the relative velocity
+     * @p w. */
+    NodeResult
     find_contact(const Node &node, const Vector2 &w) const;
+
+    /** Find the same at a corner that has two normals. */
+    NodeResult
+    find_contact_at_corner(const Node &node, const Vector2 &w) const;
+
+    /** Return which of both normals of a convex corner counts, or their mean,
+     * as Rigid body/Corner normals says. */
+    Vector2
+    corner_normal(const Node &node) const;
+
+    /** Change the velocity @p u of a node with the inertia @p m. */
+    NodeResult
+    apply_to_node(const Node  &node,
+                  const double dt,
+                  const double m,
+                  double      *u) const;
+
+    void
+    collect_surface_nodes(const BackgroundGrid &grid, const BodySurface &body);
+    void
+    find_normals(const BackgroundGrid &grid, Node &node) const;
+    void
+    collect_inner_nodes(const BackgroundGrid &grid);
 
     std::vector<Node>          nodes;
     std::vector<unsigned int>  inner_nodes; // inside the body
-    std::vector<Result>        results;
+    std::vector<NodeResult>    results;     // of the nodes, in the last step
     std::vector<bool>          on_body;
     BodySurface::CornerNormals corner_normals =
       BodySurface::CornerNormals::average;
-    Vector2       velocity;
-    SurfaceForces impulses;
-    double        circumference = 2. * pi;
-    unsigned int  n_owned_nodes = 0;
+    Vector2      velocity;
+    double       circumference = 2. * pi;
+    unsigned int n_owned_nodes = 0;
   };
 } // namespace CaissonMPM
 

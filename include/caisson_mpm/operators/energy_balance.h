@@ -12,7 +12,7 @@
 #define caisson_mpm_operators_energy_balance_h
 
 #include <caisson_mpm/base/run_totals.h>
-#include <caisson_mpm/operators/nodal_motion.h>
+#include <caisson_mpm/operators/nodal_work.h>
 
 #include <string>
 #include <utility>
@@ -75,7 +75,7 @@ namespace CaissonMPM
 
     double work_of_body  = 0.; // on the soil, prescribed nodes included
     double gravity_work  = 0.;
-    double load_work     = 0.; // of the body force of Loads
+    double load_work     = 0.; // of the nodal forces of section Loads
     double kinetic_gain  = 0.;
     double stress_work   = 0.; // elastic energy and plastic work
     double friction_heat = 0.;

@@ -19,7 +19,7 @@
 #include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/operators/contact.h>
 #include <caisson_mpm/operators/energy_balance.h>
-#include <caisson_mpm/operators/loads.h>
+#include <caisson_mpm/operators/nodal_forces.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 #include <caisson_mpm/operators/time_step.h>
 #include <caisson_mpm/simulation/clock.h>
@@ -107,7 +107,9 @@ namespace CaissonMPM
     void
     choose_step();
     void
-    update_points(const Kernels::GridView &view);
+    constrain_nodes();
+    void
+    update_points();
     void
     adapt_points();
     /** Hand the sums of this step to those who keep them. */
@@ -136,7 +138,7 @@ namespace CaissonMPM
     RigidBody          body;
     PointGenerator     generator;
     BoundaryConditions boundary_conditions;
-    Loads              loads;
+    NodalForces        nodal_forces;
     NodalMotion        nodal_motion;
     TimeStep           time_step;
     StopRequest        stop_request;

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The sums over the points of one cell that become its CellMoments, and the
+// decision how a cell is integrated.
+//
+// A full cell takes Gauss points, at which the stress is an affine function
+// fitted to its points: its points are summed by FitSums. In a partly filled
+// cell the points themselves are the quadrature points: they are summed by
+// ForceSums. Moments of mass and momentum are the same for both.
+#ifndef caisson_mpm_kernels_cell_sums_h
+#define caisson_mpm_kernels_cell_sums_h
+
+#include <caisson_mpm/kernels/moments.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    inline namespace CAISSON_KERNEL_ISA
+    {
+      /** A cell whose points are summed. */
+      struct CellToSum
+      {
+        CellMap<> map;
+        double    axisymmetric;
+        double    center_z, inverse_mean_height;
+        bool      bound_stiffness; // IntegrationSettings::floor_mass
+
+        CAISSON_INLINE
+        CellToSum(const CellGeometry &geometry,
+                  const double        axisymmetric,
+                  const bool          bound_stiffness)
+          : map(geometry)
+          , axisymmetric(axisymmetric)
+          , center_z(map.center_z())
+          , inverse_mean_height(1. / map.mean_height())
+          , bound_stiffness(bound_stiffness)
+        {}
+      };
+
+      /** Some points of a block, one in each lane. */
+      template <typename Number>
+      struct LoadedPoints
+      {
+        Number              r, z, mass, volume;
+        LocalPoint<Number>  local;
+        StressState<Number> stress;
+
+        CAISSON_INLINE
+        LoadedPoints(const PointBlock &b, const int lane, const CellMap<> &map)
+          : r(Number::load(b.r + lane))
+          , z(Number::load(b.z + lane))
+          , mass(Number::load(b.mass + lane))
+          , volume(Number::load(b.volume + lane))
+          , local(map.at_position(r, z))
+          , stress{Number::load(b.stress[0] + lane),
+                   Number::load(b.stress[1] + lane),
+                   Number::load(b.stress[2] + lane),
+                   Number::load(b.stress[3] + lane)}
+        {}
+      };
+
+      /** Points of a full cell: their stress enters the affine fit. */
+      template <typename Number>
+      CAISSON_INLINE void
+      add_stress(const CellToSum            &cell,
+                 const LoadedPoints<Number> &p,
+                 const double /*modulus*/,
+                 FitSums<Number> &sums)
+      {
+        const Number s[4] = {p.stress.rr,
+                             p.stress.zz,
+                             p.stress.tt,
+                             p.stress.rz};
+        sums.add(p.local.xi - Number(.5),
+                 (p.z - Number(cell.center_z)) *
+                   Number(cell.inverse_mean_height),
+                 p.mass,
+                 s);
+      }
+
+      /** Points of a partly filled cell: each is a quadrature point with its
+       * volume as weight. @p modulus: of the stiffness bound. */
+      template <typename Number>
+      CAISSON_INLINE void
+      add_stress(const CellToSum            &cell,
+                 const LoadedPoints<Number> &p,
+                 const double                modulus,
+                 ForceSums<Number>          &sums)
+      {
+        const Number inverse_width(cell.map.inverse_width);
+        const Number inverse_r = Number(cell.axisymmetric) / p.r;
+        sums.add(p.local, inverse_width, inverse_r, p.volume, p.stress);
+        if (cell.bound_stiffness)
+          sums.add_stiffness(p.local,
+                             inverse_width,
+                             inverse_r,
+                             p.volume * Number(modulus));
+      }
+
+      /** The sums over the points of a cell into its moments: FitSums, or
+       * ForceSums for a cell that is not full. */
+      template <typename InternalSums, typename Number>
+      CAISSON_INLINE void
+      sum_points(const PointsView &points,
+                 const CellToSum  &cell,
+                 const Material   *materials,
+                 const int         first_block,
+                 CellMoments      &moments)
+      {
+        const short       material = points.headers[first_block].material;
+        bool              several  = false;
+        int               block    = first_block;
+        PointSums<Number> sums;
+        InternalSums      internal;
+        sums.clear();
+        internal.clear();
+        do // a cell with moments has points
+          {
+            const BlockHeader header = points.headers[block];
+            const PointBlock &b      = points.blocks[block];
+            for (int lane = 0; lane < block_size; lane += Number::width)
+              {
+                const LoadedPoints<Number> p(b, lane, cell.map);
+                // Padding has neither mass nor volume: it adds nothing.
+                sums.add(p.local,
+                         p.mass,
+                         Number::load(b.velocity_r + lane),
+                         Number::load(b.velocity_z + lane));
+                add_stress(cell,
+                           p,
+                           materials[header.material].p_wave_modulus,
+                           internal);
+              }
+            several |= header.material != material;
+            block = header.next;
+          }
+        while (block >= 0);
+        sums.store(moments.mass); // and the momentum behind it
+        internal.store(moments.internal);
+        moments.several_materials = several;
+        moments.material          = material;
+      }
+
+      /** Sum the points of a cell as it is integrated. The cell has the given
+       * @p geometry, which may be that of the next step. */
+      template <typename Number>
+      void
+      sum_points(const StepContext  &step,
+                 const CellGeometry &geometry,
+                 const unsigned int  cell)
+      {
+        const CellToSum to_sum(geometry,
+                               step.grid.axisymmetric,
+                               step.integration.floor_mass);
+        CellMoments    &moments = step.moments[cell];
+        const int       first   = step.points.first_block[cell];
+        if (moments.full)
+          sum_points<FitSums<Number>, Number>(
+            step.points, to_sum, step.materials, first, moments);
+        else
+          sum_points<ForceSums<Number>, Number>(
+            step.points, to_sum, step.materials, first, moments);
+      }
+
+      /**
+       * Whether a cell takes Gauss points. Inside the soil the number of points
+       * in a cell scatters while the mesh moves, and a cell with fewer of them
+       * is no less full; at a free surface it is.
+       */
+      CAISSON_INLINE bool
+      is_full(const StepContext &step,
+              const unsigned int cell,
+              const double       filled_fraction)
+      {
+        if (filled_fraction >= step.integration.full_at_surface)
+          return true;
+        if (filled_fraction < step.integration.full_inside)
+          return false;
+        for (int face = 0; face < 4; ++face)
+          {
+            const int neighbor = step.grid.neighbors[4 * cell + face];
+            if (neighbor >= 0 && step.points.first_block[neighbor] < 0)
+              return false;
+          }
+        return true;
+      }
+
+      /** Renew the moments of the cells of a group where they are out of date:
+       * where points came or went, or where the integration changes. */
+      template <typename Number>
+      CAISSON_INLINE void
+      renew_moments(const StepContext       &step,
+                    const CellGroup<Number> &group,
+                    const CellMap<Number>   &map)
+      {
+        const Number fraction = group.lanes([&](const unsigned int c) {
+          return step.points.filled_volume[c];
+        }) / map.volume(step.grid.axisymmetric);
+        for (int i = 0; i < group.n; ++i)
+          {
+            const unsigned int cell = group.cell[i];
+            const bool         full = is_full(step, cell, fraction[i]);
+            if (!step.points.changed[cell] && full == step.moments[cell].full)
+              continue;
+            step.moments[cell].full = full;
+            sum_points<Number>(step, step.grid.geometry[cell], cell);
+            step.points.changed[cell] = false;
+          }
+      }
+    } // namespace CAISSON_KERNEL_ISA
+  }   // namespace Kernels
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The stress of the points of a cell at the end of a step.
+//
+// With the velocity gradient L of the nodal field at the point, the strain
+// increment is dt (L + L^T) / 2, with the mean volume change of the cell
+// (B-bar,
+// Hughes 1980, doi:10.1002/nme.1620150914), and the stress rate that of Jaumann
+// with the spin dt (L - L^T) / 2 in the plane. The material law does the rest.
+#ifndef caisson_mpm_kernels_update_stress_h
+#define caisson_mpm_kernels_update_stress_h
+
+#include <caisson_mpm/kernels/laws.h>
+#include <caisson_mpm/kernels/moments.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    inline namespace CAISSON_KERNEL_ISA
+    {
+      /** Coefficients of both components of a nodal field, in one cell or in
+       * one cell in each lane. */
+      template <typename Real = double>
+      struct CellField
+      {
+        Real r[4], z[4];
+
+        CellField() = default;
+
+        CAISSON_INLINE
+        CellField(const NodalVector *field, const CellNodes &cell)
+        {
+          using Pair = Lanes<2>; // both components of a node
+          Pair corner[4], coefficient[4];
+          for (int i = 0; i < 4; ++i)
+            corner[i] = Pair::load(field[cell.node[i]].value);
+          coefficients(corner, coefficient);
+          for (int i = 0; i < 4; i += 2)
+            {
+              Pair component[2];
+              transpose(coefficient + i, component);
+              component[0].store(r + i);
+              component[1].store(z + i);
+            }
+        }
+      };
+
+      /** The velocity gradient at a point, L_tt included. */
+      template <typename Number>
+      struct VelocityGradient
+      {
+        Number rr, rz, zr, zz, tt;
+
+        template <typename Real>
+        CAISSON_INLINE
+        VelocityGradient(const CellField<Real>    &v,
+                         const LocalPoint<Number> &p,
+                         const Real                inverse_width,
+                         const Number              inverse_r)
+        {
+          gradient(v.r, p, inverse_width, rr, rz);
+          gradient(v.z, p, inverse_width, zr, zz);
+          tt = evaluate(v.r, p) * inverse_r;
+        }
+
+        CAISSON_INLINE Number
+        trace() const
+        {
+          return rr + zz + tt;
+        }
+      };
+
+      /** The mean of div v over the volume of cells, by Gauss integration. */
+      template <typename Number>
+      CAISSON_INLINE Number
+      mean_divergence(const CellMap<Number>   &map,
+                      const double             axisymmetric,
+                      const CellField<Number> &v)
+      {
+        Number change(0.), volume(0.);
+        for (int i = 0; i < GaussPoint<Number>::n; ++i)
+          {
+            const GaussPoint<Number>       gauss(map, axisymmetric, i);
+            const VelocityGradient<Number> L(v,
+                                             gauss.point,
+                                             map.inverse_width,
+                                             gauss.inverse_r);
+            change += gauss.volume * L.trace();
+            volume += gauss.volume;
+          }
+        return change / volume;
+      }
+
+      /** What all points of a cell share. */
+      struct CellUpdate
+      {
+        CellMap<>     map, moved;
+        CellField<>   advection, transfer, strain;
+        bool          full;
+        double        axisymmetric;
+        double        mean_divergence; // used where B-bar is on
+        double        speed_limit;     // 0: none
+        const double *fit;             // of the stress filter; null: no filter
+        double        inverse_mean_height;
+      };
+
+      /** What a point feels of the velocity field in a step. */
+      template <typename Number>
+      struct StepOfStrain
+      {
+        StrainIncrement<Number> strain;
+        Number                  volume_change; // of the volume, relative
+        Number                  spin;          // in the plane, times dt
+      };
+
+      /** The strain of points at @p p with the radius @p r. */
+      template <typename Number>
+      CAISSON_INLINE StepOfStrain<Number>
+                     find_strain(const LocalPoint<Number> &p,
+                                 const Number              r,
+                                 const CellUpdate         &cell,
+                                 const UpdateSettings     &settings)
+      {
+        const Number dt(settings.time_step);
+        const Number inverse_r = Number(cell.axisymmetric) / r;
+        const VelocityGradient<Number> L(cell.strain,
+                                         p,
+                                         cell.map.inverse_width,
+                                         inverse_r);
+        StepOfStrain<Number>           step;
+        step.strain        = {dt * L.rr,
+                              dt * L.zz,
+                              dt * L.tt,
+                              dt * Number(.5) * (L.rz + L.zr)};
+        step.volume_change = dt * L.trace();
+        // B-bar: the points of a cell take its mean volume change, so that a
+        // cell has one condition of incompressibility instead of four and does
+        // not lock. In plane strain the hoop direction stays unstrained.
+        if (settings.mean_volume_change)
+          {
+            const Number mean(settings.time_step * cell.mean_divergence);
+            const Number third = (mean - step.volume_change) *
+                                 Number(1. / (2. + cell.axisymmetric));
+            step.strain.rr += third;
+            step.strain.zz += third;
+            step.strain.tt += third * Number(cell.axisymmetric);
+            step.volume_change = mean;
+          }
+        step.spin = dt * Number(.5) * (L.rz - L.zr);
+        return step;
+      }
+
+      /**
+       * sigma_p <- sigma_p + share (sigma_fit(x_p) - sigma_p). The nodes see
+       * the affine fit only; what a stress has besides is answered by no force
+       * and would grow. The fit of the filtered stresses is the same fit.
+       */
+      template <typename Number>
+      CAISSON_INLINE void
+      filter_stress(StressState<Number>      &stress,
+                    const LocalPoint<Number> &p,
+                    const Number              z,
+                    const CellUpdate         &cell,
+                    const double              share_removed)
+      {
+        const Number share(share_removed);
+        const Number x = p.xi - Number(.5),
+                     y = (z - Number(cell.map.center_z())) *
+                         Number(cell.inverse_mean_height);
+        stress.rr += share * (evaluate_fit(cell.fit, x, y) - stress.rr);
+        stress.zz += share * (evaluate_fit(cell.fit + 3, x, y) - stress.zz);
+        stress.tt += share * (evaluate_fit(cell.fit + 6, x, y) - stress.tt);
+        stress.rz += share * (evaluate_fit(cell.fit + 9, x, y) - stress.rz);
+      }
+
+      /** Jaumann: sigma + dt (W sigma - sigma W) with the in-plane spin. */
+      template <typename Number>
+      CAISSON_INLINE StressState<Number>
+                     rotate(const StressState<Number> &s, const Number spin)
+      {
+        const Number turn = Number(2.) * spin * s.rz;
+        return {s.rr + turn, s.zz - turn, s.tt, s.rz + spin * (s.zz - s.rr)};
+      }
+
+      /**
+       * The work of the stress per volume in a step: dt times the mean of old
+       * (rotated) and new stress with the strain rate, on the mean of old and
+       * new volume.
+       */
+      template <typename Number>
+      CAISSON_INLINE Number
+      work_per_volume(const StressState<Number>  &old,
+                      const StressState<Number>  &stress,
+                      const StepOfStrain<Number> &step)
+      {
+        const StrainIncrement<Number> &strain = step.strain;
+        const Number                   twice_power =
+          (old.rr + stress.rr) * strain.rr + (old.zz + stress.zz) * strain.zz +
+          (old.tt + stress.tt) * strain.tt +
+          Number(2.) * (old.rz + stress.rz) * strain.rz;
+        return (Number(.5) + Number(.25) * step.volume_change) * twice_power;
+      }
+
+      /** A material and the parameters of its law. */
+      template <typename Law>
+      struct MaterialOf
+      {
+        double                          initial_void_ratio;
+        const typename Law::Parameters &parameters;
+      };
+
+      /** What the law knows of the points besides stress and strain. */
+      template <typename Law, typename Number>
+      CAISSON_INLINE LawState<Number>
+                     load_state(const PointBlock   &b,
+                                const PointHistory &history,
+                                const int           lane,
+                                const Number        volume,
+                                const double        initial_void_ratio)
+      {
+        LawState<Number> state;
+        state.plastic_deviatoric = Number::load(b.plastic_deviatoric + lane);
+        state.plastic_volumetric = Number::load(b.plastic_volumetric + lane);
+        // grains keep their volume: (1 + e) / (1 + e_0) = V / V_0
+        if (Law::uses_void_ratio)
+          state.void_ratio =
+            Number(1. + initial_void_ratio) *
+              (volume / Number::load(history.initial_volume + lane)) -
+            Number(1.);
+        for (int i = 0; i < Law::n_state; ++i)
+          state.variable[i] = Number::load(history.state[i] + lane);
+        return state;
+      }
+
+      /** The inverse of load_state(), but for the void ratio. */
+      template <typename Law, typename Number>
+      CAISSON_INLINE void
+      store_state(const LawState<Number> &state,
+                  PointBlock             &b,
+                  PointHistory           &history,
+                  const int               lane)
+      {
+        state.plastic_deviatoric.store(b.plastic_deviatoric + lane);
+        state.plastic_volumetric.store(b.plastic_volumetric + lane);
+        for (int i = 0; i < Law::n_state; ++i)
+          state.variable[i].store(history.state[i] + lane);
+      }
+
+      /** Set the stress and the volume of the points in the lanes from @p lane
+       * on to those at the end of the step. Returns work_per_volume(). */
+      template <typename Law, typename Number>
+      CAISSON_INLINE Number
+      update_stress(PointBlock               &b,
+                    PointHistory             &history,
+                    const int                 lane,
+                    const LocalPoint<Number> &p,
+                    const CellUpdate         &cell,
+                    const UpdateSettings     &settings,
+                    const MaterialOf<Law>    &material)
+      {
+        const auto load = [lane](const double *field) {
+          return Number::load(field + lane);
+        };
+        // 1. Strain increment dt (L + L^T) / 2 and spin from the nodal field.
+        const StepOfStrain<Number> step =
+          find_strain(p, load(b.r), cell, settings);
+
+        // 2. In full cells, take off what the affine fit does not contain.
+        StressState<Number> stress{load(b.stress[0]),
+                                   load(b.stress[1]),
+                                   load(b.stress[2]),
+                                   load(b.stress[3])};
+        if (cell.fit != nullptr)
+          filter_stress(stress, p, load(b.z), cell, settings.stress_filter);
+
+        // 3. Turn the stress with the soil, so that the law sees strain only.
+        stress = rotate(stress, step.spin);
+
+        // 4. The law: sigma <- sigma + C : de, and its state variables.
+        const Number     volume = load(b.volume);
+        LawState<Number> state  = load_state<Law>(
+          b, history, lane, volume, material.initial_void_ratio);
+        const StressState<Number> old = stress;
+        Law::update(stress, step.strain, state, material.parameters);
+        stress.rr.store(b.stress[0] + lane);
+        stress.zz.store(b.stress[1] + lane);
+        stress.tt.store(b.stress[2] + lane);
+        stress.rz.store(b.stress[3] + lane);
+        store_state<Law>(state, b, history, lane);
+
+        // 5. V <- V (1 + dt div v)
+        (volume * (Number(1.) + step.volume_change)).store(b.volume + lane);
+        return work_per_volume(old, stress, step);
+      }
+    } // namespace CAISSON_KERNEL_ISA
+  }   // namespace Kernels
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The entries of section "Method": how points and nodes exchange velocity, how
+// the internal force is integrated, and what keeps a step stable.
+#ifndef caisson_mpm_operators_method_settings_h
+#define caisson_mpm_operators_method_settings_h
+
+#include <caisson_mpm/kernels/layout.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** How points take their velocity from the nodes (nodal_motion.h). */
+  enum class VelocityTransfer
+  {
+    xpic,
+    pic,
+    flip,
+    blend
+  };
+
+  /** Which nodal velocities strain the points. */
+  enum class StressUpdate
+  {
+    musl, // those that the updated points bring back
+    usl   // the new nodal velocities
+  };
+
+  /** Where the internal force is integrated. */
+  enum class ForceIntegration
+  {
+    gauss_in_full_cells,
+    material_points
+  };
+
+  /** What the fit of a full cell keeps of the mean stress. */
+  enum class PressureFit
+  {
+    affine,
+    mean
+  };
+
+  /**
+   * The choices of the method. Constant during a run; every rank has the same.
+   */
+  class MethodSettings : public dealii::ParameterAcceptor
+  {
+  public:
+    MethodSettings();
+
+    /** Throws BadInput. */
+    void
+    check_parameters() const;
+
+    /** Share of a point's own velocity that it keeps (FLIP: 1). */
+    double
+    keep_velocity() const;
+
+    /** Order of XPIC in what it does not keep; 1: PIC. */
+    unsigned int
+    filter_order() const;
+
+    bool
+    uses_musl() const
+    {
+      return stress_update == StressUpdate::musl;
+    }
+
+    /** Share of the out-of-balance force that damping takes. */
+    double
+    local_damping() const
+    {
+      return damping;
+    }
+
+    Kernels::IntegrationSettings
+    integration() const;
+
+    Kernels::UpdateSettings
+    update(const double dt) const;
+
+    /** Return one line for the summary of a run. */
+    std::string
+    description() const;
+
+    /** Return warnings where the choices are known to fail in scenes with a
+     * body that is pushed. */
+    std::vector<std::string>
+    known_limits() const;
+
+  private:
+    void
+    declare_transfer();
+    void
+    declare_integration();
+    void
+    declare_stability();
+
+    VelocityTransfer transfer          = VelocityTransfer::blend;
+    StressUpdate     stress_update     = StressUpdate::musl;
+    ForceIntegration force_integration = ForceIntegration::gauss_in_full_cells;
+    PressureFit      pressure_fit      = PressureFit::affine;
+    unsigned int     xpic_order        = 2;
+    double           flip_fraction     = 0.95;
+    double           full_fraction     = 0.9;
+    double           full_fraction_inside = 0.5;
+    bool             mean_volume          = true;
+    double           stress_filter        = 0.01;
+    bool             mass_floor           = true;
+    double           damping              = 0.;
+    bool             limits_velocity      = true;
+    double           limiter_factor       = 0.75;
+  };
+} // namespace CaissonMPM
+
+#endif

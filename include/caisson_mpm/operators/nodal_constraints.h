@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What holds the nodes: the contact with the rigid body, then the boundary
+// conditions, which take precedence.
+#ifndef caisson_mpm_operators_nodal_constraints_h
+#define caisson_mpm_operators_nodal_constraints_h
+
+#include <caisson_mpm/operators/boundary_conditions.h>
+#include <caisson_mpm/operators/contact.h>
+
+namespace CaissonMPM
+{
+  /** What the constraints did in one step, at the nodes of this rank. */
+  struct NodalReactions
+  {
+    ContactResult    contact;
+    PrescribedResult prescribed;
+  };
+
+  /**
+   * Both constraints as one. Holds references; the caller owns what they refer
+   * to. Not collective.
+   */
+  struct NodalConstraints
+  {
+    Contact            &contact;
+    BoundaryConditions &boundary_conditions;
+
+    /** Correct the new velocities @p v [n_nodes] of nodes with the given
+     * @p inertia [n_nodes]. */
+    NodalReactions
+    apply(const Vector2             &body_velocity,
+          const double               dt,
+          const std::vector<double> &inertia,
+          Kernels::NodalVector      *v);
+
+    /** Constrain another velocity field as the last apply() did the new one. */
+    void
+    hold(Kernels::NodalVector *v) const;
+
+    /** Constrain the difference of two fields that are held. */
+    void
+    hold_difference(Kernels::NodalVector *v) const;
+  };
+} // namespace CaissonMPM
+
+#endif

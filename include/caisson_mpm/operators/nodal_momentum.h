@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The equation of motion at the nodes: what the points bring, and the new
+// velocities
+//   v_I = p_I / m_I,   v_I+ = v_I + dt f_I / M_I,   M_I = max(m_I, dt^2 K_I /
+//   4)
+// with the bound K_I of the row sum of the stiffness (doc/theory.md, section
+// 5), held to contact and boundary conditions.
+#ifndef caisson_mpm_operators_nodal_momentum_h
+#define caisson_mpm_operators_nodal_momentum_h
+
+#include <caisson_mpm/operators/nodal_constraints.h>
+#include <caisson_mpm/operators/nodal_data.h>
+#include <caisson_mpm/operators/nodal_forces.h>
+
+#include <vector>
+
+namespace CaissonMPM
+{
+  /**
+   * Owns the nodal sums of a step and the velocities before and after it.
+   * collect() is collective over MPI: what the points of all ranks bring to a
+   * node is summed. From then on every rank works on all nodes that it knows.
+   */
+  class NodalMomentum
+  {
+  public:
+    /** Set up for the nodes that this rank knows. */
+    void
+    initialize(const BackgroundGrid &grid);
+
+    /** Sum mass, momentum and force of the points, @p forces included. */
+    void
+    collect(const ForceContext &context, NodalForces &forces);
+
+    /** Set the velocities before the step and, but for the constraints, after
+     * it. Of the out-of-balance force away from the body, the share @p damping
+     * acts against the velocity. */
+    void
+    accelerate(const double dt, const double damping, const Contact &contact);
+
+    /** Hold the new velocities to contact and boundary conditions. */
+    NodalReactions
+    constrain(const double      dt,
+              const Vector2    &body_velocity,
+              NodalConstraints &constraints);
+
+    /** What the points brought [n_nodes]. */
+    const Kernels::NodalSums *
+    sums() const
+    {
+      return reinterpret_cast<const Kernels::NodalSums *>(sums_.begin());
+    }
+
+    /** The mass M_I that accelerates [n_nodes], 0 without soil. Units: kg per
+     * radian. */
+    const std::vector<double> &
+    inertia() const
+    {
+      return inertia_;
+    }
+
+    /** The velocities that the points brought. */
+    const NodalData &
+    old_velocity() const
+    {
+      return old_velocity_;
+    }
+
+    /** The velocities at the end of the step. */
+    const NodalData &
+    new_velocity() const
+    {
+      return new_velocity_;
+    }
+
+    unsigned int
+    n_owned_nodes() const
+    {
+      return n_owned_nodes_;
+    }
+
+    /** The inertia that the mass floor added in the last step at the nodes of
+     * this rank. Units: kg per radian. */
+    double
+    added_inertia() const
+    {
+      return added_inertia_;
+    }
+
+    /** Whether all nodal velocities of the last step are finite. */
+    bool
+    is_finite() const
+    {
+      return is_finite_;
+    }
+
+  private:
+    unsigned int        n_owned_nodes_ = 0;
+    double              added_inertia_ = 0.;
+    bool                is_finite_     = true;
+    std::vector<double> inertia_;
+    NodalData           sums_, old_velocity_, new_velocity_;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/choice.h>
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/operators/method_settings.h>
+
+#include <deal.II/base/patterns.h>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const Choices<VelocityTransfer> transfers = {
+      {"XPIC", VelocityTransfer::xpic},
+      {"PIC", VelocityTransfer::pic},
+      {"FLIP", VelocityTransfer::flip},
+      {"blend", VelocityTransfer::blend}};
+    const Choices<StressUpdate> stress_updates = {{"MUSL", StressUpdate::musl},
+                                                  {"USL", StressUpdate::usl}};
+    const Choices<ForceIntegration> integrations = {
+      {"Gauss in full cells", ForceIntegration::gauss_in_full_cells},
+      {"material points", ForceIntegration::material_points}};
+    const Choices<PressureFit> pressure_fits = {{"affine", PressureFit::affine},
+                                                {"mean", PressureFit::mean}};
+  } // namespace
+
+  MethodSettings::MethodSettings()
+    : ParameterAcceptor("/Method")
+  {
+    declare_transfer();
+    declare_integration();
+    declare_stability();
+  }
+
+  void
+  MethodSettings::declare_transfer()
+  {
+    add_choice(*this,
+               "Velocity transfer",
+               transfer,
+               transfers,
+               "Points take their velocity from the nodes by this scheme; the "
+               "blend is one of FLIP and XPIC. Units: none.");
+    add_parameter("XPIC order",
+                  xpic_order,
+                  "XPIC has this order, alone and in the blend; order 1 is "
+                  "PIC. Units: none.",
+                  prm,
+                  Patterns::Integer(1, 10));
+    add_parameter("FLIP fraction",
+                  flip_fraction,
+                  "FLIP has this share in the blend, and XPIC the rest. Units: "
+                  "none.",
+                  prm,
+                  Patterns::Double(0., 1.));
+    add_choice(*this,
+               "Stress update",
+               stress_update,
+               stress_updates,
+               "MUSL strains the points with the velocities that the updated "
+               "points bring back to the nodes, and USL with the new nodal "
+               "velocities. Units: none.");
+  }
+
+  void
+  MethodSettings::declare_integration()
+  {
+    add_choice(*this,
+               "Integration",
+               force_integration,
+               integrations,
+               "The internal force is integrated at Gauss points in full cells "
+               "and at material points in the others, or at material points in "
+               "all cells. Units: none.");
+    add_parameter("Full cell fraction",
+                  full_fraction,
+                  "A cell at a free surface is full if its points fill this "
+                  "share of its volume. Units: none.",
+                  prm,
+                  Patterns::Double(0.1, 2.));
+    add_parameter("Full cell fraction inside",
+                  full_fraction_inside,
+                  "A cell whose neighbors all have points is full if its "
+                  "points fill this share of its volume. Units: none.",
+                  prm,
+                  Patterns::Double(0.1, 2.));
+    add_choice(*this,
+               "Pressure in full cells",
+               pressure_fit,
+               pressure_fits,
+               "The mean stress of the points of a full cell is fitted by an "
+               "affine function, as the deviator always is, or by its mean. "
+               "Units: none.");
+    add_parameter("Mean volume change",
+                  mean_volume,
+                  "The points of a cell are strained with its mean volume "
+                  "change (B-bar), which prevents locking. Units: none.");
+    add_parameter("Stress filter",
+                  stress_filter,
+                  "In full cells a step removes this share of the misfit "
+                  "between the stress of a point and the affine fit of its "
+                  "cell, which changes no nodal force. Units: none.",
+                  prm,
+                  Patterns::Double(0., 1.));
+  }
+
+  void
+  MethodSettings::declare_stability()
+  {
+    add_parameter("Mass floor",
+                  mass_floor,
+                  "The mass that accelerates is raised, at nodes with little "
+                  "mass, to what the time step needs. Units: none.");
+    add_parameter("Local damping",
+                  damping,
+                  "This share of the out-of-balance force of a node acts "
+                  "against its velocity, except at the body. Units: none.",
+                  prm,
+                  Patterns::Double(0., 0.95));
+    add_parameter("Velocity limiter",
+                  limits_velocity,
+                  "The velocity of points in cells next to the body is cut to "
+                  "k H / dt, with the shortest side H of the cell. Units: "
+                  "none.");
+    add_parameter("Limiter factor",
+                  limiter_factor,
+                  "The velocity limiter uses this number as its factor k. "
+                  "Units: none.",
+                  prm,
+                  Patterns::Double(0.01, 1.));
+  }
+
+  void
+  MethodSettings::check_parameters() const
+  {
+    if (full_fraction_inside > full_fraction)
+      throw BadInput(
+        "Method/Full cell fraction inside = " + to_text(full_fraction_inside) +
+        " exceeds Method/Full cell fraction = " + to_text(full_fraction) +
+        ". Reduce it.");
+    if (!uses_musl() && transfer == VelocityTransfer::flip && damping == 0. &&
+        !mass_floor)
+      throw BadInput("Method/Stress update = USL with Velocity transfer = FLIP "
+                     "needs Mass floor = true or Local damping: it is unstable "
+                     "at nodes with little mass.");
+  }
+
+  unsigned int
+  MethodSettings::filter_order() const
+  {
+    return transfer == VelocityTransfer::xpic ||
+               transfer == VelocityTransfer::blend ?
+             xpic_order :
+             1;
+  }
+
+  double
+  MethodSettings::keep_velocity() const
+  {
+    return transfer == VelocityTransfer::flip  ? 1. :
+           transfer == VelocityTransfer::blend ? flip_fraction :
+                                                 0.;
+  }
+
+  Kernels::IntegrationSettings
+  MethodSettings::integration() const
+  {
+    const bool at_points =
+      force_integration == ForceIntegration::material_points;
+    constexpr double never_full = 1e300;
+    return {at_points ? never_full : full_fraction,
+            at_points ? never_full : full_fraction_inside,
+            mass_floor,
+            pressure_fit == PressureFit::mean};
+  }
+
+  Kernels::UpdateSettings
+  MethodSettings::update(const double dt) const
+  {
+    return {dt,
+            keep_velocity(),
+            mean_volume,
+            limits_velocity ? limiter_factor : 0.,
+            stress_filter};
+  }
+
+  std::string
+  MethodSettings::description() const
+  {
+    const std::string xpic = "XPIC(" + to_text(xpic_order) + ")";
+    return name_of(stress_updates, stress_update) + ", " +
+           (transfer == VelocityTransfer::xpic ? xpic :
+            transfer == VelocityTransfer::blend ?
+                                                 "FLIP and " + xpic :
+                                                 name_of(transfers, transfer)) +
+           ", " + name_of(integrations, force_integration);
+  }
+
+  std::vector<std::string>
+  MethodSettings::known_limits() const
+  {
+    std::vector<std::string> limits;
+    if (force_integration == ForceIntegration::material_points)
+      limits.push_back("Method/Integration = material points makes noise where "
+                       "points cross cells; it has been seen to halve the tip "
+                       "force of a caisson: see doc/limitations.md");
+    if (transfer == VelocityTransfer::pic)
+      limits.push_back("Method/Velocity transfer = PIC is viscous: a pulse "
+                       "loses a third of its energy over 20 of its lengths: "
+                       "see doc/limitations.md");
+    return limits;
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/operators/nodal_force.h>
+
+namespace CaissonMPM
+{
+  void
+  NodalForce::collect(const ForceContext &context, Kernels::NodalSums *nodes)
+  {
+    force.clear();
+    if (!acts())
+      return;
+    force.resize(context.grid.n_nodes(), {{0., 0.}});
+    add(context, force.data());
+    for (std::size_t i = 0; i < force.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        nodes[i].force[d] += force[i].value[d];
+  }
+
+  double
+  NodalForce::work(const double                dt,
+                   const Kernels::NodalVector *start,
+                   const Kernels::NodalVector *end) const
+  {
+    double work = 0.;
+    for (std::size_t i = 0; i < force.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        work +=
+          dt * force[i].value[d] * .5 * (start[i].value[d] + end[i].value[d]);
+    return work;
+  }
+} // namespace CaissonMPM

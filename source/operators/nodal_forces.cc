@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/operators/body_force.h>
+#include <caisson_mpm/operators/nodal_forces.h>
+#include <caisson_mpm/operators/surrounding_pressure.h>
+
+namespace CaissonMPM
+{
+  NodalForces::NodalForces()
+  {
+    add(std::make_unique<BodyForce>());
+    add(std::make_unique<SurroundingPressure>());
+  }
+
+  void
+  NodalForces::add(std::unique_ptr<NodalForce> force)
+  {
+    forces.push_back(std::move(force));
+  }
+
+  void
+  NodalForces::check_parameters() const
+  {
+    for (const auto &force : forces)
+      force->check_parameters();
+  }
+
+  void
+  NodalForces::initialize(const double mass_scaling)
+  {
+    for (const auto &force : forces)
+      force->initialize(mass_scaling);
+  }
+
+  void
+  NodalForces::collect(const ForceContext &context, Kernels::NodalSums *nodes)
+  {
+    for (const auto &force : forces)
+      force->collect(context, nodes);
+  }
+
+  double
+  NodalForces::work(const double                dt,
+                    const Kernels::NodalVector *start,
+                    const Kernels::NodalVector *end) const
+  {
+    double work = 0.;
+    for (const auto &force : forces)
+      work += force->work(dt, start, end);
+    return work;
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/operators/local_damping.h>
+#include <caisson_mpm/operators/nodal_work.h>
+
+#include <algorithm>
+
+namespace CaissonMPM
+{
+  void
+  WorkOfStep::initialize(const BackgroundGrid &grid)
+  {
+    grid.reinit(held, 2);
+    circumference = grid.circumference();
+  }
+
+  NodalWork
+  WorkOfStep::find(const double                dt,
+                   const double                damping,
+                   const NodalMomentum        &momentum,
+                   const Kernels::NodalVector *strain,
+                   const NodalForces          &forces,
+                   const NodalConstraints     &constraints,
+                   const NodalReactions       &reactions)
+  {
+    const std::size_t n = 2 * momentum.inertia().size();
+    std::copy_n(momentum.old_velocity().begin(), n, held.begin());
+    constraints.hold(nodal_vectors(held));
+
+    NodalWork                 result;
+    const Kernels::NodalSums *node = momentum.sums();
+    const double *const       v0   = momentum.old_velocity().begin(),
+                        *v         = momentum.new_velocity().begin(),
+                        *s         = strain->value;
+    double *const h                = held.begin();
+    for (unsigned int i = 0; i < momentum.n_owned_nodes(); ++i, ++node)
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          const unsigned int k    = 2 * i + d;
+          const double       mean = .5 * (h[k] + v[k]);
+          const double       f    = dt * node->force[d];
+          result.forces += f * .5 * (h[k] + s[k]);
+          result.mass_floor +=
+            (momentum.inertia()[i] - std::max(0., node->mass)) *
+            (v[k] - v0[k]) * mean;
+          if (damping > 0. && !constraints.contact.is_contact_node(i))
+            result.damping += damping_force(damping, f, v0[k]) * mean;
+        }
+    // of what this rank's points bring, to all of their nodes
+    result.load = forces.work(dt, nodal_vectors(held), strain);
+    for (double *sum :
+         {&result.forces, &result.load, &result.mass_floor, &result.damping})
+      *sum *= circumference;
+    result.body       = reactions.contact.work;
+    result.prescribed = reactions.prescribed.work;
+    for (std::size_t k = 0; k < n; ++k)
+      h[k] = .5 * (h[k] + v[k]);
+    if (!constraints.contact.empty())
+      result.friction = constraints.contact.friction_heat(nodal_vectors(held));
+    return result;
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/operators/point_transfer.h>
+
+#include <algorithm>
+
+namespace CaissonMPM
+{
+  using Kernels::NodalVector;
+
+  void
+  PointTransfer::initialize(const BackgroundGrid &grid)
+  {
+    for (NodalData *v :
+         {&transfer_velocity, &strain_velocity, &filtered, &after_round_trip})
+      grid.reinit(*v, 2);
+  }
+
+  void
+  PointTransfer::prepare(const MethodSettings       &settings,
+                         const Kernels::KernelTable &kernels,
+                         const Kernels::StepContext &step,
+                         const NodalMomentum        &momentum,
+                         const NodalConstraints     &constraints)
+  {
+    const Context     context = {kernels, step, momentum, constraints};
+    const std::size_t n       = 2 * momentum.inertia().size();
+    const double     *old     = momentum.old_velocity().begin(),
+                 *v           = momentum.new_velocity().begin();
+    const double keep         = settings.keep_velocity();
+
+    // what is added to keep * V_p: FLIP's part of it first
+    double *const transfer = transfer_velocity.begin();
+    for (std::size_t i = 0; i < n; ++i)
+      transfer[i] = v[i] - keep * old[i];
+    if (settings.filter_order() > 1)
+      add_filter(context, settings.filter_order(), 1. - keep);
+    strains_with_new = !settings.uses_musl();
+    if (!strains_with_new)
+      find_strain_velocity(context, keep);
+  }
+
+  void
+  PointTransfer::round_trip(const Context   &context,
+                            const NodalData &from,
+                            NodalData       &to)
+  {
+    to = 0.;
+    to.zero_out_ghost_values();
+    context.kernels.apply_mass(context.step,
+                               nodal_vectors(from),
+                               nodal_vectors(to));
+    to.compress(dealii::VectorOperation::add);
+    to.update_ghost_values();
+    const Kernels::NodalSums *const node = context.momentum.sums();
+    NodalVector *const              v    = nodal_vectors(to);
+    for (std::size_t i = 0; i < context.momentum.inertia().size(); ++i)
+      if (node[i].mass > 0.)
+        for (unsigned int d = 0; d < 2; ++d)
+          v[i].value[d] /= node[i].mass;
+  }
+
+  void
+  PointTransfer::add_filter(const Context     &context,
+                            const unsigned int order,
+                            const double       share)
+  {
+    const std::size_t n = 2 * context.momentum.inertia().size();
+    std::copy_n(context.momentum.old_velocity().begin(), n, filtered.begin());
+    context.constraints.hold(nodal_vectors(filtered));
+    for (unsigned int k = 1; k < order; ++k)
+      {
+        round_trip(context, filtered, after_round_trip);
+        // from the second round on the field is a difference
+        if (k == 1)
+          context.constraints.hold(nodal_vectors(after_round_trip));
+        else
+          context.constraints.hold_difference(nodal_vectors(after_round_trip));
+        double *const w = filtered.begin(), *const a = after_round_trip.begin(),
+                      *const transfer = transfer_velocity.begin();
+        for (std::size_t i = 0; i < n; ++i)
+          {
+            // (I - A)^k v; differences of held fields stay held
+            w[i] -= a[i];
+            transfer[i] += share * w[i];
+          }
+      }
+  }
+
+  void
+  PointTransfer::find_strain_velocity(const Context &context, const double keep)
+  {
+    // S+ (keep V_p + S transfer) = keep v + A transfer
+    round_trip(context, transfer_velocity, strain_velocity);
+    const double *const old    = context.momentum.old_velocity().begin();
+    double *const       strain = strain_velocity.begin();
+    for (std::size_t i = 0; i < 2 * context.momentum.inertia().size(); ++i)
+      strain[i] += keep * old[i];
+    context.constraints.hold(nodal_vectors(strain_velocity));
+  }
+
+  Kernels::NodalFields
+  PointTransfer::fields(const NodalMomentum &momentum) const
+  {
+    const NodalData &v = momentum.new_velocity();
+    return {nodal_vectors(v),
+            nodal_vectors(transfer_velocity),
+            nodal_vectors(strains_with_new ? v : strain_velocity)};
+  }
+} // namespace CaissonMPM

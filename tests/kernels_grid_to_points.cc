@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the kernel does to random points in distorted cells, against
+//
+// - closed forms: linear velocity fields, a rotation, the volume mean of the
+//   divergence, the limiter, the stress filter, the work of the stress;
+// - the sums over the points that the update leaves for the next step;
+// - itself: the same kernels for all instruction sets of this CPU.
+#include <deal.II/base/quadrature_lib.h>
+
+#include "kernel_scene.h"
+
+void
+check_linear_field(const double axisymmetric)
+{
+  Scene s = make_scene(axisymmetric, false);
+  fill_blocks(s);
+  const std::vector<CellMoments> moments(n_cells, CellMoments());
+  const double                   dt = 1e-3, a = .7, b = -1.1, c = .4, keep = .3;
+  const auto                     v = [&](const double r, const double z) {
+    return std::array<double, 2>{{a * r, b * z + c * r}};
+  };
+  const UpdateResult sums =
+    update(s, *select_kernels("auto"), {dt, keep, true, 0., 0.}, v, moments);
+  double       work = 0.;
+  const double M    = E * (1. - nu) / ((1. + nu) * (1. - 2. * nu)),
+               l = M * nu / (1. - nu), G = E / (2. * (1. + nu));
+  double position = 0., velocity = 0., stress = 0., volume = 0.;
+  for_all(s, [&](PointBlock &block, int lane, const Point &p) {
+    const auto w = v(p.r, p.z);
+    position     = std::max({position,
+                             std::abs(block.r[lane] - p.r - dt * w[0]),
+                             std::abs(block.z[lane] - p.z - dt * w[1])});
+    velocity =
+      std::max({velocity,
+                std::abs(block.velocity_r[lane] - keep * p.v[0] - w[0]),
+                std::abs(block.velocity_z[lane] - keep * p.v[1] - w[1])});
+    const double rr = dt * a, zz = dt * b, tt = axisymmetric * dt * a,
+                 rz = .5 * dt * c, spin = -.5 * dt * c, trace = rr + zz + tt;
+    const double exact[4] = {p.s[0] + 2. * spin * p.s[3] + l * trace +
+                               2. * G * rr,
+                             p.s[1] - 2. * spin * p.s[3] + l * trace +
+                               2. * G * zz,
+                             p.s[2] + l * trace + 2. * G * tt,
+                             p.s[3] + spin * (p.s[1] - p.s[0]) + 2. * G * rz};
+    for (int i = 0; i < 4; ++i)
+      stress = std::max(stress, std::abs(block.stress[i][lane] - exact[i]));
+    // the mean of the old stress, rotated, and the new one
+    const double turn    = 2. * spin * p.s[3];
+    const double mean_rr = .5 * (p.s[0] + turn + exact[0]),
+                 mean_zz = .5 * (p.s[1] - turn + exact[1]),
+                 mean_tt = .5 * (p.s[2] + exact[2]),
+                 mean_rz = .5 * (p.s[3] + spin * (p.s[1] - p.s[0]) + exact[3]);
+    work += p.volume * (1. + .5 * trace) *
+            (mean_rr * rr + mean_zz * zz + mean_tt * tt + 2. * mean_rz * rz);
+    volume =
+      std::max(volume, std::abs(block.volume[lane] / p.volume - 1. - trace));
+  });
+  verdict("linear field: position error", position, 1e-13);
+  verdict("linear field: velocity error", velocity, 1e-13);
+  verdict("linear field: stress error", stress / 1e4, 1e-13);
+  verdict("linear field: volume error", volume, 1e-13);
+  verdict("linear field: error of the stress work",
+          std::abs(sums.stress_work / work - 1.),
+          1e-12);
+}
+
+/** The work of a uniform stress and strain is that of the cell's volume in full
+ * cells, though their points have twice the volume, and of that of the points
+ * in the others. */
+void
+check_work(const double axisymmetric)
+{
+  Scene s = make_scene(axisymmetric, false);
+  for (Point &p : s.points)
+    {
+      p.s[0] = p.s[2] = -3.;
+      p.s[1]          = -5.;
+      p.s[3]          = 0.;
+      p.volume *= 2.;
+    }
+  fill_blocks(s);
+  const KernelTable &kernels = *select_kernels("auto");
+  const auto         moments = collect(s, kernels, gauss).moments;
+  double             volume  = 0.;
+  for (unsigned int c = 0; c < n_cells; ++c)
+    if (moments[c].full)
+      volume += CellMap(s.geometry[c]).volume(axisymmetric);
+  unsigned int i = 0;
+  for (unsigned int c = 0; c < n_cells; ++c)
+    for (int b = s.first[c]; b >= 0; b = s.headers[b].next)
+      for (int lane = 0; lane < s.headers[b].count; ++lane, ++i)
+        if (!moments[c].full)
+          volume += s.points[i].volume;
+  // so slow that the stress hardly changes
+  const double dt = 1e-12, a = .7, b = -1.1;
+  const auto   sums = update(
+    s,
+    kernels,
+    {dt, 0., true, 0., 0.},
+    [&](const double r, const double z) {
+      return std::array<double, 2>{{a * r, b * z}};
+    },
+    moments);
+  const double power = -3. * a * (1. + axisymmetric) - 5. * b;
+  verdict("work in full and other cells",
+          std::abs(sums.stress_work / (dt * volume * power) - 1.),
+          1e-5);
+}
+
+/** The moments that an update leaves of the cells that no point left are those
+ * of their points. */
+void
+check_kept_moments(const double axisymmetric)
+{
+  Scene s = make_scene(axisymmetric, false);
+  fill_blocks(s);
+  const KernelTable       &kernels = *select_kernels("auto");
+  std::vector<CellMoments> kept;
+  const UpdateResult       result = update(
+    s,
+    kernels,
+    {1e-3, 0., true, 0., .1},
+    [](const double r, const double z) {
+      return std::array<double, 2>{{r * z, -3. * z}};
+    },
+    collect(s, kernels, gauss).moments,
+    &kept);
+  std::vector<CellMoments> fresh(n_cells);
+  for (unsigned int c = 0; c < n_cells; ++c)
+    {
+      fresh[c].full = kept[c].full;
+      sum_points<Scalar>(s.step(gauss, fresh), s.geometry[c], c);
+    }
+  double       worst = 0.;
+  unsigned int n     = 0;
+  for (unsigned int c = 0; c < n_cells; ++c)
+    {
+      bool left = false;
+      for (unsigned int i = 0; i < result.n_leaving; ++i)
+        left = left || result.leaving[i].cell == c;
+      if (left)
+        continue;
+      ++n;
+      const double *a = kept[c].mass, *b = fresh[c].mass;
+      for (unsigned int i = 0; i < 33; ++i)
+        worst = std::max(worst, std::abs(a[i] - b[i]) / (1. + std::abs(b[i])));
+    }
+  verdict("moments kept for the next step, error", worst, 1e-12);
+  std::printf("cells that no point left: %s\n", n > 0 ? "some" : "none");
+}
+
+/** B-bar: all points of a cell have its mean volume change, and keep their own
+ * deviatoric strain. */
+void
+check_mean_volume(const double axisymmetric)
+{
+  const std::vector<CellMoments> moments(n_cells, CellMoments());
+  const auto                     v = [](const double r, const double z) {
+    return std::array<double, 2>{{r * z * z, z * r + z * z * z}};
+  };
+  Scene with = make_scene(axisymmetric, false);
+  fill_blocks(with);
+  Scene without = with;
+  update(with, *select_kernels("auto"), {1e-3, 0., true, 0., 0.}, v, moments);
+  update(
+    without, *select_kernels("auto"), {1e-3, 0., false, 0., 0.}, v, moments);
+  double                             spread = 0., largest = 0., deviator = 0.;
+  std::vector<std::array<double, 4>> stress;
+  std::vector<double>                ratio(n_cells, -1.);
+  for_all(with, [&](PointBlock &b, int lane, const Point &p) {
+    const double change = b.volume[lane] / p.volume;
+    if (ratio[p.cell] < 0.)
+      ratio[p.cell] = change;
+    spread = std::max(spread, std::abs(change - ratio[p.cell]));
+    stress.push_back({{b.stress[0][lane],
+                       b.stress[1][lane],
+                       b.stress[2][lane],
+                       b.stress[3][lane]}});
+  });
+  unsigned int k = 0;
+  for_all(without, [&](PointBlock &b, int lane, const Point &p) {
+    largest =
+      std::max(largest, std::abs(b.volume[lane] / p.volume - ratio[p.cell]));
+    const auto &w = stress[k++];
+    deviator =
+      std::max({deviator,
+                std::abs(w[3] - b.stress[3][lane]),
+                std::abs(w[0] - w[1] - b.stress[0][lane] + b.stress[1][lane])});
+  });
+  // the mean itself, by the divergence theorem on rectangular Gauss points
+  double mean = 0.;
+  for (unsigned int c = 0; c < n_cells; ++c)
+    {
+      const CellGeometry     &g = with.geometry[c];
+      const dealii::QGauss<2> gauss(2);
+      double                  change = 0., volume = 0.;
+      for (unsigned int q = 0; q < 4; ++q)
+        {
+          const double xi = gauss.point(q)[0], r = g.left + g.width * xi;
+          const double height =
+            g.height_left + (g.height_right - g.height_left) * xi;
+          const double z = g.bottom_left +
+                           (g.bottom_right - g.bottom_left) * xi +
+                           height * gauss.point(q)[1];
+          const Shape  N(g, r, z);
+          const double dV = height * (axisymmetric * r + 1. - axisymmetric);
+          volume += dV;
+          for (int i = 0; i < 4; ++i)
+            {
+              const double x = g.left + (i % 2) * g.width;
+              const double y =
+                (i % 2 ? g.bottom_right : g.bottom_left) +
+                (i / 2) * (i % 2 ? g.height_right : g.height_left);
+              const auto w = v(x, y);
+              change +=
+                dV * (w[0] * (N.d_dr[i] + axisymmetric * N.value[i] / r) +
+                      w[1] * N.d_dz[i]);
+            }
+        }
+      mean = std::max(mean, std::abs(ratio[c] - 1. - 1e-3 * change / volume));
+    }
+  verdict("B-bar: spread of the volume change", spread, 1e-14);
+  verdict("B-bar: mean volume change error", mean, 1e-14);
+  verdict("B-bar: change of the deviator", deviator / 1e4, 1e-13);
+  verdict("B-bar: effect below", largest, 1e-2);
+  verdict("B-bar: no effect", 1e-6 / largest, 1.);
+}
+
+void
+check_limiter()
+{
+  Scene s = make_scene(1., false);
+  fill_blocks(s);
+  const std::vector<CellMoments> moments(n_cells, CellMoments());
+  const double                   dt = 1e-2, k = .1;
+  const auto                     v = [](double, double) {
+    return std::array<double, 2>{{6., -8.}};
+  };
+  const UpdateResult result =
+    update(s, *select_kernels("auto"), {dt, 0., false, k, 0.}, v, moments);
+  double       error = 0., direction = 0.;
+  unsigned int n_limited = 0;
+  for_all(s, [&](PointBlock &b, int lane, const Point &p) {
+    const CellGeometry &g       = s.geometry[p.cell];
+    const bool          at_body = s.flags[p.cell] & next_to_body;
+    const double        limit =
+      k * std::min({g.width, g.height_left, g.height_right}) / dt;
+    const double expected = at_body ? std::min(10., limit) : 10.;
+    n_limited += at_body && limit < 10.;
+    const double speed = std::hypot(b.velocity_r[lane], b.velocity_z[lane]);
+    const double path  = std::hypot(b.r[lane] - p.r, b.z[lane] - p.z) / dt;
+    error =
+      std::max({error, std::abs(speed - expected), std::abs(path - expected)});
+    direction =
+      std::max(direction,
+               std::abs(8. * b.velocity_r[lane] + 6. * b.velocity_z[lane]));
+  });
+  verdict("limiter: speed error", error, 1e-10);
+  verdict("limiter: change of direction", direction, 1e-12);
+  verdict("limiter: firings, miscounted",
+          std::abs(double(n_limited) - result.n_limited),
+          0.);
+  verdict("limiter: no firing", 1. / n_limited, 1.);
+}
+
+/** The filter moves the stress of full cells to the fit, and no further. */
+void
+check_stress_filter()
+{
+  Scene s = make_scene(1., false);
+  fill_blocks(s);
+  const Sums sums = collect(s, *select_kernels("auto"), gauss);
+  const auto rest = [](double, double) {
+    return std::array<double, 2>{{0., 0.}};
+  };
+  update(
+    s, *select_kernels("auto"), {1e-3, 0., true, 0., 1.}, rest, sums.moments);
+  // all of the misfit removed: the stress of a full cell is affine
+  double affine = 0., partly = 0.;
+  for (unsigned int c = 0; c < n_cells; ++c)
+    {
+      std::vector<std::array<double, 3>> x; // r, z, sigma_zz
+      for_all(s, [&](PointBlock &b, int lane, const Point &p) {
+        if (p.cell == c && c % 2 == 0)
+          x.push_back({{b.r[lane], b.z[lane], b.stress[1][lane]}});
+        if (p.cell == c && c % 2 == 1)
+          partly = std::max(partly, std::abs(b.stress[1][lane] - p.s[1]));
+      });
+      for (unsigned int i = 3; i < x.size(); ++i)
+        {
+          const double r1 = x[1][0] - x[0][0], z1 = x[1][1] - x[0][1],
+                       r2 = x[2][0] - x[0][0], z2 = x[2][1] - x[0][1],
+                       det = r1 * z2 - r2 * z1, r = x[i][0] - x[0][0],
+                       z     = x[i][1] - x[0][1];
+          const double value = x[0][2] +
+                               (r * z2 - z * r2) / det * (x[1][2] - x[0][2]) +
+                               (z * r1 - r * z1) / det * (x[2][2] - x[0][2]);
+          affine = std::max(affine, std::abs(value - x[i][2]));
+        }
+    }
+  verdict("filter: misfit left in full cells", affine / 1e4, 1e-9);
+  verdict("filter: change in other cells", partly / 1e4, 1e-14);
+}
+
+
+
+// ------------------------------------------------------- instruction sets
+
+void
+check_instruction_sets()
+{
+  double       worst = 0.;
+  unsigned int n     = 0;
+  for (const double axisymmetric : {0., 1.})
+    {
+      Scene s = make_scene(axisymmetric, false);
+      fill_blocks(s);
+      const auto v = [](const double r, const double z) {
+        return std::array<double, 2>{{.3 * r * z, -.5 * z + r}};
+      };
+      Scene      base = s;
+      const Sums a    = collect(base, *select_kernels("SSE2"), gauss);
+      update(
+        base, *select_kernels("SSE2"), {1e-3, .5, true, .7, .1}, v, a.moments);
+      for (const char *name : {"AVX2", "AVX-512"})
+        if (const KernelTable *kernels = select_kernels(name))
+          {
+            Scene      other = s;
+            const Sums b     = collect(other, *kernels, gauss);
+            worst            = std::max(worst, difference(a, b));
+            update(other, *kernels, {1e-3, .5, true, .7, .1}, v, b.moments);
+            for (unsigned int i = 0; i < base.blocks.size(); ++i)
+              {
+                const double *x = reinterpret_cast<double *>(&base.blocks[i]),
+                             *y = reinterpret_cast<double *>(&other.blocks[i]);
+                for (unsigned int j = 0; j < sizeof(PointBlock) / 8; ++j)
+                  if (j % 8 < static_cast<unsigned int>(base.headers[i].count))
+                    worst =
+                      std::max(worst,
+                               std::abs(x[j] - y[j]) / (1. + std::abs(x[j])));
+              }
+            ++n;
+          }
+    }
+  verdict("all instruction sets of this CPU: difference", worst, 1e-12);
+  std::printf("unknown instruction set: %s\n",
+              select_kernels("NEON") == nullptr ? "refused" : "accepted");
+}
+
+int
+main()
+{
+  for (const double axisymmetric : {0., 1.})
+    {
+      std::printf("%s\n", axisymmetric > 0. ? "axisymmetric" : "plane strain");
+      check_linear_field(axisymmetric);
+      check_mean_volume(axisymmetric);
+    }
+  std::printf("both\n");
+  check_limiter();
+  check_stress_filter();
+  for (const double axisymmetric : {0., 1.})
+    {
+      check_work(axisymmetric);
+      check_kept_moments(axisymmetric);
+    }
+  check_instruction_sets();
+}

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Single steps of the nodal motion of soil without a body and without sides:
+// momentum, the work of nodal forces, equilibrium under a surrounding pressure,
+// and the order of the calls.
+#include <caisson_mpm/operators/nodal_motion.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "scene.h"
+
+constexpr double dt = 1e-3;
+
+const std::string soil_text = R"(
+  subsection Soil
+    set Submerged        = false
+    set Gravity          = 0, 0
+    set Initial stress   = uniform
+    set Uniform stress   = -5e3, -5e3, -5e3, 0
+    set Initial velocity = 1 + r*z ; 2 - r
+  end
+  subsection Grid
+    set Geometry     = plane strain
+    set Outer radius = 3
+    set Bottom       = -3
+    set Top          = 0
+    set Cell width   = 0.25
+    set Cell height  = 0.25
+    set Distortion   = 0.3
+  end
+  subsection Material points
+    set Region           = 1 - (r - 1.5)^2 - (z + 1.5)^2
+    set Random positions = 1
+  end
+  subsection Boundary conditions
+    set Axis   = free
+    set Side   = free
+    set Bottom = free
+    set Top    = free
+  end
+  )";
+
+/** A scene that can take steps. */
+struct Stepper
+{
+  Scene                          scene;
+  NodalMotion                    motion;
+  NodalForces                    forces;
+  Contact                        contact;
+  NodalConstraints               constraints;
+  std::vector<Kernels::Material> materials;
+
+  Stepper(const std::string &soil, const std::string &method)
+    : scene(soil)
+    , constraints{contact, scene.boundary_conditions}
+  {
+    auto &prm = dealii::ParameterAcceptor::prm;
+    prm.parse_input_from_string(method);
+    dealii::ParameterAcceptor::parse_all_parameters(prm);
+    scene.generator.generate(
+      scene.grid, scene.body.shape(), scene.soil, 1., scene.points);
+    materials = scene.soil.kernel_materials(1.);
+    contact.initialize(scene.grid, scene.body.surface());
+    scene.boundary_conditions.initialize(scene.grid);
+    motion.initialize(scene.grid);
+    forces.initialize(1.);
+    scene.grid.prepare_motion(0.);
+  }
+
+  void
+  collect()
+  {
+    motion.collect(
+      {*Kernels::select_kernels("auto"), scene.points, scene.grid, materials},
+      forces,
+      0.);
+  }
+
+  /** Take a step without relocation; returns its works. */
+  NodalWork
+  step()
+  {
+    collect();
+    motion.accelerate(dt, contact);
+    motion.constrain(dt, Vector2(), constraints);
+    motion.prepare_transfer(constraints);
+    const NodalWork work = motion.work_of_step(dt, forces, constraints);
+    motion.update_points(dt, scene.grid.next(), scene.points.update_result());
+    return work;
+  }
+
+  struct Sums
+  {
+    double  mass = 0., max_speed = 0.;
+    Vector2 momentum;
+  };
+
+  Sums
+  sums() const
+  {
+    Sums result;
+    scene.points.for_each_motion([&](const dealii::Point<2> &,
+                                     const Vector2 &velocity,
+                                     const double   mass,
+                                     const unsigned int) {
+      result.mass += mass;
+      result.momentum += mass * velocity;
+      result.max_speed = std::max(result.max_speed, velocity.norm());
+    });
+    return result;
+  }
+};
+
+/** Momentum is that of the start and of the body force, in all transfers. */
+void
+check_momentum()
+{
+  for (const std::string transfer : {"FLIP", "PIC", "XPIC", "blend"})
+    for (const std::string load : {"0 ; 0", "3 ; -7"})
+      {
+        Stepper         s(soil_text,
+                  "subsection Method\nset Mass floor = false\n"
+                          "set Velocity transfer = " +
+                    transfer + "\nend\nsubsection Loads\nset Body force = " +
+                    load + "\nend\n");
+        const auto      before = s.sums();
+        const NodalWork work   = s.step();
+        const auto      after  = s.sums();
+        const Vector2   b = load == "0 ; 0" ? Vector2() : Vector2({3., -7.});
+        const Vector2   expected = before.momentum + dt * before.mass * b;
+        verdict(
+          (transfer + ", body force " + load + ": momentum, error").c_str(),
+          (after.momentum - expected).norm() / before.momentum.norm(),
+          1e-13);
+        // with the mean of the velocities before and after the step
+        const double power = .5 * (before.momentum + expected) * b;
+        verdict("  work of the body force, error",
+                std::abs(work.load - dt * power) / before.mass,
+                1e-8);
+      }
+}
+
+/** A pressure around soil with the same stress moves no node. */
+void
+check_equilibrium()
+{
+  std::string at_rest = soil_text;
+  at_rest.replace(at_rest.find("1 + r*z ; 2 - r"), 15, "0 ; 0");
+  Stepper s(at_rest, "subsection Loads\nset Surrounding pressure = 5e3\nend\n");
+  s.step();
+  verdict("surrounding pressure: speed", s.sums().max_speed, 1e-13);
+  Stepper other(at_rest, "");
+  other.step();
+  verdict("without it, no speed", 1e-6 / other.sums().max_speed, 1.);
+}
+
+/** A call out of turn is refused. */
+void
+check_order()
+{
+  Stepper    s(soil_text, "");
+  const auto refused = [](const auto &call) {
+    try
+      {
+        call();
+      }
+    catch (const dealii::ExceptionBase &)
+      {
+        return "refused";
+      }
+    return "accepted";
+  };
+  std::printf("accelerate before collect: %s\n",
+              refused([&]() { s.motion.accelerate(dt, s.contact); }));
+  std::printf("collect: %s\n", refused([&]() { s.collect(); }));
+  std::printf("collect again: %s\n", refused([&]() { s.collect(); }));
+  std::printf("work before the transfer: %s\n", refused([&]() {
+                s.motion.work_of_step(dt, s.forces, s.constraints);
+              }));
+  std::printf("accelerate: %s\n",
+              refused([&]() { s.motion.accelerate(dt, s.contact); }));
+}
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check_momentum();
+  check_equilibrium();
+  check_order();
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The line that a C++ test prints for each thing that it checks.
+#ifndef caisson_mpm_tests_verdict_h
+#define caisson_mpm_tests_verdict_h
+
+#include <cstdio>
+
+/** Print whether an error is small enough; if not, also the error. */
+inline void
+verdict(const char *what, const double error, const double tolerance)
+{
+  std::printf("%s <= %g: %s\n",
+              what,
+              tolerance,
+              error <= tolerance ? "yes" : "no");
+  if (!(error <= tolerance))
+    std::printf("  found %.3e\n", error);
+}
+
+#endif
