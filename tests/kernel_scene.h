@@ -9,6 +9,8 @@
 #include <caisson_mpm/kernels/grid_to_points.h>
 #include <caisson_mpm/kernels/points_to_grid.h>
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,6 +55,33 @@ struct Shape
 };
 
 
+
+/** A place of a cell and the volume that it stands for. */
+struct QuadraturePoint
+{
+  double r, z, volume;
+};
+
+/** The 2 x 2 Gauss points of a cell. */
+inline std::vector<QuadraturePoint>
+gauss_points(const CellGeometry &g, const double axisymmetric)
+{
+  const dealii::QGauss<2>      gauss(2);
+  std::vector<QuadraturePoint> points;
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const double xi = gauss.point(q)[0], r = g.left + g.width * xi;
+      const double height =
+        g.height_left + (g.height_right - g.height_left) * xi;
+      const double z = g.bottom_left + (g.bottom_right - g.bottom_left) * xi +
+                       height * gauss.point(q)[1];
+      points.push_back({r,
+                        z,
+                        gauss.weight(q) * g.width * height *
+                          (axisymmetric * r + 1. - axisymmetric)});
+    }
+  return points;
+}
 
 // ------------------------------------------------------------ the scene
 

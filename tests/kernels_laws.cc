@@ -1,221 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The laws MohrCoulombSoftening and HypoplasticSand in element tests, and the
-// functions of simd_math.h.
-//
-// - exp, log, pow, sin and cos of one and of eight lanes against <cmath>.
-// - Softening: with eta = 0 the law is Mohr-Coulomb; the strength in triaxial
-//   compression against its closed form; the plastic strain against the one
-//   integrated from it.
-// - Hypoplastic sand against an independent integration with small steps
-//   (scripts/caisson element-tests table), and against what the theory implies:
-//   Bauer's law along the loosest state, the friction angle phi_c and the void
-//   ratio e_c in the critical state wherever the test began, invariance to
-//   in-plane rotation, independence of the step, and a finite answer to any
-//   state.
-#include <caisson_mpm/kernels/laws.h>
+// The law HypoplasticSand in element tests, against an independent integration
+// with small steps (scripts/caisson element-tests table), and against what the
+// theory implies: Bauer's law along the loosest state, the friction angle phi_c
+// and the void ratio e_c in the critical state wherever the test began,
+// invariance to in-plane rotation, independence of the step, and a finite
+// answer to any state.
+#include <caisson_mpm/kernels/hypoplastic.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
 #include <random>
 #include <vector>
 
-using namespace CaissonMPM::Kernels;
-using Scalar = Lanes<1>;
-
-constexpr double degrees = 180. / 3.14159265358979323846;
-
-void
-report(const char *name, const double error, const double tolerance)
-{
-  if (error <= tolerance)
-    std::printf("%s <= %.0e: yes\n", name, tolerance);
-  else
-    std::printf("%s <= %.0e: NO, %.2e\n", name, tolerance, error);
-}
-
-void
-raise(double &largest, const double value)
-{
-  // a NaN must fail, and must stay
-  if (!std::isnan(largest) && !(value <= largest))
-    largest = value;
-}
-
-
-
-// ---------------------------------------------------------------- functions
-
-template <int n>
-void
-test_functions()
-{
-  using Number        = Lanes<n>;
-  const auto relative = [](const Number a, const double b) {
-    double error = 0.;
-    for (int i = 0; i < n; ++i)
-      raise(error, std::fabs(a[i] - b) / std::max(std::fabs(b), 1e-300));
-    return error;
-  };
-  double e = 0., l = 0., p = 0., s = 0.;
-  for (double x = -300.; x < 300.; x += 0.0371)
-    raise(e, relative(exp(Number(x)), std::exp(x)));
-  for (double x = 1e-12; x < 1e12; x *= 1.0123)
-    {
-      raise(l, relative(log(Number(x)), std::log(x)));
-      for (const double y : {0.13, 0.28, 1.05})
-        raise(p, relative(pow(Number(x), y), std::pow(x, y)));
-    }
-  for (double x = -1.57; x < 1.57; x += 0.00123)
-    {
-      raise(s, std::fabs(sin(Number(x))[n - 1] - std::sin(x)));
-      raise(s, std::fabs(cos(Number(x))[n - 1] - std::cos(x)));
-    }
-  std::printf("Functions of %d lanes\n", n);
-  report("exp", e, 1e-15);
-  report("log", l, 1e-15);
-  report("pow", p, 1e-14);
-  report("sin, cos", s, 1e-15);
-}
-
-
-
-// ---------------------------------------------------------------- a sample
-
-/** One point under strain, and the means to hold its lateral stress. */
-template <typename Law>
-class Sample
-{
-public:
-  typename Law::Parameters parameters;
-  double                   lateral, axial; // stress, tension positive
-  double                   void_ratio = 1.;
-  double                   plastic    = 0.;
-
-  Sample(const typename Law::Parameters &parameters,
-         const double                    pressure,
-         const double                    void_ratio)
-    : parameters(parameters)
-    , lateral(-pressure)
-    , axial(-pressure)
-    , void_ratio(void_ratio)
-  {}
-
-  void
-  strain(const double d_lateral, const double d_axial)
-  {
-    StressState<Scalar> sigma{lateral, axial, lateral, 0.};
-    LawState<Scalar>    state;
-    state.plastic_deviatoric = Scalar(plastic);
-    state.plastic_volumetric = Scalar(0.);
-    state.void_ratio         = Scalar(void_ratio);
-    Law::update(sigma,
-                StrainIncrement<Scalar>{d_lateral, d_axial, d_lateral, 0.},
-                state,
-                parameters);
-    lateral = sigma.rr[0];
-    axial   = sigma.zz[0];
-    plastic = state.plastic_deviatoric[0];
-    // the volume of a point grows with exp(tr D) as steps become small
-    void_ratio = (1. + void_ratio) * std::exp(2. * d_lateral + d_axial) - 1.;
-  }
-
-  /** The lateral strain that leads to this lateral stress, by secants. */
-  double
-  strain_at_lateral_stress(const double wanted, const double d_axial)
-  {
-    const auto error = [&](const double x) {
-      Sample copy = *this;
-      copy.strain(x, d_axial);
-      return copy.lateral - wanted;
-    };
-    double a = -0.2 * d_axial, b = -0.6 * d_axial;
-    double f_a = error(a), f_b = error(b);
-    for (int i = 0;
-         i < 60 && std::fabs(f_b) > 1e-10 * std::fabs(wanted) && f_a != f_b;
-         ++i)
-      {
-        const double c = b - f_b * (b - a) / (f_b - f_a);
-        a              = b;
-        f_a            = f_b;
-        b              = c;
-        f_b            = error(b);
-      }
-    strain(b, d_axial);
-    return b;
-  }
-};
-
-
-
-// ---------------------------------------------------------------- softening
-
-constexpr double brittle[] = {5e7, 0.3, 36., 8., 5e3, 1e30, 30., 0., 1e3, 15.};
-
-/** Axial over lateral stress against the strength at the plastic strain. */
-void
-test_softening()
-{
-  using Law = MohrCoulombSoftening;
-  std::printf("Mohr-Coulomb with softening, triaxial compression\n");
-  const double pressure = 1e5;
-  for (const int n_steps : {1000, 4000})
-    {
-      Sample<Law> sample(Law::make(brittle), pressure, 1.);
-      double      peak = 0., error = 0., flow = 0.;
-      for (int i = 0; i < n_steps; ++i)
-        {
-          const double d_axial = -0.2 / n_steps, plastic = sample.plastic;
-          const double stress = sample.axial;
-          const double d_lateral =
-            sample.strain_at_lateral_stress(-pressure, d_axial);
-          peak = std::max(peak, sample.axial / sample.lateral);
-          if (plastic == 0.)
-            continue;
-          // the strength of the step's start, in closed form
-          const double left = std::exp(-brittle[9] * plastic);
-          const double phi  = (30. + 6. * left) / degrees,
-                       psi = 8. * left / degrees, c = 1e3 + 4e3 * left;
-          const double N = (1. + std::sin(phi)) / (1. - std::sin(phi));
-          raise(error,
-                std::fabs(-sample.axial - N * pressure -
-                          2. * c * std::sqrt(N)) /
-                  pressure);
-          const double plastic_axial = -d_axial + (sample.axial - stress) / 5e7;
-          const double plastic_lateral =
-            d_lateral + 0.3 * (sample.axial - stress) / 5e7;
-          const double ratio = (1. + std::sin(psi)) / (1. - std::sin(psi));
-          raise(flow, std::fabs(2. * plastic_lateral / plastic_axial - ratio));
-        }
-      std::printf("%d steps: peak %.4f, end %.4f, plastic strain %.4f\n",
-                  n_steps,
-                  peak,
-                  sample.axial / sample.lateral,
-                  sample.plastic);
-      report("strength error", error, 1e-8);
-      report("flow rule error", flow, 1e-5);
-    }
-
-  double values[10];
-  std::copy(brittle, brittle + 10, values);
-  values[9] = 0.;
-  Sample<Law>         soft(Law::make(values), pressure, 1.);
-  Sample<MohrCoulomb> hard(MohrCoulomb::make(values), pressure, 1.);
-  double              difference = 0.;
-  for (int i = 0; i < 200; ++i)
-    {
-      soft.strain_at_lateral_stress(-pressure, -1e-3);
-      hard.strain_at_lateral_stress(-pressure, -1e-3);
-      raise(difference, std::fabs(soft.axial / hard.axial - 1.));
-    }
-  report("eta = 0 against Mohr-Coulomb", difference, 1e-10);
-}
-
-
-
-// ---------------------------------------------------------------- hypoplastic
+#include "law_test.h"
 
 constexpr double karlsruhe[] =
   {30., 5.8e9, 0.28, 0.53, 0.84, 1., 0.13, 1.05, 1.};
@@ -518,6 +316,30 @@ test_rotation()
   report("difference after turning back", error, 1e-12);
 }
 
+/** One lane of stress and void ratio @p old under its strain @p increment. */
+StressState<Scalar>
+update_lane(const double (&old)[5][8],
+            const double (&increment)[4][8],
+            const int                          lane,
+            const HypoplasticSand::Parameters &p)
+{
+  StressState<Scalar> stress{old[0][lane],
+                             old[1][lane],
+                             old[2][lane],
+                             old[3][lane]};
+  LawState<Scalar>    state;
+  state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
+  state.void_ratio                                    = Scalar(old[4][lane]);
+  HypoplasticSand::update(stress,
+                          StrainIncrement<Scalar>{increment[0][lane],
+                                                  increment[1][lane],
+                                                  increment[2][lane],
+                                                  increment[3][lane]},
+                          state,
+                          p);
+  return stress;
+}
+
 /** Any stress, void ratio and strain; eight lanes against one. */
 void
 test_any_state()
@@ -556,17 +378,7 @@ test_any_state()
       HypoplasticSand::update(sigma, de, state, p);
       for (int l = 0; l < 8; ++l)
         {
-          StressState<Scalar> one{old[0][l], old[1][l], old[2][l], old[3][l]};
-          LawState<Scalar>    own;
-          own.plastic_deviatoric = own.plastic_volumetric = Scalar(0.);
-          own.void_ratio                                  = Scalar(old[4][l]);
-          HypoplasticSand::update(one,
-                                  StrainIncrement<Scalar>{increment[0][l],
-                                                          increment[1][l],
-                                                          increment[2][l],
-                                                          increment[3][l]},
-                                  own,
-                                  p);
+          const StressState<Scalar> one = update_lane(old, increment, l, p);
           const double size = std::fabs(one.rr[0]) + std::fabs(one.zz[0]) + 1.;
           raise(lanes,
                 (std::fabs(one.rr[0] - sigma.rr[l]) +
@@ -638,9 +450,6 @@ test_wave_modulus()
 int
 main()
 {
-  test_functions<1>();
-  test_functions<8>();
-  test_softening();
   test_against_reference();
   test_isotropic_compression();
   test_critical_state();

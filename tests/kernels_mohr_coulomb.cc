@@ -26,9 +26,7 @@
 #include <vector>
 
 #include "koiter_reference.h"
-
-using namespace CaissonMPM::Kernels;
-using Scalar = Lanes<1>;
+#include "law_test.h"
 
 /** The components of StressState and StrainIncrement, as plain numbers. */
 struct Tensor
@@ -59,16 +57,6 @@ struct Verdict
   unsigned int n_cutoff_plane = 0, n_cutoff_edge = 0, n_cutoff_corner = 0;
   unsigned int n_line = 0, n_line_end = 0;
 };
-
-
-
-void
-raise(double &largest, const double value)
-{
-  // a NaN must fail, and must stay
-  if (!std::isnan(largest) && !(value <= largest))
-    largest = value;
-}
 
 
 
@@ -179,7 +167,7 @@ Tensor
 elastic_stress(const Soil &soil, const Tensor &old, const Tensor &increment)
 {
   const Vector normal =
-    stiffness(soil, {increment.rr, increment.zz, increment.tt});
+    stiffness(soil, {{increment.rr, increment.zz, increment.tt}});
   return {old.rr + normal[0],
           old.zz + normal[1],
           old.tt + normal[2],
@@ -262,8 +250,9 @@ check_return(const Soil               &soil,
   const Tensor trial_axes  = rotated(trial, angle);
   const Tensor stress_axes = rotated(result.stress, angle);
   raise(verdict.axes, std::fabs(stress_axes.rz) / scale);
-  const Vector trial_values  = {trial_axes.rr, trial_axes.zz, trial_axes.tt};
-  const Vector stress_values = {stress_axes.rr, stress_axes.zz, stress_axes.tt};
+  const Vector trial_values  = {{trial_axes.rr, trial_axes.zz, trial_axes.tt}};
+  const Vector stress_values = {
+    {stress_axes.rr, stress_axes.zz, stress_axes.tt}};
 
   unsigned int n_mohr_coulomb = 0, n_tension = 0;
   for (const Plane &plane : planes)
@@ -294,7 +283,7 @@ check_return(const Soil               &soil,
         distance_from_cone(planes, stress_values, strain, scale) * E / scale);
   const double trace = strain[0] + strain[1] + strain[2];
   const Vector deviator =
-    difference(strain, {trace / 3., trace / 3., trace / 3.});
+    difference(strain, {{trace / 3., trace / 3., trace / 3.}});
   raise(verdict.strain, std::fabs(result.volumetric - trace) * E / scale);
   raise(verdict.strain,
         std::fabs(result.deviatoric - std::sqrt(2. / 3.) * norm(deviator)) * E /
@@ -367,14 +356,14 @@ check_closest_point(const Soil &soil, const Block &block, Verdict &verdict)
       const Tensor &s = block.result[l].stress;
       const Tensor &t = block.trial[l];
       const Vector  strain =
-        compliance(soil, {t.rr - s.rr, t.zz - s.zz, t.tt - s.tt});
+        compliance(soil, {{t.rr - s.rr, t.zz - s.zz, t.tt - s.tt}});
       const double shear = (1. + soil.nu) / E * (t.rz - s.rz);
       for (unsigned int k = 0; k < 8; ++k)
         {
           const Tensor &x     = block.result[k].stress;
           const double  scale = std::max(block.scale[l], block.scale[k]);
           const double  work =
-            dot(strain, {x.rr - s.rr, x.zz - s.zz, x.tt - s.tt}) +
+            dot(strain, {{x.rr - s.rr, x.zz - s.zz, x.tt - s.tt}}) +
             2. * shear * (x.rz - s.rz);
           raise(verdict.closest_point, work * E / (scale * scale));
         }
@@ -414,17 +403,6 @@ check_block(const Soil                    &soil,
   check_lanes(parameters, block, verdict);
   if (soil.psi == soil.phi)
     check_closest_point(soil, block, verdict);
-}
-
-
-
-void
-report(const char *name, const double error, const double tolerance)
-{
-  if (error <= tolerance)
-    std::printf("%s <= %.0e: yes\n", name, tolerance);
-  else
-    std::printf("%s <= %.0e: NO, %.2e\n", name, tolerance, error);
 }
 
 
@@ -520,9 +498,9 @@ test_triaxial(const char *name, const double direction)
       const Result result =
         update<MohrCoulomb>(stress, {low, axial, low, 0.}, parameters);
       const Vector elastic = compliance(soil,
-                                        {result.stress.rr - stress.rr,
-                                         result.stress.zz - stress.zz,
-                                         result.stress.tt - stress.tt});
+                                        {{result.stress.rr - stress.rr,
+                                          result.stress.zz - stress.zz,
+                                          result.stress.tt - stress.tt}});
       volumetric_rate      = result.volumetric;
       axial_rate           = std::fabs(axial - elastic[1]);
       stress               = result.stress;

@@ -19,27 +19,34 @@
 
 #include "kernel_scene.h"
 
+/** deal.II's cell of this geometry. */
+void
+make_cell(const CellGeometry &g, dealii::Triangulation<2> &triangulation)
+{
+  std::vector<dealii::Point<2>> v;
+  v.emplace_back(g.left, g.bottom_left);
+  v.emplace_back(g.left + g.width, g.bottom_right);
+  v.emplace_back(g.left, g.bottom_left + g.height_left);
+  v.emplace_back(g.left + g.width, g.bottom_right + g.height_right);
+  dealii::CellData<2> cell;
+  cell.vertices = {0, 1, 2, 3};
+  triangulation.create_triangulation(v, {cell}, dealii::SubCellData());
+}
+
 void
 check_shape_functions()
 {
   double map = 0., value = 0., grad = 0., volume = 0.;
   for (unsigned int k = 0; k < 50; ++k)
     {
-      const CellGeometry            g = {uniform(0., 3.),
-                                         uniform(.1, 2.),
-                                         uniform(-1., 1.),
-                                         uniform(-1., 1.),
-                                         uniform(.2, 2.),
-                                         uniform(.2, 2.)};
-      std::vector<dealii::Point<2>> v;
-      v.emplace_back(g.left, g.bottom_left);
-      v.emplace_back(g.left + g.width, g.bottom_right);
-      v.emplace_back(g.left, g.bottom_left + g.height_left);
-      v.emplace_back(g.left + g.width, g.bottom_right + g.height_right);
-      dealii::CellData<2> cell;
-      cell.vertices = {0, 1, 2, 3};
+      const CellGeometry       g = {uniform(0., 3.),
+                                    uniform(.1, 2.),
+                                    uniform(-1., 1.),
+                                    uniform(-1., 1.),
+                                    uniform(.2, 2.),
+                                    uniform(.2, 2.)};
       dealii::Triangulation<2> triangulation;
-      triangulation.create_triangulation(v, {cell}, dealii::SubCellData());
+      make_cell(g, triangulation);
       const dealii::FE_Q<2> fe(1);
       dealii::DoFHandler<2> dofs(triangulation);
       dofs.distribute_dofs(fe);
@@ -138,31 +145,23 @@ collect_written_out(const Scene &s, const bool gauss_in_full_cells)
             }
       const double r1 = p[1]->r - p[0]->r, r2 = p[2]->r - p[0]->r,
                    z1 = p[1]->z - p[0]->z, z2 = p[2]->z - p[0]->z,
-                   det          = r1 * z2 - r2 * z1;
-      const CellGeometry     &g = s.geometry[c];
-      const dealii::QGauss<2> gauss(2);
-      for (unsigned int q = 0; q < 4; ++q)
+                   det = r1 * z2 - r2 * z1;
+      for (const QuadraturePoint &q :
+           gauss_points(s.geometry[c], s.axisymmetric))
         {
-          const double xi = gauss.point(q)[0], eta = gauss.point(q)[1];
-          const double r = g.left + g.width * xi;
-          const double height =
-            g.height_left + (g.height_right - g.height_left) * xi;
-          const double z = g.bottom_left +
-                           (g.bottom_right - g.bottom_left) * xi + height * eta;
-          const double a = ((r - p[0]->r) * z2 - (z - p[0]->z) * r2) / det,
-                       b = ((z - p[0]->z) * r1 - (r - p[0]->r) * z1) / det;
+          const double a = ((q.r - p[0]->r) * z2 - (q.z - p[0]->z) * r2) / det,
+                       b = ((q.z - p[0]->z) * r1 - (q.r - p[0]->r) * z1) / det;
           std::array<double, 4> stress;
           for (int i = 0; i < 4; ++i)
             stress[i] = p[0]->s[i] + a * (p[1]->s[i] - p[0]->s[i]) +
                         b * (p[2]->s[i] - p[0]->s[i]);
           for (int i = 0; i < 4; ++i)
             add_force(sums.node[s.nodes[c].node[i]],
-                      Shape(g, r, z),
+                      Shape(s.geometry[c], q.r, q.z),
                       i,
-                      gauss.weight(q) * g.width * height *
-                        (s.axisymmetric * r + 1. - s.axisymmetric),
+                      q.volume,
                       stress,
-                      s.axisymmetric / r);
+                      s.axisymmetric / q.r);
         }
     }
   return sums;
@@ -408,22 +407,9 @@ pressure_written_out(const Scene &s, const std::vector<double> &value)
   for (const Point &p : s.points)
     if (p.cell % 2 == 1)
       add(p.cell, p.r, p.z, p.volume);
-  const dealii::QGauss<2> quadrature(2);
   for (unsigned int c = 0; c < n_cells; c += 2)
-    for (unsigned int q = 0; q < 4; ++q)
-      {
-        const CellGeometry &g = s.geometry[c];
-        const double xi = quadrature.point(q)[0], r = g.left + g.width * xi;
-        const double height =
-          g.height_left + (g.height_right - g.height_left) * xi;
-        const double z = g.bottom_left + (g.bottom_right - g.bottom_left) * xi +
-                         height * quadrature.point(q)[1];
-        add(c,
-            r,
-            z,
-            quadrature.weight(q) * g.width * height *
-              (s.axisymmetric * r + 1. - s.axisymmetric));
-      }
+    for (const QuadraturePoint &q : gauss_points(s.geometry[c], s.axisymmetric))
+      add(c, q.r, q.z, q.volume);
   return force;
 }
 

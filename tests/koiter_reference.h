@@ -42,7 +42,7 @@ norm(const Vector &a)
 inline Vector
 difference(const Vector &a, const Vector &b)
 {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
 }
 
 
@@ -120,7 +120,7 @@ yield_planes(const Soil &soil)
     for (unsigned int j = 0; j < 3; ++j)
       if (i != j)
         {
-          Plane plane{{0., 0., 0.}, {0., 0., 0.}, strength, false};
+          Plane plane{{{0., 0., 0.}}, {{0., 0., 0.}}, strength, false};
           plane.normal[i] = 1. + s;
           plane.normal[j] = -(1. - s);
           plane.flow[i]   = 1. + d;
@@ -130,7 +130,7 @@ yield_planes(const Soil &soil)
   if (cutoff < no_tension)
     for (unsigned int i = 0; i < 3; ++i)
       {
-        Plane plane{{0., 0., 0.}, {0., 0., 0.}, cutoff, true};
+        Plane plane{{{0., 0., 0.}}, {{0., 0., 0.}}, cutoff, true};
         plane.normal[i] = plane.flow[i] = 1.;
         planes.push_back(plane);
       }
@@ -146,9 +146,9 @@ stiffness(const Soil &soil, const Vector &strain)
   const double lambda = E * soil.nu / ((1. + soil.nu) * (1. - 2. * soil.nu));
   const double two_mu = E / (1. + soil.nu);
   const double trace  = strain[0] + strain[1] + strain[2];
-  return {lambda * trace + two_mu * strain[0],
-          lambda * trace + two_mu * strain[1],
-          lambda * trace + two_mu * strain[2]};
+  return {{lambda * trace + two_mu * strain[0],
+           lambda * trace + two_mu * strain[1],
+           lambda * trace + two_mu * strain[2]}};
 }
 
 
@@ -225,7 +225,7 @@ koiter_solutions(const Soil               &soil,
       }
     if (!solve(matrix, gamma, set.n))
       return;
-    Vector plastic_strain = {0., 0., 0.};
+    Vector plastic_strain = {{0., 0., 0.}};
     for (unsigned int i = 0; i < set.n; ++i)
       {
         if (gamma[i] < -1e-13 * scale / E)
