@@ -60,6 +60,12 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
+      /**
+       * The law "hypoplastic sand": rate-type, without a yield surface, with
+       * the void ratio as state. The step is divided into substeps with control
+       * of their error, the same number for all lanes. See the head of the
+       * file.
+       */
       struct HypoplasticSand
       {
         static constexpr const char *name      = "hypoplastic sand";
@@ -118,7 +124,9 @@ namespace CaissonMPM
               100.,
               1.,
               1e5}};
-        static constexpr int  friction_entry = 0, n_state = 0;
+        static constexpr int friction_entry =
+                               entry_named(entries, "Critical friction angle"),
+                             n_state           = 0;
         static constexpr bool uses_void_ratio  = true;
         static constexpr bool stiffness_varies = true;
 
@@ -262,6 +270,38 @@ namespace CaissonMPM
                                    const StressState<Number> &D,
                                    const Number               length,
                                    const Parameters          &parameters);
+
+        /** The end of a substep and its relative error. */
+        template <typename Number>
+        struct Substep
+        {
+          State<Number> end;
+          Number        error;
+        };
+
+        /** One substep of the share @p share of the step: Euler, or Heun in
+         * lanes whose stress changes more. */
+        template <typename Number>
+        static CAISSON_INLINE Substep<Number>
+                              take_substep(const State<Number>       &start,
+                                           const StressState<Number> &D,
+                                           const Number               length,
+                                           const Number               share,
+                                           const Parameters          &parameters);
+
+        /** The share of the next substep: from the error of the last one, and
+         * no more than is left. */
+        template <typename Number>
+        static CAISSON_INLINE Number
+        next_share(const Number share, const Number error, const Number done)
+        {
+          const Number growth =
+            max(min(.9 * sqrt(Number(tolerance) / max(error, Number(1e-12))),
+                    Number(4.)),
+                Number(.1));
+          return min(max(share * growth, Number(smallest_substep)),
+                     max(Number(1.) - done, Number(1e-12)));
+        }
 
         /** Bring a shifted stress into the bounds of the file's head. */
         template <typename Number>
@@ -427,6 +467,48 @@ namespace CaissonMPM
 
 
       template <typename Number>
+      CAISSON_INLINE HypoplasticSand::Substep<Number>
+                     HypoplasticSand::take_substep(const State<Number>       &start,
+                                    const StressState<Number> &D,
+                                    const Number               length,
+                                    const Number               share,
+                                    const Parameters          &p)
+      {
+        // Euler: T + share dT(T)
+        const State<Number> first = rate(start, D, length, p);
+        State<Number>       euler{sum(start.stress, share, first.stress),
+                            start.void_ratio + share * first.void_ratio};
+        hold_in_bounds(euler, p);
+        const Number scale =
+          sqrt(product(euler.stress, euler.stress)) + 10. * p.shift;
+        const Number change = share * sqrt(product(first.stress, first.stress));
+        const auto   is_large = change > small_change * scale;
+
+        Substep<Number> result{euler, Number(0.)};
+        if (any(is_large))
+          {
+            // Heun: T + share (dT(T) + dT(Euler)) / 2; half the difference of
+            // both rates is the error of Euler
+            const State<Number>       second = rate(euler, D, length, p);
+            const Number              half   = .5 * share;
+            const StressState<Number> difference =
+              sum(second.stress, Number(-1.), first.stress);
+            State<Number> heun{
+              sum(sum(start.stress, half, first.stress), half, second.stress),
+              start.void_ratio + half * (first.void_ratio + second.void_ratio)};
+            hold_in_bounds(heun, p);
+            result.end = choose(is_large, heun, euler);
+            result.error =
+              select(is_large,
+                     half * sqrt(product(difference, difference)) / scale,
+                     Number(0.));
+          }
+        return result;
+      }
+
+
+
+      template <typename Number>
       CAISSON_INLINE void
       HypoplasticSand::update(StressState<Number>           &sigma,
                               const StrainIncrement<Number> &de,
@@ -447,59 +529,24 @@ namespace CaissonMPM
                             law_state.void_ratio};
         hold_in_bounds(state, p);
 
-        // the share of the step that is done, and the next substep's
-        Number done(0.), substep(1.);
+        // the share of the step that is done, and that of the next substep
+        Number done(0.), share(1.);
         for (int n = 0; n < 2000; ++n)
           {
-            const State<Number> first = rate(state, D, length, p);
-            State<Number>       euler{sum(state.stress, substep, first.stress),
-                                state.void_ratio + substep * first.void_ratio};
-            hold_in_bounds(euler, p);
-            const Number scale =
-              sqrt(product(euler.stress, euler.stress)) + 10. * p.shift;
-            const Number change =
-              substep * sqrt(product(first.stress, first.stress));
-            const Mask is_large = change > small_change * scale;
-
-            State<Number> next = euler;
-            Number        error(0.);
-            if (any(is_large))
-              {
-                const State<Number>       second = rate(euler, D, length, p);
-                const Number              half   = .5 * substep;
-                const StressState<Number> difference =
-                  sum(second.stress, Number(-1.), first.stress);
-                State<Number> heun{sum(sum(state.stress, half, first.stress),
-                                       half,
-                                       second.stress),
-                                   state.void_ratio +
-                                     half *
-                                       (first.void_ratio + second.void_ratio)};
-                hold_in_bounds(heun, p);
-                next = choose(is_large, heun, euler);
-                // half the difference of both rates is the error of Euler
-                error =
-                  select(is_large,
-                         half * sqrt(product(difference, difference)) / scale,
-                         zero);
-              }
+            const Substep<Number> substep =
+              take_substep(state, D, length, share, p);
             const Mask running = done < one;
             // a NaN is accepted, and noticed elsewhere
             const Mask accepted =
-              running & !((error > Number(tolerance)) &
-                          (substep > Number(smallest_substep)));
-            state = choose(accepted, next, state);
+              running & !((substep.error > Number(tolerance)) &
+                          (share > Number(smallest_substep)));
+            state = choose(accepted, substep.end, state);
             // an end that is missed by round-off only is reached
-            done = select(accepted, done + substep, done);
+            done = select(accepted, done + share, done);
             done = select(done > Number(1. - 1e-12), one, done);
             if (!any(done < one))
               break;
-            const Number growth =
-              max(min(.9 * sqrt(Number(tolerance) / max(error, Number(1e-12))),
-                      Number(4.)),
-                  Number(.1));
-            substep = min(max(substep * growth, Number(smallest_substep)),
-                          max(one - done, Number(1e-12)));
+            share = next_share(share, substep.error, done);
           }
         sigma = {state.stress.rr + p.shift,
                  state.stress.zz + p.shift,

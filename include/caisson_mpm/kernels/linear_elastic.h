@@ -17,6 +17,8 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
+      /** The law "linear elastic": Hooke's law for increments. See the head of
+       * the file. */
       struct LinearElastic
       {
         static constexpr const char *name           = "linear elastic";

@@ -52,6 +52,22 @@ namespace CaissonMPM
         double      value, smallest, largest;
       };
 
+      /** The position of the entry with this name; -1: there is none. */
+      template <int n>
+      constexpr int
+      entry_named(const LawEntry (&entries)[n], const char *name)
+      {
+        for (int i = 0; i < n; ++i)
+          {
+            const char *a = entries[i].name, *b = name;
+            while (*a != 0 && *a == *b)
+              ++a, ++b;
+            if (*a == *b)
+              return i;
+          }
+        return -1;
+      }
+
       /** The largest value of an entry that has no upper limit. */
       constexpr double no_limit = __DBL_MAX__;
 

@@ -67,6 +67,13 @@ namespace CaissonMPM
         /** nu / (1 - nu), the elastic earth pressure at rest. */
         double oedometric;
 
+        /** lambda + 2 mu, the largest stiffness, which sets the time step. */
+        double
+        p_wave_modulus() const
+        {
+          return lambda + 2. * mu;
+        }
+
         /** From Young's modulus [Pa], > 0, and 0 <= nu < 1/2. */
         static MohrCoulombElasticity
         make(const double E, const double nu)
@@ -188,18 +195,22 @@ namespace CaissonMPM
 
 
 
+      /** The law "Mohr-Coulomb": perfect plasticity, whose strength all points
+       * of a material share. See the head of the file. */
       struct MohrCoulomb
       {
-        static constexpr const char *name           = "Mohr-Coulomb";
-        static constexpr LawEntry    entries[]      = {Entries::youngs_modulus,
-                                                       Entries::poisson_ratio,
-                                                       Entries::friction_angle,
-                                                       Entries::dilatancy_angle,
-                                                       Entries::cohesion,
-                                                       Entries::tension_cutoff};
-        static constexpr int         friction_entry = 2, n_state = 0;
-        static constexpr bool        uses_void_ratio  = false;
-        static constexpr bool        stiffness_varies = false;
+        static constexpr const char *name      = "Mohr-Coulomb";
+        static constexpr LawEntry    entries[] = {Entries::youngs_modulus,
+                                                  Entries::poisson_ratio,
+                                                  Entries::friction_angle,
+                                                  Entries::dilatancy_angle,
+                                                  Entries::cohesion,
+                                                  Entries::tension_cutoff};
+        static constexpr int         friction_entry =
+                               entry_named(entries, "Friction angle"),
+                             n_state           = 0;
+        static constexpr bool uses_void_ratio  = false;
+        static constexpr bool stiffness_varies = false;
 
         /** The largest tension_cutoff; larger values mean no cut-off. */
         static constexpr double no_cutoff = 1e30;
@@ -275,7 +286,7 @@ namespace CaissonMPM
                        const double /*void_ratio*/,
                        const Parameters &p)
         {
-          return p.elastic.lambda + 2. * p.elastic.mu;
+          return p.elastic.p_wave_modulus();
         }
 
         template <typename Number>

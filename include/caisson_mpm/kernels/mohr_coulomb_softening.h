@@ -13,7 +13,7 @@
 // eps grows by what it did. A stress is thus outside the new yield surface by
 // what the strength loses in one step, O(eta deps), and the next step brings
 // it back, even without strain. Softening gives shear bands a width of about
-// one cell, and eta must be scaled with it: nothing here regularises it.
+// one cell, and eta must be scaled with it: nothing here regularizes it.
 //
 // References:
 //   A. Yerro Colom (2015), MPM modelling of landslides in brittle and
@@ -32,6 +32,8 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
+      /** The law "Mohr-Coulomb with softening": the strength of each point
+       * follows from its plastic strain. See the head of the file. */
       struct MohrCoulombSoftening
       {
         static constexpr const char *name      = "Mohr-Coulomb with softening";
@@ -66,7 +68,9 @@ namespace CaissonMPM
               10.,
               0.,
               no_limit}};
-        static constexpr int  friction_entry = 2, n_state = 0;
+        static constexpr int friction_entry =
+                               entry_named(entries, "Friction angle"),
+                             n_state           = 0;
         static constexpr bool uses_void_ratio  = false;
         static constexpr bool stiffness_varies = false;
 
@@ -150,7 +154,7 @@ namespace CaissonMPM
                        const double /*void_ratio*/,
                        const Parameters &p)
         {
-          return p.elastic.lambda + 2. * p.elastic.mu;
+          return p.elastic.p_wave_modulus();
         }
 
         template <typename Number>
