@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The shape, the motion and the counter that doc/extending.md adds.
+// The shape, the motion, the nodal force and the counter that doc/extending.md
+// adds.
 #include <caisson_mpm/base/run_totals.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,14 +11,15 @@
 
 #include "examples/sinking.h"
 #include "examples/slab.h"
+#include "examples/updraft.h"
+#include "scene.h"
 
-using namespace CaissonMPM;
 using dealii::ParameterAcceptor;
 
 namespace
 {
   void
-  verdict(const char *what, const bool holds)
+  expect(const char *what, const bool holds)
   {
     std::printf("%s: %s\n", what, holds ? "yes" : "no");
   }
@@ -41,14 +43,14 @@ namespace
     set("Cells across the wall", "8");
     set("Slab thickness", "0.5");
     slab.check_parameters();
-    verdict("extent",
-            slab.left() == 0. && slab.right() == 2. && slab.bottom() == 0. &&
-              slab.top() == .5);
-    verdict("width of cells", slab.cell_width() == .25);
+    expect("extent",
+           slab.left() == 0. && slab.right() == 2. && slab.bottom() == 0. &&
+             slab.top() == .5);
+    expect("width of cells", slab.cell_width() == .25);
     const Slab::Point inside(1., .2), below(1., -.2);
-    verdict("contains", slab.contains(inside, 0.) && !slab.contains(below, 0.));
-    verdict("contains after a travel",
-            slab.contains(below, .3) && !slab.contains(inside, .4));
+    expect("contains", slab.contains(inside, 0.) && !slab.contains(below, 0.));
+    expect("contains after a travel",
+           slab.contains(below, .3) && !slab.contains(inside, .4));
   }
 
   /** A tenth of a second of free fall, then enough force to come to rest. */
@@ -62,13 +64,39 @@ namespace
     body.start();
     for (int i = 0; i < 1000; ++i)
       body.advance(1e-4, 0.);
-    verdict("velocity of the fall", std::abs(body.velocity() - .981) < 1e-12);
-    verdict("travel of the fall", std::abs(body.travel() - .04905) < 1e-4);
+    expect("velocity of the fall", std::abs(body.velocity() - .981) < 1e-12);
+    expect("travel of the fall", std::abs(body.travel() - .04905) < 1e-4);
     for (int i = 0; i < 1000; ++i)
       body.advance(1e-4, -2. * 9810.);
-    verdict("at rest", std::abs(body.velocity()) < 1e-12);
-    verdict("needs the force", body.needs_force());
-    verdict("does not know its future", !body.time_of_travel(1.).has_value());
+    expect("at rest", std::abs(body.velocity()) < 1e-12);
+    expect("needs the force", body.needs_force());
+    expect("does not know its future", !body.time_of_travel(1.).has_value());
+  }
+
+  /** The forces on all nodes make the force on the volume of the soil. */
+  void
+  check_force()
+  {
+    Scene s("subsection Grid\nset Outer radius = 2\nset Bottom = -3\n"
+            "set Top = 1\nend\n");
+    s.generator.generate(s.grid, s.body.shape(), s.soil, 1., s.points);
+    Updraft updraft;
+    ParameterAcceptor::declare_all_parameters();
+    expect("does not act by itself", !updraft.acts());
+    ParameterAcceptor::prm.parse_input_from_string(
+      "subsection Loads\nset Updraft = 100\nend\n");
+    ParameterAcceptor::parse_all_parameters();
+
+    std::vector<Kernels::NodalSums> nodes(s.grid.n_nodes());
+    const Kernels::StepContext      step = {};
+    updraft.collect(
+      {*Kernels::select_kernels("auto"), step, s.points, s.grid, 0.},
+      nodes.data());
+    double force = 0.;
+    for (const auto &node : nodes)
+      force += node.force[1];
+    // a cylinder of 2 m radius and 3 m height, per radian
+    expect("sum of the forces", std::abs(force / 600. - 1.) < 1e-12);
   }
 
   /** Counts drops that fall through. */
@@ -112,5 +140,6 @@ main(int argc, char *argv[])
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   check_shape();
   check_motion();
+  check_force();
   check_counter();
 }
