@@ -303,7 +303,7 @@ main(int argc, char *argv[])
   std::filesystem::remove_all(directory);
   std::filesystem::create_directory(directory);
   Scene s(box);
-  s.generator.generate(s.grid, s.body.shape(), s.soil, 1., s.points);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
   auto all = s.points.take_all();
   for (TravelingPoint &p : all)
     fill(p.point);

@@ -321,7 +321,7 @@ check_distortion()
   std::printf("distorted: rows bend: %s, shifts reach the limit: %s\n",
               heights.size() == 8 ? "yes" : "no",
               std::min(shift_r, shift_z) > .08 ? "yes" : "no");
-  s.generator.generate(s.grid, s.body.shape(), s.soil, 1., s.points);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
   double volume = 0.;
   s.points.for_each(
     [&](const MaterialPoint &p, const unsigned int) { volume += p.volume; });

@@ -20,8 +20,11 @@ check_points()
         set Solid density = 2700
         set Porosity      = 0.3
       end
+    end
+    subsection Time
+      set Mass scaling = 4
     end)");
-  s.generator.generate(s.grid, s.body.shape(), s.soil, 4., s.points);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
   double volume = 0., mass = 0., mr = 0., mz = 0., stress = 0., wrong = 0.;
   std::set<double> ids;
   s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
@@ -72,7 +75,7 @@ check_spacing()
 {
   const double travel = 3.5;
   Scene        s(caisson, travel);
-  s.generator.generate(s.grid, s.body.shape(), s.soil, 1., s.points);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
   std::vector<dealii::Point<2>> x;
   s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
     x.push_back(p.position);
@@ -152,7 +155,7 @@ check_split_and_merge()
 {
   Scene s(caisson +
           "subsection Soil\n set Initial velocity = r*z; z-2*r\nend\n");
-  s.generator.generate(s.grid, s.body.shape(), s.soil, 1., s.points);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
   const auto n          = s.points.n_points();
   const auto before     = resultants(s.points);
   double     largest[2] = {0., 0.};
@@ -232,7 +235,7 @@ check_point_options()
         set Random positions = 0.5
         set Random seed      = )" +
               std::to_string(seed) + "\nend\n");
-      s.generator.generate(s.grid, s.body.shape(), s.soil, 1., s.points);
+      s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
       double outside = 0., volume = 0., state = 0., farthest = 0., sum = 0.;
       s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
         const double r = p.position[0], z = p.position[1];

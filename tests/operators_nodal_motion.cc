@@ -60,9 +60,11 @@ struct Stepper
     auto &prm = dealii::ParameterAcceptor::prm;
     prm.parse_input_from_string(method);
     dealii::ParameterAcceptor::parse_all_parameters(prm);
-    scene.generator.generate(
-      scene.grid, scene.body.shape(), scene.soil, 1., scene.points);
-    materials = scene.soil.kernel_materials(1.);
+    scene.generator.generate(scene.grid,
+                             scene.body.shape(),
+                             scene.soil,
+                             scene.points);
+    materials = scene.soil.kernel_materials();
     contact.initialize(scene.grid, scene.body.surface());
     scene.boundary_conditions.initialize(scene.grid);
     motion.initialize(scene.grid);

@@ -336,10 +336,9 @@ namespace CaissonMPM
     class PointMaker
     {
     public:
-      PointMaker(const Soil &soil, const double mass_scaling)
+      explicit PointMaker(const Soil &soil)
         : soil(soil)
         , velocity(soil.initial_velocity())
-        , mass_scaling(mass_scaling)
       {
         for (unsigned int i = 0; i < soil.n_layers(); ++i)
           states.push_back(soil.layer(i).start_of_state());
@@ -360,7 +359,7 @@ namespace CaissonMPM
           }
         p.state  = states[p.material];
         p.volume = p.initial_volume = part.volume;
-        p.mass = mass_scaling * soil.inertial_density(p.material) * p.volume;
+        p.mass = soil.inertial_density(p.material) * p.volume;
         p.id   = id;
         return p;
       }
@@ -368,7 +367,6 @@ namespace CaissonMPM
     private:
       const Soil                 &soil;
       const VectorExpression      velocity;
-      const double                mass_scaling;
       std::vector<StateVariables> states;
     };
   } // namespace
@@ -386,7 +384,6 @@ namespace CaissonMPM
   PointGenerator::generate(const BackgroundGrid &grid,
                            const BodyShape      &body,
                            const Soil           &soil,
-                           const double          mass_scaling,
                            MaterialPoints       &points) const
   {
     const GridLines          &lines = grid.lines();
@@ -396,7 +393,7 @@ namespace CaissonMPM
       n_in_cell.push_back(n[radial] * n[vertical]);
     points.reset(n_in_cell);
 
-    const PointMaker make_point(soil, mass_scaling);
+    const PointMaker make_point(soil);
     const Expression further = parse_region();
     RandomNumbers    random(seed);
     unsigned int     n_points = 0;

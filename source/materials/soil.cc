@@ -223,6 +223,18 @@ namespace CaissonMPM
                                                                void_ratio);
   }
 
+  Soil::MassScaling::MassScaling()
+    : ParameterAcceptor("/Time")
+  {
+    add_parameter("Mass scaling",
+                  factor,
+                  "The inertia of the soil, but not its weight, is multiplied "
+                  "by this factor; the time step grows with its square root. "
+                  "Units: none.",
+                  prm,
+                  Patterns::Double(1., 1e6));
+  }
+
   Soil::Soil()
     : ParameterAcceptor("/Soil")
   {
@@ -353,7 +365,7 @@ namespace CaissonMPM
   }
 
   double
-  Soil::inertial_density(const unsigned int i) const
+  Soil::mass_density(const unsigned int i) const
   {
     return layers[i]->dry_density() +
            (submerged ? layers[i]->porosity * fluid_density : 0.);
@@ -399,11 +411,15 @@ namespace CaissonMPM
     for (unsigned int i = 0; i < n_layers(); ++i)
       if (const std::string limit = layers[i]->known_limit(); !limit.empty())
         limits.push_back(limit);
+    if (mass_scaling() > 100.)
+      limits.push_back(
+        "Time/Mass scaling above 100 has been seen to change the tip force "
+        "by more than 5 %");
     return limits;
   }
 
   std::vector<Kernels::Material>
-  Soil::kernel_materials(const double mass_scaling) const
+  Soil::kernel_materials() const
   {
     std::vector<Kernels::Material> result(n_layers_);
     for (unsigned int i = 0; i < n_layers_; ++i)
@@ -415,9 +431,9 @@ namespace CaissonMPM
         const double buoyancy =
           (1. - layers[i]->porosity) *
           (layers[i]->solid_density - (submerged ? fluid_density : 0.)) /
-          inertial_density(i);
+          mass_density(i);
         for (unsigned int d = 0; d < 2; ++d)
-          result[i].body_force[d] = gravity[d] * buoyancy / mass_scaling;
+          result[i].body_force[d] = gravity[d] * buoyancy / mass_scaling();
       }
     return result;
   }

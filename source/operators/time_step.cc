@@ -29,13 +29,6 @@ namespace CaissonMPM
                   "Units: none.",
                   prm,
                   Patterns::Double(1e-6, 1.));
-    add_parameter("Mass scaling",
-                  mass_scaling,
-                  "The inertia of the soil, but not its weight, is multiplied "
-                  "by this factor; the time step grows with its square root. "
-                  "Units: none.",
-                  prm,
-                  Patterns::Double(1., 1e6));
     add_word_or_number(*this,
                        "Time step",
                        fixed_step,
@@ -44,16 +37,6 @@ namespace CaissonMPM
                        "The time step is this one, or with auto the stable one "
                        "of the Courant number. Units: s.",
                        Patterns::Double(0.));
-  }
-
-  std::vector<std::string>
-  TimeStep::known_limits() const
-  {
-    if (mass_scaling > 100.)
-      return {
-        "Time/Mass scaling above 100 has been seen to change the tip force "
-        "by more than 5 %"};
-    return {};
   }
 
   void
@@ -183,8 +166,7 @@ namespace CaissonMPM
   {
     std::vector<double> squares;
     for (unsigned int i = 0; i < soil.n_layers(); ++i)
-      squares.push_back(materials[i].p_wave_modulus /
-                        (mass_scaling * soil.inertial_density(i)));
+      squares.push_back(materials[i].p_wave_modulus / soil.inertial_density(i));
     unsigned int        limiting = 0;
     double              worst = 0., speed = 0.; // 1 / s2, m/s
     std::vector<double> worst_of_zone(GridLines::n_zones, 0.);

@@ -173,7 +173,7 @@ namespace CaissonMPM
                       {"method", parts.nodal_motion.settings().description()},
                       {"time step",
                        to_text(parts.clock.step_size, 6) + " s, mass scaling " +
-                         to_text(parts.time_step.mass_scaling, 6)},
+                         to_text(parts.soil.mass_scaling(), 6)},
                       {"end", parts.schedule.end_description()}});
     if (!wrong_error_bar.empty())
       console->warning(wrong_error_bar);

@@ -110,8 +110,8 @@ namespace CaissonMPM
     body.motion().start();
     grid.create_mesh();
     set_up_part();
-    nodal_forces.initialize(time_step.mass_scaling);
-    materials = soil.kernel_materials(time_step.mass_scaling);
+    nodal_forces.initialize(soil.mass_scaling());
+    materials = soil.kernel_materials();
   }
 
   void
@@ -231,8 +231,7 @@ namespace CaissonMPM
   void
   Simulation::start()
   {
-    generator.generate(
-      grid, body.shape(), soil, time_step.mass_scaling, points);
+    generator.generate(grid, body.shape(), soil, points);
     balance();
     energy.start(find_point_energies(points, materials, grid));
     schedule.start();
@@ -259,8 +258,7 @@ namespace CaissonMPM
     std::vector<std::string> result;
     for (const auto &limits : {soil.known_limits(),
                                nodal_motion.settings().known_limits(),
-                               generator.known_limits(body.shape()),
-                               time_step.known_limits()})
+                               generator.known_limits(body.shape())})
       result.insert(result.end(), limits.begin(), limits.end());
     return result;
   }

@@ -14,7 +14,7 @@
 //    positive, acting on the body. In plane strain everything is per meter.
 //  - Mass scaling multiplies inertia and leaves weight: the masses of material
 //    points and nodes, momenta and kinetic energies are the scaled ones, and
-//    body forces are divided by the factor. Densities are not scaled.
+//    body forces are divided by the factor. Only Soil knows the factor.
 //  - Penetration is the depth of the skirt tip's lowest point below z = 0.
 #ifndef caisson_mpm_base_conventions_h
 #define caisson_mpm_base_conventions_h

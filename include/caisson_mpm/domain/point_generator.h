@@ -46,7 +46,6 @@ namespace CaissonMPM
     generate(const BackgroundGrid &grid,
              const BodyShape      &body,
              const Soil           &soil,
-             const double          mass_scaling,
              MaterialPoints       &points) const;
 
     /**

@@ -145,9 +145,19 @@ namespace CaissonMPM
     std::vector<double>
     interfaces() const;
 
-    /** The mass that accelerates per volume, unscaled. Units: kg/m3. */
+    /** The factor on all inertia of the soil; see base/conventions.h. */
     double
-    inertial_density(const unsigned int layer) const;
+    mass_scaling() const
+    {
+      return scaling.factor;
+    }
+
+    /** The inertia per volume, mass scaling included. Units: kg/m3. */
+    double
+    inertial_density(const unsigned int layer) const
+    {
+      return mass_scaling() * mass_density(layer);
+    }
 
     /** The effective unit weight (submerged or dry). Units: N/m3. */
     double
@@ -162,20 +172,31 @@ namespace CaissonMPM
     VectorExpression
     initial_velocity() const;
 
-    /**
-     * The kernels' materials, one per layer, for inertia scaled by
-     * @p mass_scaling: the weight stays as it is.
-     */
+    /** The kernels' materials, one per layer. Their body force is that on a
+     * unit of inertia: mass scaling leaves the weight as it is. */
     std::vector<Kernels::Material>
-    kernel_materials(const double mass_scaling) const;
+    kernel_materials() const;
 
-    /** Warnings of what the layers' laws are known not to describe. */
+    /** Warnings of what the layers' laws are known not to describe, and of mass
+     * scaling that is known to change the answer. */
     std::vector<std::string>
     known_limits() const;
 
     std::array<double, 2> gravity = {{0., -9.81}};
 
   private:
+    /** The entry is in section Time, because it lengthens the time step. */
+    struct MassScaling : dealii::ParameterAcceptor
+    {
+      MassScaling();
+
+      double factor = 1.;
+    };
+
+    /** The mass of grains and water per volume. Units: kg/m3. */
+    double
+    mass_density(const unsigned int layer) const;
+
     /** The effective stress in the soil at the start. */
     enum class InitialStress
     {
@@ -184,6 +205,7 @@ namespace CaissonMPM
       uniform
     };
 
+    MassScaling                             scaling;
     unsigned int                            n_layers_      = 1;
     bool                                    submerged      = true;
     double                                  fluid_density  = 1000.;

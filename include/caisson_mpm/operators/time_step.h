@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The stable time step, and the mass scaling that lengthens it.
+// The stable time step.
 //
 //   dt = C min over cells with points of 1 / (c sqrt(1/dr^2 + 1/dz^2)),
-//   c = sqrt((lambda + 2 mu) / (s rho)) of the layer where it is largest,
-// C the Courant number, s the mass scaling. Where the stiffness depends on
+//   c = sqrt((lambda + 2 mu) / rho) of the layer where it is largest,
+// C the Courant number, rho the inertia per volume, which contains the mass
+// scaling. Where the stiffness depends on
 // stress and void ratio, it is the largest of all points of a layer. Mass
 // scaling enters inertia only: weight and friction are those of the real soil.
 #ifndef caisson_mpm_operators_time_step_h
@@ -67,12 +68,6 @@ namespace CaissonMPM
     /** The limit of each zone that has points, by its name. Units: s. */
     std::vector<std::pair<std::string, double>>
     zone_limits() const;
-
-    /** Warnings where the choices are known to change the answer. */
-    std::vector<std::string>
-    known_limits() const;
-
-    double mass_scaling = 1.;
 
   private:
     void
