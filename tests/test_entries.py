@@ -45,6 +45,12 @@ class Unused(ProgramTest):
             },
         )
 
+    def test_entries_of_another_method(self) -> None:
+        self.warning(
+            ["XPIC order", "Velocity transfer is FLIP"],
+            {"Method/Velocity transfer": "FLIP", "Method/XPIC order": 3},
+        )
+
     def test_section_without_a_kind(self) -> None:
         text = self.run_program(
             BAD_INPUT, scene("jack"), "--validate", entries={f"{BODY}/Kind": "none"}

@@ -147,6 +147,26 @@ namespace CaissonMPM
                      "at nodes with little mass.");
   }
 
+  void
+  MethodSettings::name_unused_entries(ParameterOrigins &origins) const
+  {
+    const std::string scheme =
+      "Method/Velocity transfer is " + name_of(transfers, transfer);
+    if (transfer == VelocityTransfer::pic || transfer == VelocityTransfer::flip)
+      origins.add_unused({"Method/XPIC order"}, scheme);
+    if (transfer != VelocityTransfer::blend)
+      origins.add_unused({"Method/FLIP fraction"}, scheme);
+    if (force_integration == ForceIntegration::material_points)
+      origins.add_unused({"Method/Full cell fraction",
+                          "Method/Full cell fraction inside",
+                          "Method/Pressure in full cells",
+                          "Method/Stress filter"},
+                         "Method/Integration is material points");
+    if (!limits_velocity)
+      origins.add_unused({"Method/Limiter factor"},
+                         "Method/Velocity limiter is false");
+  }
+
   unsigned int
   MethodSettings::filter_order() const
   {

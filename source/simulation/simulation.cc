@@ -167,6 +167,7 @@ namespace CaissonMPM
   {
     body.name_unused_entries(origins);
     soil.name_unused_entries(origins);
+    nodal_motion.settings().name_unused_entries(origins);
     schedule.name_unused_entries(origins);
   }
 

@@ -5,6 +5,7 @@
 #ifndef caisson_mpm_operators_method_settings_h
 #define caisson_mpm_operators_method_settings_h
 
+#include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/kernels/layout.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -55,6 +56,10 @@ namespace CaissonMPM
     /** Throws BadInput. */
     void
     check_parameters() const;
+
+    /** Tell which entries the other choices leave without effect. */
+    void
+    name_unused_entries(ParameterOrigins &origins) const;
 
     /** Share of a point's own velocity that it keeps (FLIP: 1). */
     double
