@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The mesh: it fits the body, moves with it, and is distorted for tests.
+#include <caisson_mpm/base/text.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -124,7 +126,7 @@ check_cone()
           set Cells across the wall = 4
           set Initial penetration   = 1
           set Apex angle            = )" +
-                std::to_string(angle) + R"(
+                to_text(angle) + R"(
         end
         subsection Grid
           set Outer radius = 3

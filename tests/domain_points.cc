@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The material points: as they are generated, split and merged.
+#include <caisson_mpm/base/text.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -234,7 +236,7 @@ check_point_options()
         set Region           = 1 - (r - 2)^2 - (z + 2)^2
         set Random positions = 0.5
         set Random seed      = )" +
-              std::to_string(seed) + "\nend\n");
+              to_text(seed) + "\nend\n");
       s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
       double outside = 0., volume = 0., state = 0., farthest = 0., sum = 0.;
       s.points.for_each([&](const MaterialPoint &p, const unsigned int) {

@@ -29,7 +29,9 @@ NOT_IN_KERNELS = re.compile(
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
 LICENSE = "SPDX-License-Identifier: LGPL-2.1-or-later"
 # regular expression: why, and what to use
-BANNED: dict[str, str] = {}
+BANNED: dict[str, str] = {
+    r"\bstd::to_string\b": "1.2e-7 would become 0.000000; use to_text() (base/text.h)",
+}
 
 
 def lines_of(path: Path) -> list[str]:
