@@ -2,7 +2,7 @@
 //
 // Single steps of the nodal motion of soil without a body and without sides:
 // momentum, the work of nodal forces, equilibrium under a surrounding pressure,
-// and the order of the calls.
+// the nodal force that doc/extending.md adds, and the order of the calls.
 #include <caisson_mpm/operators/nodal_motion.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "examples/excess_pressure.h"
 #include "scene.h"
 
 constexpr double dt = 1e-3;
@@ -57,6 +58,7 @@ struct Stepper
     : scene(soil)
     , constraints{contact, scene.boundary_conditions}
   {
+    forces.add(std::make_unique<ExcessPressure>());
     auto &prm = dealii::ParameterAcceptor::prm;
     prm.parse_input_from_string(method);
     dealii::ParameterAcceptor::parse_all_parameters(prm);
@@ -159,6 +161,30 @@ check_equilibrium()
   verdict("without it, no speed", 1e-6 / other.sums().max_speed, 1.);
 }
 
+/** Soil without stress bears the same pressure inside and around it, and is
+ * driven apart by one that is inside only. */
+void
+check_excess_pressure()
+{
+  std::string bare = soil_text;
+  bare.replace(bare.find("1 + r*z ; 2 - r"), 15, "0 ; 0");
+  bare.replace(bare.find("-5e3, -5e3, -5e3, 0"), 19, "0, 0, 0, 0");
+  Stepper s(bare,
+            "subsection Loads\nset Surrounding pressure = 5e3\n"
+            "set Excess pore pressure = 5e3\nend\n");
+  s.step();
+  verdict("pressure inside and around: speed", s.sums().max_speed, 1e-13);
+  Stepper         open(bare,
+               "subsection Loads\nset Excess pore pressure = 5e3\nend\n"
+                       "subsection Method\nset Mass floor = false\nend\n");
+  const NodalWork work = open.step();
+  std::printf("pressure inside only, its work: %s\n",
+              work.load > 0. ? "positive" : "not positive");
+  verdict("pressure inside only: momentum",
+          open.sums().momentum.norm() / open.sums().mass,
+          1e-13);
+}
+
 /** A call out of turn is refused. */
 void
 check_order()
@@ -192,5 +218,6 @@ main(int argc, char *argv[])
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   check_momentum();
   check_equilibrium();
+  check_excess_pressure();
   check_order();
 }
