@@ -324,9 +324,8 @@ namespace
     });
     print("sort after a motion", ours, theirs);
     move();
-    const double n_left =
-      dealii::Utilities::MPI::sum<double>(scene.points.leaving().n,
-                                          MPI_COMM_WORLD);
+    const double n_left = dealii::Utilities::MPI::sum<double>(
+      scene.points.update_result().n_leaving, MPI_COMM_WORLD);
     scene.points.relocate();
     if (is_first_rank())
       std::printf("points that changed their cell: %.1f %%\n",
@@ -512,8 +511,10 @@ main(int argc, char *argv[])
   Scene        scene(argv[1], argc > 2 ? std::atof(argv[2]) : 6.);
   const double before = memory();
   const double begin  = MPI_Wtime();
-  scene.generator.generate(
-    scene.grid, scene.body.shape(), scene.soil, 1., scene.points);
+  scene.generator.generate(scene.grid,
+                           scene.body.shape(),
+                           scene.soil,
+                           scene.points);
   const double time = MPI_Wtime() - begin, used = memory() - before;
   scene.grid.write_vertices();
   const auto n =

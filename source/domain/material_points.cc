@@ -317,8 +317,6 @@ namespace CaissonMPM
   MaterialPoints::relocate()
   {
     assert_settled();
-    Assert(leaving_view.n <= leaving_view.capacity,
-           ExcMessage("more points are listed than there is room for"));
     // the kernel lists points in the order of their blocks
     AssertThrow(update_result_.n_leaving <= update_result_.capacity,
                 ExcInternalError());
