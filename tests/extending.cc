@@ -79,7 +79,7 @@ namespace
   {
     Scene s("subsection Grid\nset Outer radius = 2\nset Bottom = -3\n"
             "set Top = 1\nend\n");
-    s.generator.generate(s.grid, s.body.shape(), s.soil, 1., s.points);
+    s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
     Updraft updraft;
     ParameterAcceptor::declare_all_parameters();
     expect("does not act by itself", !updraft.acts());
