@@ -65,7 +65,8 @@ namespace
       set_law<MohrCoulomb>(
         material,
         MohrCoulomb::Parameters::make(5e6, .3, friction_angle, 0., 0., 0.));
-      material.p_wave_modulus = oedometric_modulus(5e6, .3);
+      material.p_wave_modulus =
+        MohrCoulombElasticity::make(5e6, .3).p_wave_modulus();
     }
 
     void

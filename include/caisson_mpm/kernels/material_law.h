@@ -145,13 +145,6 @@ namespace CaissonMPM
           no_limit};
       } // namespace Entries
 
-      /** lambda + 2 mu of isotropic elasticity. Units: Pa. */
-      inline double
-      oedometric_modulus(const double E, const double nu)
-      {
-        return E * (1. - nu) / ((1. + nu) * (1. - 2. * nu));
-      }
-
       /** The law of this number, Material::law; void: none. */
       template <int slot>
       struct LawSlot
