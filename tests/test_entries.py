@@ -28,7 +28,7 @@ class Unused(ProgramTest):
     def test_entry_of_another_law(self) -> None:
         self.warning(
             ["Loosest void ratio", "Law is Mohr-Coulomb with softening"],
-            {f"{LAYER}/Loosest void ratio": 1},
+            {f"{LAYER}/Loosest void ratio": 1.1},
         )
 
     def test_entry_of_another_kind(self) -> None:
@@ -50,6 +50,11 @@ class Unused(ProgramTest):
             ["XPIC order", "Velocity transfer is FLIP"],
             {"Method/Velocity transfer": "FLIP", "Method/XPIC order": 3},
         )
+
+    def test_printed_parameters_are_silent(self) -> None:
+        path = self.made_directory() / "printed.prm"
+        path.write_text(self.run_program(SUCCESS, scene("jack"), "--print-parameters"))
+        self.assertNotIn("warning", self.run_program(SUCCESS, path, "--validate"))
 
     def test_section_without_a_kind(self) -> None:
         text = self.run_program(

@@ -372,8 +372,12 @@ namespace CaissonMPM
         throw BadInput(place + ": " + quote(entry.path) +
                        " is set a second time, first at " + earlier->second +
                        ".\n  Remove one of the two.");
-      set_value(entry, present_value(entry, value, place), place);
-      origins.record(entry.path, place, files.size() > 1);
+      const std::string present = present_value(entry, value, place);
+      set_value(entry, present, place);
+      const bool is_included = files.size() > 1;
+      origins.record(entry.path,
+                     place,
+                     is_included || present == entry.default_value);
     }
 
 

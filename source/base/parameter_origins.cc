@@ -48,9 +48,9 @@ namespace CaissonMPM
   void
   ParameterOrigins::record(const std::string &path,
                            const std::string &place,
-                           const bool         is_included)
+                           const bool         may_be_unused)
   {
-    places[path] = {place, is_included};
+    places[path] = {place, may_be_unused};
   }
 
 
@@ -75,7 +75,7 @@ namespace CaissonMPM
         bool is_unused = false;
         for (const std::string &path : paths)
           is_unused = is_unused || contains(path, entry);
-        if (!is_unused || place.is_included ||
+        if (!is_unused || place.may_be_unused ||
             std::find(used.begin(), used.end(), entry) != used.end())
           continue;
         if (++n_unused == 1)

@@ -26,12 +26,12 @@ namespace CaissonMPM
 
     /**
      * Remember that the entry "Section/Sub/Entry" was set at this place;
-     * @p is_included says whether by a file that another one includes.
+     * @p may_be_unused says that add_unused() passes it over.
      */
     void
     record(const std::string &path,
            const std::string &place,
-           const bool         is_included = false);
+           const bool         may_be_unused = false);
 
     /** Add a note for the user that is not an error. */
     void
@@ -41,7 +41,8 @@ namespace CaissonMPM
      * Warn if the user has set entries that this run does not use; each path
      * is that of an entry or of a section. @p reason is a clause ("Rigid
      * body/Tip is flat"); the entries that it names are used. What an included
-     * file sets is passed over: it may serve other runs.
+     * file sets is passed over, because it may serve other runs, and so is an
+     * entry that is set to its default, as --print-parameters does.
      */
     void
     add_unused(const std::vector<std::string> &paths,
@@ -69,7 +70,7 @@ namespace CaissonMPM
     struct Place
     {
       std::string text;
-      bool        is_included;
+      bool        may_be_unused;
     };
 
     /** Return the paths of the entries that a text names, in its order. */
