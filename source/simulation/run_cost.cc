@@ -47,8 +47,10 @@ namespace CaissonMPM
   describe(const RunCost &cost)
   {
     const double n_points = cost.n_points,
-                 n_steps  = std::ceil(cost.end_time / cost.step_size);
-    std::string text      = "  grid       " + cost.grid + "\n  points     " +
+                 n_steps  = std::ceil(cost.end_time / cost.step_size),
+                 // no more than one for each step, and the first
+      n_frames       = std::min(n_steps + 1., 1. * cost.n_frames);
+    std::string text = "  grid       " + cost.grid + "\n  points     " +
                        to_text(cost.n_points) + "\n  time step  " +
                        to_text(cost.step_size, 4) + " s, limited by " +
                        cost.limit;
@@ -57,9 +59,8 @@ namespace CaissonMPM
     text += "\n  memory     about " +
             megabytes(cost.peak_bytes +
                       bytes_in_memory * std::min(n_points, points_per_piece)) +
-            "\n  frames     " + to_text(cost.n_frames) + ", about " +
-            megabytes(cost.n_frames * bytes_on_disk * n_points) +
-            " on the disk";
+            "\n  frames     " + rough(n_frames) + ", about " +
+            megabytes(n_frames * bytes_on_disk * n_points) + " on the disk";
     if (std::isfinite(n_steps) && cost.seconds_per_step > 0.)
       text += "\n  duration   about " +
               duration(n_steps * cost.seconds_per_step) +
