@@ -51,6 +51,16 @@ class Unused(ProgramTest):
             {"Method/Velocity transfer": "FLIP", "Method/XPIC order": 3},
         )
 
+    def test_entries_without_their_condition(self) -> None:
+        self.warning(
+            ["Random positions is 0"],
+            {"Material points/Random seed": 7},
+        )
+        self.warning(
+            ["Prescribed region is empty"],
+            {"Boundary conditions/Prescribed velocity": "0 ; 1"},
+        )
+
     def test_printed_parameters_are_silent(self) -> None:
         path = self.made_directory() / "printed.prm"
         path.write_text(self.run_program(SUCCESS, scene("jack"), "--print-parameters"))

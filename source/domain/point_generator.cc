@@ -120,6 +120,14 @@ namespace CaissonMPM
   }
 
   void
+  PointGenerator::name_unused_entries(ParameterOrigins &origins) const
+  {
+    if (randomness == 0.)
+      origins.add_unused({"Material points/Random seed"},
+                         "Material points/Random positions is 0");
+  }
+
+  void
   PointGenerator::check_parameters() const
   {
     parse_region();

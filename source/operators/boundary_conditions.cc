@@ -59,6 +59,14 @@ namespace CaissonMPM
     parse_velocity();
   }
 
+  void
+  BoundaryConditions::name_unused_entries(ParameterOrigins &origins) const
+  {
+    if (region_text.empty())
+      origins.add_unused({"Boundary conditions/Prescribed velocity"},
+                         "Boundary conditions/Prescribed region is empty");
+  }
+
   Expression
   BoundaryConditions::parse_region() const
   {

@@ -4,6 +4,7 @@
 #ifndef caisson_mpm_domain_point_generator_h
 #define caisson_mpm_domain_point_generator_h
 
+#include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/bodies/body_shape.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/materials/soil.h>
@@ -32,6 +33,10 @@ namespace CaissonMPM
     /** Throw BadInput where the entries contradict each other. */
     void
     check_parameters() const;
+
+    /** Tell which entries the other choices leave without effect. */
+    void
+    name_unused_entries(ParameterOrigins &origins) const;
 
     /** Return what is known to go wrong with these entries, for a warning. */
     std::vector<std::string>

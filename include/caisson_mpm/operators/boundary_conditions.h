@@ -6,6 +6,7 @@
 #define caisson_mpm_operators_boundary_conditions_h
 
 #include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/domain/background_grid.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -44,6 +45,10 @@ namespace CaissonMPM
 
     void
     check_parameters(const GridLines &lines) const;
+
+    /** Tell which entries the other choices leave without effect. */
+    void
+    name_unused_entries(ParameterOrigins &origins) const;
 
     void
     initialize(const BackgroundGrid &grid);
