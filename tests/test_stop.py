@@ -110,6 +110,15 @@ class Stop(ProgramTest):
         for key in ("penetration_m", "external_work_J"):
             self.assertAlmostEqual(a[-1][key] / b[-1][key], 1.0, delta=0.01)
 
+    def test_finished_run_has_nothing_left(self) -> None:
+        path = self.directory()
+        entries: Entries = {"Time/End penetration": 0.52}
+        self.run_scene("jack", path, entries=entries)
+        before = summary(path), history(path)
+        text = self.run_scene("jack", path, SUCCESS, "--restart", entries=entries)
+        self.assertIn("nothing is left to compute", text)
+        self.assertEqual((summary(path), history(path)), before)
+
     def test_restart_without_checkpoint(self) -> None:
         text = self.run_scene("jack", self.directory(), BAD_INPUT, "--restart")
         self.assertIn("no checkpoint", text)

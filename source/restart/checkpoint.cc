@@ -301,15 +301,18 @@ namespace CaissonMPM
       throw BadInput("the checkpoint in " + directory +
                      " was written with\n  " + a +
                      "\nand cannot be used with\n  " + b +
-                     "\nSet it back, or run without --restart.");
+                     "\nSet it back, or start the run anew, without --restart, "
+                     "in another directory.");
     }
 
     [[noreturn]] void
     report_damaged(const std::string &directory)
     {
-      throw BadInput("the checkpoint in " + directory +
-                     " is damaged, or was written by another version. Run "
-                     "without --restart.");
+      throw BadInput(
+        "the checkpoint in " + directory +
+        " is damaged, or was written by another version. Start the "
+        "run anew in another directory: without --restart, the "
+        "results in this one would be removed.");
     }
 
     Info

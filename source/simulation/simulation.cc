@@ -167,6 +167,8 @@ namespace CaissonMPM
   {
     body.name_unused_entries(origins);
     soil.name_unused_entries(origins);
+    generator.name_unused_entries(origins);
+    boundary_conditions.name_unused_entries(origins);
     nodal_motion.settings().name_unused_entries(origins);
     schedule.name_unused_entries(origins);
   }
@@ -247,7 +249,7 @@ namespace CaissonMPM
     if (!missing.empty())
       throw BadInput("the checkpoint in " + recorder.output_directory() +
                      " lacks the entry " + missing +
-                     ". Run without --restart.");
+                     ". Start the run anew in another directory.");
     grid.move_to(body.motion().travel());
     balance();
     schedule.resume();
@@ -457,6 +459,17 @@ namespace CaissonMPM
   }
 
   ExitStatus
+  Simulation::nothing_left()
+  {
+    recorder.message(
+      "nothing is left to compute: the checkpoint in " +
+      recorder.output_directory() + " is at t = " + to_text(clock.time) +
+      " s, where this run ends. To continue it, set a later end in section "
+      "Time.");
+    return recorder.verify() ? ExitStatus::success : ExitStatus::failure;
+  }
+
+  ExitStatus
   Simulation::finish()
   {
     // so that the run can be continued to a later end
@@ -473,6 +486,8 @@ namespace CaissonMPM
                   const bool         restart)
   {
     set_up(scene_file, output_directory, restart);
+    if (restart && schedule.is_finished())
+      return nothing_left();
     recorder.print_header(known_limits());
     if (!restart)
       {

@@ -128,6 +128,10 @@ namespace CaissonMPM
     reason_to_stop();
     ExitStatus
     stop(const std::string &reason);
+    /** Say that a run that was finished has nothing to continue, and leave its
+     * files as they are. */
+    ExitStatus
+    nothing_left();
     ExitStatus
     finish();
 
