@@ -8,6 +8,17 @@
 // - itself: the same kernels for all instruction sets of this CPU.
 #include "kernel_scene.h"
 
+/** The components of a stress that has turned by @p angle, from z to r. */
+std::array<double, 4>
+turned(const double *s, const double angle)
+{
+  const double c = std::cos(angle), d = std::sin(angle);
+  return {{c * c * s[0] + d * d * s[1] + 2. * c * d * s[3],
+           d * d * s[0] + c * c * s[1] - 2. * c * d * s[3],
+           s[2],
+           (c * c - d * d) * s[3] + c * d * (s[1] - s[0])}};
+}
+
 void
 check_linear_field(const double axisymmetric)
 {
@@ -35,22 +46,21 @@ check_linear_field(const double axisymmetric)
                 std::abs(block.velocity_z[lane] - keep * p.v[1] - w[1])});
     const double rr = dt * a, zz = dt * b, tt = axisymmetric * dt * a,
                  rz = .5 * dt * c, spin = -.5 * dt * c, trace = rr + zz + tt;
-    const double exact[4] = {p.s[0] + 2. * spin * p.s[3] + l * trace +
-                               2. * G * rr,
-                             p.s[1] - 2. * spin * p.s[3] + l * trace +
-                               2. * G * zz,
-                             p.s[2] + l * trace + 2. * G * tt,
-                             p.s[3] + spin * (p.s[1] - p.s[0]) + 2. * G * rz};
+    const std::array<double, 4> start      = turned(p.s, .5 * spin);
+    std::array<double, 4>       end        = start;
+    const double                elastic[4] = {2. * G * rr,
+                                              2. * G * zz,
+                                              2. * G * tt,
+                                              2. * G * rz};
+    for (int i = 0; i < 4; ++i)
+      end[i] += elastic[i] + (i < 3 ? l * trace : 0.);
+    const std::array<double, 4> exact = turned(end.data(), .5 * spin);
     for (int i = 0; i < 4; ++i)
       stress = std::max(stress, std::abs(block.stress[i][lane] - exact[i]));
-    // the mean of the old stress, rotated, and the new one
-    const double turn    = 2. * spin * p.s[3];
-    const double mean_rr = .5 * (p.s[0] + turn + exact[0]),
-                 mean_zz = .5 * (p.s[1] - turn + exact[1]),
-                 mean_tt = .5 * (p.s[2] + exact[2]),
-                 mean_rz = .5 * (p.s[3] + spin * (p.s[1] - p.s[0]) + exact[3]);
-    work += p.volume * (1. + .5 * trace) *
-            (mean_rr * rr + mean_zz * zz + mean_tt * tt + 2. * mean_rz * rz);
+    // the mean of both stresses in the middle of the turn
+    work += p.volume * (1. + .5 * trace) * .5 *
+            ((start[0] + end[0]) * rr + (start[1] + end[1]) * zz +
+             (start[2] + end[2]) * tt + 2. * (start[3] + end[3]) * rz);
     volume =
       std::max(volume, std::abs(block.volume[lane] / p.volume - 1. - trace));
   });
@@ -61,6 +71,92 @@ check_linear_field(const double axisymmetric)
   verdict("linear field: error of the stress work",
           std::abs(sums.stress_work / work - 1.),
           1e-12);
+}
+
+/** Let the soil have the velocity v(r, z) for @p n_steps, and put all points
+ * back to where they were after each: the field is uniform. */
+void
+repeat(Scene                                                      &s,
+       const double                                                dt,
+       const unsigned int                                          n_steps,
+       const std::function<std::array<double, 2>(double, double)> &v)
+{
+  const std::vector<CellMoments> moments(n_cells, CellMoments());
+  for (unsigned int k = 0; k < n_steps; ++k)
+    {
+      update(s, *select_kernels("auto"), {dt, 0., false, 0., 0.}, v, moments);
+      for_all(s, [](PointBlock &block, int lane, const Point &p) {
+        block.r[lane] = p.r;
+        block.z[lane] = p.z;
+      });
+    }
+}
+
+/** Ten rigid turns leave the stress as it was, whatever the step: the matrix is
+ * orthogonal, and the angle of a step is right to the fifth order. */
+void
+check_rigid_rotation()
+{
+  const double pi = std::acos(-1.);
+  for (const unsigned int n_steps : {200u, 20000u})
+    {
+      Scene s = make_scene(0., false);
+      fill_blocks(s);
+      repeat(s,
+             20. * pi / n_steps,
+             n_steps,
+             [](const double r, const double z) {
+               return std::array<double, 2>{{z, -r}};
+             });
+      double size = 0., place = 0.;
+      for_all(s, [&](PointBlock &block, int lane, const Point &p) {
+        const double rr = block.stress[0][lane], zz = block.stress[1][lane],
+                     rz    = block.stress[3][lane];
+        const double start = std::hypot(.5 * (p.s[0] - p.s[1]), p.s[3]);
+        size =
+          std::max(size, std::abs(std::hypot(.5 * (rr - zz), rz) / start - 1.));
+        place = std::max(place, std::abs(rz - p.s[3]) / start);
+      });
+      verdict("ten turns: change of the deviator", size, 1e-10);
+      verdict("ten turns: error of the angle",
+              place,
+              n_steps < 1000 ? .1 : 1e-8);
+    }
+}
+
+/** Simple shear v_r = z to 3 without initial stress: sigma_rz = G sin(3),
+ * sigma_rr = -sigma_zz = G (1 - cos(3)). Returns the error over G. */
+double
+error_of_simple_shear(const unsigned int n_steps)
+{
+  Scene s = make_scene(0., false);
+  for (Point &p : s.points)
+    std::fill_n(p.s, 4, 0.);
+  fill_blocks(s);
+  const double shear = 3., G = E / (2. * (1. + nu));
+  repeat(s, shear / n_steps, n_steps, [](double, const double z) {
+    return std::array<double, 2>{{z, 0.}};
+  });
+  double error = 0.;
+  for_all(s, [&](PointBlock &block, int lane, const Point &) {
+    error =
+      std::max({error,
+                std::abs(block.stress[3][lane] / G - std::sin(shear)),
+                std::abs(block.stress[0][lane] / G - 1. + std::cos(shear)),
+                std::abs(block.stress[1][lane] / G + 1. - std::cos(shear))});
+  });
+  return error;
+}
+
+void
+check_simple_shear()
+{
+  const double coarse = error_of_simple_shear(50),
+               fine   = error_of_simple_shear(100);
+  verdict("simple shear, 100 steps: error over G", fine, 1e-4);
+  verdict("simple shear: order of the error, less 2",
+          std::abs(std::log2(coarse / fine) - 2.),
+          .01);
 }
 
 /** The work of a uniform stress and strain is that of the cell's volume in full
@@ -358,6 +454,8 @@ main()
       check_mean_volume(axisymmetric);
     }
   std::printf("both\n");
+  check_rigid_rotation();
+  check_simple_shear();
   check_limiter();
   check_stress_filter();
   for (const double axisymmetric : {0., 1.})

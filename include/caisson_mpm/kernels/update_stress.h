@@ -4,9 +4,10 @@
 //
 // With the velocity gradient L of the nodal field at the point, the strain
 // increment is dt (L + L^T) / 2, with the mean volume change of the cell
-// (B-bar,
-// Hughes 1980, doi:10.1002/nme.1620150914), and the stress rate that of Jaumann
-// with the spin dt (L - L^T) / 2 in the plane. The material law does the rest.
+// (B-bar, Hughes 1980, doi:10.1002/nme.1620150914), and the stress rate that of
+// Jaumann with the spin dt (L - L^T) / 2 in the plane. The stress turns by half
+// of the angle before the material law and by the other half after it, which is
+// of second order in the angle.
 #ifndef caisson_mpm_kernels_update_stress_h
 #define caisson_mpm_kernels_update_stress_h
 
@@ -174,19 +175,45 @@ namespace CaissonMPM
         stress.rz += share * (evaluate_fit(cell.fit + 9, x, y) - stress.rz);
       }
 
-      /** Jaumann: sigma + dt (W sigma - sigma W) with the in-plane spin. */
+      /**
+       * Half of the turn of a step in the plane. The difference and the shear
+       * of the stress form a vector that turns by twice the angle of the soil;
+       * for half of the turn this is the spin w itself. Its cosine and sine
+       * follow from tan(w/2) = w/2 + w^3/24 + ...: wherever this series is cut
+       * off, the matrix is orthogonal, and no turn changes a principal stress
+       * (Hughes & Winget 1980, doi:10.1002/nme.1620151210).
+       */
       template <typename Number>
-      CAISSON_INLINE StressState<Number>
-                     rotate(const StressState<Number> &s, const Number spin)
+      class HalfTurn
       {
-        const Number turn = Number(2.) * spin * s.rz;
-        return {s.rr + turn, s.zz - turn, s.tt, s.rz + spin * (s.zz - s.rr)};
-      }
+      public:
+        CAISSON_INLINE
+        HalfTurn(const Number spin)
+        {
+          tangent = spin * (Number(.5) + Number(1. / 24.) * spin * spin);
+          // sin w = 2 t / (1 + t^2), 1 - cos w = t sin w
+          sine = (tangent + tangent) / (Number(1.) + tangent * tangent);
+        }
+
+        CAISSON_INLINE StressState<Number>
+                       operator()(const StressState<Number> &s) const
+        {
+          const Number difference = Number(.5) * (s.rr - s.zz);
+          const Number to_rr      = sine * (s.rz - tangent * difference);
+          return {s.rr + to_rr,
+                  s.zz - to_rr,
+                  s.tt,
+                  s.rz - sine * (difference + tangent * s.rz)};
+        }
+
+      private:
+        Number tangent, sine;
+      };
 
       /**
        * The work of the stress per volume in a step: dt times the mean of old
-       * (rotated) and new stress with the strain rate, on the mean of old and
-       * new volume.
+       * and new stress, both in the middle of the turn, with the strain rate,
+       * on the mean of old and new volume.
        */
       template <typename Number>
       CAISSON_INLINE Number
@@ -274,8 +301,10 @@ namespace CaissonMPM
         if (cell.fit != nullptr)
           filter_stress(stress, p, load(b.z), cell, settings.stress_filter);
 
-        // 3. Turn the stress with the soil, so that the law sees strain only.
-        stress = rotate(stress, step.spin);
+        // 3. Turn the stress with the soil, to where it is in the middle of the
+        //    step, so that the law sees strain only.
+        const HalfTurn<Number> half_turn(step.spin);
+        stress = half_turn(stress);
 
         // 4. The law: sigma <- sigma + C : de, and its state variables.
         const Number     volume = load(b.volume);
@@ -283,10 +312,11 @@ namespace CaissonMPM
           b, history, lane, volume, material.initial_void_ratio);
         const StressState<Number> old = stress;
         Law::update(stress, step.strain, state, material.parameters);
-        stress.rr.store(b.stress[0] + lane);
-        stress.zz.store(b.stress[1] + lane);
-        stress.tt.store(b.stress[2] + lane);
-        stress.rz.store(b.stress[3] + lane);
+        const StressState<Number> turned = half_turn(stress);
+        turned.rr.store(b.stress[0] + lane);
+        turned.zz.store(b.stress[1] + lane);
+        turned.tt.store(b.stress[2] + lane);
+        turned.rz.store(b.stress[3] + lane);
         store_state<Law>(state, b, history, lane);
 
         // 5. V <- V (1 + dt div v)

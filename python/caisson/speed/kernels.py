@@ -46,7 +46,7 @@ GRID_TO_POINTS_OPERATIONS = (
     + 23  # VelocityGradient
     + 17  # strain increment, B-bar, spin, 1/r
     + 31  # stress filter
-    + 7  # rotation
+    + 30  # rotation, half before and half after the law
     + 26  # elastic step and check of the yield function
     + 19  # volume and work
     + 7  # sums of the work
