@@ -55,7 +55,7 @@ namespace
                          n_rows = std::max(1u, wanted / n / n_columns);
       n_nodes                   = (n_columns + 1) * (n_rows + 1);
       n_points                  = n_columns * n_rows * n;
-      neighbors.assign(4 * n_columns * n_rows, -1);
+      neighbors.assign(neighbors_per_cell * n_columns * n_rows, -1);
       for (unsigned int j = 0; j < n_rows; ++j)
         for (unsigned int i = 0; i < n_columns; ++i)
           add_cell(i, j, n_columns, n_rows, per_direction);

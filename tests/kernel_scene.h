@@ -95,8 +95,9 @@ struct Point
 
 struct Scene
 {
-  double                     axisymmetric;
-  std::vector<int>           neighbors = std::vector<int>(4 * n_cells, -1);
+  double           axisymmetric;
+  std::vector<int> neighbors =
+    std::vector<int>(neighbors_per_cell * n_cells, -1);
   std::vector<CellGeometry>  geometry;
   std::vector<CellNodes>     nodes;
   std::vector<unsigned char> flags;

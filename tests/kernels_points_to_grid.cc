@@ -284,8 +284,8 @@ check_full_cells()
 {
   Scene s = make_scene(1., true);
   fill_blocks(s);
-  s.first.push_back(-1);            // a cell without points
-  s.neighbors[4 * 1 + 3] = n_cells; // above cell 1
+  s.first.push_back(-1);                             // a cell without points
+  s.neighbors[neighbors_per_cell * 1 + 7] = n_cells; // above cell 1
   const Sums sums = collect(s, *select_kernels("auto"), {.9, .3, true, false});
   std::printf("full cells:");
   for (unsigned int c = 0; c < n_cells; ++c)

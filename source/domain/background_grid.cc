@@ -124,7 +124,7 @@ namespace CaissonMPM
   void
   BackgroundGrid::find_neighbors()
   {
-    neighbors.assign(4 * n_cells(), -1);
+    neighbors.assign(Kernels::neighbors_per_cell * n_cells(), -1);
     soil_neighbors = neighbors;
     for (unsigned int c = 0; c < n_cells(); ++c)
       for (unsigned int face = 0; face < 4; ++face)
@@ -134,9 +134,9 @@ namespace CaissonMPM
             continue;
           const unsigned int neighbor =
             local_number(GlobalCell(cell->neighbor(face)->index()));
-          neighbors[4 * c + face] = neighbor;
+          neighbors[place_of_neighbor(c, face)] = neighbor;
           if (!rigid[neighbor])
-            soil_neighbors[4 * c + face] = neighbor;
+            soil_neighbors[place_of_neighbor(c, face)] = neighbor;
         }
   }
 

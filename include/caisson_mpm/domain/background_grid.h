@@ -199,12 +199,13 @@ namespace CaissonMPM
     {
       return lines_.zone_of(global_numbers[cell]);
     }
-    /** Return the cell beyond face 0 (left), 1, 2 (below), 3; -1 where there
-     * is none, or none that this rank knows. */
+    /** Return the cell beyond face 0 (left), 1, 2 (below), 3, the first one if
+     * there are several; -1 where there is none, or none that this rank
+     * knows. */
     int
     neighbor(const unsigned int cell, const unsigned int face) const
     {
-      return neighbors[4 * cell + face];
+      return neighbors[place_of_neighbor(cell, face)];
     }
     /** Return whether the face lies on a side of the domain. */
     bool
@@ -254,6 +255,12 @@ namespace CaissonMPM
     }
 
   private:
+    static constexpr unsigned int
+    place_of_neighbor(const unsigned int cell, const unsigned int face)
+    {
+      return Kernels::neighbors_per_cell * cell +
+             Kernels::neighbors_per_face * face;
+    }
     void
     create_triangulation();
     /** Number the cells and nodes of this rank's part of the mesh, at the start
@@ -278,7 +285,7 @@ namespace CaissonMPM
     dealii::MappingQ1<dim>  mapping_;
     const unsigned int      n_ranks_, rank;
 
-    // [n_cells] or, neighbors, [n_cells][4]
+    // [n_cells] or, neighbors, [n_cells][4][neighbors_per_face]
     std::vector<Triangulation::active_cell_iterator> iterators;
     std::vector<GlobalCell>                          global_numbers;
     std::vector<unsigned int>                        owners;

@@ -177,9 +177,10 @@ namespace CaissonMPM
           return true;
         if (filled_fraction < step.integration.full_inside)
           return false;
-        for (int face = 0; face < 4; ++face)
+        for (int i = 0; i < neighbors_per_cell; ++i)
           {
-            const int neighbor = step.grid.neighbors[4 * cell + face];
+            const int neighbor =
+              step.grid.neighbors[neighbors_per_cell * cell + i];
             if (neighbor >= 0 && step.points.first_block[neighbor] < 0)
               return false;
           }

@@ -71,6 +71,10 @@ namespace CaissonMPM
       unsigned int node[4];
     };
 
+    /** How many cells may lie beyond a face of a cell, and beyond all four. */
+    constexpr int neighbors_per_face = 2,
+                  neighbors_per_cell = 4 * neighbors_per_face;
+
     /** Options of the kernels for a cell. */
     enum CellFlags : unsigned char
     {
@@ -153,9 +157,10 @@ namespace CaissonMPM
       const CellGeometry  *geometry; // [n_cells]
       const CellNodes     *nodes;    // [n_cells]
       const unsigned char *flags;    // [n_cells]
-      const int *neighbors; // [n_cells][4] soil cells left, right, below,
-                            // above; -1: none
-      double axisymmetric;  // 1, or 0 in plane strain
+      // [n_cells][4][neighbors_per_face] soil cells left, right, below and
+      // above; -1: none
+      const int *neighbors;
+      double     axisymmetric; // 1, or 0 in plane strain
     };
 
     /** How the internal force is integrated. */
