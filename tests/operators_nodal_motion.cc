@@ -56,7 +56,9 @@ struct Stepper
 
   Stepper(const std::string &soil, const std::string &method)
     : scene(soil)
-    , constraints{contact, scene.boundary_conditions}
+    , constraints{contact,
+                  scene.boundary_conditions,
+                  scene.grid.hanging_nodes()}
   {
     forces.add(std::make_unique<ExcessPressure>());
     auto &prm = dealii::ParameterAcceptor::prm;

@@ -22,6 +22,12 @@ from program import (
 
 SAME = """material_points body_points cells steps held_back_count limiter_count
     points_split points_merged""".split()
+HALVED: Entries = {
+    "Rigid body/Cells across the wall": 4,
+    "Grid/Refinement levels": 2,
+    "Grid/Refinement levels along wall": 1,
+    "Material points/Split and merge": "true",
+}
 DIFFERENCES_OF_WORKS = ("gravity_work_J", "energy_residual_J")
 
 
@@ -77,10 +83,20 @@ class Ranks(ProgramTest):
         self.assertGreater(one["points_split"], 100)
         self.assertGreater(one["points_merged"], 100)
 
+    def test_hanging_nodes(self) -> None:
+        one = self.compare_ranks((2, 3), 1, {**HALVED, "Time/End penetration": 0.8})
+        self.assertGreater(one["points_split"], 100)
+
     def test_restart(self) -> None:
+        self.check_restart({"Time/End penetration": 1})
+
+    def test_restart_with_hanging_nodes(self) -> None:
+        self.check_restart({**HALVED, "Time/End penetration": 0.8})
+
+    def check_restart(self, scene_entries: Entries) -> None:
         """A checkpoint of two ranks is continued on one and on three."""
         whole, stopped = self.directory("whole"), self.directory("stopped")
-        entries = {"Output/Record interval": 0.05, "Time/End penetration": 1}
+        entries = {"Output/Record interval": 0.05, **scene_entries}
         self.run_scene("jack", whole, entries=entries)
         limited = {**entries, "Run control/Wall time limit": 0.2}
         self.run_scene("jack", stopped, STOPPED, entries=limited, ranks=2)

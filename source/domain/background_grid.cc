@@ -28,22 +28,25 @@ namespace CaissonMPM
   void
   BackgroundGrid::create_triangulation()
   {
-    const unsigned int      n = lines_.n_columns() + 1;
+    // the roots of the tree of cells
+    const unsigned int size      = lines_.tree().root_size(),
+                       n_columns = lines_.n_columns() / size,
+                       n_rows = lines_.n_rows() / size, n = n_columns + 1;
     std::vector<Point<dim>> points;
-    for (unsigned int j = 0; j <= lines_.n_rows(); ++j)
-      for (unsigned int i = 0; i <= lines_.n_columns(); ++i)
-        points.push_back(lines_.node_start(i, j));
-    std::vector<CellData<dim>> cells(lines_.n_cells());
+    for (unsigned int j = 0; j <= n_rows; ++j)
+      for (unsigned int i = 0; i <= n_columns; ++i)
+        points.push_back(lines_.node_start(i * size, j * size));
+    std::vector<CellData<dim>> cells(n_columns * n_rows);
     for (unsigned int c = 0; c < cells.size(); ++c)
       {
-        const GlobalCell   number{c};
-        const unsigned int i = lines_.column_of(number),
-                           j = lines_.row_of(number);
-        cells[c].vertices    = {j * n + i,
-                                j * n + i + 1,
-                                (j + 1) * n + i,
-                                (j + 1) * n + i + 1};
-        cells[c].material_id = lines_.is_body_cell(number) ? 1 : 0;
+        const unsigned int i = c % n_columns, j = c / n_columns;
+        cells[c].vertices = {j * n + i,
+                             j * n + i + 1,
+                             (j + 1) * n + i,
+                             (j + 1) * n + i + 1};
+        cells[c].material_id =
+          lines_.is_body_cell(lines_.tree().cell_at(i * size, j * size)) ? 1 :
+                                                                           0;
       }
     triangulation_.create_triangulation(points, cells, SubCellData());
     // the boundary ids are those of Side
@@ -51,13 +54,68 @@ namespace CaissonMPM
       for (const unsigned int face : cell->face_indices())
         if (cell->face(face)->at_boundary())
           cell->face(face)->set_boundary_id(face);
+    refine_triangulation();
+  }
+
+  namespace
+  {
+    /** The block of the lattice that a cell of the triangulation is. */
+    CellBlock
+    block_of(const BackgroundGrid::Triangulation::cell_iterator &cell,
+             const GridLines                                    &lines)
+    {
+      const unsigned int root_size = lines.tree().root_size();
+      CellBlock          block     = {0, 0, root_size >> cell->level()};
+      auto               ancestor  = cell;
+      for (unsigned int size = block.size; ancestor->level() > 0; size *= 2)
+        {
+          const auto   parent = ancestor->parent();
+          unsigned int k      = 0;
+          while (parent->child_index(k) != ancestor->index())
+            ++k;
+          block.column += size * (k % 2);
+          block.row += size * (k / 2);
+          ancestor = parent;
+        }
+      // a CellId would give the number of p4est's tree
+      const unsigned int root      = ancestor->index(),
+                         n_columns = lines.n_columns() / root_size;
+      block.column += root_size * (root % n_columns);
+      block.row += root_size * (root / n_columns);
+      return block;
+    }
+  } // namespace
+
+  GlobalCell
+  BackgroundGrid::number_of(const Triangulation::cell_iterator &cell) const
+  {
+    const CellBlock block = block_of(cell, lines_);
+    return lines_.tree().cell_at(block.column, block.row);
+  }
+
+  void
+  BackgroundGrid::refine_triangulation()
+  {
+    for (unsigned int level = 0; level < lines_.tree().levels(); ++level)
+      {
+        for (const auto &cell : triangulation_.active_cell_iterators())
+          if (cell->is_locally_owned() &&
+              lines_.tree().block(number_of(cell)).size <
+                lines_.tree().root_size() >> cell->level())
+            cell->set_refine_flag();
+        triangulation_.execute_coarsening_and_refinement();
+      }
+    AssertThrow(triangulation_.n_global_active_cells() == n_global_cells(),
+                ExcInternalError());
   }
 
   void
   BackgroundGrid::repartition(const std::vector<unsigned int> &costs)
   {
-    const auto connection = triangulation_.signals.weight.connect(
-      [&costs](const auto &cell, const auto) { return costs[cell->index()]; });
+    const auto connection =
+      triangulation_.signals.weight.connect([&](const auto &cell, const auto) {
+        return costs[index_of(number_of(cell))];
+      });
     triangulation_.repartition();
     connection.disconnect();
     set_up_part();
@@ -74,6 +132,7 @@ namespace CaissonMPM
     partitioners.clear();
     number_cells();
     find_dofs();
+    find_hanging_nodes();
     find_neighbors();
     flag_cells_at_body();
     number_nodes();
@@ -85,20 +144,22 @@ namespace CaissonMPM
   BackgroundGrid::number_cells()
   {
     local_numbers.assign(n_global_cells(), numbers::invalid_unsigned_int);
+    std::map<GlobalCell, Triangulation::active_cell_iterator> known;
+    for (const auto &cell : triangulation_.active_cell_iterators())
+      if (!cell->is_artificial())
+        known.emplace(number_of(cell), cell);
     iterators.clear();
     global_numbers.clear();
     owners.clear();
     rigid.clear();
-    for (const auto &cell : triangulation_.active_cell_iterators())
-      if (!cell->is_artificial())
-        {
-          local_numbers[cell->index()] = iterators.size();
-          iterators.push_back(cell);
-          // a CellId would give the number of p4est's tree
-          global_numbers.push_back(GlobalCell(cell->index()));
-          owners.push_back(cell->subdomain_id());
-          rigid.push_back(lines_.is_body_cell(global_numbers.back()));
-        }
+    for (const auto &[number, cell] : known)
+      {
+        local_numbers[index_of(number)] = iterators.size();
+        iterators.push_back(cell);
+        global_numbers.push_back(number);
+        owners.push_back(cell->subdomain_id());
+        rigid.push_back(lines_.is_body_cell(number));
+      }
     for (auto &g : geometries)
       g.resize(iterators.size());
   }
@@ -129,15 +190,35 @@ namespace CaissonMPM
     for (unsigned int c = 0; c < n_cells(); ++c)
       for (unsigned int face = 0; face < 4; ++face)
         {
-          const auto &cell = iterators[c];
-          if (cell->at_boundary(face) || cell->neighbor(face)->is_artificial())
+          const auto beyond = lines_.tree().neighbors(global_numbers[c], face);
+          if (!beyond)
             continue;
-          const unsigned int neighbor =
-            local_number(GlobalCell(cell->neighbor(face)->index()));
-          neighbors[place_of_neighbor(c, face)] = neighbor;
-          if (!rigid[neighbor])
-            soil_neighbors[place_of_neighbor(c, face)] = neighbor;
+          const bool is_one = beyond->front() == beyond->back();
+          for (int i = 0; i < (is_one ? 1 : Kernels::neighbors_per_face); ++i)
+            {
+              const unsigned int neighbor = local_number((*beyond)[i]),
+                                 place    = place_of_neighbor(c, face) + i;
+              if (neighbor == numbers::invalid_unsigned_int)
+                continue;
+              neighbors[place] = neighbor;
+              if (!rigid[neighbor])
+                soil_neighbors[place] = neighbor;
+            }
         }
+  }
+
+  void
+  BackgroundGrid::find_hanging_nodes()
+  {
+    std::vector<bool> is_at_own_cell(partitioner->locally_owned_size() +
+                                       partitioner->n_ghost_indices(),
+                                     false);
+    for (unsigned int c = 0; c < n_cells(); ++c)
+      if (is_owned(c))
+        for (const unsigned int node : nodes[c].node)
+          is_at_own_cell[node] = true;
+    if (lines_.tree().levels() > 0)
+      hanging_nodes_.initialize(dof_handler_, *partitioner, is_at_own_cell);
   }
 
   void
@@ -176,8 +257,9 @@ namespace CaissonMPM
           const unsigned int node = nodes[c].node[k];
           if (seen[node])
             continue;
-          const unsigned int i = lines_.column_of(global_numbers[c]) + k % 2,
-                             j = lines_.row_of(global_numbers[c]) + k / 2;
+          const CellBlock   &b = lines_.tree().block(global_numbers[c]);
+          const unsigned int i = b.column + b.size * (k % 2),
+                             j = b.row + b.size * (k / 2);
           seen[node]           = true;
           node_start[node]     = lines_.node_start(i, j);
           node_rate[node]      = lines_.node_rate(i, j);
@@ -211,11 +293,7 @@ namespace CaissonMPM
   BackgroundGrid::at_side(const unsigned int cell,
                           const unsigned int face) const
   {
-    const GlobalCell   number = global_numbers[cell];
-    const unsigned int line =
-      face < 2 ? lines_.column_of(number) : lines_.row_of(number);
-    const unsigned int n = face < 2 ? lines_.n_columns() : lines_.n_rows();
-    return line == (face % 2 == 0 ? 0 : n - 1);
+    return !lines_.tree().neighbors(global_numbers[cell], face);
   }
 
   // ------------------------------------------------------------ motion

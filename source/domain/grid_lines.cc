@@ -19,6 +19,7 @@ namespace CaissonMPM
   {
     declare_domain();
     declare_cells();
+    declare_refinement();
     declare_motion();
     add_parameter(
       "Distortion",
@@ -162,6 +163,11 @@ namespace CaissonMPM
       throw BadInput("Grid/Bottom = " + meters(bottom) +
                      " and Grid/Top = " + meters(top) +
                      " must lie below and above the soil surface, z = 0.");
+    if (levels_at_wall > levels)
+      throw BadInput(
+        "Grid/Refinement levels along wall = " + to_text(levels_at_wall) +
+        " must not exceed Grid/Refinement levels = " + to_text(levels) + ".");
+    parse_region();
   }
 
   std::string
@@ -216,16 +222,38 @@ namespace CaissonMPM
   }
 
   Point<2>
+  GridLines::free_node_start(const LatticeNode &node) const
+  {
+    return Point<2>(columns[node.column],
+                    reference_height(node.column, node.row));
+  }
+
+  Tensor<1, 2>
+  GridLines::free_node_rate(const LatticeNode &node) const
+  {
+    return Tensor<1, 2>({radial_rate(columns[node.column]),
+                         height_at(rows[node.row], 1.) - rows[node.row]});
+  }
+
+  Point<2>
   GridLines::node_start(const unsigned int i, const unsigned int j) const
   {
-    return Point<2>(columns[i], reference_height(i, j));
+    const auto masters = tree_.masters_of({i, j});
+    if (!masters)
+      return free_node_start({i, j});
+    return free_node_start(masters->front()) +
+           .5 * (free_node_start(masters->back()) -
+                 free_node_start(masters->front()));
   }
 
   Tensor<1, 2>
   GridLines::node_rate(const unsigned int i, const unsigned int j) const
   {
-    return Tensor<1, 2>(
-      {radial_rate(columns[i]), height_at(rows[j], 1.) - rows[j]});
+    const auto masters = tree_.masters_of({i, j});
+    if (!masters)
+      return free_node_rate({i, j});
+    return .5 *
+           (free_node_rate(masters->front()) + free_node_rate(masters->back()));
   }
 
   unsigned int
@@ -241,15 +269,17 @@ namespace CaissonMPM
   Kernels::CellGeometry
   GridLines::initial_geometry(const GlobalCell cell) const
   {
-    const unsigned int i = column_of(cell), j = row_of(cell);
-    const double       left = reference_height(i, j),
-                 right      = reference_height(i + 1, j);
-    return {columns[i],
-            columns[i + 1] - columns[i],
-            left,
-            right,
-            reference_height(i, j + 1) - left,
-            reference_height(i + 1, j + 1) - right};
+    const CellBlock &b          = tree_.block(cell);
+    const auto       lower_left = node_start(b.column, b.row),
+               lower_right      = node_start(b.column + b.size, b.row),
+               upper_left       = node_start(b.column, b.row + b.size),
+               upper_right      = node_start(b.column + b.size, b.row + b.size);
+    return {lower_left[radial],
+            lower_right[radial] - lower_left[radial],
+            lower_left[vertical],
+            lower_right[vertical],
+            upper_left[vertical] - lower_left[vertical],
+            upper_right[vertical] - lower_right[vertical]};
   }
 
   GridLines::Zone
@@ -266,7 +296,12 @@ namespace CaissonMPM
   std::string
   GridLines::description() const
   {
-    return to_text(n_columns()) + " x " + to_text(n_rows()) + " cells, " +
-           (axisymmetric() ? "axisymmetric" : "plane strain");
+    const std::string lines = to_text(n_columns() / tree_.root_size()) + " x " +
+                              to_text(n_rows() / tree_.root_size()) + " cells",
+                      kind = axisymmetric() ? "axisymmetric" : "plane strain";
+    if (levels == 0)
+      return lines + ", " + kind;
+    return to_text(n_cells()) + " cells, from " + lines + " halved up to " +
+           to_text(levels) + (levels == 1 ? " time, " : " times, ") + kind;
   }
 } // namespace CaissonMPM

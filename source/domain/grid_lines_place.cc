@@ -15,6 +15,26 @@ namespace CaissonMPM
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Lines with the middles between them, and the middles between these, ...
+     */
+    std::vector<double>
+    halved(const std::vector<double> &lines, const unsigned int n_times)
+    {
+      if (n_times == 0)
+        return lines;
+      std::vector<double> result;
+      for (const double x : lines)
+        {
+          if (!result.empty())
+            result.push_back(.5 * (result.back() + x));
+          result.push_back(x);
+        }
+      return halved(result, n_times - 1);
+    }
+  } // namespace
+
   void
   GridLines::place(const BodyShape &body,
                    const Soil      &soil,
@@ -26,6 +46,7 @@ namespace CaissonMPM
                      "mesh must fit the body. Set Distortion = 0.");
     travel_to_hold = travel;
     uplift_to_hold = uplift;
+    check_refinement(body);
     follow(body);
     const Spacing in_r = spacing_in_r(body), in_z = spacing_in_z(body, soil);
     check_number_of_cells(in_r, in_z);
@@ -33,8 +54,13 @@ namespace CaissonMPM
     rows       = lines_of(in_z);
     fixed_rows = in_z.fixed;
     if (distortion > 0.)
-      distort(fixed_rows);
+      distort_columns();
+    columns = halved(columns, levels);
+    rows    = halved(rows, levels);
+    if (distortion > 0.)
+      distort_rows(fixed_rows);
     find_body(body);
+    make_cells(body);
     check_travel();
   }
 
@@ -54,6 +80,10 @@ namespace CaissonMPM
     zone_bottom = std::max(bottom, body.bottom() - zone_below_tip);
     zone_top    = body.top();
     decay_below = body.height_of_bent_rows();
+    // the rows are level again where cells are no longer halved
+    if (levels > 0 && is_wedge(body))
+      decay_below =
+        std::min(decay_below, distance_of_tip(body) * (1u << (levels - 1)));
     decay_above = std::min(decay_below, zone_top - shoulder);
   }
 
@@ -110,7 +140,7 @@ namespace CaissonMPM
                      meters(inner_radius) + " to " + meters(outer_radius) +
                      ". Change Grid/Outer radius or the body.");
     const auto   finest = finest_cell(body, cell_width, "Grid/Cell width");
-    const double fine   = finest.first;
+    const double fine   = finest.first * (1u << levels);
     const auto   size   = [=](const double r) {
       if (expands && r < right)
         return right - inner_radius;
@@ -149,7 +179,7 @@ namespace CaissonMPM
     if (body.has_lid())
       fixed.push_back({body.lower_face_of_lid(), "the lid of the body"});
     const auto   finest = finest_cell(body, cell_height, "Grid/Cell height");
-    const double fine   = finest.first;
+    const double fine   = finest.first * (1u << levels);
     const auto   size   = [=](const double z) {
       const double distance = std::abs(z - shoulder) - fine_height;
       return std::min(std::max(cell_height, fine),
@@ -310,11 +340,16 @@ namespace CaissonMPM
   } // namespace
 
   void
-  GridLines::distort(const std::vector<FixedLine> &straight_rows)
+  GridLines::distort_columns()
   {
     const std::vector<double> regular = columns;
     for (unsigned int i = 1; i + 1 < columns.size(); ++i)
       columns[i] += distortion * scatter(i, 0) * distance_to_next(regular, i);
+  }
+
+  void
+  GridLines::distort_rows(const std::vector<FixedLine> &straight_rows)
+  {
     node_shift.assign(rows.size(), std::vector<double>(columns.size(), 0.));
     for (unsigned int j = 1; j + 1 < rows.size(); ++j)
       {

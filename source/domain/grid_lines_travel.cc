@@ -40,14 +40,15 @@ namespace CaissonMPM
   double
   GridLines::height_of_row(const unsigned int row, const double travel) const
   {
-    return height_at(rows[row + 1], travel) - height_at(rows[row], travel);
+    return height_at(rows[row + tree_.root_size()], travel) -
+           height_at(rows[row], travel);
   }
 
   unsigned int
   GridLines::flattest_row_at(const double travel, const bool above_body) const
   {
     unsigned int flattest = n_rows();
-    for (unsigned int j = 0; j < n_rows(); ++j)
+    for (unsigned int j = 0; j < n_rows(); j += tree_.root_size())
       if (above_body ? rows[j] > zone_top - 1e-9 : rows[j] < zone_bottom - 1e-9)
         if (flattest == n_rows() ||
             height_of_row(j, travel) < height_of_row(flattest, travel))
@@ -59,7 +60,7 @@ namespace CaissonMPM
   GridLines::neighbors_of_row(const unsigned int row) const
   {
     std::string text;
-    for (const double z : {rows[row + 1], rows[row]})
+    for (const double z : {rows[row + tree_.root_size()], rows[row]})
       {
         const auto line =
           std::find_if(fixed_rows.begin(),
@@ -109,9 +110,10 @@ namespace CaissonMPM
                      meters(uplift_to_hold) + ". It can only grow.");
     const double factor =
       1. - travel_to_hold / (outer_radius - expanding_radius);
-    double smallest = 1e300;
-    for (unsigned int i = body_column_end; i + 1 < columns.size(); ++i)
-      smallest = std::min(smallest, factor * (columns[i + 1] - columns[i]));
+    double             smallest = 1e300;
+    const unsigned int size     = tree_.root_size();
+    for (unsigned int i = body_column_end; i + 1 < columns.size(); i += size)
+      smallest = std::min(smallest, factor * (columns[i + size] - columns[i]));
     if (smallest < smallest_row)
       throw BadInput(
         "The radius grows by " + meters(travel_to_hold) +
@@ -157,8 +159,9 @@ namespace CaissonMPM
     if (!neighbors.empty())
       throw BadInput(
         "The row between " + neighbors + ", " +
-        meters(rows[row + 1] - rows[row]) + " high, is compressed to " +
-        meters(smallest) + " by the travel of " + meters(travel_to_hold) +
+        meters(rows[row + tree_.root_size()] - rows[row]) +
+        " high, is compressed to " + meters(smallest) + " by the travel of " +
+        meters(travel_to_hold) +
         ", below Grid/Smallest row height = " + meters(smallest_row) +
         ". Move one of these lines, or reduce Grid/Smallest row "
         "height; the row also limits the time step.");
@@ -206,49 +209,69 @@ namespace CaissonMPM
     return begin;
   }
 
+  std::array<double, 2>
+  GridLines::smallest_size_met(const GlobalCell cell) const
+  {
+    const CellBlock &own      = tree_.block(cell);
+    const auto       width_of = [&](const CellBlock &b) {
+      return columns[b.column + b.size] - columns[b.column];
+    };
+    std::array<double, 2> smallest = {
+      {width_of(own),
+       line_height(own.column, own.row + own.size, 0.) -
+         line_height(own.column, own.row, 0.)}};
+    // the cells of a column that soil of this cell meets, from a row on
+    const auto meet =
+      [&](const unsigned int i, const unsigned int first, const double travel) {
+        const double low  = line_height(i, own.row, 0.),
+                     high = line_height(i, own.row + own.size, 0.);
+        for (unsigned int k = first_row_above(i, first, low, travel);
+             k < n_rows();)
+          {
+            const CellBlock   &b   = tree_.block(tree_.cell_at(i, k));
+            const unsigned int end = b.row + b.size;
+            const double       z0  = line_height(i, b.row, travel),
+                         z1        = line_height(i, end, travel);
+            if (z0 > high)
+              break;
+            if (z1 > low && !inside_body(i, k))
+              smallest = {{std::min(smallest[0], width_of(b)),
+                           std::min(smallest[1], z1 - z0)}};
+            k = end;
+          }
+      };
+    const unsigned int n_samples = 100;
+    for (unsigned int s = 1; s <= n_samples && expanding_radius == 0.; ++s)
+      for (unsigned int i = own.column; i < own.column + own.size; ++i)
+        {
+          // rows sink: soil of this cell meets only cells that began above it
+          if (travel_to_hold > 0.)
+            meet(i, own.row, travel_to_hold * s / n_samples);
+          if (uplift_to_hold > 0.)
+            meet(i, 0, -uplift_to_hold * s / n_samples);
+        }
+    return smallest;
+  }
+
   double
   GridLines::smallest_height_met(const GlobalCell cell) const
   {
-    const unsigned int i = column_of(cell), j = row_of(cell);
-    if (!node_shift.empty()) // nothing moves
-      {
-        const auto g = initial_geometry(cell);
-        return std::max(g.height_left, g.height_right);
-      }
-    const double low = line_height(i, j, 0.), high = line_height(i, j + 1, 0.);
-    double       smallest        = high - low;
-    const unsigned int n_samples = 100;
-    const auto meet = [&](const unsigned int first, const double travel) {
-      for (unsigned int k = first_row_above(i, first, low, travel);
-           k < n_rows();
-           ++k)
-        {
-          const double z0 = line_height(i, k, travel),
-                       z1 = line_height(i, k + 1, travel);
-          if (z0 > high)
-            break;
-          if (z1 > low && !inside_body(i, k))
-            smallest = std::min(smallest, z1 - z0);
-        }
-    };
-    for (unsigned int s = 1; s <= n_samples && expanding_radius == 0.; ++s)
-      {
-        // rows sink: soil of this cell meets only cells that began above it
-        if (travel_to_hold > 0.)
-          meet(j, travel_to_hold * s / n_samples);
-        if (uplift_to_hold > 0.)
-          meet(0, -uplift_to_hold * s / n_samples);
-      }
-    return smallest;
+    if (node_shift.empty())
+      return smallest_size_met(cell)[vertical];
+    const auto g = initial_geometry(cell); // nothing moves
+    return std::max(g.height_left, g.height_right);
   }
 
   double
   GridLines::smallest_width_met(const GlobalCell cell) const
   {
-    const unsigned int i         = column_of(cell);
-    const double       r0        = columns[i];
-    double             smallest  = columns[i + 1] - r0;
-    const unsigned int n_samples = expanding_radius > 0. ? 100 : 0;
+    if (expanding_radius == 0.)
+      return node_shift.empty() ? smallest_size_met(cell)[radial] :
+                                  initial_geometry(cell).width;
+    const CellBlock   &own       = tree_.block(cell);
+    const double       r0        = columns[own.column];
+    double             smallest  = columns[own.column + own.size] - r0;
+    const unsigned int n_samples = 100;
     for (unsigned int s = 1; s <= n_samples; ++s)
       {
         const double travel = travel_to_hold * s / n_samples;

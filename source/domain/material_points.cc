@@ -435,14 +435,19 @@ namespace CaissonMPM
   {
     for (unsigned int n_crossed = 0; n_crossed < 100; ++n_crossed)
       {
-        int next = -1;
-        for (const int face : faces_to_cross(grid, cell, position))
-          if (face >= 0 && next < 0)
-            {
-              const int neighbor = grid.neighbor(cell, face);
-              if (neighbor >= 0 && !grid.is_rigid(neighbor))
-                next = neighbor;
-            }
+        int            next = -1;
+        const Point<2> x    = to_reference(grid.geometry(cell), position);
+        for (const unsigned int direction : {radial, vertical})
+          {
+            const int face = face_to_cross(x[direction], direction);
+            if (face < 0 || next >= 0)
+              continue;
+            // the nearer one of two smaller cells
+            const int neighbor =
+              grid.neighbor(cell, face, x[1 - direction] > .5);
+            if (neighbor >= 0 && !grid.is_rigid(neighbor))
+              next = neighbor;
+          }
         if (next < 0)
           break;
         cell = next;

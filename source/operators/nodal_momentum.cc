@@ -18,6 +18,7 @@ namespace CaissonMPM
     grid.reinit(new_velocity_, 2);
     inertia_.assign(grid.n_nodes(), 0.);
     n_owned_nodes_ = grid.n_owned_nodes();
+    hanging_nodes  = &grid.hanging_nodes();
   }
 
   void
@@ -28,6 +29,7 @@ namespace CaissonMPM
     auto *const nodes = reinterpret_cast<NodalSums *>(sums_.begin());
     context.kernels.points_to_grid(context.step, nodes);
     forces.collect(context, nodes);
+    hanging_nodes->distribute(sums_, sizeof(NodalSums) / sizeof(double));
     sums_.compress(dealii::VectorOperation::add);
     sums_.update_ghost_values();
   }
@@ -66,6 +68,8 @@ namespace CaissonMPM
           }
       }
     is_finite_ = std::isfinite(sum);
+    // the new velocities follow when they are constrained
+    hanging_nodes->interpolate(old_velocity_, 2);
   }
 
   NodalReactions
@@ -73,9 +77,6 @@ namespace CaissonMPM
                            const Vector2    &body_velocity,
                            NodalConstraints &constraints)
   {
-    return constraints.apply(body_velocity,
-                             dt,
-                             inertia_,
-                             nodal_vectors(new_velocity_));
+    return constraints.apply(body_velocity, dt, inertia_, new_velocity_);
   }
 } // namespace CaissonMPM

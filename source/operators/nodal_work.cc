@@ -24,7 +24,7 @@ namespace CaissonMPM
   {
     const std::size_t n = 2 * momentum.inertia().size();
     std::copy_n(momentum.old_velocity().begin(), n, held.begin());
-    constraints.hold(nodal_vectors(held));
+    constraints.hold(held);
 
     NodalWork                 result;
     const Kernels::NodalSums *node = momentum.sums();

@@ -49,6 +49,7 @@ namespace CaissonMPM
     context.kernels.apply_mass(context.step,
                                nodal_vectors(from),
                                nodal_vectors(to));
+    context.constraints.hanging_nodes.distribute(to, 2);
     to.compress(dealii::VectorOperation::add);
     to.update_ghost_values();
     const Kernels::NodalSums *const node = context.momentum.sums();
@@ -66,15 +67,15 @@ namespace CaissonMPM
   {
     const std::size_t n = 2 * context.momentum.inertia().size();
     std::copy_n(context.momentum.old_velocity().begin(), n, filtered.begin());
-    context.constraints.hold(nodal_vectors(filtered));
+    context.constraints.hold(filtered);
     for (unsigned int k = 1; k < order; ++k)
       {
         round_trip(context, filtered, after_round_trip);
         // from the second round on the field is a difference
         if (k == 1)
-          context.constraints.hold(nodal_vectors(after_round_trip));
+          context.constraints.hold(after_round_trip);
         else
-          context.constraints.hold_difference(nodal_vectors(after_round_trip));
+          context.constraints.hold_difference(after_round_trip);
         double *const w = filtered.begin(), *const a = after_round_trip.begin(),
                       *const transfer = transfer_velocity.begin();
         for (std::size_t i = 0; i < n; ++i)
@@ -95,7 +96,7 @@ namespace CaissonMPM
     double *const       strain = strain_velocity.begin();
     for (std::size_t i = 0; i < 2 * context.momentum.inertia().size(); ++i)
       strain[i] += keep * old[i];
-    context.constraints.hold(nodal_vectors(strain_velocity));
+    context.constraints.hold(strain_velocity);
   }
 
   Kernels::NodalFields

@@ -166,6 +166,7 @@ namespace CaissonMPM
   Simulation::name_unused_entries(ParameterOrigins &origins) const
   {
     body.name_unused_entries(origins);
+    lines.name_unused_entries(origins);
     soil.name_unused_entries(origins);
     generator.name_unused_entries(origins);
     boundary_conditions.name_unused_entries(origins);
@@ -284,7 +285,9 @@ namespace CaissonMPM
     timed("nodal motion", [&]() { nodal_motion.accelerate(dt, contact); });
     timed("contact", [&]() { constrain_nodes(); });
     timed("transfer", [&]() {
-      const NodalConstraints constraints = {contact, boundary_conditions};
+      const NodalConstraints constraints = {contact,
+                                            boundary_conditions,
+                                            grid.hanging_nodes()};
       nodal_motion.prepare_transfer(constraints);
       work = nodal_motion.work_of_step(dt, nodal_forces, constraints);
     });
@@ -346,7 +349,9 @@ namespace CaissonMPM
   void
   Simulation::constrain_nodes()
   {
-    NodalConstraints constraints = {contact, boundary_conditions};
+    NodalConstraints constraints = {contact,
+                                    boundary_conditions,
+                                    grid.hanging_nodes()};
     boundary_conditions.prepare(grid, clock.time, clock.step_size);
     nodal_motion.constrain(clock.step_size, body.mean_velocity(), constraints);
   }

@@ -6,6 +6,7 @@
 
 #include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/domain/grid_lines.h>
+#include <caisson_mpm/domain/hanging_nodes.h>
 #include <caisson_mpm/kernels/layout.h>
 
 #include <deal.II/base/partitioner.h>
@@ -17,8 +18,6 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/mapping_q1.h>
 
-#include <deal.II/lac/la_parallel_vector.h>
-
 #include <array>
 #include <map>
 #include <memory>
@@ -26,16 +25,14 @@
 
 namespace CaissonMPM
 {
-  using NodalData = dealii::LinearAlgebra::distributed::Vector<double>;
-
   /**
    * The mesh of the grid lines, its dofs and its motion.
    *
    * A rank knows the cells that it owns and the ghost cells around them, and
-   * the nodes of both, by local numbers: cells in the order of the active cells
-   * of the triangulation, nodes by the local index of their dof, those that it
-   * owns first. Where a function takes a plain number of a cell, it is the
-   * local one; a GlobalCell is the number of a cell for all ranks.
+   * the nodes of both, by local numbers: cells in the order of their global
+   * numbers, nodes by the local index of their dof, those that it owns first.
+   * Where a function takes a plain number of a cell, it is the local one; a
+   * GlobalCell is the number of a cell for all ranks.
    *
    * deal.II owns the mesh; the geometry that the kernels read is kept here and
    * is current after advance(), while the triangulation's own vertices follow
@@ -153,6 +150,12 @@ namespace CaissonMPM
     {
       return partitioner->locally_owned_size();
     }
+    /** Return the nodes that follow others. */
+    const HangingNodes &
+    hanging_nodes() const
+    {
+      return hanging_nodes_;
+    }
     /** Return the rank that a cell belongs to. */
     unsigned int
     owner_of(const unsigned int cell) const
@@ -199,13 +202,16 @@ namespace CaissonMPM
     {
       return lines_.zone_of(global_numbers[cell]);
     }
-    /** Return the cell beyond face 0 (left), 1, 2 (below), 3, the first one if
-     * there are several; -1 where there is none, or none that this rank
-     * knows. */
+    /** Return the cell beyond face 0 (left), 1, 2 (below), 3; -1 where there
+     * is none, or none that this rank knows. Where two smaller cells lie beyond
+     * it, this is the left or lower one, or with @p second the other. */
     int
-    neighbor(const unsigned int cell, const unsigned int face) const
+    neighbor(const unsigned int cell,
+             const unsigned int face,
+             const bool         second = false) const
     {
-      return neighbors[place_of_neighbor(cell, face)];
+      const int *const both = &neighbors[place_of_neighbor(cell, face)];
+      return second && both[1] >= 0 ? both[1] : both[0];
     }
     /** Return whether the face lies on a side of the domain. */
     bool
@@ -263,6 +269,12 @@ namespace CaissonMPM
     }
     void
     create_triangulation();
+    /** Halve cells of the triangulation until they are those of the lines. */
+    void
+    refine_triangulation();
+    /** Return the number of a cell of the triangulation. */
+    GlobalCell
+    number_of(const Triangulation::cell_iterator &cell) const;
     /** Number the cells and nodes of this rank's part of the mesh, at the start
      * of the travel: after each change of the parts. Collective. */
     void
@@ -273,6 +285,8 @@ namespace CaissonMPM
     find_dofs();
     void
     find_neighbors();
+    void
+    find_hanging_nodes();
     void
     flag_cells_at_body();
     void
@@ -298,6 +312,8 @@ namespace CaissonMPM
     std::array<std::vector<Kernels::CellGeometry>, 2> geometries;
     unsigned int                                      current     = 0;
     bool                                              is_prepared = false;
+
+    HangingNodes hanging_nodes_;
 
     // x = node_start + node_rate travel, r and z
     std::vector<double>                                        node_r, node_z;

@@ -11,13 +11,20 @@
 //   z = z0 - d, or z0 - d (top - z0) / (top - zone top)  above the body,
 // and around a cylinder whose radius grows from a by d
 //   r = r0 + d (outer radius - r0) / (outer radius - a),  r0 >= a.
+// Cells near the body can be halved several times (cell_tree.h). The lines that
+// are meant here are then those of the lattice of the smallest cells, and a
+// node that hangs in the middle of an edge stays on it.
+//
 // For tests of the method without a body, the cells can be distorted: columns
 // and the heights of nodes are displaced irregularly.
 #ifndef caisson_mpm_domain_grid_lines_h
 #define caisson_mpm_domain_grid_lines_h
 
 #include <caisson_mpm/base/conventions.h>
+#include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/bodies/body_shape.h>
+#include <caisson_mpm/domain/cell_tree.h>
 #include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/materials/soil.h>
 
@@ -25,6 +32,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -33,20 +41,6 @@
 
 namespace CaissonMPM
 {
-  /** The number of a cell of the whole grid, the same on all ranks and for any
-   * number of them: row by row, from the lower left cell. The cells that a rank
-   * knows have local numbers besides (BackgroundGrid), of type unsigned int. */
-  enum class GlobalCell : unsigned int
-  {
-  };
-
-  /** Return the place of a cell in a list of [n_global_cells]. */
-  constexpr unsigned int
-  index_of(const GlobalCell cell)
-  {
-    return static_cast<unsigned int>(cell);
-  }
-
   /**
    * Where the grid lines are, how they move, and which cells are the body's.
    *
@@ -88,6 +82,10 @@ namespace CaissonMPM
     void
     check_parameters() const;
 
+    /** Tell which entries the other choices leave without effect. */
+    void
+    name_unused_entries(ParameterOrigins &origins) const;
+
     /**
      * Place the lines for the body and its whole travel, from -uplift to
      * travel. Throws BadInput, with the numbers to change, if the mesh cannot
@@ -99,6 +97,8 @@ namespace CaissonMPM
           const double     travel,
           const double     uplift = 0.);
 
+    /** Return the number of columns, and of rows, of the lattice of the
+     * smallest cells. */
     unsigned int
     n_columns() const
     {
@@ -112,17 +112,24 @@ namespace CaissonMPM
     unsigned int
     n_cells() const
     {
-      return n_columns() * n_rows();
+      return tree_.n_cells();
     }
+    /** Return which blocks of the lattice are cells. */
+    const CellTree &
+    tree() const
+    {
+      return tree_;
+    }
+    /** Return the first column, and row, of the lattice in a cell. */
     unsigned int
     column_of(const GlobalCell cell) const
     {
-      return index_of(cell) % n_columns();
+      return tree_.block(cell).column;
     }
     unsigned int
     row_of(const GlobalCell cell) const
     {
-      return index_of(cell) / n_columns();
+      return tree_.block(cell).row;
     }
 
     /** Return where the node on these two lines is at the start. */
@@ -174,9 +181,8 @@ namespace CaissonMPM
     smallest_height_met(const GlobalCell cell) const;
 
     /**
-     * Return, around an expanding cylinder, the smallest width, as seen at the
-     * start, of the columns that soil of this cell will meet if it flows
-     * without change of volume; else the width of the cell. Units: m.
+     * Return the same for the width; around an expanding cylinder as seen at
+     * the start, if the soil flows without change of volume. Units: m.
      */
     double
     smallest_width_met(const GlobalCell cell) const;
@@ -237,6 +243,8 @@ namespace CaissonMPM
     void
     declare_cells();
     void
+    declare_refinement();
+    void
     declare_motion();
     /** A line that the grid must have, and why, for messages. */
     struct FixedLine
@@ -286,7 +294,43 @@ namespace CaissonMPM
     void
     find_body(const BodyShape &body);
     void
-    distort(const std::vector<FixedLine> &straight_rows);
+    distort_columns();
+    void
+    distort_rows(const std::vector<FixedLine> &straight_rows);
+
+    Expression
+    parse_region() const;
+    /** Whether the tip is a wedge, with its edge between both faces. */
+    static bool
+    is_wedge(const BodyShape &body);
+    /** Throw BadInput where halving cells does not lead to the cells that the
+     * body asks for. */
+    void
+    check_refinement(const BodyShape &body) const;
+    /** Return the distances within which cells are the smallest, of the tip and
+     * of the wall. */
+    double
+    distance_of_tip(const BodyShape &body) const;
+    double
+    distance_of_wall(const BodyShape &body) const;
+    /** Return how often the cell of the coarse lines is to be halved for a
+     * block. */
+    unsigned int
+    wanted_level(const CellBlock  &block,
+                 const BodyShape  &body,
+                 const Expression &region) const;
+    bool
+    is_in_region(const CellBlock &block, const Expression &region) const;
+    void
+    make_cells(const BodyShape &body);
+    /** Throw BadInput if a cell is too flat where the refined region ends. */
+    void
+    check_heights(const BodyShape &body) const;
+    /** Return where a node would be if it did not hang. */
+    dealii::Point<2>
+    free_node_start(const LatticeNode &node) const;
+    dealii::Tensor<1, 2>
+    free_node_rate(const LatticeNode &node) const;
     /** Return a length with its unit, for messages. */
     static std::string
     meters(const double x);
@@ -332,6 +376,10 @@ namespace CaissonMPM
                     const double       travel) const;
     bool
     inside_body(const unsigned int column, const unsigned int row) const;
+    /** Return smallest_width_met() and smallest_height_met() where the body
+     * moves down or up. */
+    std::array<double, 2>
+    smallest_size_met(const GlobalCell cell) const;
 
     Geometry              geometry     = Geometry::axisymmetric;
     double                inner_radius = 0.;
@@ -349,10 +397,15 @@ namespace CaissonMPM
     double                smallest_row   = 0.01;
     double                distortion     = 0.;
     unsigned int          refinement     = 1;
+    unsigned int          levels         = 0; // at the tip
+    unsigned int          levels_at_wall = 0;
+    std::optional<double> refined_distance, refined_distance_at_wall; // or auto
+    std::string           refined_region;
     unsigned int          largest_number = 1000000;
 
-    // lines at the start; rows before they bend around the tip
+    // lines of the lattice at the start; rows before they bend around the tip
     std::vector<double>    columns, rows;
+    CellTree               tree_;
     std::vector<FixedLine> fixed_rows;
     // displacement of the nodes by the distortion, [row][column]; or empty
     std::vector<std::vector<double>> node_shift;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // What holds the nodes: the contact with the rigid body, then the boundary
-// conditions, which take precedence.
+// conditions, which take precedence; hanging nodes follow their masters.
 #ifndef caisson_mpm_operators_nodal_constraints_h
 #define caisson_mpm_operators_nodal_constraints_h
 
@@ -18,13 +18,14 @@ namespace CaissonMPM
   };
 
   /**
-   * Both constraints as one. Holds references; the caller owns what they refer
-   * to. Not collective.
+   * All constraints as one. Holds references; the caller owns what they refer
+   * to. Collective in a mesh with hanging nodes.
    */
   struct NodalConstraints
   {
     Contact            &contact;
     BoundaryConditions &boundary_conditions;
+    const HangingNodes &hanging_nodes;
 
     /** Correct the new velocities @p v [n_nodes] of nodes with the given
      * @p inertia [n_nodes]. */
@@ -32,15 +33,15 @@ namespace CaissonMPM
     apply(const Vector2             &body_velocity,
           const double               dt,
           const std::vector<double> &inertia,
-          Kernels::NodalVector      *v);
+          NodalData                 &v);
 
     /** Constrain another velocity field as the last apply() did the new one. */
     void
-    hold(Kernels::NodalVector *v) const;
+    hold(NodalData &v) const;
 
     /** Constrain the difference of two fields that are held. */
     void
-    hold_difference(Kernels::NodalVector *v) const;
+    hold_difference(NodalData &v) const;
   };
 } // namespace CaissonMPM
 

@@ -21,6 +21,7 @@ namespace CaissonMPM
    * Owns the nodal sums of a step and the velocities before and after it.
    * collect() is collective over MPI: what the points of all ranks bring to a
    * node is summed. From then on every rank works on all nodes that it knows.
+   * Hanging nodes have neither mass nor force, and follow their masters.
    */
   class NodalMomentum
   {
@@ -96,6 +97,7 @@ namespace CaissonMPM
     }
 
   private:
+    const HangingNodes *hanging_nodes  = nullptr;
     unsigned int        n_owned_nodes_ = 0;
     double              added_inertia_ = 0.;
     bool                is_finite_     = true;

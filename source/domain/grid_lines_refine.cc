@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Which cells of the coarse lines are halved, and whether that leads to the
+// cells that the body asks for.
+#include <caisson_mpm/base/choice.h>
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/domain/grid_lines.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  void
+  GridLines::declare_refinement()
+  {
+    const Patterns::Integer times(0, 6);
+    const Patterns::Double  positive(1e-9);
+    add_parameter("Refinement levels",
+                  levels,
+                  "Cells at the tip are halved in both directions this many "
+                  "times; the lines of the mesh at the body are coarser by as "
+                  "many, so that the smallest cells have the size that Fine "
+                  "cell size says. With 0 the mesh has lines only. Units: "
+                  "none.",
+                  prm,
+                  times);
+    add_word_or_number(*this,
+                       "Refined distance",
+                       refined_distance,
+                       "auto",
+                       0.,
+                       "Cells up to this distance from the tip are halved "
+                       "Refinement levels times, those up to twice this "
+                       "distance once less, and so on; auto takes twice the "
+                       "thickness of the wall, or twice the radius of a cone. "
+                       "Units: m.",
+                       positive);
+    add_parameter("Refinement levels along wall",
+                  levels_at_wall,
+                  "Cells along the wall above the tip are halved in both "
+                  "directions this many times. Units: none.",
+                  prm,
+                  times);
+    add_word_or_number(*this,
+                       "Refined distance along wall",
+                       refined_distance_at_wall,
+                       "auto",
+                       0.,
+                       "Cells up to this distance from the faces of the wall "
+                       "are halved Refinement levels along wall times, those "
+                       "up to twice this distance once less, and so on; auto "
+                       "takes the thickness of the wall. Units: m.",
+                       positive);
+    add_parameter("Refined region",
+                  refined_region,
+                  "Cells are also halved Refinement levels times where this "
+                  "expression in r, z at the start and pi is positive at a "
+                  "corner, in the middle of a side or in the middle of the "
+                  "cell; an empty one adds none. Units: none.");
+  }
+
+  Expression
+  GridLines::parse_region() const
+  {
+    return refined_region.empty() ?
+             Expression() :
+             Expression(refined_region, "Grid/Refined region");
+  }
+
+  void
+  GridLines::name_unused_entries(ParameterOrigins &origins) const
+  {
+    if (levels == 0)
+      origins.add_unused({"Grid/Refined distance", "Grid/Refined region"},
+                         "Grid/Refinement levels is 0");
+    if (levels_at_wall == 0)
+      origins.add_unused({"Grid/Refined distance along wall"},
+                         "Grid/Refinement levels along wall is 0");
+  }
+
+  // ------------------------------------------------------------ the body
+
+  double
+  GridLines::distance_of_tip(const BodyShape &body) const
+  {
+    return refined_distance.value_or(2. * (body.right() - body.left()));
+  }
+
+  double
+  GridLines::distance_of_wall(const BodyShape &body) const
+  {
+    return refined_distance_at_wall.value_or(body.right() - body.left());
+  }
+
+  bool
+  GridLines::is_wedge(const BodyShape &body)
+  {
+    const double left = body.left(), right = body.right();
+    return body.tip_height() > 0. &&
+           body.lower_surface(.5 * (left + right)) <
+             .5 * (body.lower_surface(left) + body.lower_surface(right)) -
+               1e-9 * body.tip_height();
+  }
+
+  void
+  GridLines::check_refinement(const BodyShape &body) const
+  {
+    if (levels == 0 || !body.exists())
+      return;
+    const unsigned int size = 1u << levels, n = body.cells_across_wall();
+    if (!fine_size && n * refinement % size != 0)
+      throw BadInput("Rigid body/Cells across the wall = " + to_text(n) +
+                     ", times Grid/Refinement, must be a multiple of " +
+                     to_text(size) + ", because Grid/Refinement levels = " +
+                     to_text(levels) + " halves cells as often.");
+    const double reach    = distance_of_tip(body) * (size / 2),
+                 smallest = 2. * body.tip_height();
+    if (is_wedge(body) && reach < smallest)
+      throw BadInput(
+        "Grid/Refined distance = " + meters(distance_of_tip(body)) +
+        " must be at least " + meters(smallest / (size / 2)) +
+        " for this tip: the rows that follow it must be level "
+        "again where cells are no longer halved.");
+  }
+
+  // ------------------------------------------------------------ the cells
+
+  namespace
+  {
+    /** The distance between two intervals; 0 where they touch. */
+    double
+    distance(const double a0, const double a1, const double b0, const double b1)
+    {
+      return std::max({b0 - a1, a0 - b1, 0.});
+    }
+
+    /** The level of a cell at this distance, if @p n is that of those nearer
+     * than @p reach, and one less that of those nearer than twice that. */
+    unsigned int
+    level_at(const double distance, double reach, const unsigned int n)
+    {
+      for (unsigned int level = n; level > 0; --level, reach *= 2.)
+        if (distance < reach * (1. - 1e-9))
+          return level;
+      return 0;
+    }
+  } // namespace
+
+  unsigned int
+  GridLines::wanted_level(const CellBlock  &b,
+                          const BodyShape  &body,
+                          const Expression &region) const
+  {
+    if (is_in_region(b, region))
+      return levels;
+    if (!body.exists())
+      return 0;
+    const double low = rows[b.row], high = rows[b.row + b.size];
+    const double aside = distance(columns[b.column],
+                                  columns[b.column + b.size],
+                                  body.left(),
+                                  body.right());
+    if (body.expands())
+      return level_at(aside, distance_of_wall(body), levels_at_wall);
+    const double from_tip  = distance(low, high, body.bottom(), shoulder),
+                 from_wall = distance(low, high, shoulder, zone_top);
+    return std::max(level_at(std::max(aside, from_tip),
+                             distance_of_tip(body),
+                             levels),
+                    level_at(std::max(aside, from_wall),
+                             distance_of_wall(body),
+                             levels_at_wall));
+  }
+
+  bool
+  GridLines::is_in_region(const CellBlock &b, const Expression &region) const
+  {
+    if (region.empty())
+      return false;
+    const double left = columns[b.column], right = columns[b.column + b.size],
+                 low = rows[b.row], high = rows[b.row + b.size];
+    for (const double r : {left, .5 * (left + right), right})
+      for (const double z : {low, .5 * (low + high), high})
+        if (region(Point<2>(r, z), 0.) > 0.)
+          return true;
+    return false;
+  }
+
+  void
+  GridLines::make_cells(const BodyShape &body)
+  {
+    const unsigned int size = 1u << levels;
+    tree_ = CellTree(n_columns() / size, n_rows() / size, levels);
+    if (levels == 0)
+      return;
+    const Expression region = parse_region();
+    tree_.refine(
+      [&](const CellBlock &b) { return wanted_level(b, body, region); },
+      [&](const CellBlock &b) { return inside_body(b.column, b.row); },
+      largest_number);
+    if (tree_.n_cells() > largest_number)
+      throw BadInput("Halving the cells near the body " + to_text(levels) +
+                     " times makes more than Grid/Largest number of cells = " +
+                     to_text(largest_number) +
+                     ". Reduce Grid/Refined distance or Grid/Refinement "
+                     "levels.");
+    check_heights(body);
+  }
+
+  void
+  GridLines::check_heights(const BodyShape &body) const
+  {
+    for (unsigned int c = 0; c < n_cells(); ++c)
+      {
+        const CellBlock &b     = tree_.block(GlobalCell(c));
+        const auto       g     = initial_geometry(GlobalCell(c));
+        const double     level = rows[b.row + b.size] - rows[b.row],
+                     smallest  = std::min(g.height_left, g.height_right);
+        if (body.exists() && smallest < .2 * level)
+          throw BadInput("The cell at r = " + meters(g.left) +
+                         ", z = " + meters(g.bottom_left) + " is only " +
+                         meters(smallest) +
+                         " high on one side, where cells are no longer "
+                         "halved. Increase Grid/Refined distance.");
+      }
+  }
+} // namespace CaissonMPM
