@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/operators/consistent_mass.h>
 #include <caisson_mpm/operators/point_transfer.h>
 
 #include <algorithm>
@@ -44,14 +45,11 @@ namespace CaissonMPM
                             const NodalData &from,
                             NodalData       &to)
   {
-    to = 0.;
-    to.zero_out_ghost_values();
-    context.kernels.apply_mass(context.step,
-                               nodal_vectors(from),
-                               nodal_vectors(to));
-    context.constraints.hanging_nodes.distribute(to, 2);
-    to.compress(dealii::VectorOperation::add);
-    to.update_ghost_values();
+    apply_consistent_mass(context.kernels,
+                          context.step,
+                          context.constraints.hanging_nodes,
+                          from,
+                          to);
     const Kernels::NodalSums *const node = context.momentum.sums();
     NodalVector *const              v    = nodal_vectors(to);
     for (std::size_t i = 0; i < context.momentum.inertia().size(); ++i)

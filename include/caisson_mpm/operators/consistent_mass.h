@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Products with the consistent mass matrix of the points of all ranks.
+#ifndef caisson_mpm_operators_consistent_mass_h
+#define caisson_mpm_operators_consistent_mass_h
+
+#include <caisson_mpm/domain/hanging_nodes.h>
+#include <caisson_mpm/kernels/dispatch.h>
+#include <caisson_mpm/operators/nodal_data.h>
+
+namespace CaissonMPM
+{
+  /** to = M from at all nodes that this rank knows, of the active cells of
+   * @p step. Both have two components per node; hanging nodes follow their
+   * masters in @p from, and give them their part of @p to. Collective over MPI.
+   */
+  void
+  apply_consistent_mass(const Kernels::KernelTable &kernels,
+                        const Kernels::StepContext &step,
+                        const HangingNodes         &hanging_nodes,
+                        const NodalData            &from,
+                        NodalData                  &to);
+} // namespace CaissonMPM
+
+#endif
