@@ -44,6 +44,51 @@ const std::string soil_text = R"(
   end
   )";
 
+/** A bar above a plate, which flies against it. */
+const std::string bar_text = R"(
+  subsection Rigid body
+    set Kind       = box
+    set Box left   = 0
+    set Box right  = 0.2
+    set Box bottom = -0.1
+    set Box top    = 0
+    set Velocity   = 0
+  end
+  subsection Soil
+    set Submerged        = false
+    set Gravity          = 0, 0
+    set Initial stress   = none
+    set Initial velocity = 0 ; -0.1
+    subsection Layer 1
+      set Law            = linear elastic
+      set Youngs modulus = 2e5
+      set Poisson ratio  = 0
+      set Porosity       = 0
+      set Solid density  = 1000
+    end
+  end
+  subsection Grid
+    set Geometry     = plane strain
+    set Outer radius = 0.2
+    set Bottom       = -0.1
+    set Top          = 0.7
+    set Cell width   = 0.05
+    set Cell height  = 0.05
+  end
+  subsection Material points
+    set Per direction in path = 2
+    set Per direction near    = 2
+    set Per direction far     = 2
+    set Region bottom         = 0.05
+    set Region top            = 0.55
+  end
+  subsection Boundary conditions
+    set Axis = roller
+    set Side = roller
+    set Top  = free
+  end
+  )";
+
 /** A scene that can take steps. */
 struct Stepper
 {
@@ -122,16 +167,16 @@ struct Stepper
 
 /** Momentum is that of the start and of the body force, in all transfers. */
 void
-check_momentum()
+check_momentum(const std::string &mass_floor)
 {
   for (const std::string transfer : {"FLIP", "PIC", "XPIC", "blend"})
     for (const std::string load : {"0 ; 0", "3 ; -7"})
       {
         Stepper         s(soil_text,
-                  "subsection Method\nset Mass floor = false\n"
-                          "set Velocity transfer = " +
-                    transfer + "\nend\nsubsection Loads\nset Body force = " +
-                    load + "\nend\n");
+                  "subsection Method\nset Mass floor = " + mass_floor +
+                    "\nset Velocity transfer = " + transfer +
+                    "\nend\nsubsection Loads\nset Body force = " + load +
+                    "\nend\n");
         const auto      before = s.sums();
         const NodalWork work   = s.step();
         const auto      after  = s.sums();
@@ -147,6 +192,49 @@ check_momentum()
                 std::abs(work.load - dt * power) / before.mass,
                 1e-8);
       }
+}
+
+/** The mass floor acts at the edge of the disc, and takes energy. */
+void
+check_mass_floor()
+{
+  Stepper         s(soil_text, "");
+  const NodalWork work = s.step();
+  verdict("mass floor: no added mass", 1e-6 / s.motion.added_inertia(), 1.);
+  std::printf("mass floor: its energy: %s\n",
+              work.mass_floor > 0. ? "taken" : "created");
+}
+
+/** A bar that hits a plate exchanges its momentum with it: the impulse of the
+ * body is what the points lose, and the bar leaves no faster than it came. */
+void
+check_impact(const std::string &transfer, const std::string &mass_floor)
+{
+  Stepper    s(bar_text,
+            "subsection Method\nset Mass floor = " + mass_floor +
+              "\nset Velocity transfer = " + transfer + "\nend\n");
+  const auto before = s.sums();
+  Vector2    impulse;
+  double     added_mass = 0.;
+  for (unsigned int step = 0; step < 800; ++step)
+    {
+      s.step();
+      s.scene.grid.advance();
+      s.scene.points.relocate();
+      for (const Vector2 &part : s.motion.reactions().contact.impulse)
+        impulse += part;
+      added_mass = std::max(added_mass, s.motion.added_inertia());
+    }
+  const auto after = s.sums();
+  verdict(("impact, " + transfer + ", mass floor " + mass_floor +
+           ": momentum, error")
+            .c_str(),
+          std::abs(after.momentum[1] - before.momentum[1] + impulse[1]) /
+            std::abs(before.momentum[1]),
+          1e-12);
+  const double rebound = -after.momentum[1] / before.momentum[1];
+  verdict("  velocity of the rebound, less 0.95", std::abs(rebound - .95), .05);
+  std::printf("  mass was added: %s\n", added_mass > 0. ? "yes" : "no");
 }
 
 /** A pressure around soil with the same stress moves no node. */
@@ -218,7 +306,12 @@ int
 main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  check_momentum();
+  check_momentum("false");
+  check_momentum("true");
+  check_mass_floor();
+  for (const std::string transfer : {"blend", "XPIC"})
+    for (const std::string mass_floor : {"false", "true"})
+      check_impact(transfer, mass_floor);
   check_equilibrium();
   check_excess_pressure();
   check_order();

@@ -130,7 +130,7 @@ namespace CaissonMPM
   }
 
   PrescribedResult
-  BoundaryConditions::apply(const std::vector<double> &inertia,
+  BoundaryConditions::apply(const std::vector<double> &mass,
                             Kernels::NodalVector      *v)
   {
     PrescribedResult result;
@@ -138,13 +138,32 @@ namespace CaissonMPM
       {
         if (p.node >= n_owned_nodes)
           continue;
-        const double impulse = circumference * inertia[p.node] *
+        const double impulse = circumference * mass[p.node] *
                                (p.velocity - v[p.node].value[p.component]);
         result.impulse[p.component] += impulse;
         result.work += impulse * p.velocity;
       }
     constrain(v);
     return result;
+  }
+
+  void
+  BoundaryConditions::add_impulses(const Kernels::NodalSums   *sums,
+                                   const double                share,
+                                   const bool                  as_difference,
+                                   const Kernels::NodalVector *v,
+                                   PrescribedResult           &result) const
+  {
+    for (const Prescribed &p : prescribed)
+      if (p.node < n_owned_nodes)
+        {
+          const double held    = as_difference ? 0. : p.velocity;
+          const double impulse = circumference * share *
+                                 std::max(0., sums[p.node].mass) *
+                                 (held - v[p.node].value[p.component]);
+          result.impulse[p.component] += impulse;
+          result.work += impulse * p.velocity;
+        }
   }
 
   void

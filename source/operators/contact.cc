@@ -236,7 +236,7 @@ namespace CaissonMPM
   ContactResult
   Contact::apply(const Vector2             &body_velocity,
                  const double               dt,
-                 const std::vector<double> &inertia,
+                 const std::vector<double> &mass,
                  Kernels::NodalVector      *v)
   {
     velocity = body_velocity;
@@ -245,7 +245,7 @@ namespace CaissonMPM
     for (unsigned int i = 0; i < nodes.size(); ++i)
       {
         const Node  &node = nodes[i];
-        const double m    = inertia[node.node];
+        const double m    = mass[node.node];
         results[i] = m > 0. ? apply_to_node(node, dt, m, v[node.node].value) :
                               NodeResult();
         if (results[i].state == State::apart || node.node >= n_owned_nodes)
@@ -274,6 +274,19 @@ namespace CaissonMPM
     return circumference * heat;
   }
 
+  Vector2
+  Contact::held(const unsigned int i,
+                const Vector2     &body_velocity,
+                const double      *u) const
+  {
+    Vector2 w;
+    for (unsigned int d = 0; d < 2; ++d)
+      w[d] = u[d] - body_velocity[d];
+    return results[i].state == State::sliding ?
+             body_velocity + w - (w * results[i].normal) * results[i].normal :
+             body_velocity;
+  }
+
   void
   Contact::constrain(const Vector2        &body_velocity,
                      Kernels::NodalVector *v) const
@@ -282,18 +295,39 @@ namespace CaissonMPM
       {
         if (results[i].state == State::apart)
           continue;
-        double *const u = v[nodes[i].node].value;
-        Vector2       w;
+        double *const u   = v[nodes[i].node].value;
+        const Vector2 now = held(i, body_velocity, u);
         for (unsigned int d = 0; d < 2; ++d)
-          w[d] = u[d] - body_velocity[d];
-        const Vector2 left = results[i].state == State::sliding ?
-                               w - (w * results[i].normal) * results[i].normal :
-                               Vector2();
-        for (unsigned int d = 0; d < 2; ++d)
-          u[d] = body_velocity[d] + left[d];
+          u[d] = now[d];
       }
     for (const unsigned int node : inner_nodes)
       for (unsigned int d = 0; d < 2; ++d)
         v[node].value[d] = body_velocity[d];
+  }
+
+  void
+  Contact::constrain(const Vector2            &body_velocity,
+                     const Kernels::NodalSums *sums,
+                     const double              share,
+                     Kernels::NodalVector     *v,
+                     ContactResult            &result)
+  {
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      {
+        if (results[i].state == State::apart)
+          continue;
+        const Node         &node = nodes[i];
+        const double *const u    = v[node.node].value;
+        const Vector2       now  = held(i, body_velocity, u);
+        Vector2             impulse;
+        for (unsigned int d = 0; d < 2; ++d)
+          impulse[d] = share * sums[node.node].mass * (u[d] - now[d]);
+        results[i].impulse += impulse;
+        if (node.node >= n_owned_nodes)
+          continue;
+        result.impulse[node.surface] += circumference * impulse;
+        result.work -= circumference * (impulse * velocity);
+      }
+    constrain(body_velocity, v);
   }
 } // namespace CaissonMPM

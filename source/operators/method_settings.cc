@@ -111,8 +111,9 @@ namespace CaissonMPM
   {
     add_parameter("Mass floor",
                   mass_floor,
-                  "The mass that accelerates is raised, at nodes with little "
-                  "mass, to what the time step needs. Units: none.");
+                  "Nodes that have less mass than the time step needs answer "
+                  "as if they had it, and their neighbors take the rest of the "
+                  "impulse. Units: none.");
     add_parameter("Local damping",
                   damping,
                   "This share of the out-of-balance force of a node acts "

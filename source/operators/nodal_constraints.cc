@@ -7,14 +7,13 @@ namespace CaissonMPM
   NodalReactions
   NodalConstraints::apply(const Vector2             &body_velocity,
                           const double               dt,
-                          const std::vector<double> &inertia,
+                          const std::vector<double> &mass,
                           NodalData                 &v)
   {
     NodalReactions result;
     if (!contact.empty())
-      result.contact =
-        contact.apply(body_velocity, dt, inertia, nodal_vectors(v));
-    result.prescribed = boundary_conditions.apply(inertia, nodal_vectors(v));
+      result.contact = contact.apply(body_velocity, dt, mass, nodal_vectors(v));
+    result.prescribed = boundary_conditions.apply(mass, nodal_vectors(v));
     hanging_nodes.interpolate(v, 2);
     return result;
   }
@@ -29,11 +28,25 @@ namespace CaissonMPM
   }
 
   void
-  NodalConstraints::hold_difference(NodalData &v) const
+  NodalConstraints::hold(const Kernels::NodalSums *sums,
+                         const double              share,
+                         const bool                as_difference,
+                         NodalData                &v,
+                         NodalReactions           &result) const
   {
+    Kernels::NodalVector *const u = nodal_vectors(v);
     if (!contact.empty())
-      contact.constrain(Vector2(), nodal_vectors(v));
-    boundary_conditions.constrain_difference(nodal_vectors(v));
+      contact.constrain(as_difference ? Vector2() : contact.body_velocity(),
+                        sums,
+                        share,
+                        u,
+                        result.contact);
+    boundary_conditions.add_impulses(
+      sums, share, as_difference, u, result.prescribed);
+    if (as_difference)
+      boundary_conditions.constrain_difference(u);
+    else
+      boundary_conditions.constrain(u);
     hanging_nodes.interpolate(v, 2);
   }
 } // namespace CaissonMPM

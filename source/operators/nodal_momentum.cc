@@ -16,6 +16,7 @@ namespace CaissonMPM
     grid.reinit(sums_, sizeof(NodalSums) / sizeof(double));
     grid.reinit(old_velocity_, 2);
     grid.reinit(new_velocity_, 2);
+    mass_.assign(grid.n_nodes(), 0.);
     inertia_.assign(grid.n_nodes(), 0.);
     n_owned_nodes_ = grid.n_owned_nodes();
     hanging_nodes  = &grid.hanging_nodes();
@@ -48,10 +49,11 @@ namespace CaissonMPM
       {
         if (node->mass <= 0.)
           {
-            inertia_[i] = 0.;
+            mass_[i] = inertia_[i] = 0.;
             v[i] = u[i] = NodalVector();
             continue;
           }
+        mass_[i]    = node->mass;
         inertia_[i] = std::max(node->mass, .25 * dt * dt * node->stiffness);
         if (i < n_owned_nodes_)
           added_inertia_ += inertia_[i] - node->mass;
@@ -63,7 +65,7 @@ namespace CaissonMPM
             const double force =
               node->force[d] -
               damping_force(share, node->force[d], v[i].value[d]);
-            u[i].value[d] = v[i].value[d] + dt * force / inertia_[i];
+            u[i].value[d] = v[i].value[d] + dt * force / node->mass;
             sum += u[i].value[d];
           }
       }
@@ -77,6 +79,6 @@ namespace CaissonMPM
                            const Vector2    &body_velocity,
                            NodalConstraints &constraints)
   {
-    return constraints.apply(body_velocity, dt, inertia_, new_velocity_);
+    return constraints.apply(body_velocity, dt, mass_, new_velocity_);
   }
 } // namespace CaissonMPM

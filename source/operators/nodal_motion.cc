@@ -7,6 +7,7 @@ namespace CaissonMPM
   NodalMotion::initialize(const BackgroundGrid &grid)
   {
     momentum.initialize(grid);
+    mass_floor.initialize(grid);
     transfer.initialize(grid);
     work.initialize(grid);
     stage = Stage::points_updated;
@@ -53,13 +54,16 @@ namespace CaissonMPM
   {
     enter(Stage::constrained);
     reactions_ = momentum.constrain(dt, body_velocity, constraints);
+    if (step.integration.floor_mass)
+      mass_floor.distribute(*kernels, step, constraints, momentum, reactions_);
   }
 
   void
   NodalMotion::prepare_transfer(const NodalConstraints &constraints)
   {
     enter(Stage::transfer_prepared);
-    transfer.prepare(settings_, *kernels, step, momentum, constraints);
+    transfer.prepare(
+      settings_, *kernels, step, momentum, constraints, reactions_);
   }
 
   NodalWork
@@ -71,6 +75,7 @@ namespace CaissonMPM
     return work.find(dt,
                      settings_.local_damping(),
                      momentum,
+                     mass_floor,
                      transfer.fields(momentum).strain,
                      forces,
                      constraints,

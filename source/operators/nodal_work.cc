@@ -17,6 +17,7 @@ namespace CaissonMPM
   WorkOfStep::find(const double                dt,
                    const double                damping,
                    const NodalMomentum        &momentum,
+                   const MassFloor            &mass_floor,
                    const Kernels::NodalVector *strain,
                    const NodalForces          &forces,
                    const NodalConstraints     &constraints,
@@ -35,25 +36,23 @@ namespace CaissonMPM
     for (unsigned int i = 0; i < momentum.n_owned_nodes(); ++i, ++node)
       for (unsigned int d = 0; d < 2; ++d)
         {
-          const unsigned int k    = 2 * i + d;
-          const double       mean = .5 * (h[k] + v[k]);
-          const double       f    = dt * node->force[d];
+          const unsigned int k = 2 * i + d;
+          const double       f = dt * node->force[d];
           result.forces += f * .5 * (h[k] + s[k]);
-          result.mass_floor +=
-            (momentum.inertia()[i] - std::max(0., node->mass)) *
-            (v[k] - v0[k]) * mean;
           if (damping > 0. && !constraints.contact.is_contact_node(i))
-            result.damping += damping_force(damping, f, v0[k]) * mean;
+            result.damping +=
+              damping_force(damping, f, v0[k]) * .5 * (h[k] + v[k]);
         }
     // of what this rank's points bring, to all of their nodes
-    result.load = forces.work(dt, nodal_vectors(held), strain);
-    for (double *sum :
-         {&result.forces, &result.load, &result.mass_floor, &result.damping})
-      *sum *= circumference;
+    result.load       = forces.work(dt, nodal_vectors(held), strain);
     result.body       = reactions.contact.work;
     result.prescribed = reactions.prescribed.work;
     for (std::size_t k = 0; k < n; ++k)
       h[k] = .5 * (h[k] + v[k]);
+    result.mass_floor = mass_floor.work(nodal_vectors(held));
+    for (double *sum :
+         {&result.forces, &result.load, &result.mass_floor, &result.damping})
+      *sum *= circumference;
     if (!constraints.contact.empty())
       result.friction = constraints.contact.friction_heat(nodal_vectors(held));
     return result;

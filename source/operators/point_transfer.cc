@@ -21,13 +21,14 @@ namespace CaissonMPM
                          const Kernels::KernelTable &kernels,
                          const Kernels::StepContext &step,
                          const NodalMomentum        &momentum,
-                         const NodalConstraints     &constraints)
+                         const NodalConstraints     &constraints,
+                         NodalReactions             &reactions)
   {
-    const Context     context = {kernels, step, momentum, constraints};
-    const std::size_t n       = 2 * momentum.inertia().size();
-    const double     *old     = momentum.old_velocity().begin(),
-                 *v           = momentum.new_velocity().begin();
-    const double keep         = settings.keep_velocity();
+    const Context context = {kernels, step, momentum, constraints, reactions};
+    const std::size_t n   = 2 * momentum.inertia().size();
+    const double     *old = momentum.old_velocity().begin(),
+                 *v       = momentum.new_velocity().begin();
+    const double keep     = settings.keep_velocity();
 
     // what is added to keep * V_p: FLIP's part of it first
     double *const transfer = transfer_velocity.begin();
@@ -69,11 +70,13 @@ namespace CaissonMPM
     for (unsigned int k = 1; k < order; ++k)
       {
         round_trip(context, filtered, after_round_trip);
-        // from the second round on the field is a difference
-        if (k == 1)
-          context.constraints.hold(after_round_trip);
-        else
-          context.constraints.hold_difference(after_round_trip);
+        // From the second round on the field is a difference. The round trip
+        // keeps momentum, and holding it does not: the points lose its share.
+        context.constraints.hold(context.momentum.sums(),
+                                 -share,
+                                 k > 1,
+                                 after_round_trip,
+                                 context.reactions);
         double *const w = filtered.begin(), *const a = after_round_trip.begin(),
                       *const transfer = transfer_velocity.begin();
         for (std::size_t i = 0; i < n; ++i)

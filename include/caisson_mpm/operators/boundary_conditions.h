@@ -60,10 +60,10 @@ namespace CaissonMPM
 
     /**
      * Set the fixed and the prescribed components of the new velocities @p v
-     * [n_nodes]. @p inertia [n_nodes] is the mass that accelerates.
+     * [n_nodes] of nodes with the given @p mass [n_nodes].
      */
     PrescribedResult
-    apply(const std::vector<double> &inertia, Kernels::NodalVector *v);
+    apply(const std::vector<double> &mass, Kernels::NodalVector *v);
 
     /** Hold another velocity field to the conditions of the last apply(). */
     void
@@ -72,6 +72,16 @@ namespace CaissonMPM
     /** The same for the difference of two fields that are held. */
     void
     constrain_difference(Kernels::NodalVector *v) const;
+
+    /** Add to @p result what the prescribed nodes do to the soil, which gains
+     * the momentum @p share times m_I v_I, when the field @p v is held, as a
+     * velocity or as a difference. Call it before. */
+    void
+    add_impulses(const Kernels::NodalSums   *sums,
+                 const double                share,
+                 const bool                  as_difference,
+                 const Kernels::NodalVector *v,
+                 PrescribedResult           &result) const;
 
   private:
     /** A component of the velocity of a node. */

@@ -7,8 +7,7 @@
 // w.n < 0 is in contact. Its normal part is taken away, and the tangential part
 // as far as friction allows:
 //   |change of w_t| <= mu |w.n| + a A dt / m   (adhesion a on the area A).
-// The force on the soil is m dw / dt; the body bears its opposite. Here m is
-// the inertia of the node, the mass that accelerates.
+// The force on the soil is m dw / dt; the body bears its opposite.
 #ifndef caisson_mpm_operators_contact_h
 #define caisson_mpm_operators_contact_h
 
@@ -57,13 +56,13 @@ namespace CaissonMPM
     }
 
     /**
-     * Correct the new nodal velocities @p v for the body's velocity. @p inertia
-     * [n_nodes] is the mass that accelerates; a node without soil has none.
+     * Correct the new nodal velocities @p v for the body's velocity. A node
+     * without soil has no @p mass [n_nodes].
      */
     ContactResult
     apply(const Vector2             &body_velocity,
           const double               dt,
-          const std::vector<double> &inertia,
+          const std::vector<double> &mass,
           Kernels::NodalVector      *v);
 
     /**
@@ -73,6 +72,18 @@ namespace CaissonMPM
      */
     void
     constrain(const Vector2 &body_velocity, Kernels::NodalVector *v) const;
+
+    /**
+     * The same for a field of which the soil gains the momentum @p share times
+     * m_I v_I: the body bears what the soil does not gain. @p result is that of
+     * the last apply().
+     */
+    void
+    constrain(const Vector2            &body_velocity,
+              const Kernels::NodalSums *sums,
+              const double              share,
+              Kernels::NodalVector     *v,
+              ContactResult            &result);
 
     /**
      * The heat of friction of the last apply(): the work of the body less the
@@ -136,12 +147,19 @@ namespace CaissonMPM
     Vector2
     corner_normal(const Node &node) const;
 
-    /** Change the velocity @p u of a node with the inertia @p m. */
+    /** Change the velocity @p u of a node with the mass @p m. */
     NodeResult
     apply_to_node(const Node  &node,
                   const double dt,
                   const double m,
                   double      *u) const;
+
+    /** Return the velocity @p u of surface node @p i held to what the last
+     * apply() found. */
+    Vector2
+    held(const unsigned int i,
+         const Vector2     &body_velocity,
+         const double      *u) const;
 
     void
     collect_surface_nodes(const BackgroundGrid &grid, const BodySurface &body);

@@ -28,20 +28,26 @@ namespace CaissonMPM
     const HangingNodes &hanging_nodes;
 
     /** Correct the new velocities @p v [n_nodes] of nodes with the given
-     * @p inertia [n_nodes]. */
+     * @p mass [n_nodes]. */
     NodalReactions
     apply(const Vector2             &body_velocity,
           const double               dt,
-          const std::vector<double> &inertia,
+          const std::vector<double> &mass,
           NodalData                 &v);
 
     /** Constrain another velocity field as the last apply() did the new one. */
     void
     hold(NodalData &v) const;
 
-    /** Constrain the difference of two fields that are held. */
+    /** Constrain a field, or the difference of two that are held, of which the
+     * soil gains the momentum @p share times m_I v_I, and add what the
+     * constraints bear to @p result, that of the last apply(). */
     void
-    hold_difference(NodalData &v) const;
+    hold(const Kernels::NodalSums *sums,
+         const double              share,
+         const bool                as_difference,
+         NodalData                &v,
+         NodalReactions           &result) const;
   };
 } // namespace CaissonMPM
 

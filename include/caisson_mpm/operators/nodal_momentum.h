@@ -2,10 +2,11 @@
 //
 // The equation of motion at the nodes: what the points bring, and the new
 // velocities
-//   v_I = p_I / m_I,   v_I+ = v_I + dt f_I / M_I,   M_I = max(m_I, dt^2 K_I /
-//   4)
-// with the bound K_I of the row sum of the stiffness (doc/theory.md, section
-// 5), held to contact and boundary conditions.
+//   v_I = p_I / m_I,   v_I+ = v_I + dt f_I / m_I,
+// held to contact and boundary conditions. Where m_I is below the mass M_I =
+// dt^2 K_I / 4 that the time step needs, with the bound K_I of the row sum of
+// the stiffness, MassFloor distributes the impulses afterwards (doc/theory.md,
+// section 5).
 #ifndef caisson_mpm_operators_nodal_momentum_h
 #define caisson_mpm_operators_nodal_momentum_h
 
@@ -53,7 +54,7 @@ namespace CaissonMPM
       return reinterpret_cast<const Kernels::NodalSums *>(sums_.begin());
     }
 
-    /** The mass M_I that accelerates [n_nodes], 0 without soil. Units: kg per
+    /** The larger one of m_I and M_I [n_nodes], 0 without soil. Units: kg per
      * radian. */
     const std::vector<double> &
     inertia() const
@@ -75,13 +76,20 @@ namespace CaissonMPM
       return new_velocity_;
     }
 
+    /** The same, for whoever changes them. */
+    NodalData &
+    new_velocity()
+    {
+      return new_velocity_;
+    }
+
     unsigned int
     n_owned_nodes() const
     {
       return n_owned_nodes_;
     }
 
-    /** The inertia that the mass floor added in the last step at the nodes of
+    /** The mass that the nodes lacked in the last step at the nodes of
      * this rank. Units: kg per radian. */
     double
     added_inertia() const
@@ -101,7 +109,7 @@ namespace CaissonMPM
     unsigned int        n_owned_nodes_ = 0;
     double              added_inertia_ = 0.;
     bool                is_finite_     = true;
-    std::vector<double> inertia_;
+    std::vector<double> mass_, inertia_;
     NodalData           sums_, old_velocity_, new_velocity_;
   };
 } // namespace CaissonMPM

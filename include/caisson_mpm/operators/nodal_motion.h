@@ -80,7 +80,7 @@ namespace CaissonMPM
       return reactions_;
     }
 
-    /** Inertia that the mass floor added, see NodalMomentum. */
+    /** The mass that nodes lacked, see NodalMomentum. */
     double
     added_inertia() const
     {
@@ -112,6 +112,7 @@ namespace CaissonMPM
 
     MethodSettings                    settings_;
     NodalMomentum                     momentum;
+    MassFloor                         mass_floor;
     PointTransfer                     transfer;
     WorkOfStep                        work;
     std::vector<Kernels::CellMoments> moments;

@@ -10,7 +10,7 @@
 #ifndef caisson_mpm_operators_nodal_work_h
 #define caisson_mpm_operators_nodal_work_h
 
-#include <caisson_mpm/operators/nodal_momentum.h>
+#include <caisson_mpm/operators/mass_floor.h>
 
 namespace CaissonMPM
 {
@@ -26,7 +26,7 @@ namespace CaissonMPM
     double prescribed = 0.; // of the nodes with a prescribed velocity
     double friction   = 0.; // heat at the body's surface
     double damping    = 0.; // taken by local damping
-    double mass_floor = 0.; // taken by the inertia that the mass floor adds
+    double mass_floor = 0.; // taken by the mass floor
   };
 
   /**
@@ -46,6 +46,7 @@ namespace CaissonMPM
     find(const double                dt,
          const double                damping,
          const NodalMomentum        &momentum,
+         const MassFloor            &mass_floor,
          const Kernels::NodalVector *strain,
          const NodalForces          &forces,
          const NodalConstraints     &constraints,

@@ -35,13 +35,16 @@ namespace CaissonMPM
     void
     initialize(const BackgroundGrid &grid);
 
-    /** Find the fields, from the velocities before and after the step. */
+    /** Find the fields, from the velocities before and after the step. What the
+     * constraints take from the momentum of the points meanwhile is added to
+     * @p reactions. */
     void
     prepare(const MethodSettings       &settings,
             const Kernels::KernelTable &kernels,
             const Kernels::StepContext &step,
             const NodalMomentum        &momentum,
-            const NodalConstraints     &constraints);
+            const NodalConstraints     &constraints,
+            NodalReactions             &reactions);
 
     /** Return the fields that update the points, with the new velocities of
      * @p momentum. */
@@ -56,6 +59,7 @@ namespace CaissonMPM
       const Kernels::StepContext &step;
       const NodalMomentum        &momentum;
       const NodalConstraints     &constraints;
+      NodalReactions             &reactions;
     };
 
     /** to = A from. */
