@@ -14,7 +14,9 @@ namespace CaissonMPM
 
   namespace
   {
-    constexpr double too_large = 1.05, too_small = .45; // times the wanted size
+    // times the wanted size; halves of the wanted size become one again, which is
+    // then below too_large
+    constexpr double too_large = 1.05, too_small = .51;
 
     bool
     is_too_large(const double size, const double wanted)

@@ -118,7 +118,7 @@ namespace CaissonMPM
 
     /**
      * Split the points that are more than 1.05 times as large as wanted in
-     * their cell, and merge those below 0.45 times that size with a neighbor.
+     * their cell, and merge those below 0.51 times that size with a neighbor.
      * Both keep mass, momentum, volume, the integral of stress over it, and the
      * center of mass. Halves keep the number of the point, and a pair takes the
      * smaller one. Collective.
