@@ -121,7 +121,9 @@ namespace CaissonMPM
     Assert(grid.is_owned(cell),
            ExcMessage("a point belongs to the rank that owns its cell"));
     filled_volume[cell] += point.volume;
-    changed[cell]        = true;
+    changed[cell] = true;
+    for (unsigned int d = 0; d < 2; ++d)
+      sizes[cell][d].include(point.size[d]);
     const short material = point.material;
     // the last block of this material, or the last block of the cell
     int block = -1, last = -1;
@@ -523,6 +525,7 @@ namespace CaissonMPM
     first_block.assign(grid.n_cells(), -1);
     filled_volume.assign(grid.n_cells(), 0.);
     changed.assign(grid.n_cells(), true);
+    sizes.assign(grid.n_cells(), {});
     n_points_            = 0;
     active_cells_changed = true;
     is_settled           = false;

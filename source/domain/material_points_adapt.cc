@@ -14,22 +14,6 @@ namespace CaissonMPM
 
   namespace
   {
-    // times the wanted size; halves of the wanted size become one again, which is
-    // then below too_large
-    constexpr double too_large = 1.05, too_small = .51;
-
-    bool
-    is_too_large(const double size, const double wanted)
-    {
-      return size > too_large * wanted;
-    }
-
-    bool
-    is_too_small(const double size, const double wanted)
-    {
-      return size > 0. && size < too_small * wanted;
-    }
-
     /** Whether two points lie side by side in a direction. */
     bool
     are_neighbors(const MaterialPoint &a,
@@ -50,6 +34,10 @@ namespace CaissonMPM
   MaterialPoints::take_out_of_size(const unsigned int           cell,
                                    const std::array<double, 2> &wanted)
   {
+    auto &range = sizes[cell];
+    if (range[0].suits(wanted[0]) && range[1].suits(wanted[1]))
+      return {};
+    range = {}; // of the points that stay
     std::vector<LeavingPoint> places;
     for_each_lane(cell, [&](const int b, const int lane) {
       const double size[2] = {histories[b].size_r[lane],
@@ -60,6 +48,9 @@ namespace CaissonMPM
           is_too_large(size[d], wanted[d]) || is_too_small(size[d], wanted[d]);
       if (is_out)
         places.push_back({cell, b, lane});
+      else
+        for (unsigned int d = 0; d < 2; ++d)
+          range[d].include(size[d]);
     });
     return take_out(places.data(), places.size());
   }

@@ -8,6 +8,7 @@
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_point.h>
 #include <caisson_mpm/domain/point_exchange.h>
+#include <caisson_mpm/domain/size_range.h>
 #include <caisson_mpm/kernels/layout.h>
 
 #include <array>
@@ -234,6 +235,8 @@ namespace CaissonMPM
     std::vector<int>          first_block;
     std::vector<unsigned int> active_cells;
     std::vector<double>       filled_volume; // [n_cells]
+    // [n_cells], in r and z
+    std::vector<std::array<SizeRange, 2>> sizes;
     // [n_cells], whether points came or went: whatever adds or removes a point
     // sets it, and the kernels then sum the moments of the cell anew
     std::vector<unsigned char>         changed;
