@@ -73,14 +73,37 @@ namespace CaissonMPM
   }
 
   void
-  MaterialPoints::pad(const int block)
+  MaterialPoints::pad(const int block, const int begin, const int end)
   {
-    for (int lane = headers[block].count; lane < block_size; ++lane)
+    for (int lane = begin; lane < end; ++lane)
       {
         copy_lane(block, 0, block, lane);
         blocks[block].mass[lane]   = 0.;
         blocks[block].volume[lane] = 0.;
       }
+  }
+
+  int
+  MaterialPoints::last_block(const unsigned int cell, const int material) const
+  {
+    int result = -1;
+    for (int b = first_block[cell]; b >= 0; b = headers[b].next)
+      if (headers[b].material == material)
+        result = b;
+    return result;
+  }
+
+  void
+  MaterialPoints::prefetch(const int block) const
+  {
+    using Field = double[block_size];
+    if (block < 0)
+      return;
+    for (unsigned int i = 0; i < sizeof(PointBlock) / sizeof(Field); ++i)
+      __builtin_prefetch(reinterpret_cast<const Field *>(&blocks[block]) + i);
+    for (unsigned int i = 0; i < sizeof(PointHistory) / sizeof(Field); ++i)
+      __builtin_prefetch(reinterpret_cast<const Field *>(&histories[block]) +
+                         i);
   }
 
   int
@@ -137,7 +160,8 @@ namespace CaissonMPM
     if (block < 0 || headers[block].count == block_size)
       block = new_block(cell, block >= 0 ? block : last, material);
     set(block, headers[block].count++, point);
-    pad(block);
+    if (headers[block].count == 1)
+      pad(block, 1, block_size);
     ++n_points_;
   }
 
@@ -159,10 +183,7 @@ namespace CaissonMPM
         }
     const int last_lane = --headers[last].count;
     if (last != block || last_lane != lane)
-      {
-        copy_lane(last, last_lane, block, lane);
-        pad(block);
-      }
+      copy_lane(last, last_lane, block, lane);
     if (headers[last].count == 0)
       {
         (before >= 0 ? headers[before].next : first_block[cell]) =
@@ -170,8 +191,10 @@ namespace CaissonMPM
         free_blocks.push_back(last);
         active_cells_changed |= first_block[cell] < 0;
       }
-    else
-      pad(last);
+    else // the padding repeats lane 0
+      pad(last,
+          last_lane,
+          last == block && lane == 0 ? block_size : last_lane + 1);
     --n_points_;
   }
 
@@ -337,6 +360,12 @@ namespace CaissonMPM
     result.reserve(n);
     for (unsigned int i = n; i-- > 0;)
       {
+        if (i >= steps_ahead)
+          {
+            const LeavingPoint &later = places[i - steps_ahead];
+            prefetch(later.block);
+            prefetch(last_block(later.cell, headers[later.block].material));
+          }
         const LeavingPoint &p = places[i];
         result.emplace_back(p.cell, get(p.block, p.lane));
         remove(p.cell, p.block, p.lane);
@@ -349,8 +378,16 @@ namespace CaissonMPM
   {
     std::map<unsigned int, std::vector<TravelingPoint>> abroad;
     for (auto &[cell, point] : moving)
+      cell = find_cell(cell, point);
+    for (unsigned int i = 0; i < moving.size(); ++i)
       {
-        cell = find_cell(cell, point);
+        if (i + steps_ahead < moving.size())
+          {
+            const auto &[later_cell, later] = moving[i + steps_ahead];
+            if (grid.is_owned(later_cell))
+              prefetch(last_block(later_cell, later.material));
+          }
+        const auto &[cell, point] = moving[i];
         if (grid.is_owned(cell))
           insert(cell, point);
         else

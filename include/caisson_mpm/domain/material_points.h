@@ -159,6 +159,9 @@ namespace CaissonMPM
     // blocks of neighboring cells drift apart in memory slowly
     static constexpr unsigned int steps_between_orderings = 200;
 
+    // points to come whose blocks are asked for: the memory takes that long
+    static constexpr unsigned int steps_ahead = 3;
+
     // with a cell in or near which it lies
     using PlacedPoint = std::pair<unsigned int, MaterialPoint>;
 
@@ -188,8 +191,16 @@ namespace CaissonMPM
               const int from_lane,
               const int to,
               const int lane);
+    /** Make lanes of a block padding: they repeat lane 0. */
     void
-    pad(const int block);
+    pad(const int block, const int begin, const int end);
+    /** Return the block of a cell that takes more points of a material, or -1
+     * if it has none of it. */
+    int
+    last_block(const unsigned int cell, const int material) const;
+    /** Ask for a block that is soon needed; -1: none. */
+    void
+    prefetch(const int block) const;
     int
     new_block(const unsigned int cell, const int after, const short material);
     void
