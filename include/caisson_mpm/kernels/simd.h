@@ -27,13 +27,24 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** The compiler's vector types of n doubles and of their masks. */
+      /** The compiler's types of n doubles and of their masks. */
       template <int n>
       struct VectorExtension
       {
         typedef double values __attribute__((vector_size(n * sizeof(double))));
         typedef long long bits __attribute__((vector_size(n * sizeof(double))));
       };
+
+#ifdef __AVX512DQ__
+      /** With AVX-512 a mask is a register of its own, with a bit for each
+       * lane. */
+      template <>
+      struct VectorExtension<8>
+      {
+        typedef double values __attribute__((vector_size(8 * sizeof(double))));
+        typedef __mmask8 bits;
+      };
+#endif
 
       /**
        * n doubles that are computed with at once. Comparisons give a Mask, and
@@ -54,17 +65,17 @@ namespace CaissonMPM
           friend CAISSON_INLINE Mask
           operator&(const Mask a, const Mask b)
           {
-            return {a.bits & b.bits};
+            return {static_cast<Bits>(a.bits & b.bits)};
           }
           friend CAISSON_INLINE Mask
           operator|(const Mask a, const Mask b)
           {
-            return {a.bits | b.bits};
+            return {static_cast<Bits>(a.bits | b.bits)};
           }
           friend CAISSON_INLINE Mask
           operator!(const Mask a)
           {
-            return {~a.bits};
+            return {static_cast<Bits>(~a.bits)};
           }
           /** Whether any lane is set. */
           friend CAISSON_INLINE bool
@@ -76,23 +87,21 @@ namespace CaissonMPM
           friend CAISSON_INLINE unsigned int
           to_integer(const Mask a)
           {
-#ifdef __AVX512DQ__
-            if constexpr (n == 8)
-              return _mm512_movepi64_mask(reinterpret_cast<__m512i>(a.bits));
-#endif
+            if constexpr (sizeof(Bits) == 1)
+              return a.bits;
 #ifdef __AVX__
-            if constexpr (n == 4)
+            else if constexpr (n == 4)
               return _mm256_movemask_pd(reinterpret_cast<__m256d>(a.bits));
 #endif
-            if constexpr (n == 2)
+            else if constexpr (n == 2)
               return _mm_movemask_pd(reinterpret_cast<__m128d>(a.bits));
-            unsigned int result = 0;
-            for (int i = 0; i < n; ++i)
+            else
               {
-                const long long lane = a.bits[i];
-                result |= (lane != 0 ? 1u : 0u) << i;
+                unsigned int result = 0;
+                for (int i = 0; i < n; ++i)
+                  result |= (a.bits[i] != 0 ? 1u : 0u) << i;
+                return result;
               }
-            return result;
           }
         };
 
@@ -175,37 +184,84 @@ namespace CaissonMPM
         friend CAISSON_INLINE Mask
         operator<(const Lanes a, const Lanes b)
         {
-          return {a.values < b.values};
+#ifdef __AVX512DQ__
+          if constexpr (n == 8)
+            return {_mm512_cmp_pd_mask(__m512d(a.values),
+                                       __m512d(b.values),
+                                       _CMP_LT_OS)};
+          else
+#endif
+            return {a.values < b.values};
         }
         friend CAISSON_INLINE Mask
         operator>(const Lanes a, const Lanes b)
         {
-          return {a.values > b.values};
+#ifdef __AVX512DQ__
+          if constexpr (n == 8)
+            return {_mm512_cmp_pd_mask(__m512d(a.values),
+                                       __m512d(b.values),
+                                       _CMP_GT_OS)};
+          else
+#endif
+            return {a.values > b.values};
         }
         friend CAISSON_INLINE Mask
         operator<=(const Lanes a, const Lanes b)
         {
-          return {a.values <= b.values};
+#ifdef __AVX512DQ__
+          if constexpr (n == 8)
+            return {_mm512_cmp_pd_mask(__m512d(a.values),
+                                       __m512d(b.values),
+                                       _CMP_LE_OS)};
+          else
+#endif
+            return {a.values <= b.values};
         }
         friend CAISSON_INLINE Mask
         operator>=(const Lanes a, const Lanes b)
         {
-          return {a.values >= b.values};
+#ifdef __AVX512DQ__
+          if constexpr (n == 8)
+            return {_mm512_cmp_pd_mask(__m512d(a.values),
+                                       __m512d(b.values),
+                                       _CMP_GE_OS)};
+          else
+#endif
+            return {a.values >= b.values};
         }
         friend CAISSON_INLINE Lanes
         select(const Mask m, const Lanes a, const Lanes b)
         {
-          return Lanes(m.bits ? a.values : b.values);
+#ifdef __AVX512DQ__
+          if constexpr (n == 8)
+            return Lanes(Values(_mm512_mask_blend_pd(m.bits,
+                                                     __m512d(b.values),
+                                                     __m512d(a.values))));
+          else
+#endif
+            return Lanes(m.bits ? a.values : b.values);
         }
         friend CAISSON_INLINE Lanes
         max(const Lanes a, const Lanes b)
         {
-          return select(a > b, a, b);
+#ifdef __AVX512F__
+          if constexpr (n == 8)
+            return Lanes(
+              Values(_mm512_max_pd(__m512d(a.values), __m512d(b.values))));
+          else
+#endif
+            return select(a > b, a, b);
         }
         friend CAISSON_INLINE Lanes
         min(const Lanes a, const Lanes b)
         {
-          return select(a < b, a, b);
+#ifdef __AVX512F__
+          if constexpr (n == 8)
+            return Lanes(
+              Values(_mm512_min_pd(__m512d(a.values), __m512d(b.values))));
+          else
+#endif
+            return select(a < b, a, b);
         }
         friend CAISSON_INLINE Lanes
         abs(const Lanes a)
