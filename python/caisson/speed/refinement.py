@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The section of the report on speed on meshes: error of the tip force against time
-of graded and uniform meshes."""
+of graded meshes, of those with halved cells, and of uniform ones."""
 from typing import Any
 
 import numpy as np
@@ -45,7 +45,7 @@ def ratio_at_equal_error(a: Curve, b: Curve) -> tuple[float, float]:
 def draw(by_kind: dict[str, Curve]) -> Figure:
     """Draw error against time, a line for each kind of mesh."""
     figure, (axes,) = panels(1, width=7, height=4.6)
-    for (kind, curve), style in zip(by_kind.items(), ("o-", "^-", "s--")):
+    for (kind, curve), style in zip(by_kind.items(), ("o-", "^-", "d-", "s--")):
         axes.loglog([p[0] for p in curve], [p[1] for p in curve], style, label=kind)
         for seconds, error, mesh in curve:
             place = {"xytext": (5, 4), "textcoords": "offset points"}
@@ -87,17 +87,19 @@ def ratios(by_kind: dict[str, Curve]) -> list[list[Any]]:
 
 
 def measure_refinement(studies: dict[str, Study], report: Report) -> None:
-    """Measure graded and uniform meshes."""
+    """Measure graded meshes, those with halved cells, and uniform ones."""
     study = studies["refinement"]
     end = study.run("reference").run.entries["Time/End penetration"]
     across = study.run("reference").run.entries["Rigid body/Cells across the wall"]
     by_kind, rows = curves_of(study)
     report.say(
         f"The caisson of `tests/jack.prm` (wall t = {WALL} m, domain 7 m x 5 m), pushed"
-        f" from {START} to {end} m. Uniform: cells of one size and 3 x 3 points in"
-        " each, in the same domain. Error: rms over four parts of the way, of the tip"
-        f" forces averaged over a fifth of it, against the graded mesh t/{across}. One"
-        " run each; the forces scatter by some percent."
+        f" from {START} to {end} m. Halved at the tip: lines are wider apart, cells"
+        " around the tip are halved once or twice, and points split and merge. Uniform:"
+        " cells of one size and 3 x 3 points in each, in the same domain. Error: rms"
+        " over four parts of the way, of the tip forces averaged over a fifth of it,"
+        f" against the graded mesh t/{across}. One run each; the forces scatter by some"
+        " percent."
     )
     heads = "mesh,cells,points,steps,seconds of all steps,error (%)".split(",")
     report.table("refinement", heads, rows)
