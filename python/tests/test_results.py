@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from caisson import curve, plot, table
+from caisson.plot.cells import CellMeans, cell_of
 from caisson.plot.fields import chosen
 from caisson.results import Results, ResultsError, read_table
 
@@ -129,6 +130,26 @@ class Pictures(Directory):
         self.assertEqual(depths([]), [0, 3, 7, 10])
         self.assertEqual(depths([0, 2, 17]), [0, 3, 7, 10], "not reached")
         self.assertEqual(depths([0, 1, 2, 3, 4]), [0, 3, 7, 10], "too many")
+
+    def test_halved_cells(self) -> None:
+        """A cell lies beside four, beneath two, and above two smaller ones."""
+
+        def square(r: float, z: float, size: float) -> list[list[float]]:
+            return [[r, z], [r + size, z], [r + size, z + size], [r, z + size]]
+
+        halves = [square(r, z, 0.5) for z in (1, 1.5) for r in (0, 0.5)]
+        cells = np.array([square(0, 0, 1), *halves, square(0, 2, 1), square(1, 1, 1)])
+        middles = cells.mean(axis=1)
+        self.assertEqual(list(cell_of(middles, cells)), list(range(7)))
+        self.assertEqual(
+            list(cell_of(np.array([[2.5, 0.5], [1.5, 5]]), cells)), [-1, 6]
+        )
+        area = np.array([1, 0.25, 0.25, 0.25, 0.25, 1, 1])
+        volume = area * 2 * np.pi * middles[:, 0] * 0.8
+        means = CellMeans(middles, volume, cells, np.zeros(7, dtype=bool))
+        tops = means.polygons[:, 2:, 1].mean(axis=1)
+        self.assertEqual(list(tops[:5]), list(cells[:5, 2, 1]), "not at the surface")
+        self.assertTrue(np.allclose(tops[5:], [2.8, 1.8]), "at the surface")
 
     def test_curve(self) -> None:
         lines = list(curve.describe(TINY, [1.0, 9.0]))

@@ -1,32 +1,35 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Material points in the cells of the background grid.
 
-The sides of all cells are vertical and the cells of a column lie on top of each
-other, so that a column and a count of the cell bottoms below a point give its
-cell. A picture paints each cell with the mean of its points; where the soil
-ends in a cell, the cell is cut to the part that its points fill.
+The sides of all cells are vertical, and the cells between two neighboring lines lie
+on top of each other, so that a count of the cell bottoms below a point gives its
+cell; cells that are halved have more lines beside them. A picture paints each cell
+with the mean of its points; where the soil ends in a cell, the cell is cut to the
+part that its points fill.
 """
 import numpy as np
 
 
 def cell_of(position: np.ndarray, corners: np.ndarray) -> np.ndarray:
     """Return the index [n_points] of the cell that each point lies in; points out of
-    all columns get -1, those above or below a column its last or first cell.
+    all cells to the left or right get -1, those above or below the last or first
+    cell there.
 
     position: [n_points, 2]; corners: [n_cells, 4, 2] as vtu.read_cells gives them.
     """
     result = np.full(len(position), -1)
-    for left in np.unique(corners[:, 0, 0]):
-        column = np.flatnonzero(corners[:, 0, 0] == left)
-        column = column[np.argsort(corners[column, 0, 1])]
-        right = corners[column[0], 1, 0]
-        points = np.flatnonzero((position[:, 0] >= left) & (position[:, 0] < right))
-        xi = (position[points, 0] - left) / (right - left)
-        bottoms = np.outer(1 - xi, corners[column, 0, 1]) + np.outer(
-            xi, corners[column, 1, 1]
-        )
+    left, right = corners[:, 0, 0], corners[:, 1, 0]
+    lines = np.unique(np.concatenate([left, right]))
+    strip = np.searchsorted(lines, position[:, 0], side="right") - 1
+    for i in np.unique(strip[(strip >= 0) & (strip < len(lines) - 1)]):
+        cells = np.flatnonzero((left <= lines[i]) & (right >= lines[i + 1]))
+        cells = cells[np.argsort(corners[cells, 0, 1] + corners[cells, 1, 1])]
+        points = np.flatnonzero(strip == i)
+        x = position[points, :1]
+        xi = (x - left[cells]) / (right[cells] - left[cells])
+        bottoms = (1 - xi) * corners[cells, 0, 1] + xi * corners[cells, 1, 1]
         row = (position[points, 1:] >= bottoms).sum(axis=1) - 1
-        result[points] = column[np.maximum(row, 0)]
+        result[points] = cells[np.maximum(row, 0)]
     return result
 
 
@@ -83,11 +86,12 @@ class CellMeans:
         self, corners: np.ndarray, rigid: np.ndarray, fill: np.ndarray
     ) -> np.ndarray:
         """Lower the top of cells with soil that have only void above."""
-        below = {(x[0, 0], x[0, 1]): i for i, x in enumerate(corners)}
         result = corners.copy()
-        for i in np.flatnonzero((self.total > 0) & (fill < 1)):
-            above = below.get((corners[i, 3, 0], corners[i, 3, 1]))
-            if above is None or not (rigid[above] or self.total[above] > 0):
+        partly = np.flatnonzero((self.total > 0) & (fill < 1))
+        middles = corners[partly].mean(axis=1)
+        tops = corners[partly, 2:].mean(axis=1)
+        for i, above in zip(partly, cell_of(tops + 1e-3 * (tops - middles), corners)):
+            if above == i or not (rigid[above] or self.total[above] > 0):
                 for top, bottom in ((3, 0), (2, 1)):
                     result[i, top] = corners[i, bottom] + fill[i] * (
                         corners[i, top] - corners[i, bottom]
