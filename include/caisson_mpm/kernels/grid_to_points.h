@@ -9,7 +9,7 @@
 #define caisson_mpm_kernels_grid_to_points_h
 
 #include <caisson_mpm/kernels/cell_sums.h>
-#include <caisson_mpm/kernels/update_stress.h>
+#include <caisson_mpm/kernels/waiting_blocks.h>
 
 namespace CaissonMPM
 {
@@ -32,21 +32,23 @@ namespace CaissonMPM
 
       /** Sums over the points of a cell after the update. */
       template <typename Number>
-      struct UpdateSums : LaneSums<Number, 4>
+      struct UpdateSums : LaneSums<Number, 5>
       {
-        // w q, w q xi, w q eta of the work q per volume with weights w, and the
-        // new volume
-        using LaneSums<Number, 4>::sum;
+        // m q, m q xi, m q eta and V q of the work q per volume, and the new
+        // volume
+        using LaneSums<Number, 5>::sum;
 
         CAISSON_INLINE void
         add_work(const LocalPoint<Number> &p,
-                 const Number              weight,
+                 const Number              mass,
+                 const Number              volume,
                  const Number              work)
         {
-          const Number q = weight * work;
+          const Number q = mass * work;
           sum[0] += q;
           sum[1] += q * p.xi;
           sum[2] += q * p.eta;
+          sum[3] += volume * work;
         }
       };
 
@@ -55,7 +57,7 @@ namespace CaissonMPM
        * internal force is integrated over the volume of a full cell, from a fit
        * to the stress of its points, wherever they are and whatever volume they
        * have; so is the work, from the fit to the work per volume. @p s: of
-       * UpdateSums, where the weights are the masses with the moments @p mass.
+       * UpdateSums, of points with the moments @p mass.
        */
       template <typename Number>
       CAISSON_INLINE Number
@@ -113,16 +115,77 @@ namespace CaissonMPM
         return limited;
       }
 
+      /** What grid_to_points() keeps while it goes through the cells. */
+      template <typename Number>
+      struct UpdateInProgress
+      {
+        BlocksAhead           ahead;
+        WaitingBlocks<Number> waiting;
+        // row i: sum i of UpdateSums of the cells of a group
+        Number        of_group[UpdateSums<Number>::size][Number::width];
+        UpdateResult &result;
+
+        CAISSON_INLINE
+        UpdateInProgress(const PointsView &points, UpdateResult &result)
+          : ahead(points)
+          , result(result)
+        {}
+      };
+
+      /** Update stress and volume of the points in the lanes from @p lane on,
+       * or let their block wait; @p in_group is the number of the cell. */
+      template <typename Law, typename Number>
+      CAISSON_INLINE void
+      update_stress_of_lanes(PointBlock               &b,
+                             PointHistory             &history,
+                             const int                 lane,
+                             const int                 in_group,
+                             const LocalPoint<Number> &p,
+                             const StressStep<Number> &s,
+                             const Material           &material,
+                             UpdateSums<Number>       &sums,
+                             WaitingBlocks<Number>    &waiting)
+      {
+        const auto &parameters =
+          reinterpret_cast<const typename Law::Parameters &>(
+            material.parameters);
+        const Number mass   = Number::load(b.mass + lane),
+                     volume = Number::load(b.volume + lane),
+                     after  = volume * (Number(1.) + s.step.volume_change);
+        sums.sum[4] += after;
+        if constexpr (may_wait<Law, Number>)
+          {
+            StressState<Number> stress = s.old;
+            if (!Law::update_elastic(stress, s.step.strain, parameters))
+              return waiting.add(b, s, p, material, in_group);
+            store_stress(s.half_turn(stress), b, lane);
+            after.store(b.volume + lane);
+            sums.add_work(p,
+                          mass,
+                          volume,
+                          work_per_volume(s.old, stress, s.step));
+            return;
+          }
+        sums.add_work(
+          p,
+          mass,
+          volume,
+          update_stress<Law>(
+            b, history, lane, s, {material.initial_void_ratio, parameters}));
+      }
+
       /** Update one block; returns its lanes outside the moved cell. */
       template <typename Law, typename Number>
       CAISSON_INLINE unsigned int
       update_block(PointBlock            &b,
                    PointHistory          &history,
+                   const int              in_group,
                    const CellUpdate      &cell,
                    const UpdateSettings  &settings,
-                   const MaterialOf<Law> &material,
+                   const Material        &material,
                    unsigned int          &limited,
-                   UpdateSums<Number>    &sums)
+                   UpdateSums<Number>    &sums,
+                   WaitingBlocks<Number> &waiting)
       {
         unsigned int outside = 0;
         limited              = 0;
@@ -130,13 +193,16 @@ namespace CaissonMPM
           {
             Number r = Number::load(b.r + lane), z = Number::load(b.z + lane);
             const LocalPoint<Number> p = cell.map.at_position(r, z);
-            const Number             weight =
-              Number::load((cell.full ? b.mass : b.volume) + lane);
-            sums.add_work(p,
-                          weight,
-                          update_stress<Law>(
-                            b, history, lane, p, cell, settings, material));
-            sums.sum[3] += Number::load(b.volume + lane);
+            update_stress_of_lanes<Law>(
+              b,
+              history,
+              lane,
+              in_group,
+              p,
+              begin_stress_step(b, lane, p, cell, settings),
+              material,
+              sums,
+              waiting);
             limited |= move_points(b, lane, p, cell, settings, r, z) << lane;
             outside |= to_integer(!cell.moved.contains(r, z)) << lane;
           }
@@ -221,77 +287,77 @@ namespace CaissonMPM
           }
       }
 
-      /** Update the points of an active cell; list those that left it, and
-       * return their number. */
+      /** Update the points of cell @p in_group of a group; list those that left
+       * it, and return their number. */
       template <typename Number>
       CAISSON_INLINE unsigned int
-      update_points(const StepContext    &step,
-                    const unsigned int    active,
-                    const CellUpdate     &update,
-                    const UpdateSettings &settings,
-                    UpdateSums<Number>   &sums,
-                    UpdateResult         &result)
+      update_points(const StepContext        &step,
+                    const unsigned int        cell,
+                    const int                 in_group,
+                    const CellUpdate         &update,
+                    const UpdateSettings     &settings,
+                    UpdateInProgress<Number> &progress)
       {
         const PointsView  &points = step.points;
-        const unsigned int cell   = points.active_cells[active];
+        UpdateResult      &result = progress.result;
         const unsigned int before = result.n_leaving;
+        UpdateSums<Number> sums;
+        sums.clear();
         for (int block = points.first_block[cell]; block >= 0;)
           {
             const BlockHeader header = points.headers[block];
-            prefetch(points, header.next, active);
+            progress.ahead.advance();
+            if (progress.waiting.is_full())
+              progress.waiting.update(progress.of_group);
             unsigned int    outside = 0, limited = 0;
             const Material &material = step.materials[header.material];
-            with_law(material,
-                     [&](auto law, const auto &parameters) CAISSON_LAMBDA {
-                       outside = update_block<decltype(law), Number>(
-                         points.blocks[block],
-                         points.histories[block],
-                         update,
-                         settings,
-                         {material.initial_void_ratio, parameters},
-                         limited,
-                         sums);
-                     });
+            with_law(material, [&](auto law, const auto &) CAISSON_LAMBDA {
+              outside =
+                update_block<decltype(law), Number>(points.blocks[block],
+                                                    points.histories[block],
+                                                    in_group,
+                                                    update,
+                                                    settings,
+                                                    material,
+                                                    limited,
+                                                    sums,
+                                                    progress.waiting);
+            });
             // padding moves like the point that it repeats, but is none
             const unsigned int real = (1u << header.count) - 1u;
             result.n_limited += __builtin_popcount(limited & real);
             list_leaving(cell, block, outside & real, result);
             block = header.next;
           }
+        for (int k = 0; k < sums.size; ++k)
+          progress.of_group[k][in_group] += sums.sum[k];
         return result.n_leaving - before;
       }
 
-      /** Update the points of all cells of a group; row i of @p sums takes the
-       * UpdateSums of cell i, and 0 beyond the last one. */
+      /** Update the points of all cells of a group. */
       template <typename Number>
       CAISSON_INLINE void
-      update_group(const StepContext       &step,
-                   const PointUpdate       &how,
-                   const CellGroup<Number> &group,
-                   const unsigned int       begin,
-                   const CellUpdate        *update,
-                   Number (*sums)[Number::width],
-                   UpdateResult &result)
+      update_group(const StepContext        &step,
+                   const PointUpdate        &how,
+                   const CellGroup<Number>  &group,
+                   const CellUpdate         *update,
+                   UpdateInProgress<Number> &progress)
       {
-        constexpr int n_sums = UpdateSums<Number>::size;
-        for (int i = 0; i < Number::width; ++i)
-          for (int k = 0; k < n_sums; ++k)
-            sums[k][i] = Number(0.);
+        for (auto &sums : progress.of_group)
+          for (Number &of_cell : sums)
+            of_cell = Number(0.);
+        unsigned int n_leaving[Number::width];
         for (int i = 0; i < group.n; ++i)
-          {
-            UpdateSums<Number> own;
-            own.clear();
-            const unsigned int n_leaving = update_points(
-              step, begin + i, update[i], how.settings, own, result);
-            for (int k = 0; k < n_sums; ++k)
-              sums[k][i] = own.sum[k];
-            // The sums for the next step, while the points are in the cache. A
-            // cell that points leave is summed by points_to_grid instead.
-            if (n_leaving == 0)
-              sum_points<Number>(step,
-                                 how.moved.geometry[group.cell[i]],
-                                 group.cell[i]);
-          }
+          n_leaving[i] = update_points(
+            step, group.cell[i], i, update[i], how.settings, progress);
+        progress.waiting.update(progress.of_group);
+        // The sums for the next step, while the points are in the cache. A
+        // cell that points leave is summed by points_to_grid instead.
+        for (int i = 0; i < group.n; ++i)
+          if (n_leaving[i] == 0)
+            sum_points<Number>(step,
+                               how.moved.geometry[group.cell[i]],
+                               group.cell[i]);
       }
 
       /** See KernelTable. Lanes are points in update_group(), and cells in the
@@ -305,6 +371,7 @@ namespace CaissonMPM
         constexpr int width = Number::width, n_sums = UpdateSums<Number>::size;
         result.n_leaving = result.n_limited = 0;
         result.stress_work                  = 0.;
+        UpdateInProgress<Number> progress(step.points, result);
         for (unsigned int begin = 0; begin < step.points.n_active_cells;
              begin += width)
           {
@@ -328,22 +395,21 @@ namespace CaissonMPM
               find_mean_divergence(group, map, step.grid.axisymmetric, update);
 
             // 3. Stress, volume, velocity and place of the points.
-            Number of_points[n_sums][width];
-            update_group(step, how, group, begin, update, of_points, result);
+            update_group(step, how, group, update, progress);
 
             // 4. The work of the stress, integrated as the internal force was,
             //    and the volume that the points fill now.
             Number sums[n_sums];
             for (int k = 0; k < n_sums; ++k)
-              sums[k] = sum_each(of_points[k]);
+              sums[k] = sum_each(progress.of_group[k]);
             const Number in_full =
               work_in_full_cells(sums,
                                  mass.sum,
                                  map.volume(step.grid.axisymmetric));
             for (int i = 0; i < group.n; ++i)
               {
-                result.stress_work += update[i].full ? in_full[i] : sums[0][i];
-                step.points.filled_volume[group.cell[i]] = sums[3][i];
+                result.stress_work += update[i].full ? in_full[i] : sums[3][i];
+                step.points.filled_volume[group.cell[i]] = sums[4][i];
               }
           }
       }

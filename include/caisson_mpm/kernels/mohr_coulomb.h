@@ -147,21 +147,10 @@ namespace CaissonMPM
                const MohrCoulombElasticity   &elastic,
                const Strength                &strength);
 
-      private:
-        /** f of the major and the minor stress. Units: Pa. */
-        static CAISSON_INLINE Number
-        yield_function(const Number    major,
-                       const Number    minor,
-                       const Strength &s)
-        {
-          return (1. + s.sin_phi) * major - (1. - s.sin_phi) * minor -
-                 2. * s.cohesion * s.cos_phi;
-        }
-
         /**
          * Whether no lane yields, even with a bound for the radius of Mohr's
          * circle in its place: most soil is far from yield, and this spares it
-         * the square root.
+         * the square root. @p sigma: with the elastic increment.
          */
         static CAISSON_INLINE bool
         is_surely_elastic(const StressState<Number> &sigma,
@@ -173,6 +162,17 @@ namespace CaissonMPM
                        minor = min(sigma.tt, center - bound);
           return !any((yield_function(major, minor, strength) > Number(0.)) |
                       (major > Number(strength.tension_cutoff)));
+        }
+
+      private:
+        /** f of the major and the minor stress. Units: Pa. */
+        static CAISSON_INLINE Number
+        yield_function(const Number    major,
+                       const Number    minor,
+                       const Strength &s)
+        {
+          return (1. + s.sin_phi) * major - (1. - s.sin_phi) * minor -
+                 2. * s.cohesion * s.cos_phi;
         }
 
         /** Step 1 of the file's head. Admissible stresses do not change. */
@@ -287,6 +287,19 @@ namespace CaissonMPM
                        const Parameters &p)
         {
           return p.elastic.p_wave_modulus();
+        }
+
+        /** Add the elastic increment. Returns whether that is all; if not,
+         * the old stress must go to update(). */
+        template <typename Number>
+        static CAISSON_INLINE bool
+        update_elastic(StressState<Number>           &sigma,
+                       const StrainIncrement<Number> &de,
+                       const Parameters              &p)
+        {
+          add_elastic_increment(sigma, de, p.elastic.lambda, p.elastic.mu);
+          return MohrCoulombReturn<Number, MohrCoulombStrength<double>>::
+            is_surely_elastic(sigma, p.strength);
         }
 
         template <typename Number>

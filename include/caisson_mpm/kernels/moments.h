@@ -83,23 +83,51 @@ namespace CaissonMPM
         }
       };
 
-      /**
-       * Ask for the block that comes after those of an active cell that end
-       * before @p block: the blocks of a cell need not lie side by side.
-       */
-      CAISSON_INLINE void
-      prefetch(const PointsView &points, int block, const unsigned int active)
+      /** Goes through the blocks of all active cells, some blocks ahead of the
+       * kernel, and asks for them: they need not lie side by side. */
+      class BlocksAhead
       {
-        constexpr int n_fields = sizeof(PointBlock) / sizeof(double[8]);
-        if (block < 0 && active + 1 < points.n_active_cells)
-          block = points.first_block[points.active_cells[active + 1]];
-        if (block < 0)
-          return;
-        const double *const fields =
-          reinterpret_cast<const double *>(points.blocks + block);
-        for (int i = 0; i < n_fields; ++i)
-          __builtin_prefetch(fields + i * block_size);
-      }
+      public:
+        CAISSON_INLINE explicit BlocksAhead(const PointsView &points)
+          : points(points)
+        {
+          constexpr int n_ahead = 4;
+          enter_cell();
+          for (int i = 0; i < n_ahead; ++i)
+            advance();
+        }
+
+        /** Ask for the next block: to be called once per block. */
+        CAISSON_INLINE void
+        advance()
+        {
+          if (block < 0)
+            return;
+          constexpr int       n_fields = sizeof(PointBlock) / sizeof(double[8]);
+          const double *const fields =
+            reinterpret_cast<const double *>(points.blocks + block);
+          for (int i = 0; i < n_fields; ++i)
+            __builtin_prefetch(fields + i * block_size);
+          block = points.headers[block].next;
+          if (block < 0)
+            {
+              ++active;
+              enter_cell();
+            }
+        }
+
+      private:
+        CAISSON_INLINE void
+        enter_cell()
+        {
+          if (active < points.n_active_cells)
+            block = points.first_block[points.active_cells[active]];
+        }
+
+        const PointsView &points;
+        unsigned int      active = 0;
+        int               block  = -1; // the next one; -1: none
+      };
 
       /** Consecutive active cells, one in each lane; lanes beyond the end
        * repeat the last one. */

@@ -467,10 +467,15 @@ namespace CaissonMPM
       CAISSON_INLINE Number
       make_lanes(const Value &value)
       {
-        alignas(64) double lanes[Number::width];
-        for (int i = 0; i < Number::width; ++i)
-          lanes[i] = value(i);
-        return Number::load(lanes);
+        if constexpr (Number::width == 1)
+          return Number(value(0));
+        else
+          {
+            typename Number::Values lanes = {};
+            for (int i = 0; i < Number::width; ++i)
+              lanes[i] = value(i);
+            return Number(lanes);
+          }
       }
 
 #define CAISSON_SHUFFLE(a, b, ...) \

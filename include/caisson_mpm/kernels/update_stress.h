@@ -187,6 +187,8 @@ namespace CaissonMPM
       class HalfTurn
       {
       public:
+        HalfTurn() = default;
+
         CAISSON_INLINE
         HalfTurn(const Number spin)
         {
@@ -206,7 +208,13 @@ namespace CaissonMPM
                   s.rz - sine * (difference + tangent * s.rz)};
         }
 
-      private:
+        /** The turn with this tangent of half of its angle, and this sine. */
+        CAISSON_INLINE
+        HalfTurn(const Number tangent, const Number sine)
+          : tangent(tangent)
+          , sine(sine)
+        {}
+
         Number tangent, sine;
       };
 
@@ -274,6 +282,61 @@ namespace CaissonMPM
           state.variable[i].store(history.state[i] + lane);
       }
 
+      template <typename Number>
+      CAISSON_INLINE StressState<Number>
+                     load_stress(const PointBlock &b, const int lane)
+      {
+        return {Number::load(b.stress[0] + lane),
+                Number::load(b.stress[1] + lane),
+                Number::load(b.stress[2] + lane),
+                Number::load(b.stress[3] + lane)};
+      }
+
+      template <typename Number>
+      CAISSON_INLINE void
+      store_stress(const StressState<Number> &s, PointBlock &b, const int lane)
+      {
+        s.rr.store(b.stress[0] + lane);
+        s.zz.store(b.stress[1] + lane);
+        s.tt.store(b.stress[2] + lane);
+        s.rz.store(b.stress[3] + lane);
+      }
+
+      /** What comes before the law in a step. */
+      template <typename Number>
+      struct StressStep
+      {
+        StepOfStrain<Number> step;
+        HalfTurn<Number>     half_turn;
+        StressState<Number>  old; // in the middle of the turn
+      };
+
+      /** The step of the points in the lanes from @p lane on. */
+      template <typename Number>
+      CAISSON_INLINE StressStep<Number>
+                     begin_stress_step(const PointBlock         &b,
+                                       const int                 lane,
+                                       const LocalPoint<Number> &p,
+                                       const CellUpdate         &cell,
+                                       const UpdateSettings     &settings)
+      {
+        // 1. Strain increment dt (L + L^T) / 2 and spin from the nodal field.
+        StressStep<Number> result;
+        result.step = find_strain(p, Number::load(b.r + lane), cell, settings);
+
+        // 2. In full cells, take off what the affine fit does not contain.
+        StressState<Number> stress = load_stress<Number>(b, lane);
+        if (cell.fit != nullptr)
+          filter_stress(
+            stress, p, Number::load(b.z + lane), cell, settings.stress_filter);
+
+        // 3. Turn the stress with the soil, to where it is in the middle of the
+        //    step, so that the law sees strain only.
+        result.half_turn = HalfTurn<Number>(result.step.spin);
+        result.old       = result.half_turn(stress);
+        return result;
+      }
+
       /** Set the stress and the volume of the points in the lanes from @p lane
        * on to those at the end of the step. Returns work_per_volume(). */
       template <typename Law, typename Number>
@@ -281,47 +344,21 @@ namespace CaissonMPM
       update_stress(PointBlock               &b,
                     PointHistory             &history,
                     const int                 lane,
-                    const LocalPoint<Number> &p,
-                    const CellUpdate         &cell,
-                    const UpdateSettings     &settings,
+                    const StressStep<Number> &s,
                     const MaterialOf<Law>    &material)
       {
-        const auto load = [lane](const double *field) {
-          return Number::load(field + lane);
-        };
-        // 1. Strain increment dt (L + L^T) / 2 and spin from the nodal field.
-        const StepOfStrain<Number> step =
-          find_strain(p, load(b.r), cell, settings);
-
-        // 2. In full cells, take off what the affine fit does not contain.
-        StressState<Number> stress{load(b.stress[0]),
-                                   load(b.stress[1]),
-                                   load(b.stress[2]),
-                                   load(b.stress[3])};
-        if (cell.fit != nullptr)
-          filter_stress(stress, p, load(b.z), cell, settings.stress_filter);
-
-        // 3. Turn the stress with the soil, to where it is in the middle of the
-        //    step, so that the law sees strain only.
-        const HalfTurn<Number> half_turn(step.spin);
-        stress = half_turn(stress);
-
         // 4. The law: sigma <- sigma + C : de, and its state variables.
-        const Number     volume = load(b.volume);
+        const Number     volume = Number::load(b.volume + lane);
         LawState<Number> state  = load_state<Law>(
           b, history, lane, volume, material.initial_void_ratio);
-        const StressState<Number> old = stress;
-        Law::update(stress, step.strain, state, material.parameters);
-        const StressState<Number> turned = half_turn(stress);
-        turned.rr.store(b.stress[0] + lane);
-        turned.zz.store(b.stress[1] + lane);
-        turned.tt.store(b.stress[2] + lane);
-        turned.rz.store(b.stress[3] + lane);
+        StressState<Number> stress = s.old;
+        Law::update(stress, s.step.strain, state, material.parameters);
+        store_stress(s.half_turn(stress), b, lane);
         store_state<Law>(state, b, history, lane);
 
         // 5. V <- V (1 + dt div v)
-        (volume * (Number(1.) + step.volume_change)).store(b.volume + lane);
-        return work_per_volume(old, stress, step);
+        (volume * (Number(1.) + s.step.volume_change)).store(b.volume + lane);
+        return work_per_volume(s.old, stress, s.step);
       }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Two numbers that are computed with at once. Where each operation waits for
+// the one before, two chains of them take little longer than one.
+#ifndef caisson_mpm_kernels_simd_twice_h
+#define caisson_mpm_kernels_simd_twice_h
+
+#include <caisson_mpm/kernels/simd.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    inline namespace CAISSON_KERNEL_ISA
+    {
+      /** Two numbers with the interface of Lanes<n>, as far as laws need it. */
+      template <typename Number>
+      struct Twice
+      {
+        Number a, b;
+
+        struct Mask
+        {
+          typename Number::Mask a, b;
+
+          friend CAISSON_INLINE Mask
+          operator&(const Mask x, const Mask y)
+          {
+            return {x.a & y.a, x.b & y.b};
+          }
+          friend CAISSON_INLINE Mask
+          operator|(const Mask x, const Mask y)
+          {
+            return {x.a | y.a, x.b | y.b};
+          }
+          friend CAISSON_INLINE Mask
+          operator!(const Mask x)
+          {
+            return {!x.a, !x.b};
+          }
+          friend CAISSON_INLINE bool
+          any(const Mask x)
+          {
+            return any(x.a | x.b);
+          }
+        };
+
+        Twice() = default;
+        CAISSON_INLINE
+        Twice(const Number a, const Number b)
+          : a(a)
+          , b(b)
+        {}
+        CAISSON_INLINE
+        Twice(const double x)
+          : a(x)
+          , b(x)
+        {}
+
+        static CAISSON_INLINE Twice
+        load(const double *p, const double *q)
+        {
+          return {Number::load(p), Number::load(q)};
+        }
+        CAISSON_INLINE void
+        store(double *p, double *q) const
+        {
+          a.store(p);
+          b.store(q);
+        }
+
+        friend CAISSON_INLINE Twice
+        operator+(const Twice x, const Twice y)
+        {
+          return {x.a + y.a, x.b + y.b};
+        }
+        friend CAISSON_INLINE Twice
+        operator-(const Twice x, const Twice y)
+        {
+          return {x.a - y.a, x.b - y.b};
+        }
+        friend CAISSON_INLINE Twice
+        operator*(const Twice x, const Twice y)
+        {
+          return {x.a * y.a, x.b * y.b};
+        }
+        friend CAISSON_INLINE Twice
+        operator/(const Twice x, const Twice y)
+        {
+          return {x.a / y.a, x.b / y.b};
+        }
+        friend CAISSON_INLINE Mask
+        operator<(const Twice x, const Twice y)
+        {
+          return {x.a < y.a, x.b < y.b};
+        }
+        friend CAISSON_INLINE Mask
+        operator>(const Twice x, const Twice y)
+        {
+          return {x.a > y.a, x.b > y.b};
+        }
+        friend CAISSON_INLINE Mask
+        operator<=(const Twice x, const Twice y)
+        {
+          return {x.a <= y.a, x.b <= y.b};
+        }
+        friend CAISSON_INLINE Mask
+        operator>=(const Twice x, const Twice y)
+        {
+          return {x.a >= y.a, x.b >= y.b};
+        }
+        friend CAISSON_INLINE Twice
+        max(const Twice x, const Twice y)
+        {
+          return {max(x.a, y.a), max(x.b, y.b)};
+        }
+        friend CAISSON_INLINE Twice
+        min(const Twice x, const Twice y)
+        {
+          return {min(x.a, y.a), min(x.b, y.b)};
+        }
+        friend CAISSON_INLINE Twice
+        operator-(const Twice x)
+        {
+          return {-x.a, -x.b};
+        }
+        CAISSON_INLINE Twice &
+        operator+=(const Twice y)
+        {
+          return *this = *this + y;
+        }
+        CAISSON_INLINE Twice &
+        operator-=(const Twice y)
+        {
+          return *this = *this - y;
+        }
+        friend CAISSON_INLINE Twice
+        abs(const Twice x)
+        {
+          return {abs(x.a), abs(x.b)};
+        }
+        friend CAISSON_INLINE Twice
+        sqrt(const Twice x)
+        {
+          return {sqrt(x.a), sqrt(x.b)};
+        }
+        friend CAISSON_INLINE Twice
+        select(const Mask m, const Twice x, const Twice y)
+        {
+          return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
+        }
+      };
+    } // namespace CAISSON_KERNEL_ISA
+  }   // namespace Kernels
+} // namespace CaissonMPM
+
+#endif
