@@ -36,18 +36,19 @@ namespace
    * them out. */
   struct Soil
   {
-    std::vector<CellGeometry>  geometry;
-    std::vector<CellNodes>     nodes;
-    std::vector<unsigned char> flags;
-    std::vector<int>           neighbors, first_block;
-    std::vector<unsigned int>  active;
-    std::vector<double>        filled;
-    std::vector<unsigned char> changed;
-    std::vector<PointBlock>    blocks;
-    std::vector<PointHistory>  histories;
-    std::vector<BlockHeader>   headers;
-    Material                   material = {};
-    unsigned int               n_nodes = 0, n_points = 0;
+    std::vector<CellGeometry>   geometry;
+    std::vector<CellNodes>      nodes;
+    std::vector<unsigned char>  flags;
+    std::vector<int>            neighbors, first_block;
+    std::vector<unsigned int>   active;
+    std::vector<double>         filled;
+    std::vector<unsigned char>  changed;
+    std::vector<unsigned short> n_yielding;
+    std::vector<PointBlock>     blocks;
+    std::vector<PointHistory>   histories;
+    std::vector<BlockHeader>    headers;
+    Material                    material = {};
+    unsigned int                n_nodes = 0, n_points = 0;
 
     Soil(const unsigned int wanted, const unsigned int per_direction)
     {
@@ -61,6 +62,7 @@ namespace
           add_cell(i, j, n_columns, n_rows, per_direction);
       flags.assign(active.size(), 0);
       changed.assign(active.size(), 1);
+      n_yielding.assign(active.size(), 0);
       material.body_force[1] = -gravity;
       set_law<MohrCoulomb>(
         material,
@@ -131,7 +133,8 @@ namespace
               active.data(),
               static_cast<unsigned int>(active.size()),
               filled.data(),
-              changed.data()};
+              changed.data(),
+              n_yielding.data()};
     }
   };
 

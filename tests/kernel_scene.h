@@ -98,18 +98,19 @@ struct Scene
   double           axisymmetric;
   std::vector<int> neighbors =
     std::vector<int>(neighbors_per_cell * n_cells, -1);
-  std::vector<CellGeometry>  geometry;
-  std::vector<CellNodes>     nodes;
-  std::vector<unsigned char> flags;
-  std::vector<Point>         points;
-  std::vector<PointBlock>    blocks;
-  std::vector<PointHistory>  histories;
-  std::vector<BlockHeader>   headers;
-  std::vector<int>           first;
-  std::vector<unsigned int>  active;
-  std::vector<double>        filled;
-  std::vector<unsigned char> changed;
-  Material                   material;
+  std::vector<CellGeometry>   geometry;
+  std::vector<CellNodes>      nodes;
+  std::vector<unsigned char>  flags;
+  std::vector<Point>          points;
+  std::vector<PointBlock>     blocks;
+  std::vector<PointHistory>   histories;
+  std::vector<BlockHeader>    headers;
+  std::vector<int>            first;
+  std::vector<unsigned int>   active;
+  std::vector<double>         filled;
+  std::vector<unsigned char>  changed;
+  std::vector<unsigned short> n_yielding;
+  Material                    material;
 
   GridView
   grid() const
@@ -131,7 +132,8 @@ struct Scene
             active.data(),
             n_cells,
             filled.data(),
-            changed.data()};
+            changed.data(),
+            n_yielding.data()};
   }
   StepContext
   step(const IntegrationSettings &settings, std::vector<CellMoments> &moments)
@@ -215,6 +217,7 @@ fill_blocks(Scene &s)
   s.first.assign(n_cells, -1);
   s.filled.assign(n_cells, 0.);
   s.changed.assign(n_cells, true);
+  s.n_yielding.assign(n_cells, 0);
   s.active.clear();
   for (unsigned int c = 0; c < n_cells; ++c)
     {

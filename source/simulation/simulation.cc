@@ -26,6 +26,8 @@ namespace CaissonMPM
     // collective.
     constexpr unsigned int steps_between_agreements = 20;
     constexpr unsigned int steps_between_balances   = 200;
+    // To cut the mesh into other parts takes about as long as this many steps.
+    constexpr double steps_of_a_cut = 30.;
   } // namespace
 
   Simulation::Simulation(const MPI_Comm communicator)
@@ -210,33 +212,44 @@ namespace CaissonMPM
     grid.move_to(body.motion().travel());
   }
 
+  double
+  Simulation::imbalance(const std::vector<unsigned int> &costs) const
+  {
+    const auto work = Utilities::MPI::min_max_avg(
+      std::accumulate(costs.begin(), costs.end(), 0.), grid.communicator());
+    return work.max / work.avg;
+  }
+
   void
   Simulation::balance()
   {
-    if (grid.n_ranks() == 1)
-      return;
-    const auto imbalance = [this](const std::vector<unsigned int> &costs) {
-      const auto work = Utilities::MPI::min_max_avg(
-        std::accumulate(costs.begin(), costs.end(), 0.), grid.communicator());
-      return work.max / work.avg;
-    };
     const auto costs = points.cell_costs();
-    if (imbalance(costs) <= accepted_imbalance)
-      return;
+    // A part is made of whole cells: it may be impossible to do better than
+    // after the last cut.
+    lost_steps +=
+      steps_between_balances * std::max(0., imbalance(costs) - least_imbalance);
+    if (lost_steps > steps_of_a_cut)
+      cut_into_parts(costs);
+  }
+
+  void
+  Simulation::cut_into_parts(const std::vector<unsigned int> &costs)
+  {
     const auto traveling = points.take_all();
     grid.repartition(costs);
     set_up_part();
     points.redistribute(traveling);
-    // a part is made of whole cells: it may be impossible to do better
     ++recorder.n_repartitions;
-    accepted_imbalance = std::max(1.1, 1.05 * imbalance(points.cell_costs()));
+    least_imbalance = imbalance(points.cell_costs());
+    lost_steps      = 0.;
   }
 
   void
   Simulation::start()
   {
     generator.generate(grid, body.shape(), soil, points);
-    balance();
+    if (grid.n_ranks() > 1)
+      cut_into_parts(points.cell_costs());
     energy.start(find_point_energies(points, materials, grid));
     schedule.start();
   }
@@ -252,7 +265,8 @@ namespace CaissonMPM
                      " lacks the entry " + missing +
                      ". Start the run anew in another directory.");
     grid.move_to(body.motion().travel());
-    balance();
+    if (grid.n_ranks() > 1)
+      cut_into_parts(points.cell_costs());
     schedule.resume();
   }
 

@@ -93,8 +93,7 @@ namespace CaissonMPM
 
     /**
      * Return what the cells of this rank cost in a step, by their global
-     * number; 0 for all others. A block costs as much as the work at two cells
-     * without points. [n_global_cells]
+     * number; 0 for all others. [n_global_cells]
      */
     std::vector<unsigned int>
     cell_costs() const;
@@ -250,7 +249,12 @@ namespace CaissonMPM
     std::vector<std::array<SizeRange, 2>> sizes;
     // [n_cells], whether points came or went: whatever adds or removes a point
     // sets it, and the kernels then sum the moments of the cell anew
-    std::vector<unsigned char>         changed;
+    std::vector<unsigned char> changed;
+    // [n_cells], what else makes a cell expensive: blocks that yielded in the
+    // last step, and points taken out of it since this number of relocations
+    std::vector<unsigned short>        n_yielding;
+    std::vector<unsigned int>          n_moved;
+    unsigned int                       first_relocation     = 0;
     unsigned int                       n_relocations        = 0;
     bool                               active_cells_changed = true;
     bool                               is_settled           = false;

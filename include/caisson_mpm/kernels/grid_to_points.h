@@ -298,9 +298,10 @@ namespace CaissonMPM
                     const UpdateSettings     &settings,
                     UpdateInProgress<Number> &progress)
       {
-        const PointsView  &points = step.points;
-        UpdateResult      &result = progress.result;
-        const unsigned int before = result.n_leaving;
+        const PointsView  &points  = step.points;
+        UpdateResult      &result  = progress.result;
+        const unsigned int before  = result.n_leaving,
+                           waiting = progress.waiting.total();
         UpdateSums<Number> sums;
         sums.clear();
         for (int block = points.first_block[cell]; block >= 0;)
@@ -331,6 +332,8 @@ namespace CaissonMPM
           }
         for (int k = 0; k < sums.size; ++k)
           progress.of_group[k][in_group] += sums.sum[k];
+        points.n_yielding[cell] =
+          static_cast<unsigned short>(progress.waiting.total() - waiting);
         return result.n_leaving - before;
       }
 

@@ -149,6 +149,9 @@ namespace CaissonMPM
       double             *filled_volume; // [n_cells], of the MPs in it
       unsigned char *changed; // [n_cells], whether MPs came or went: the cell's
                               // moments are not those of its MPs
+      // [n_cells], blocks that the return to a yield surface took time for in
+      // the last step
+      unsigned short *n_yielding;
     };
 
     /** The cells that a rank knows, at one position of the moving grid. */

@@ -45,6 +45,13 @@ namespace CaissonMPM
       public:
         using Sums = Number (*)[Number::width];
 
+        /** How many ever waited. */
+        CAISSON_INLINE unsigned int
+        total() const
+        {
+          return n_added;
+        }
+
         CAISSON_INLINE bool
         is_full() const
         {
@@ -60,6 +67,7 @@ namespace CaissonMPM
             const int                 cell)
         {
           WaitingBlock &w = blocks[n++];
+          ++n_added;
           store_stress(s.old, block, 0);
           s.step.strain.rr.store(w.strain[0]);
           s.step.strain.zz.store(w.strain[1]);
@@ -154,7 +162,8 @@ namespace CaissonMPM
           sums[3][w.cell] += Number::load(w.block->volume) * work;
         }
 
-        int          n = 0;
+        int          n       = 0;
+        unsigned int n_added = 0;
         WaitingBlock blocks[capacity];
       };
     } // namespace CAISSON_KERNEL_ISA

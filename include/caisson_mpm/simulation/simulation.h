@@ -89,9 +89,16 @@ namespace CaissonMPM
     /** Set up what knows the cells or nodes of this rank. */
     void
     set_up_part();
-    /** Even out the work of the ranks if it differs much. */
+    /** Return the largest work of a rank over the mean of all. Collective. */
+    double
+    imbalance(const std::vector<unsigned int> &costs) const;
+    /** Cut the mesh into new parts where the old ones have cost more time by
+     * now than this does. Collective. */
     void
     balance();
+    /** Give each rank a part of the same costs. Collective. */
+    void
+    cut_into_parts(const std::vector<unsigned int> &costs);
     void
     start();
     void
@@ -167,8 +174,10 @@ namespace CaissonMPM
     Schedule     schedule;
     Recorder     recorder;
 
-    double accepted_imbalance = 1.1; // of the ranks, largest over mean work
-    double last_checkpoint    = 0.;  // wall time, s
+    // of the ranks, largest over mean work, after the last cut into parts; and
+    // the steps that could have been made since in the time that ranks waited
+    double least_imbalance = 1., lost_steps = 0.;
+    double last_checkpoint = 0.; // wall time, s
   };
 } // namespace CaissonMPM
 
