@@ -5,6 +5,7 @@
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_fields.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace CaissonMPM
@@ -27,6 +28,28 @@ namespace CaissonMPM
       return a.material == b.material &&
              distance < .75 * (a.size[direction] + b.size[direction]) &&
              aside < .375 * (a.size[across] + b.size[across]);
+    }
+    /**
+     * Order points so that which of them become one does not depend on how the
+     * ranks brought them to the cell. Halves of a point have its number and
+     * stand beside or above each other, up to round-off: their places are told
+     * apart along a line at an angle to both directions.
+     */
+    template <typename PlacedPoint>
+    void
+    put_in_order(std::vector<PlacedPoint> &points)
+    {
+      constexpr double slope = .7319;
+      const auto       along = [](const MaterialPoint &p) {
+        return p.position[0] + slope * p.position[1];
+      };
+      std::sort(points.begin(),
+                points.end(),
+                [&](const PlacedPoint &a, const PlacedPoint &b) {
+                  return a.second.id != b.second.id ?
+                           a.second.id < b.second.id :
+                           along(a.second) < along(b.second);
+                });
     }
   } // namespace
 
@@ -52,7 +75,9 @@ namespace CaissonMPM
         for (unsigned int d = 0; d < 2; ++d)
           range[d].include(size[d]);
     });
-    return take_out(places.data(), places.size());
+    auto points = take_out(places.data(), places.size());
+    put_in_order(points);
+    return points;
   }
 
   void
