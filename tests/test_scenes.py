@@ -3,7 +3,15 @@
 """The scenes of users, prm/*.prm."""
 import unittest
 
-from program import SCENES, SUCCESS, ProgramTest, checks, summary, user_scene
+from program import (
+    SCENES,
+    SUCCESS,
+    ProgramTest,
+    checks,
+    history,
+    summary,
+    user_scene,
+)
 
 VERTICAL_STRESS = "8829*z"
 AT_REST = {
@@ -67,6 +75,31 @@ class UserScenes(ProgramTest):
             )
             self.assertEqual(text.count("warning:"), warnings, text)
             self.assertEqual(text.count("break loose"), warnings, text)
+
+    def test_jack_refined_at_rest(self) -> None:
+        self.assert_at_rest("jack_refined")
+
+
+class HalvedCells(ProgramTest):
+    """Cells that are halved around the tip, against lines that are as fine."""
+
+    def tip_force(self, name: str, levels: int) -> float:
+        """Return the mean over the last 0.1 m of a short push (N)."""
+        path = self.directory(name)
+        entries = {
+            "Grid/Refinement levels": levels,
+            "Grid/Refinement levels along wall": 0,
+            "Output/Record interval": 0.05,
+        }
+        self.run_scene("jack_refined", path, entries=entries)
+        forces = [
+            row["tip_force_N"] for row in history(path) if row["penetration_m"] > 0.65
+        ]
+        return sum(forces) / len(forces)
+
+    def test_forces_are_those_of_lines(self) -> None:
+        lines, halved = self.tip_force("lines", 0), self.tip_force("halved", 2)
+        self.assertAlmostEqual(halved / lines, 1, delta=0.03)
 
 
 if __name__ == "__main__":
