@@ -6,8 +6,6 @@
 
 #include <deal.II/dofs/dof_tools.h>
 
-#include <deal.II/lac/affine_constraints.h>
-
 namespace CaissonMPM
 {
   using namespace dealii;
@@ -18,8 +16,8 @@ namespace CaissonMPM
                            const std::vector<bool>           &is_at_own_cell)
   {
     nodes.clear();
-    const auto known = Compat::locally_relevant_dofs(dof_handler);
-    AffineConstraints<double> constraints(known);
+    const auto known       = Compat::locally_relevant_dofs(dof_handler);
+    auto       constraints = Compat::empty_constraints(dof_handler);
     DoFTools::make_hanging_node_constraints(dof_handler, constraints);
     constraints.close();
     bool is_distant = false;

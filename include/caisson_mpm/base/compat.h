@@ -12,6 +12,8 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
 
+#include <deal.II/lac/affine_constraints.h>
+
 namespace CaissonMPM
 {
   namespace Compat
@@ -25,6 +27,19 @@ namespace CaissonMPM
       dealii::IndexSet result;
       dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, result);
       return result;
+#endif
+    }
+
+    /** Constraints, still empty, of the dofs that this rank knows. */
+    inline dealii::AffineConstraints<double>
+    empty_constraints(const dealii::DoFHandler<2> &dof_handler)
+    {
+      const auto known = locally_relevant_dofs(dof_handler);
+#if DEAL_II_VERSION_GTE(9, 6, 0)
+      return dealii::AffineConstraints<double>(dof_handler.locally_owned_dofs(),
+                                               known);
+#else
+      return dealii::AffineConstraints<double>(known);
 #endif
     }
 
