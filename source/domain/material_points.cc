@@ -319,7 +319,7 @@ namespace CaissonMPM
     // Measured, in nanoseconds of a processor with AVX-512. Times of this run
     // would differ in the next one, and its parts and last digits with them.
     constexpr double of_cell = 20., of_cell_with_points = 70., of_block = 40.,
-                     of_yielding_block = 25., of_moving_point = 350.;
+                     of_yielding_block = 25., of_moving_point = 500.;
     const double per_step = 1. / std::max(1u, n_relocations - first_relocation);
     std::vector<unsigned int> costs(grid.n_global_cells(), 0);
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)

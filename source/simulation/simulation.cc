@@ -215,8 +215,11 @@ namespace CaissonMPM
   double
   Simulation::imbalance(const std::vector<unsigned int> &costs) const
   {
-    const auto work = Utilities::MPI::min_max_avg(
-      std::accumulate(costs.begin(), costs.end(), 0.), grid.communicator());
+    double own = 0.;
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (grid.is_owned(cell))
+        own += costs[index_of(grid.global_number(cell))];
+    const auto work = Utilities::MPI::min_max_avg(own, grid.communicator());
     return work.max / work.avg;
   }
 
@@ -235,12 +238,15 @@ namespace CaissonMPM
   void
   Simulation::cut_into_parts(const std::vector<unsigned int> &costs)
   {
+    std::vector<unsigned int> of_all_cells(costs.size());
+    Utilities::MPI::sum(costs, grid.communicator(), of_all_cells);
     const auto traveling = points.take_all();
     grid.repartition(costs);
     set_up_part();
     points.redistribute(traveling);
     ++recorder.n_repartitions;
-    least_imbalance = imbalance(points.cell_costs());
+    // the points forget what moved and yielded: not by their costs now
+    least_imbalance = imbalance(of_all_cells);
     lost_steps      = 0.;
   }
 

@@ -89,7 +89,8 @@ namespace CaissonMPM
     /** Set up what knows the cells or nodes of this rank. */
     void
     set_up_part();
-    /** Return the largest work of a rank over the mean of all. Collective. */
+    /** Return the largest work of a rank over the mean of all. @p costs
+     * [n_global_cells] are used of the cells of this rank. Collective. */
     double
     imbalance(const std::vector<unsigned int> &costs) const;
     /** Cut the mesh into new parts where the old ones have cost more time by
