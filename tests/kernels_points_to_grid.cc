@@ -244,8 +244,14 @@ check_narrow_band()
       map.left = map.bottom = map.bottom_slope = map.height_slope = Scalar(0.);
       map.width = map.inverse_width = map.height = Scalar(1.);
       Scalar fit[12];
-      fit_stress(map, points.sum, sums.sum, false, fit);
-      const double share = std::min(1., half_width * half_width / .02);
+      fit_stress(map, 0., points.sum, sums.sum, false, fit);
+      // the center of the points is 0.1 off that of the cell
+      const double variance = half_width * half_width,
+                   raised   = variance +
+                            192. *
+                              std::max(0., 1. / 12. - .5 * (variance + .0825)) *
+                              .01,
+                   share = variance / std::max(raised, .02);
       along              = std::max(along, std::abs(fit[2][0] / slope[1] - 1.));
       across = std::max(across, std::abs(fit[1][0] / slope[0] - share));
     }

@@ -107,6 +107,19 @@ namespace CaissonMPM
                  Real(1. - axisymmetric) * area;
         }
 
+        /** The center of the volume (in plane strain: of the area), in xi less
+         * 1/2. In eta it is in the middle. */
+        CAISSON_INLINE Real
+        center_of_volume(const double axisymmetric) const
+        {
+          // r and the height are linear in x = xi - 1/2
+          const Real r = Real(axisymmetric) * (left + Real(.5) * width) +
+                         Real(1. - axisymmetric),
+                     r_slope = Real(axisymmetric) * width;
+          return (r * height_slope + r_slope * mean_height()) /
+                 (Real(12.) * r * mean_height() + r_slope * height_slope);
+        }
+
         CAISSON_INLINE Real
         mean_height() const
         {

@@ -57,12 +57,14 @@ namespace CaissonMPM
        * internal force is integrated over the volume of a full cell, from a fit
        * to the stress of its points, wherever they are and whatever volume they
        * have; so is the work, from the fit to the work per volume. @p s: of
-       * UpdateSums, of points with the moments @p mass.
+       * UpdateSums, of points with the moments @p mass. The volume has its
+       * @p center in xi less 1/2 and in the middle of eta.
        */
       template <typename Number>
       CAISSON_INLINE Number
       work_in_full_cells(const Number *s,
                          const Number *mass,
+                         const Number  center,
                          const Number  volume)
       {
         const Number inverse_mass = Number(1.) / mass[0], half(.5);
@@ -70,10 +72,11 @@ namespace CaissonMPM
                      mean    = s[0] * inverse_mass;
         const Number slope_x = s[1] - mean * mass[1],
                      slope_y = s[2] - mean * mass[2];
-        const auto inverse   = inverse_covariance(mass[0],
-                                                mass[4] * inverse_mass - x * x,
-                                                mass[3] * inverse_mass - x * y,
-                                                mass[5] * inverse_mass - y * y);
+        Number xx            = mass[4] * inverse_mass - x * x,
+               xy            = mass[3] * inverse_mass - x * y,
+               yy            = mass[5] * inverse_mass - y * y;
+        add_distance_of_centers(x - half - center, y - half, xx, xy, yy);
+        const auto inverse = inverse_covariance(mass[0], xx, xy, yy);
         return volume *
                (mean +
                 (half - x) * (inverse.xx * slope_x + inverse.xy * slope_y) +
@@ -408,6 +411,7 @@ namespace CaissonMPM
             const Number in_full =
               work_in_full_cells(sums,
                                  mass.sum,
+                                 map.center_of_volume(step.grid.axisymmetric),
                                  map.volume(step.grid.axisymmetric));
             for (int i = 0; i < group.n; ++i)
               {

@@ -321,6 +321,35 @@ namespace CaissonMPM
       };
 
       /**
+       * Raise the covariance C of points whose center is off that of the volume
+       * of their cell by the vector d = (dx, dy), in parts of the cell:
+       *   C <- C + 192 max(1/12 - tr C / 2, 0) d d^T.
+       * Over this distance the affine fit is extrapolated. Two points per
+       * direction, with the variance 1/16, come as far as 1/4 off before one
+       * of them leaves the cell. Their weights at the center change from 1/2
+       * and 1/2 to 1 and 0 and back while the soil moves, those at the Gauss
+       * points even become negative, and free surfaces are unstable. With the
+       * factor of 4 that follows for two points, a fifth of the slope is left
+       * then. It is 1 for four points, which come half as far, and 0 for soil
+       * that fills the cell evenly, whose variance is 1/12.
+       */
+      template <typename Number>
+      CAISSON_INLINE void
+      add_distance_of_centers(const Number dx,
+                              const Number dy,
+                              Number      &xx,
+                              Number      &xy,
+                              Number      &yy)
+      {
+        const Number share =
+          Number(192.) *
+          max(Number(1. / 12.) - Number(.5) * (xx + yy), Number(0.));
+        xx += share * dx * dx;
+        xy += share * dx * dy;
+        yy += share * dy * dy;
+      }
+
+      /**
        * The inverse of mass times the covariance of the points' places in a
        * cell of size one, its eigenvalues bounded from below: points that lie
        * in a narrow band say little of the slope across it, and the Gauss
@@ -383,11 +412,14 @@ namespace CaissonMPM
        * least-squares fit to the sums @p s of FitSums, with the moments of mass
        * @p m [9]. With @p mean_pressure the mean stress keeps its mean only. In
        * a cell whose rows rise (over its mean height, from left to right) the
-       * slopes are found along them, in x and y - rise x.
+       * slopes are found along them, in x and y - rise x. A stress that is
+       * affine is found as it is where the center of the points is that of the
+       * volume.
        */
       template <typename Number>
       CAISSON_INLINE void
       fit_stress(const CellMap<Number> &map,
+                 const double           axisymmetric,
                  const Number          *m,
                  const Number          *s,
                  const bool             mean_pressure,
@@ -398,11 +430,12 @@ namespace CaissonMPM
                      half(.5);
         const Number xi = m[1] * inverse_mass, x = xi - half,
                      y        = over_height.y * inverse_mass;
-        const Number xx       = m[4] * inverse_mass - xi * xi,
-                     plain_xy = over_height.xi_y * inverse_mass - xi * y,
-                     xy       = plain_xy - rise * xx,
-                     yy       = over_height.y2 * inverse_mass - y * y -
-                          rise * (plain_xy + xy);
+        const Number plain_xy = over_height.xi_y * inverse_mass - xi * y;
+        Number xx = m[4] * inverse_mass - xi * xi, xy = plain_xy - rise * xx,
+               yy =
+                 over_height.y2 * inverse_mass - y * y - rise * (plain_xy + xy);
+        add_distance_of_centers(
+          x - map.center_of_volume(axisymmetric), y - rise * x, xx, xy, yy);
         const auto inverse = inverse_covariance(m[0], xx, xy, yy);
         Number     slope[2][4], trace[2] = {Number(0.), Number(0.)};
         for (int c = 0; c < 4; ++c)

@@ -233,8 +233,12 @@ namespace CaissonMPM
         // sigma(x, y) = c0 + c1 x + c2 y, by least squares over the points
         LaneSums<Number, 16> fit;
         fit.clear();
-        fit_stress(
-          map, sums.sum, internal.sum, step.integration.mean_pressure, fit.sum);
+        fit_stress(map,
+                   step.grid.axisymmetric,
+                   sums.sum,
+                   internal.sum,
+                   step.integration.mean_pressure,
+                   fit.sum);
         fit.store_lanes(group.n, rows);
 
         // int (sigma . grad N_I + e_r kappa sigma_tt N_I / r) dV
