@@ -91,7 +91,7 @@ namespace CaissonMPM
         CAISSON_INLINE explicit BlocksAhead(const PointsView &points)
           : points(points)
         {
-          constexpr int n_ahead = 4;
+          constexpr int n_ahead = 8;
           enter_cell();
           for (int i = 0; i < n_ahead; ++i)
             advance();
