@@ -23,6 +23,10 @@ COMMANDS = {
         "caisson.design.cavity_expansion",
         "compare a growing cavity with its exact pressure",
     ),
+    "capacity": (
+        "caisson.design.bearing_capacity",
+        "compute exact bearing capacities of strip and circular footings",
+    ),
     "element-tests": (
         "caisson.design.hypoplastic_sand",
         "integrate element tests of hypoplastic sand independently",

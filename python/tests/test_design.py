@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from caisson.design.bearing_capacity import Footing, converged, factors, pressure
 from caisson.design.cavity_expansion import MohrCoulomb, Tresca, comparison
 from caisson.design.houlsby_byrne import Caisson, Layer, bearing_factor_weight
 from caisson.plot import theory
@@ -39,6 +40,59 @@ LAYER: dict[str, Any] = {
 def caisson(wall: float, *layers: Layer, angles: tuple[float, float] = (20, 20)) -> Any:
     """Return a caisson of 6 m."""
     return Caisson(6, wall, layers or [SAND], *angles)
+
+
+# bearing capacity of weightless soil by Martin (2005), Proc. 11th IACMAG, and of
+# clay by Eason and Shield (1960): (phi, circular, rough): factor
+NC = {(False, False): 5.1416, (True, False): 5.689, (True, True): 6.048}
+NQ = {(False, False): 18.401, (True, False): 29.455, (True, True): 37.205}
+# Ngamma of a smooth and a rough strip, 30 degrees (Martin 2005)
+NGAMMA = {False: 7.653, True: 14.754}
+
+
+class BearingCapacity(unittest.TestCase):
+    """Factors of footings, to four digits of the published ones."""
+
+    def test_clay(self) -> None:
+        for (circular, rough), exact in NC.items():
+            found = factors(Footing(0, circular, rough), 40)["Nc"]
+            np.testing.assert_allclose(found, exact, rtol=2e-4)
+
+    def test_surcharge(self) -> None:
+        for (circular, rough), exact in NQ.items():
+            found = factors(Footing(30, circular, rough), 60, False)
+            np.testing.assert_allclose(found["Nq"], exact, rtol=2e-4)
+            np.testing.assert_allclose(found["Nc"], (exact - 1) * np.sqrt(3), rtol=2e-4)
+
+    def test_prandtl_at_all_angles(self) -> None:
+        for phi in np.radians([20, 25, 35, 40, 45]):
+            exact = np.exp(np.pi * np.tan(phi)) * np.tan(np.pi / 4 + phi / 2) ** 2
+            footing = Footing(np.degrees(phi), False, False, surcharge=1)
+            np.testing.assert_allclose(pressure(footing, 20), exact, rtol=1e-9)
+
+    def test_weight(self) -> None:
+        for rough, lines in ((False, 120), (True, 40)):
+            heavy = Footing(30, False, rough, surcharge=1e-6, weight=1)
+            np.testing.assert_allclose(
+                converged(heavy, lines),
+                NGAMMA[rough],
+                rtol=1e-3 if lines > 40 else 3e-3,
+            )
+
+    def test_order_of_the_differences(self) -> None:
+        footing = Footing(30, True, False, surcharge=1)
+        error = [pressure(footing, n) / 29.4541 - 1 for n in (40, 80, 160)]
+        self.assertGreater(np.log2(error[0] / error[1]), 1.7)
+        self.assertGreater(np.log2(error[1] / error[2]), 1.7)
+
+    def test_a_load_that_is_shared(self) -> None:
+        """Cohesion is a pressure on all sides: one net answers for both."""
+        angle = np.radians(30)
+        both = Footing(30, True, False, cohesion=2, surcharge=3)
+        one = Footing(30, True, False, surcharge=3 + 2 / np.tan(angle))
+        self.assertAlmostEqual(
+            pressure(both, 40) + 2 / np.tan(angle), pressure(one, 40), places=8
+        )
 
 
 class HoulsbyByrne(unittest.TestCase):
