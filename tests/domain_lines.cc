@@ -101,6 +101,37 @@ check_cells()
               lines.sides_of(1, 1));
 }
 
+/** The mesh has the edges of a footing half a cell inside those of the box. */
+void
+check_inset_edges()
+{
+  for (const char *inset : {"false", "true"})
+    for (const char *left : {"0", "1"})
+      {
+        const Lines s(std::string("subsection Rigid body\nset Kind = box\n"
+                                  "set Box right = 2\nset Box bottom = 0\n"
+                                  "set Box top = 1\nset Box left = ") +
+                      left + "\nset Inset edges = " + inset +
+                      "\nend\nsubsection Grid\nset Outer radius = 4\n"
+                      "set Bottom = -2\nset Top = 2\nset Cell width = 0.5\n"
+                      "set Fine cell size = 0.25\nset Refinement = 2\n"
+                      "end\n");
+        double      from = 1e9, to = 0.;
+        for (unsigned int c = 0; c < s.lines.n_cells(); ++c)
+          if (s.lines.is_body_cell(GlobalCell{c}))
+            {
+              const auto g = s.lines.initial_geometry(GlobalCell{c});
+              from         = std::min(from, g.left);
+              to           = std::max(to, g.left + g.width);
+            }
+        std::printf("box from %s to 2, inset %s: cells from %.4f to %.4f\n",
+                    left,
+                    inset,
+                    from,
+                    to);
+      }
+}
+
 /** The heights of lines follow the travel, and what soil meets on the way. */
 void
 check_motion()
@@ -184,6 +215,7 @@ main()
 {
   check_lines();
   check_cells();
+  check_inset_edges();
   check_motion();
   check_refusals();
 }

@@ -118,6 +118,17 @@ namespace CaissonMPM
     return {otherwise, entry + " = " + meters(otherwise)};
   }
 
+  std::pair<double, double>
+  GridLines::sides_of_body(const BodyShape &body) const
+  {
+    if (body.expands())
+      return {inner_radius, body.right()};
+    const double width = finest_cell(body, cell_width, "Grid/Cell width").first,
+                 inset = body.inset_of_sides() * width / refinement;
+    const bool at_axis = body.left() <= inner_radius;
+    return {body.left() + (at_axis ? 0. : inset), body.right() - inset};
+  }
+
   GridLines::Spacing
   GridLines::spacing_in_r(const BodyShape &body) const
   {
@@ -127,8 +138,7 @@ namespace CaissonMPM
       return even_spacing({inner, outer}, cell_width);
     const bool expands = body.expands();
     // one column of the cylinder is enough
-    const double left  = expands ? inner_radius : body.left(),
-                 right = body.right();
+    const auto [left, right] = sides_of_body(body);
     if (expands && right <= inner_radius)
       throw BadInput("Rigid body/Outer diameter: the radius of the cylinder, " +
                      meters(right) + ", must exceed Grid/Inner radius = " +
@@ -141,7 +151,7 @@ namespace CaissonMPM
                      ". Change Grid/Outer radius or the body.");
     const auto   finest = finest_cell(body, cell_width, "Grid/Cell width");
     const double fine   = finest.first * (1u << levels);
-    const auto   size   = [=](const double r) {
+    const auto   size   = [=, left = left, right = right](const double r) {
       if (expands && r < right)
         return right - inner_radius;
       const double distance = std::max({left - r, r - right, 0.}) - fine_width;
@@ -302,9 +312,9 @@ namespace CaissonMPM
     body_row_end = lid_row_begin = n_rows();
     if (!body.exists())
       return;
-    body_column_begin =
-      line_at(columns, body.expands() ? inner_radius : body.left());
-    body_column_end = line_at(columns, body.right());
+    const auto [left, right] = sides_of_body(body);
+    body_column_begin        = line_at(columns, left);
+    body_column_end          = line_at(columns, right);
     dip.assign(columns.size(), 0.);
     if (body.expands())
       return;

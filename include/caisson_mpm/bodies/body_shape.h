@@ -139,6 +139,14 @@ namespace CaissonMPM
       return "";
     }
 
+    /** Return by how many cells the mesh puts the sides of the body inside
+     * left() and right(). Units: cells. */
+    virtual double
+    inset_of_sides() const
+    {
+      return 0.;
+    }
+
     /** Return the number of cells across a thin wall; 0 without one. */
     virtual unsigned int
     cells_across_wall() const

@@ -265,6 +265,9 @@ namespace CaissonMPM
     /** Find the zones that follow the body. */
     void
     follow(const BodyShape &body);
+    /** Return where the mesh has the left and right side of the body. */
+    std::pair<double, double>
+    sides_of_body(const BodyShape &body) const;
     Spacing
     spacing_in_r(const BodyShape &body) const;
     Spacing
