@@ -149,26 +149,30 @@ const IntegrationSettings gauss      = {.9, .9, true, false},
                           gauss_mean = {.9, .9, true, true},
                           at_points  = {1e300, 1e300, true, false};
 
-/** Move a point so that it and @p other have their center at that of the volume
- * of the cell; toward the middle if they are the same, and to the center if
- * there is no other. */
+/** Move point @p k of the @p n in a cell so that their center is that of the
+ * volume: the first of a pair toward it, the second opposite to the first, and
+ * the last one, which is alone, to the center. */
 inline void
-center(const CellGeometry &g,
-       const double        axisymmetric,
-       const Point        *other,
-       Point              &p)
+center(const CellGeometry       &g,
+       const double              axisymmetric,
+       const unsigned int        k,
+       const unsigned int        n,
+       const std::vector<Point> &points,
+       Point                    &p)
 {
   const CellMap<> map(g);
   const double    x_c = map.center_of_volume(axisymmetric);
   double          x = x_c, y = 0.; // along the rows, and across
-  if (other != nullptr)
+  if (k + 1 < n)
     {
-      const double sign    = other == &p ? .8 : -1.;
-      const double other_x = (other->r - g.left) / g.width - .5;
-      x                    = x_c + sign * (other_x - x_c);
-      y      = sign * ((other->z - map.center_z()) / map.mean_height() -
+      const bool   is_second = k % 2 == 1;
+      const Point &other     = is_second ? points.back() : p;
+      const double sign      = is_second ? -1. : .8;
+      const double other_x   = (other.r - g.left) / g.width - .5;
+      x                      = x_c + sign * (other_x - x_c);
+      y      = sign * ((other.z - map.center_z()) / map.mean_height() -
                   map.rise() * other_x);
-      p.mass = other->mass;
+      p.mass = other.mass;
     }
   p.r = g.left + g.width * (x + .5);
   p.z = map.center_z() + map.mean_height() * (y + map.rise() * x);
@@ -219,12 +223,7 @@ make_scene(const double axisymmetric, const bool affine)
             CellMap<>(g).volume(axisymmetric) / n * (c % 2 == 0 ? 1. : .33);
           p.mass = 1900. * p.volume * uniform(.9, 1.1);
           if (affine && c % 2 == 0)
-            center(g,
-                   axisymmetric,
-                   k + 1 == n ? nullptr :
-                   k % 2 == 1 ? &s.points.back() :
-                                &p,
-                   p);
+            center(g, axisymmetric, k, n, s.points, p);
           for (double &v : p.v)
             v = uniform(-1., 1.);
           for (int i = 0; i < 4; ++i)

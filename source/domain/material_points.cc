@@ -362,6 +362,7 @@ namespace CaissonMPM
   MaterialPoints::register_totals(RunTotals &totals)
   {
     totals.count("held_back_count", n_held_back);
+    totals.count("thrown_off_count", n_thrown_off);
     totals.count("points_split", n_split);
     totals.count("points_merged", n_merged);
   }
@@ -439,13 +440,34 @@ namespace CaissonMPM
           const int neighbor   = grid.neighbor(cell, face);
           if (neighbor >= 0 && grid.is_rigid(neighbor))
             ++n_held_back;
-          else if (neighbor >= 0 || coordinate < -tolerance ||
-                   coordinate > 1. + tolerance || !grid.at_side(cell, face))
+          else if (neighbor >= 0 || !grid.at_side(cell, face))
             report_lost(point);
+          else if (coordinate < -tolerance || coordinate > 1. + tolerance)
+            stop_at_side(coordinate, face, point);
           coordinate = std::clamp(coordinate, margin, 1. - margin);
         }
     point.position = to_position(grid.geometry(cell), x);
     return cell;
+  }
+
+  void
+  MaterialPoints::stop_at_side(const double       coordinate,
+                               const unsigned int face,
+                               MaterialPoint     &point)
+  {
+    // A state that breaks throws points much farther, and many of them; soil
+    // that flows out of the mesh comes in numbers, too.
+    constexpr double    farthest = 1.; // cells beyond the side
+    const unsigned long most     = std::max(10u, n_points_ / 1000);
+    double             &velocity = point.velocity[face / 2];
+    if (coordinate < -farthest || coordinate > 1. + farthest)
+      report_lost(point);
+    // a side that moves overtakes points that it has stopped
+    if ((face % 2 == 0 ? -velocity : velocity) <= 0.)
+      return;
+    if (++n_thrown_off > most)
+      report_lost(point);
+    velocity = 0.;
   }
 
   void
@@ -463,8 +485,9 @@ namespace CaissonMPM
       << (p.stress[0] + p.stress[1] + p.stress[2]) / 3.
       << " Pa. Likely causes: a time step too large (reduce Time/Courant "
          "number), a mesh that ends where soil flows (raise Grid/Top, or make "
-         "the side a roller), or soil without strength at a free surface (add "
-         "some cohesion).";
+         "the side a roller), soil without strength at a free surface (add some "
+         "cohesion and Tension cut-off), or soil whose dilatancy angle is near "
+         "its friction angle (set Method/Pressure in full cells = mean).";
     throw RunFailure(s.str());
   }
 

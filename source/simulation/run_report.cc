@@ -171,6 +171,15 @@ namespace CaissonMPM
       for (const auto &[name, value] : parts.totals.counts())
         lines.emplace_back(name, to_text(value, 12));
       console.header(lines);
+      for (const auto &[name, value] : parts.totals.counts())
+        if (name == "thrown_off_count" && value > 0.)
+          console.warning(
+            to_text(value, 12) +
+            " times a material point was thrown off a free surface and stopped "
+            "at a side of the mesh; it carries no load. Likely causes: soil "
+            "without strength there (add some cohesion and Tension cut-off), "
+            "or a dilatancy angle near the friction angle (set Method/Pressure "
+            "in full cells = mean)");
     }
 
     void

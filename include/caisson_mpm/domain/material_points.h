@@ -225,6 +225,14 @@ namespace CaissonMPM
     clear_blocks();
     [[noreturn]] void
     report_lost(const MaterialPoint &point) const;
+
+    /** Stop a point that has been thrown off a free surface, and beyond the
+     * side
+     * of the mesh at @p face; @p coordinate is that in its cell. */
+    void
+    stop_at_side(const double       coordinate,
+                 const unsigned int face,
+                 MaterialPoint     &point);
     void
     assert_settled() const;
     void
@@ -263,7 +271,7 @@ namespace CaissonMPM
     unsigned int                       n_points_      = 0;
     // how often this rank held a point back at the body's surface, split one,
     // and merged two
-    unsigned long n_held_back = 0, n_split = 0, n_merged = 0;
+    unsigned long n_held_back = 0, n_thrown_off = 0, n_split = 0, n_merged = 0;
   };
 } // namespace CaissonMPM
 
