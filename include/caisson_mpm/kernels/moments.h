@@ -413,8 +413,8 @@ namespace CaissonMPM
        * @p m [9]. With @p mean_pressure the mean stress keeps its mean only. In
        * a cell whose rows rise (over its mean height, from left to right) the
        * slopes are found along them, in x and y - rise x. A stress that is
-       * affine is found as it is where the center of the points is that of the
-       * volume.
+       * affine is found as it is, unless slopes are @p reduced where the center
+       * of the points is not that of the volume.
        */
       template <typename Number>
       CAISSON_INLINE void
@@ -423,6 +423,7 @@ namespace CaissonMPM
                  const Number          *m,
                  const Number          *s,
                  const bool             mean_pressure,
+                 const bool             reduced,
                  Number                *fit)
       {
         const MassOverHeight<Number> over_height(map, m);
@@ -434,8 +435,9 @@ namespace CaissonMPM
         Number xx = m[4] * inverse_mass - xi * xi, xy = plain_xy - rise * xx,
                yy =
                  over_height.y2 * inverse_mass - y * y - rise * (plain_xy + xy);
-        add_distance_of_centers(
-          x - map.center_of_volume(axisymmetric), y - rise * x, xx, xy, yy);
+        if (reduced)
+          add_distance_of_centers(
+            x - map.center_of_volume(axisymmetric), y - rise * x, xx, xy, yy);
         const auto inverse = inverse_covariance(m[0], xx, xy, yy);
         Number     slope[2][4], trace[2] = {Number(0.), Number(0.)};
         for (int c = 0; c < 4; ++c)

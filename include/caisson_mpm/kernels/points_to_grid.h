@@ -233,13 +233,20 @@ namespace CaissonMPM
         // sigma(x, y) = c0 + c1 x + c2 y, by least squares over the points
         LaneSums<Number, 16> fit;
         fit.clear();
-        fit_stress(map,
-                   step.grid.axisymmetric,
-                   sums.sum,
-                   internal.sum,
-                   step.integration.mean_pressure,
-                   fit.sum);
+        // The stress filter takes it as it is: a reduced one would change the
+        // stress of soil in equilibrium.
+        const auto find_fit = [&](const bool reduced) CAISSON_LAMBDA {
+          fit_stress(map,
+                     step.grid.axisymmetric,
+                     sums.sum,
+                     internal.sum,
+                     step.integration.mean_pressure,
+                     reduced,
+                     fit.sum);
+        };
+        find_fit(false);
         fit.store_lanes(group.n, rows);
+        find_fit(true);
 
         // int (sigma . grad N_I + e_r kappa sigma_tt N_I / r) dV
         ForceSums<Number> forces;
