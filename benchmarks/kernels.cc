@@ -176,8 +176,13 @@ namespace
           const double z = s.geometry[c].bottom_left + (k / 2) * cell_size;
           v[s.nodes[c].node[k]] = {{shear_rate * z, 0.}};
         }
-    const StepContext step = {
-      s.view(), s.grid(), &s.material, {.9, .5, true, false}, moments.data()};
+    const std::vector<double> filled_at_node(s.nodes.size() * 4, 1.);
+    const StepContext         step = {s.view(),
+                                      s.grid(),
+                                      &s.material,
+                                      {.9, .5, true, PressureSlope::acts},
+                                      moments.data(),
+                                      filled_at_node.data()};
     // the points stay where they are, and their stresses change
     const PointUpdate update = {s.grid(),
                                 {1e-6, .9, true, 0., .01},

@@ -108,6 +108,7 @@ struct Scene
   std::vector<int>            first;
   std::vector<unsigned int>   active;
   std::vector<double>         filled;
+  std::vector<double>         filled_at_node = std::vector<double>(n_nodes, 1.);
   std::vector<unsigned char>  changed;
   std::vector<unsigned short> n_yielding;
   Material                    material;
@@ -138,16 +139,21 @@ struct Scene
   StepContext
   step(const IntegrationSettings &settings, std::vector<CellMoments> &moments)
   {
-    return {view(), grid(), &material, settings, moments.data()};
+    return {view(),
+            grid(),
+            &material,
+            settings,
+            moments.data(),
+            filled_at_node.data()};
   }
 };
 
 constexpr double E = 1e6, nu = .3;
 
 // full from 0.9 of the volume on, here the cells 0, 2 and 4
-const IntegrationSettings gauss      = {.9, .9, true, false},
-                          gauss_mean = {.9, .9, true, true},
-                          at_points  = {1e300, 1e300, true, false};
+const IntegrationSettings gauss      = {.9, .9, true, PressureSlope::acts},
+                          gauss_mean = {.9, .9, true, PressureSlope::ignored},
+                          at_points = {1e300, 1e300, true, PressureSlope::acts};
 
 /** Move point @p k of the @p n in a cell so that their center is that of the
  * volume: the first of a pair toward it, the second opposite to the first, and

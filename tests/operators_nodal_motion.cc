@@ -135,11 +135,11 @@ struct Stepper
   step()
   {
     collect();
-    motion.accelerate(dt, contact);
-    motion.constrain(dt, Vector2(), constraints);
+    motion.accelerate({dt, StepSize::reference_courant}, Vector2(), contact);
+    motion.constrain(Vector2(), constraints);
     motion.prepare_transfer(constraints);
-    const NodalWork work = motion.work_of_step(dt, forces, constraints);
-    motion.update_points(dt, scene.grid.next(), scene.points.update_result());
+    const NodalWork work = motion.work_of_step(forces, constraints);
+    motion.update_points(scene.grid.next(), scene.points.update_result());
     return work;
   }
 
@@ -291,15 +291,21 @@ check_order()
       }
     return "accepted";
   };
-  std::printf("accelerate before collect: %s\n",
-              refused([&]() { s.motion.accelerate(dt, s.contact); }));
+  std::printf("accelerate before collect: %s\n", refused([&]() {
+                s.motion.accelerate({dt, StepSize::reference_courant},
+                                    Vector2(),
+                                    s.contact);
+              }));
   std::printf("collect: %s\n", refused([&]() { s.collect(); }));
   std::printf("collect again: %s\n", refused([&]() { s.collect(); }));
   std::printf("work before the transfer: %s\n", refused([&]() {
-                s.motion.work_of_step(dt, s.forces, s.constraints);
+                s.motion.work_of_step(s.forces, s.constraints);
               }));
-  std::printf("accelerate: %s\n",
-              refused([&]() { s.motion.accelerate(dt, s.contact); }));
+  std::printf("accelerate: %s\n", refused([&]() {
+                s.motion.accelerate({dt, StepSize::reference_courant},
+                                    Vector2(),
+                                    s.contact);
+              }));
 }
 
 int

@@ -8,11 +8,14 @@ namespace CaissonMPM
                         const Kernels::StepContext &step,
                         const HangingNodes         &hanging_nodes,
                         const NodalData            &from,
-                        NodalData                  &to)
+                        NodalData                  &to,
+                        const MassCorrection       &correct)
   {
     to = 0.;
     to.zero_out_ghost_values();
     kernels.apply_mass(step, nodal_vectors(from), nodal_vectors(to));
+    if (correct)
+      correct(nodal_vectors(to));
     hanging_nodes.distribute(to, 2);
     to.compress(dealii::VectorOperation::add);
     to.update_ghost_values();

@@ -10,46 +10,6 @@ namespace CaissonMPM
 
   namespace
   {
-    /** A face of the body that soil may touch. */
-    struct Face
-    {
-      std::array<unsigned int, 2> nodes;
-      Vector2                     normal; // unit, out of the body
-      std::array<double, 2>       areas;  // int N_I r ds
-      Surface                     surface;
-    };
-
-    /** Face @p f of rigid cell @p cell, seen from inside. */
-    Face
-    make_face(const BackgroundGrid &grid,
-              const unsigned int    cell,
-              const unsigned int    f)
-    {
-      constexpr unsigned int corners[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
-      constexpr Surface      surfaces[4]   = {inner_wall, outer_wall, tip, top};
-      Face                   face;
-      Vector2                x[2];
-      for (unsigned int i = 0; i < 2; ++i)
-        {
-          face.nodes[i] = grid.cell_nodes(cell).node[corners[f][i]];
-          x[i][0]       = grid.r_of(face.nodes[i]);
-          x[i][1]       = grid.z_of(face.nodes[i]);
-        }
-      const Vector2 along  = x[1] - x[0];
-      const double  length = along.norm();
-      face.surface =
-        surfaces[f] == tip && grid.is_lid(cell) ? lid : surfaces[f];
-      face.normal[0] = along[1] / length;
-      face.normal[1] = -along[0] / length;
-      if (f == 0 || f == 3) // the other side
-        face.normal *= -1.;
-      const double r0 = grid.axisymmetric() ? x[0][0] : 1.,
-                   r1 = grid.axisymmetric() ? x[1][0] : 1.;
-      face.areas      = {
-             {length * (2. * r0 + r1) / 6., length * (r0 + 2. * r1) / 6.}};
-      return face;
-    }
-
     /** Of the surfaces that meet at a node, the one that it counts to. */
     Surface
     dominant(const Surface a, const Surface b)
@@ -68,34 +28,20 @@ namespace CaissonMPM
     circumference  = grid.circumference();
     n_owned_nodes  = grid.n_owned_nodes();
     on_body.assign(grid.n_nodes(), false);
+    faces = find_contact_faces(grid);
+    if (corner_normals == BodySurface::CornerNormals::split)
+      corners_.initialize(grid, faces, body);
     collect_surface_nodes(grid, body);
     collect_inner_nodes(grid);
     results.assign(nodes.size(), NodeResult());
   }
-
-  namespace
-  {
-    /** Call action(face) for all faces between the body and soil cells. */
-    template <typename Action>
-    void
-    for_each_face(const BackgroundGrid &grid, const Action &action)
-    {
-      for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
-        for (unsigned int f = 0; grid.is_rigid(cell) && f < 4; ++f)
-          {
-            const int neighbor = grid.neighbor(cell, f);
-            if (neighbor >= 0 && !grid.is_rigid(neighbor))
-              action(make_face(grid, cell, f));
-          }
-    }
-  } // namespace
 
   void
   Contact::collect_surface_nodes(const BackgroundGrid &grid,
                                  const BodySurface    &body)
   {
     std::map<unsigned int, Node> found;
-    for_each_face(grid, [&](const Face &face) {
+    for (const ContactFace &face : faces)
       for (unsigned int i = 0; i < 2; ++i)
         {
           const bool is_new = found.count(face.nodes[i]) == 0;
@@ -109,7 +55,6 @@ namespace CaissonMPM
             node.normal[node.n_normals++] = face.normal;
           node.adhesion += body.adhesion[face.surface] * face.areas[i];
         }
-    });
     std::vector<unsigned int> n_rigid(grid.n_nodes(), 0);
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       for (const unsigned int node : grid.cell_nodes(cell).node)
@@ -117,12 +62,14 @@ namespace CaissonMPM
     nodes.clear();
     for (auto &entry : found)
       {
-        Node &node    = entry.second;
-        node.concave  = n_rigid[node.node] == 3;
-        node.friction = body.friction_coefficient(node.surface);
+        Node &node           = entry.second;
+        node.concave         = n_rigid[node.node] == 3;
+        node.friction        = body.friction_coefficient(node.surface);
+        on_body[entry.first] = true;
+        if (corners_.is_corner(node.node))
+          continue;
         find_normals(grid, node);
         nodes.push_back(node);
-        on_body[entry.first] = true;
       }
   }
 
@@ -255,11 +202,55 @@ namespace CaissonMPM
         sums.impulse[node.surface] += circumference * results[i].impulse;
         total += circumference * results[i].impulse;
       }
+    add_corners(sums, total);
     for (const unsigned int node : inner_nodes)
       for (unsigned int d = 0; d < 2; ++d)
         v[node].value[d] = velocity[d];
-    sums.work = -(total * velocity);
+    sums.work   = -(total * velocity);
+    sums.inflow = find_inflow(dt, mass, v);
     return sums;
+  }
+
+  void
+  Contact::add_corners(ContactResult &sums, Vector2 &total) const
+  {
+    corners_.for_each_reaction([&](const unsigned int            node,
+                                   const std::array<Surface, 2> &surfaces,
+                                   const CornerReaction         &reaction) {
+      if (node >= n_owned_nodes)
+        return;
+      ++sums.n_touching;
+      for (unsigned int i = 0; i < 2; ++i)
+        {
+          const Vector2 impulse = circumference * reaction.impulse[i];
+          sums.impulse[surfaces[i]] += impulse;
+          total += impulse;
+        }
+    });
+  }
+
+  double
+  Contact::find_inflow(const double                dt,
+                       const std::vector<double>  &mass,
+                       const Kernels::NodalVector *v) const
+  {
+    double sum = 0.;
+    for (const ContactFace &face : faces)
+      {
+        double flow = 0.; // out of the body, where both nodes have soil
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            const unsigned int node = face.nodes[i];
+            Vector2            u;
+            for (unsigned int d = 0; d < 2; ++d)
+              u[d] = v[node].value[d];
+            u = corners_.velocity_at_face(node, face.soil_cell, u);
+            if (node < n_owned_nodes && mass[node] > 0.)
+              flow += face.areas[i] * ((u - velocity) * face.normal);
+          }
+        sum -= std::min(flow, 0.);
+      }
+    return circumference * dt * sum;
   }
 
   double
@@ -271,6 +262,13 @@ namespace CaissonMPM
         for (unsigned int d = 0; d < 2; ++d)
           heat += results[i].impulse[d] *
                   (mean_velocity[nodes[i].node].value[d] - velocity[d]);
+    corners_.for_each_reaction([&](const unsigned int node,
+                                   const std::array<Surface, 2> & /*surfaces*/,
+                                   const CornerReaction &reaction) {
+      for (unsigned int d = 0; node < n_owned_nodes && d < 2; ++d)
+        heat +=
+          reaction.friction[d] * (mean_velocity[node].value[d] - velocity[d]);
+    });
     return circumference * heat;
   }
 
@@ -300,6 +298,7 @@ namespace CaissonMPM
         for (unsigned int d = 0; d < 2; ++d)
           u[d] = now[d];
       }
+    corners_.hold(body_velocity, v);
     for (const unsigned int node : inner_nodes)
       for (unsigned int d = 0; d < 2; ++d)
         v[node].value[d] = body_velocity[d];

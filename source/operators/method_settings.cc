@@ -6,6 +6,8 @@
 
 #include <deal.II/base/patterns.h>
 
+#include <cmath>
+
 namespace CaissonMPM
 {
   using namespace dealii;
@@ -22,8 +24,10 @@ namespace CaissonMPM
     const Choices<ForceIntegration> integrations = {
       {"Gauss in full cells", ForceIntegration::gauss_in_full_cells},
       {"material points", ForceIntegration::material_points}};
-    const Choices<PressureFit> pressure_fits = {{"affine", PressureFit::affine},
-                                                {"mean", PressureFit::mean}};
+    const Choices<Kernels::PressureSlope> pressure_fits = {
+      {"auto", Kernels::PressureSlope::by_material},
+      {"affine", Kernels::PressureSlope::acts},
+      {"mean", Kernels::PressureSlope::ignored}};
   } // namespace
 
   MethodSettings::MethodSettings()
@@ -51,8 +55,9 @@ namespace CaissonMPM
                   Patterns::Integer(1, 10));
     add_parameter("FLIP fraction",
                   flip_fraction,
-                  "FLIP has this share in the blend, and XPIC the rest. Units: "
-                  "none.",
+                  "FLIP has this share in the blend in a step with a Courant "
+                  "number of 0.8, and XPIC the rest; in shorter steps XPIC has "
+                  "less, in proportion. Units: none.",
                   prm,
                   Patterns::Double(0., 1.));
     add_choice(*this,
@@ -76,32 +81,35 @@ namespace CaissonMPM
                "all cells. Units: none.");
     add_parameter("Full cell fraction",
                   full_fraction,
-                  "A cell at a free surface is full if its points fill this "
-                  "share of its volume. Units: none.",
+                  "A cell at a free surface takes Gauss points only if its "
+                  "points fill this share of its volume; from 0.05 less on, it "
+                  "is integrated at its points only. Units: none.",
                   prm,
                   Patterns::Double(0.1, 2.));
     add_parameter("Full cell fraction inside",
                   full_fraction_inside,
-                  "A cell whose neighbors all have points is full if its "
-                  "points fill this share of its volume. Units: none.",
+                  "The same share for a cell inside the soil, where the cells "
+                  "around are filled. Units: none.",
                   prm,
                   Patterns::Double(0.1, 2.));
-    add_choice(*this,
-               "Pressure in full cells",
-               pressure_fit,
-               pressure_fits,
-               "The mean stress of the points of a full cell is fitted by an "
-               "affine function, as the deviator always is, or by its mean. "
-               "Units: none.");
+    add_choice(
+      *this,
+      "Pressure in full cells",
+      pressure_fit,
+      pressure_fits,
+      "The mean stress of the points of a full cell is fitted by an "
+      "affine function, as the deviator always is, or by its mean; auto "
+      "takes the mean in soil with a dilatancy angle. Units: none.");
     add_parameter("Mean volume change",
                   mean_volume,
                   "The points of a cell are strained with its mean volume "
                   "change (B-bar), which prevents locking. Units: none.");
     add_parameter("Stress filter",
                   stress_filter,
-                  "In full cells a step removes this share of the misfit "
-                  "between the stress of a point and the affine fit of its "
-                  "cell, which changes no nodal force. Units: none.",
+                  "In full cells a step with a Courant number of 0.8 removes "
+                  "this share of the misfit between the stress of a point and "
+                  "the affine fit of its cell, which changes no nodal force; "
+                  "shorter steps remove less, in proportion. Units: none.",
                   prm,
                   Patterns::Double(0., 1.));
   }
@@ -123,8 +131,8 @@ namespace CaissonMPM
     add_parameter("Velocity limiter",
                   limits_velocity,
                   "The velocity of points in cells next to the body is cut to "
-                  "k H / dt, with the shortest side H of the cell. Units: "
-                  "none.");
+                  "k H / dt, with the shortest side H of the cell and the step "
+                  "dt at a Courant number of 0.8. Units: none.");
     add_parameter("Limiter factor",
                   limiter_factor,
                   "The velocity limiter uses this number as its factor k. "
@@ -178,11 +186,13 @@ namespace CaissonMPM
   }
 
   double
-  MethodSettings::keep_velocity() const
+  MethodSettings::keep_velocity(const StepSize &step) const
   {
-    return transfer == VelocityTransfer::flip  ? 1. :
-           transfer == VelocityTransfer::blend ? flip_fraction :
-                                                 0.;
+    return transfer == VelocityTransfer::flip ?
+             1. :
+           transfer == VelocityTransfer::blend ?
+             std::pow(flip_fraction, step.n_reference_steps()) :
+             0.;
   }
 
   Kernels::IntegrationSettings
@@ -194,17 +204,18 @@ namespace CaissonMPM
     return {at_points ? never_full : full_fraction,
             at_points ? never_full : full_fraction_inside,
             mass_floor,
-            pressure_fit == PressureFit::mean};
+            pressure_fit};
   }
 
   Kernels::UpdateSettings
-  MethodSettings::update(const double dt) const
+  MethodSettings::update(const StepSize &step) const
   {
-    return {dt,
-            keep_velocity(),
+    const double n = step.n_reference_steps();
+    return {step.seconds,
+            keep_velocity(step),
             mean_volume,
-            limits_velocity ? limiter_factor : 0.,
-            stress_filter};
+            limits_velocity ? limiter_factor * n : 0.,
+            1. - std::pow(1. - stress_filter, n)};
   }
 
   std::string

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/kernels/cell_map.h>
 #include <caisson_mpm/operators/local_damping.h>
 #include <caisson_mpm/operators/nodal_momentum.h>
 
@@ -16,15 +17,49 @@ namespace CaissonMPM
     grid.reinit(sums_, sizeof(NodalSums) / sizeof(double));
     grid.reinit(old_velocity_, 2);
     grid.reinit(new_velocity_, 2);
+    grid.reinit(filled_, 1);
     mass_.assign(grid.n_nodes(), 0.);
     inertia_.assign(grid.n_nodes(), 0.);
     n_owned_nodes_ = grid.n_owned_nodes();
     hanging_nodes  = &grid.hanging_nodes();
+
+    grid.reinit(n_soil_cells, 1);
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (!grid.is_rigid(cell) && grid.is_owned(cell))
+        for (const unsigned int node : grid.cell_nodes(cell).node)
+          n_soil_cells.local_element(node) += 1.;
+    hanging_nodes->distribute(n_soil_cells, 1);
+    n_soil_cells.compress(dealii::VectorOperation::add);
+    n_soil_cells.update_ghost_values();
+  }
+
+  void
+  NodalMomentum::find_filled(const Kernels::StepContext &step)
+  {
+    filled_ = 0.;
+    filled_.zero_out_ghost_values();
+    double *const filled = filled_.begin();
+    for (unsigned int i = 0; i < step.points.n_active_cells; ++i)
+      {
+        const unsigned int cell     = step.points.active_cells[i];
+        const double       fraction = step.points.filled_volume[cell] /
+                                Kernels::CellMap<>(step.grid.geometry[cell])
+                                  .volume(step.grid.axisymmetric);
+        for (const unsigned int node : step.grid.nodes[cell].node)
+          filled[node] += fraction;
+      }
+    hanging_nodes->distribute(filled_, 1);
+    filled_.compress(dealii::VectorOperation::add);
+    for (unsigned int i = 0; i < n_owned_nodes_; ++i)
+      filled[i] /= std::max(n_soil_cells.local_element(i), 1.);
+    filled_.update_ghost_values();
+    hanging_nodes->interpolate(filled_, 1);
   }
 
   void
   NodalMomentum::collect(const ForceContext &context, NodalForces &forces)
   {
+    find_filled(context.step);
     sums_ = 0.;
     sums_.zero_out_ghost_values();
     auto *const nodes = reinterpret_cast<NodalSums *>(sums_.begin());
@@ -38,7 +73,8 @@ namespace CaissonMPM
   void
   NodalMomentum::accelerate(const double   dt,
                             const double   damping,
-                            const Contact &contact)
+                            const Vector2 &body_velocity,
+                            Contact       &contact)
   {
     const NodalSums   *node = sums();
     NodalVector *const v    = nodal_vectors(old_velocity_),
@@ -70,6 +106,7 @@ namespace CaissonMPM
           }
       }
     is_finite_ = std::isfinite(sum);
+    contact.corners().accelerate(body_velocity, dt, sums(), v, u);
     // the new velocities follow when they are constrained
     hanging_nodes->interpolate(old_velocity_, 2);
   }
@@ -79,6 +116,10 @@ namespace CaissonMPM
                            const Vector2    &body_velocity,
                            NodalConstraints &constraints)
   {
+    constraints.contact.corners().apply(dt,
+                                        sums(),
+                                        nodal_vectors(old_velocity_),
+                                        nodal_vectors(new_velocity_));
     return constraints.apply(body_velocity, dt, mass_, new_velocity_);
   }
 } // namespace CaissonMPM

@@ -36,24 +36,35 @@ namespace CaissonMPM
                soil.grid.view(),
                soil.materials.data(),
                settings_.integration(),
-               moments.data()};
+               moments.data(),
+               momentum.filled(),
+               nullptr,
+               0};
     momentum.collect({*kernels, step, soil.points, soil.grid, time}, forces);
   }
 
   void
-  NodalMotion::accelerate(const double dt, const Contact &contact)
+  NodalMotion::accelerate(const StepSize &step_size,
+                          const Vector2  &body_velocity,
+                          Contact        &contact)
   {
     enter(Stage::accelerated);
-    momentum.accelerate(dt, settings_.local_damping(), contact);
+    size = step_size;
+    contact.corners().collect(*kernels, step);
+    momentum.accelerate(size.seconds,
+                        settings_.local_damping(),
+                        body_velocity,
+                        contact);
+    step.corners   = contact.corners().views().data();
+    step.n_corners = contact.corners().views().size();
   }
 
   void
-  NodalMotion::constrain(const double      dt,
-                         const Vector2    &body_velocity,
+  NodalMotion::constrain(const Vector2    &body_velocity,
                          NodalConstraints &constraints)
   {
     enter(Stage::constrained);
-    reactions_ = momentum.constrain(dt, body_velocity, constraints);
+    reactions_ = momentum.constrain(size.seconds, body_velocity, constraints);
     if (step.integration.floor_mass)
       mass_floor.distribute(*kernels, step, constraints, momentum, reactions_);
   }
@@ -63,16 +74,15 @@ namespace CaissonMPM
   {
     enter(Stage::transfer_prepared);
     transfer.prepare(
-      settings_, *kernels, step, momentum, constraints, reactions_);
+      settings_, size, *kernels, step, momentum, constraints, reactions_);
   }
 
   NodalWork
-  NodalMotion::work_of_step(const double            dt,
-                            const NodalForces      &forces,
+  NodalMotion::work_of_step(const NodalForces      &forces,
                             const NodalConstraints &constraints)
   {
     enter(Stage::work_found);
-    return work.find(dt,
+    return work.find(size.seconds,
                      settings_.local_damping(),
                      momentum,
                      mass_floor,
@@ -83,12 +93,11 @@ namespace CaissonMPM
   }
 
   void
-  NodalMotion::update_points(const double             dt,
-                             const Kernels::GridView &moved,
+  NodalMotion::update_points(const Kernels::GridView &moved,
                              Kernels::UpdateResult   &result)
   {
     enter(Stage::points_updated);
     kernels->grid_to_points(
-      step, {moved, settings_.update(dt), transfer.fields(momentum)}, result);
+      step, {moved, settings_.update(size), transfer.fields(momentum)}, result);
   }
 } // namespace CaissonMPM

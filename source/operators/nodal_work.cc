@@ -13,6 +13,17 @@ namespace CaissonMPM
     circumference = grid.circumference();
   }
 
+  double
+  WorkOfStep::missing_work(const double                dt,
+                           const NodalConstraints     &constraints,
+                           const Kernels::NodalVector *strain) const
+  {
+    const ContactCorners &corners = constraints.contact.corners();
+    return .5 * dt *
+           (corners.missing_power(nodal_vectors(held)) +
+            corners.missing_power(strain));
+  }
+
   NodalWork
   WorkOfStep::find(const double                dt,
                    const double                damping,
@@ -43,6 +54,7 @@ namespace CaissonMPM
             result.damping +=
               damping_force(damping, f, v0[k]) * .5 * (h[k] + v[k]);
         }
+    result.forces += missing_work(dt, constraints, strain);
     // of what this rank's points bring, to all of their nodes
     result.load       = forces.work(dt, nodal_vectors(held), strain);
     result.body       = reactions.contact.work;

@@ -18,6 +18,7 @@ namespace CaissonMPM
 
   void
   PointTransfer::prepare(const MethodSettings       &settings,
+                         const StepSize             &size,
                          const Kernels::KernelTable &kernels,
                          const Kernels::StepContext &step,
                          const NodalMomentum        &momentum,
@@ -28,8 +29,9 @@ namespace CaissonMPM
     const std::size_t n   = 2 * momentum.inertia().size();
     const double     *old = momentum.old_velocity().begin(),
                  *v       = momentum.new_velocity().begin();
-    const double keep     = settings.keep_velocity();
+    const double keep     = settings.keep_velocity(size);
 
+    transfer_share = 1. - keep;
     // what is added to keep * V_p: FLIP's part of it first
     double *const transfer = transfer_velocity.begin();
     for (std::size_t i = 0; i < n; ++i)
@@ -44,19 +46,28 @@ namespace CaissonMPM
   void
   PointTransfer::round_trip(const Context   &context,
                             const NodalData &from,
+                            const double     share_of_body,
                             NodalData       &to)
   {
+    const ContactCorners &corners = context.constraints.contact.corners();
     apply_consistent_mass(context.kernels,
                           context.step,
                           context.constraints.hanging_nodes,
                           from,
-                          to);
+                          to,
+                          [&](NodalVector *product) {
+                            corners.correct_mass(context.step,
+                                                 nodal_vectors(from),
+                                                 share_of_body,
+                                                 product);
+                          });
     const Kernels::NodalSums *const node = context.momentum.sums();
     NodalVector *const              v    = nodal_vectors(to);
     for (std::size_t i = 0; i < context.momentum.inertia().size(); ++i)
       if (node[i].mass > 0.)
         for (unsigned int d = 0; d < 2; ++d)
           v[i].value[d] /= node[i].mass;
+    corners.divide_by_mass(node, share_of_body, v);
   }
 
   void
@@ -69,7 +80,7 @@ namespace CaissonMPM
     context.constraints.hold(filtered);
     for (unsigned int k = 1; k < order; ++k)
       {
-        round_trip(context, filtered, after_round_trip);
+        round_trip(context, filtered, k == 1 ? 1. : 0., after_round_trip);
         // From the second round on the field is a difference. The round trip
         // keeps momentum, and holding it does not: the points lose its share.
         context.constraints.hold(context.momentum.sums(),
@@ -92,7 +103,7 @@ namespace CaissonMPM
   PointTransfer::find_strain_velocity(const Context &context, const double keep)
   {
     // S+ (keep V_p + S transfer) = keep v + A transfer
-    round_trip(context, transfer_velocity, strain_velocity);
+    round_trip(context, transfer_velocity, transfer_share, strain_velocity);
     const double *const old    = context.momentum.old_velocity().begin();
     double *const       strain = strain_velocity.begin();
     for (std::size_t i = 0; i < 2 * context.momentum.inertia().size(); ++i)
@@ -106,6 +117,7 @@ namespace CaissonMPM
     const NodalData &v = momentum.new_velocity();
     return {nodal_vectors(v),
             nodal_vectors(transfer_velocity),
-            nodal_vectors(strains_with_new ? v : strain_velocity)};
+            nodal_vectors(strains_with_new ? v : strain_velocity),
+            transfer_share};
   }
 } // namespace CaissonMPM

@@ -21,7 +21,7 @@ namespace CaissonMPM
   namespace
   {
     // Between two of these the mesh moves by less than the finest cell.
-    constexpr unsigned int steps_between_adaptations = 25;
+    constexpr double steps_between_adaptations = 25.; // of reference
     // Ranks agree on what each sees for itself; rarely, since that is
     // collective.
     constexpr unsigned int steps_between_agreements = 20;
@@ -76,7 +76,9 @@ namespace CaissonMPM
     totals.keep("time", clock.time);
     totals.keep("step", clock.step);
     totals.keep("force_on_body", force_on_body);
+    totals.keep("since_adaptation", since_adaptation);
     totals.count("limiter_count", n_limited);
+    totals.count("soil_into_body_m3", inflow);
     points.register_totals(totals);
     energy.register_totals(totals);
     schedule.register_totals(totals);
@@ -296,20 +298,23 @@ namespace CaissonMPM
     timed("choose step", [&]() { choose_step(); });
     timed("move body",
           [&]() { body.motion().advance(clock.step_size, force_on_body); });
-    const double dt = clock.step_size;
+    const StepSize size = {clock.step_size,
+                           time_step.courant_number(clock.step_size)};
     timed("points to grid", [&]() {
       nodal_motion.collect({*kernels, points, grid, materials},
                            nodal_forces,
                            clock.time);
     });
-    timed("nodal motion", [&]() { nodal_motion.accelerate(dt, contact); });
+    timed("nodal motion", [&]() {
+      nodal_motion.accelerate(size, body.mean_velocity(), contact);
+    });
     timed("contact", [&]() { constrain_nodes(); });
     timed("transfer", [&]() {
       const NodalConstraints constraints = {contact,
                                             boundary_conditions,
                                             grid.hanging_nodes()};
       nodal_motion.prepare_transfer(constraints);
-      work = nodal_motion.work_of_step(dt, nodal_forces, constraints);
+      work = nodal_motion.work_of_step(nodal_forces, constraints);
     });
     timed("move mesh", [&]() { grid.prepare_motion(body.motion().travel()); });
     timed("grid to points", [&]() { update_points(); });
@@ -317,11 +322,12 @@ namespace CaissonMPM
       grid.advance();
       points.relocate();
     });
+    since_adaptation += size.n_reference_steps();
     if (generator.splits_and_merges() &&
-        clock.step % steps_between_adaptations == 0)
+        since_adaptation >= steps_between_adaptations)
       timed("split and merge", [&]() { adapt_points(); });
     add_step(work);
-    clock.time += dt;
+    clock.time += size.seconds;
     ++clock.step;
   }
 
@@ -346,6 +352,7 @@ namespace CaissonMPM
     energy.add(work, grid.circumference() * points.update_result().stress_work);
     const NodalReactions &reactions = nodal_motion.reactions();
     const SurfaceForces  &on_body   = reactions.contact.impulse;
+    inflow += reactions.contact.inflow;
     recorder.add_step(on_body, reactions.prescribed.impulse);
     if (body.motion().needs_force())
       {
@@ -360,6 +367,7 @@ namespace CaissonMPM
   void
   Simulation::adapt_points()
   {
+    since_adaptation    = 0.;
     const double travel = lines.total_travel();
     points.adapt([&](const unsigned int cell) {
       return generator.wanted_size(grid.geometry(cell), body.shape(), travel);
@@ -373,7 +381,7 @@ namespace CaissonMPM
                                     boundary_conditions,
                                     grid.hanging_nodes()};
     boundary_conditions.prepare(grid, clock.time, clock.step_size);
-    nodal_motion.constrain(clock.step_size, body.mean_velocity(), constraints);
+    nodal_motion.constrain(body.mean_velocity(), constraints);
   }
 
   void
@@ -382,7 +390,7 @@ namespace CaissonMPM
     if (!nodal_motion.is_finite())
       report_not_finite();
     auto &result = points.update_result();
-    nodal_motion.update_points(clock.step_size, grid.next(), result);
+    nodal_motion.update_points(grid.next(), result);
     n_limited += result.n_limited;
   }
 

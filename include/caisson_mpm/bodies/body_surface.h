@@ -37,6 +37,7 @@ namespace CaissonMPM
     enum class CornerNormals
     {
       average, // the mean of both normals
+      split,   // each face has its own velocity (operators/contact_corners.h)
       both,    // not into either face
       wall,    // the normal of the vertical face
       tip      // the normal of the other face

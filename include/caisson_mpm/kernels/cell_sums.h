@@ -4,9 +4,11 @@
 // decision how a cell is integrated.
 //
 // A full cell takes Gauss points, at which the stress is an affine function
-// fitted to its points: its points are summed by FitSums. In a partly filled
+// fitted to its points: its points are summed by FitSums. In a nearly empty
 // cell the points themselves are the quadrature points: they are summed by
-// ForceSums. Moments of mass and momentum are the same for both.
+// ForceSums. In between both integrals are mixed, with a share that is a
+// continuous function of how full the cell and its surroundings are. Moments of
+// mass and momentum are the same for both.
 #ifndef caisson_mpm_kernels_cell_sums_h
 #define caisson_mpm_kernels_cell_sums_h
 
@@ -99,7 +101,7 @@ namespace CaissonMPM
       }
 
       /** The sums over the points of a cell into its moments: FitSums, or
-       * ForceSums for a cell that is not full. */
+       * ForceSums for a cell that takes no Gauss points. */
       template <typename InternalSums, typename Number>
       CAISSON_INLINE void
       sum_points(const PointsView &points,
@@ -155,7 +157,7 @@ namespace CaissonMPM
                                step.integration.floor_mass);
         CellMoments    &moments = step.moments[cell];
         const int       first   = step.points.first_block[cell];
-        if (moments.full)
+        if (moments.full > 0.)
           sum_points<FitSums<Number>, Number>(
             step.points, to_sum, step.materials, first, moments);
         else
@@ -163,32 +165,89 @@ namespace CaissonMPM
             step.points, to_sum, step.materials, first, moments);
       }
 
-      /**
-       * Whether a cell takes Gauss points. Inside the soil the number of points
-       * in a cell scatters while the mesh moves, and a cell with fewer of them
-       * is no less full; at a free surface it is.
-       */
-      CAISSON_INLINE bool
-      is_full(const StepContext &step,
-              const unsigned int cell,
-              const double       filled_fraction)
+      /** ForceSums of a cell that also takes Gauss points, into out[16]. */
+      template <typename Number>
+      void
+      sum_forces(const StepContext &step, const unsigned int cell, double *out)
       {
-        if (filled_fraction >= step.integration.full_at_surface)
-          return true;
-        if (filled_fraction < step.integration.full_inside)
-          return false;
-        for (int i = 0; i < neighbors_per_cell; ++i)
+        const CellToSum   to_sum(step.grid.geometry[cell],
+                               step.grid.axisymmetric,
+                               step.integration.floor_mass);
+        ForceSums<Number> sums;
+        sums.clear();
+        for (int block = step.points.first_block[cell]; block >= 0;
+             block     = step.points.headers[block].next)
+          for (int lane = 0; lane < block_size; lane += Number::width)
+            add_stress(to_sum,
+                       LoadedPoints<Number>(step.points.blocks[block],
+                                            lane,
+                                            to_sum.map),
+                       step.materials[step.points.headers[block].material]
+                         .p_wave_modulus,
+                       sums);
+        sums.store(out);
+      }
+
+      /** The part of the way from @p a to @p b, where x is in between. */
+      CAISSON_INLINE double
+      ramp(const double x, const double a, const double b)
+      {
+        const double part = (x - a) / (b - a);
+        return part > 1. ? 1. : part > 0. ? part : 0.;
+      }
+
+      /**
+       * How much of a free surface a cell is: 1 where the cells around one of
+       * its corners are filled by a half or less on average, as at a plane
+       * surface, 0 where they are filled by three quarters or more. What is a
+       * count of points in one cell is a mean over four of them there.
+       */
+      CAISSON_INLINE double
+      find_surface(const StepContext &step, const unsigned int cell)
+      {
+        double around = 1.;
+        for (const unsigned int node : step.grid.nodes[cell].node)
           {
-            const int neighbor =
-              step.grid.neighbors[neighbors_per_cell * cell + i];
-            if (neighbor >= 0 && step.points.first_block[neighbor] < 0)
-              return false;
+            const double filled = step.filled_at_node[node];
+            around              = filled < around ? filled : around;
           }
-        return true;
+        return 1. - ramp(around, .5, .75);
+      }
+
+      /**
+       * The share of the Gauss points in the integration of a cell. At a free
+       * surface a cell that is not filled is one in truth. Inside the soil the
+       * number of points in a cell scatters while the mesh moves, and a cell
+       * with fewer of them is no less full.
+       */
+      CAISSON_INLINE double
+      find_share_of_gauss_points(const IntegrationSettings &settings,
+                                 const double               at_surface,
+                                 const double               filled_fraction)
+      {
+        // at a surface the filling is a volume and no count
+        const double width_of_ramp = .3 - .25 * at_surface;
+        const double full =
+          settings.full_inside +
+          at_surface * (settings.full_at_surface - settings.full_inside);
+        return ramp(filled_fraction, full - width_of_ramp, full);
+      }
+
+      /**
+       * The share to which the fit of a cell is bounded where its points are
+       * off center (see add_distance_of_centers()): 1 at a free surface, and in
+       * cells that are full and yet have few points. Where soil has come apart,
+       * the slopes would come and go with the points.
+       */
+      CAISSON_INLINE double
+      find_bound_of_fit(const double at_surface, const double filled_fraction)
+      {
+        const double in_full_cell = ramp(filled_fraction, .8, 1.);
+        return at_surface > in_full_cell ? at_surface : in_full_cell;
       }
 
       /** Renew the moments of the cells of a group where they are out of date:
-       * where points came or went, or where the integration changes. */
+       * where points came or went, or where the kind of sums changes. */
       template <typename Number>
       CAISSON_INLINE void
       renew_moments(const StepContext       &step,
@@ -200,11 +259,18 @@ namespace CaissonMPM
         }) / map.volume(step.grid.axisymmetric);
         for (int i = 0; i < group.n; ++i)
           {
-            const unsigned int cell = group.cell[i];
-            const bool         full = is_full(step, cell, fraction[i]);
-            if (!step.points.changed[cell] && full == step.moments[cell].full)
-              continue;
+            const unsigned int cell       = group.cell[i];
+            const double       at_surface = find_surface(step, cell);
+            const double full = find_share_of_gauss_points(step.integration,
+                                                           at_surface,
+                                                           fraction[i]);
+            const bool   same_kind =
+              (full > 0.) == (step.moments[cell].full > 0.);
             step.moments[cell].full = full;
+            step.moments[cell].bounded =
+              find_bound_of_fit(at_surface, fraction[i]);
+            if (!step.points.changed[cell] && same_kind)
+              continue;
             sum_points<Number>(step, step.grid.geometry[cell], cell);
             step.points.changed[cell] = false;
           }

@@ -65,7 +65,8 @@ namespace CaissonMPM
       work_in_full_cells(const Number *s,
                          const Number *mass,
                          const Number  center,
-                         const Number  volume)
+                         const Number  volume,
+                         const Number  bounded)
       {
         const Number inverse_mass = Number(1.) / mass[0], half(.5);
         const Number x = mass[1] * inverse_mass, y = mass[2] * inverse_mass,
@@ -75,7 +76,8 @@ namespace CaissonMPM
         Number xx            = mass[4] * inverse_mass - x * x,
                xy            = mass[3] * inverse_mass - x * y,
                yy            = mass[5] * inverse_mass - y * y;
-        add_distance_of_centers(x - half - center, y - half, xx, xy, yy);
+        add_distance_of_centers(
+          bounded, x - half - center, y - half, xx, xy, yy);
         const auto inverse = inverse_covariance(mass[0], xx, xy, yy);
         return volume *
                (mean +
@@ -159,15 +161,18 @@ namespace CaissonMPM
         if constexpr (may_wait<Law, Number>)
           {
             StressState<Number> stress = s.old;
-            if (!Law::update_elastic(stress, s.step.strain, parameters))
+            if (Law::update_elastic(stress, s.step.strain, parameters))
+              {
+                store_stress(s.half_turn(stress), b, lane);
+                after.store(b.volume + lane);
+                sums.add_work(p,
+                              mass,
+                              volume,
+                              work_per_volume(s.old, stress, s.step));
+                return;
+              }
+            if (!Law::needs_void_ratio(parameters))
               return waiting.add(b, s, p, material, in_group);
-            store_stress(s.half_turn(stress), b, lane);
-            after.store(b.volume + lane);
-            sums.add_work(p,
-                          mass,
-                          volume,
-                          work_per_volume(s.old, stress, s.step));
-            return;
           }
         sums.add_work(
           p,
@@ -212,6 +217,55 @@ namespace CaissonMPM
         return outside;
       }
 
+      /** Give a field the value at a corner that the cell sees. @p share: of
+       * the body's velocity in the field. */
+      CAISSON_INLINE void
+      see_corner(const CornerView  &corner,
+                 const NodalVector &at_node,
+                 const double       share,
+                 CellField<>       &field)
+      {
+        // the coefficients of {1, xi, eta, xi eta} of each N_I
+        constexpr double shape[4][4] = {{1., -1., -1., 1.},
+                                        {0., 1., 0., -1.},
+                                        {0., 0., 1., -1.},
+                                        {0., 0., 0., 1.}};
+        const double     free =
+          at_node.value[corner.free] - share * corner.velocity[corner.free];
+        const auto change = [&](const int d) {
+          return share * corner.velocity[d] + free * corner.q[d] -
+                 at_node.value[d];
+        };
+        const double r = change(0), z = change(1);
+        for (int k = 0; k < 4; ++k)
+          {
+            field.r[k] += r * shape[corner.corner][k];
+            field.z[k] += z * shape[corner.corner][k];
+          }
+      }
+
+      /** The same in all fields of a cell at the body. */
+      CAISSON_INLINE void
+      see_corners(const StepContext &step,
+                  const NodalFields &fields,
+                  const unsigned int cell,
+                  CellUpdate        &update)
+      {
+        for (unsigned int i = 0; i < step.n_corners; ++i)
+          if (step.corners[i].cell == cell)
+            {
+              const CornerView  &corner = step.corners[i];
+              const unsigned int node =
+                step.grid.nodes[cell].node[corner.corner];
+              see_corner(corner, fields.advection[node], 1., update.advection);
+              see_corner(corner, fields.strain[node], 1., update.strain);
+              see_corner(corner,
+                         fields.transfer[node],
+                         fields.transfer_share,
+                         update.transfer);
+            }
+      }
+
       /** Prepare the update of a cell, all but the mean divergence. */
       CAISSON_INLINE void
       prepare_cell(const StepContext &step,
@@ -229,13 +283,15 @@ namespace CaissonMPM
         update.advection               = CellField<>(fields.advection, nodes);
         update.transfer                = CellField<>(fields.transfer, nodes);
         update.strain                  = CellField<>(fields.strain, nodes);
-        update.full                    = moments.full;
-        update.axisymmetric            = grid.axisymmetric;
-        update.speed_limit             = 0.;
-        update.fit                     = nullptr;
-        if (settings.stress_filter > 0. && moments.full)
+        if (grid.flags[cell] & next_to_body)
+          see_corners(step, fields, cell, update);
+        update.axisymmetric = grid.axisymmetric;
+        update.speed_limit  = 0.;
+        update.fit          = nullptr;
+        if (settings.stress_filter > 0. && moments.full > 0.)
           {
             update.fit                 = moments.fit;
+            update.filtered_share      = settings.stress_filter * moments.full;
             update.inverse_mean_height = 1. / update.map.mean_height();
           }
         if (settings.limiter > 0. && (grid.flags[cell] & next_to_body))
@@ -412,10 +468,16 @@ namespace CaissonMPM
               work_in_full_cells(sums,
                                  mass.sum,
                                  map.center_of_volume(step.grid.axisymmetric),
-                                 map.volume(step.grid.axisymmetric));
+                                 map.volume(step.grid.axisymmetric),
+                                 group.lanes([&](const unsigned int c) {
+                                   return step.moments[c].bounded;
+                                 }));
             for (int i = 0; i < group.n; ++i)
               {
-                result.stress_work += update[i].full ? in_full[i] : sums[3][i];
+                const double full = step.moments[group.cell[i]].full;
+                if (full > 0.)
+                  result.stress_work += full * in_full[i];
+                result.stress_work += (1. - full) * sums[3][i];
                 step.points.filled_volume[group.cell[i]] = sums[4][i];
               }
           }

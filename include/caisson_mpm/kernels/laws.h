@@ -83,6 +83,22 @@ namespace CaissonMPM
       template <typename Law>
       constexpr int law_id = slot_of<Law>(Slots());
 
+      /** Law::dilates() if the law has one; chosen for the argument 0. */
+      template <typename Law>
+      inline auto
+      dilates(const typename Law::Parameters &p, int)
+        -> decltype(Law::dilates(p))
+      {
+        return Law::dilates(p);
+      }
+
+      template <typename Law>
+      inline bool
+      dilates(const typename Law::Parameters &, long)
+      {
+        return false;
+      }
+
       /** Write a law and its parameters into a material. */
       template <typename Law>
       inline void
@@ -90,7 +106,8 @@ namespace CaissonMPM
       {
         static_assert(sizeof(parameters) <= sizeof(material.parameters),
                       "enlarge Material::parameters (layout.h)");
-        material.law = law_id<Law>;
+        material.law     = law_id<Law>;
+        material.dilates = dilates<Law>(parameters, 0);
         __builtin_memcpy(material.parameters, &parameters, sizeof(parameters));
       }
 

@@ -90,6 +90,7 @@ namespace CaissonMPM
       int    law;
       double body_force[2];  // acceleration of the scaled mass (m/s2)
       double p_wave_modulus; // lambda + 2 mu, the largest of all points (Pa)
+      bool   dilates;        // in plastic shear
       double initial_void_ratio;
       alignas(16) unsigned char parameters[256];
     };
@@ -127,9 +128,10 @@ namespace CaissonMPM
         // the fit of a full cell: per component value, slope in x, slope in y
         double fit[12];
       };
-      bool  full; // takes Gauss points
-      bool  several_materials;
-      short material; // of the first MP
+      double full;    // share of the Gauss points in the integration
+      double bounded; // share to which the fit is bounded
+      bool   several_materials;
+      short  material; // of the first MP
     };
 
     /**
@@ -166,13 +168,30 @@ namespace CaissonMPM
       double     axisymmetric; // 1, or 0 in plane strain
     };
 
+    /** A corner at which a cell sees another velocity than that of its node:
+     * v' = V + (v - V)[free] q, with the velocity V of the body. */
+    struct CornerView
+    {
+      unsigned int cell, corner, free;
+      double       q[2], velocity[2];
+    };
+
+    /** Whether the slope of the mean stress in a full cell acts on its nodes.
+     */
+    enum class PressureSlope
+    {
+      by_material, // Material::dilates
+      acts,
+      ignored
+    };
+
     /** How the internal force is integrated. */
     struct IntegrationSettings
     {
-      double full_at_surface; // filled volume from which a cell is full
-      double full_inside;     // the same where all neighbors have points
+      double full_at_surface; // filled fraction from which a cell is full
+      double full_inside;     // the same away from free surfaces
       bool   floor_mass;      // sum the stiffness bound
-      bool   mean_pressure;   // cell mean instead of the affine pressure
+      PressureSlope pressure_slope;
     };
 
     /** What all kernels of a step work on. They write to the points and to the
@@ -184,6 +203,11 @@ namespace CaissonMPM
       const Material     *materials;
       IntegrationSettings integration;
       CellMoments        *moments; // [n_cells]
+      // [n_nodes], mean filled fraction of the soil cells at a node
+      const double *filled_at_node;
+      // [n_corners], for grid_to_points
+      const CornerView *corners   = nullptr;
+      unsigned int      n_corners = 0;
     };
 
     /** How grid_to_points updates the points. */
@@ -202,6 +226,7 @@ namespace CaissonMPM
       const NodalVector *advection; // moves the MPs
       const NodalVector *transfer;  // added to keep_velocity * velocity
       const NodalVector *strain;    // its gradient strains the MPs
+      double transfer_share = 0.;   // of the body's velocity in transfer
     };
 
     /** What grid_to_points needs besides the context of the step. */
@@ -241,7 +266,7 @@ namespace CaissonMPM
        * Add mass, momentum, internal and body force of all MPs to the nodes.
        * @p sums [n_nodes] must be zero on entry. The moments are those left by
        * grid_to_points but in changed cells; on return they are up to date, and
-       * say which cells are full.
+       * say how full the cells are.
        */
       void (*points_to_grid)(const StepContext &, NodalSums *sums);
 
@@ -255,6 +280,13 @@ namespace CaissonMPM
       void (*pressure_force)(const StepContext &,
                              const double *pressure,
                              NodalVector  *out);
+
+      /** What a cell has added to its @p corners [4], but for the stiffness and
+       * body forces of other materials than its first: call it after
+       * points_to_grid. */
+      void (*cell_contribution)(const StepContext &,
+                                const unsigned int cell,
+                                NodalSums         *corners);
 
       /**
        * out += M x with the consistent mass matrix of the MPs, out and x

@@ -137,6 +137,13 @@ namespace CaissonMPM
           0.,
           0.,
           no_limit};
+        constexpr LawEntry largest_void_ratio = {
+          "Largest void ratio",
+          "Soil that has dilated to this void ratio shears at constant volume "
+          "from then on. Units: none.",
+          2.,
+          0.,
+          no_limit};
         constexpr LawEntry tension_cutoff = {
           "Tension cut-off",
           "No principal stress exceeds this tension. Units: Pa.",

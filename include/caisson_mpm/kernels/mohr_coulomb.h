@@ -24,11 +24,12 @@ namespace CaissonMPM
                                                   Entries::friction_angle,
                                                   Entries::dilatancy_angle,
                                                   Entries::cohesion,
-                                                  Entries::tension_cutoff};
+                                                  Entries::tension_cutoff,
+                                                  Entries::largest_void_ratio};
         static constexpr int         friction_entry =
                                entry_named(entries, "Friction angle"),
                              n_state           = 0;
-        static constexpr bool uses_void_ratio  = false;
+        static constexpr bool uses_void_ratio  = true;
         static constexpr bool stiffness_varies = false;
 
         static constexpr double no_cutoff =
@@ -38,6 +39,8 @@ namespace CaissonMPM
         {
           MohrCoulombElasticity       elastic;
           MohrCoulombStrength<double> strength;
+          double                      largest_void_ratio; // of dilation
+          double                      tension;
 
           /**
            * @param E       Young's modulus, > 0. Units: Pa.
@@ -57,13 +60,15 @@ namespace CaissonMPM
                const double tension)
           {
             Parameters p;
-            p.elastic  = MohrCoulombElasticity::make(E, nu);
-            p.strength = MohrCoulombStrength<double>::make(p.elastic,
+            p.elastic            = MohrCoulombElasticity::make(E, nu);
+            p.strength           = MohrCoulombStrength<double>::make(p.elastic,
                                                            __builtin_sin(phi),
                                                            __builtin_cos(phi),
                                                            __builtin_sin(psi),
                                                            cohesion,
                                                            tension);
+            p.largest_void_ratio = no_limit;
+            p.tension            = tension;
             return p;
           }
         };
@@ -71,12 +76,28 @@ namespace CaissonMPM
         static Parameters
         make(const double *values)
         {
-          return Parameters::make(values[0],
-                                  values[1],
-                                  values[2] * radians_per_degree,
-                                  values[3] * radians_per_degree,
-                                  values[4],
-                                  values[5]);
+          Parameters p         = Parameters::make(values[0],
+                                          values[1],
+                                          values[2] * radians_per_degree,
+                                          values[3] * radians_per_degree,
+                                          values[4],
+                                          values[5]);
+          p.largest_void_ratio = values[6];
+          return p;
+        }
+
+        /** Whether the soil gains volume in plastic shear. */
+        static bool
+        dilates(const Parameters &p)
+        {
+          return p.strength.sin_psi > 0.;
+        }
+
+        /** Whether update() reads the void ratio. */
+        static bool
+        needs_void_ratio(const Parameters &p)
+        {
+          return dilates(p);
         }
 
         static bool
@@ -86,10 +107,9 @@ namespace CaissonMPM
         warning(const double *values)
         {
           return values[3] > 0. ?
-                   "Mohr-Coulomb sand with a dilatancy angle grows in volume "
-                   "without limit; where it is large take Method/Pressure in "
-                   "full cells = mean, or a law with a critical state: see "
-                   "doc/limitations.md" :
+                   "Mohr-Coulomb sand with a dilatancy angle grows in volume at "
+                   "the same rate up to Largest void ratio: set the one of the "
+                   "loosest state, or take a law with a critical state" :
                    nullptr;
         }
 
@@ -128,8 +148,51 @@ namespace CaissonMPM
                LawState<Number>              &state,
                const Parameters              &p)
         {
+          if (needs_void_ratio(p))
+            {
+              const auto loose =
+                state.void_ratio > Number(p.largest_void_ratio);
+              if (any(loose))
+                return update_loose(sigma, de, state, p, loose);
+            }
+          update_at_any_void_ratio(sigma, de, state, p);
+        }
+
+        /** update() where needs_void_ratio() is false. */
+        template <typename Number>
+        static CAISSON_INLINE void
+        update_at_any_void_ratio(StressState<Number>           &sigma,
+                                 const StrainIncrement<Number> &de,
+                                 LawState<Number>              &state,
+                                 const Parameters              &p)
+        {
           MohrCoulombReturn<Number, MohrCoulombStrength<double>>::update(
             sigma, de, state, p.elastic, p.strength);
+        }
+
+      private:
+        /** The update where soil in the lanes @p loose dilates no more. */
+        template <typename Number>
+        static CAISSON_INLINE void
+        update_loose(StressState<Number>           &sigma,
+                     const StrainIncrement<Number> &de,
+                     LawState<Number>              &state,
+                     const Parameters              &p,
+                     const typename Number::Mask   &loose)
+        {
+          using Strength = MohrCoulombStrength<Number>;
+          MohrCoulombReturn<Number, Strength>::update(
+            sigma,
+            de,
+            state,
+            p.elastic,
+            Strength::make(
+              p.elastic,
+              Number(p.strength.sin_phi),
+              Number(p.strength.cos_phi),
+              select(loose, Number(0.), Number(p.strength.sin_psi)),
+              Number(p.strength.cohesion),
+              p.tension));
         }
       };
 
@@ -185,6 +248,19 @@ namespace CaissonMPM
                          const LawContext &context,
                          LawMessage       &message)
       {
+        if (values[3] > 0. && values[6] <= context.void_ratio)
+          {
+            __builtin_snprintf(
+              message.text,
+              sizeof(message.text),
+              "Largest void ratio = %g does not exceed the void ratio %g at the "
+              "start, so that soil with Dilatancy angle = %g degrees cannot "
+              "dilate. Raise it, or set the dilatancy angle to 0.",
+              values[6],
+              context.void_ratio,
+              values[3]);
+            return false;
+          }
         return check_strength(
           values[2], values[3], values[4], context, message);
       }

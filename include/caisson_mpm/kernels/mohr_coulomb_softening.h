@@ -142,6 +142,13 @@ namespace CaissonMPM
             values[2], values[3], values[4], context, message);
         }
 
+        /** Whether the soil gains volume in plastic shear. */
+        static bool
+        dilates(const Parameters &p)
+        {
+          return p.psi + p.psi_lost > 0.;
+        }
+
         /** 1 - sin phi of the peak (Jaky). */
         static double
         earth_pressure_at_rest(const Parameters &p)

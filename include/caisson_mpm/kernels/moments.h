@@ -323,27 +323,29 @@ namespace CaissonMPM
       /**
        * Raise the covariance C of points whose center is off that of the volume
        * of their cell by the vector d = (dx, dy), in parts of the cell:
-       *   C <- C + 192 max(1/12 - tr C / 2, 0) d d^T.
+       *   C <- C + 192 s max(2/27 - tr C / 2, 0) d d^T,
+       * where s is the share to which the fit is @p bounded.
        * Over this distance the affine fit is extrapolated. Two points per
        * direction, with the variance 1/16, come as far as 1/4 off before one
        * of them leaves the cell. Their weights at the center change from 1/2
        * and 1/2 to 1 and 0 and back while the soil moves, those at the Gauss
        * points even become negative, and free surfaces are unstable. With the
-       * factor of 4 that follows for two points, a fifth of the slope is left
-       * then. It is 1 for four points, which come half as far, and 0 for soil
-       * that fills the cell evenly, whose variance is 1/12.
+       * factor of 2.2 that follows for two points, a third of the slope is left
+       * then. It is 0 for three points and more, whose variance is at least
+       * 2/27.
        */
       template <typename Number>
       CAISSON_INLINE void
-      add_distance_of_centers(const Number dx,
+      add_distance_of_centers(const Number bounded,
+                              const Number dx,
                               const Number dy,
                               Number      &xx,
                               Number      &xy,
                               Number      &yy)
       {
         const Number share =
-          Number(192.) *
-          max(Number(1. / 12.) - Number(.5) * (xx + yy), Number(0.));
+          Number(192.) * bounded *
+          max(Number(2. / 27.) - Number(.5) * (xx + yy), Number(0.));
         xx += share * dx * dx;
         xy += share * dx * dy;
         yy += share * dy * dy;
@@ -410,11 +412,11 @@ namespace CaissonMPM
       /**
        * The affine stress of a cell, into fit[12] (see CellMoments): the
        * least-squares fit to the sums @p s of FitSums, with the moments of mass
-       * @p m [9]. With @p mean_pressure the mean stress keeps its mean only. In
+       * @p m [9]. Of the slope of the mean stress the share @p pressure_slope is kept. In
        * a cell whose rows rise (over its mean height, from left to right) the
        * slopes are found along them, in x and y - rise x. A stress that is
-       * affine is found as it is, unless slopes are @p reduced where the center
-       * of the points is not that of the volume.
+       * affine is found as it is, unless it is @p bounded (0 to 1) and the
+       * center of the points is not that of the volume.
        */
       template <typename Number>
       CAISSON_INLINE void
@@ -422,8 +424,8 @@ namespace CaissonMPM
                  const double           axisymmetric,
                  const Number          *m,
                  const Number          *s,
-                 const bool             mean_pressure,
-                 const bool             reduced,
+                 const Number           pressure_slope,
+                 const Number           bounded,
                  Number                *fit)
       {
         const MassOverHeight<Number> over_height(map, m);
@@ -435,9 +437,12 @@ namespace CaissonMPM
         Number xx = m[4] * inverse_mass - xi * xi, xy = plain_xy - rise * xx,
                yy =
                  over_height.y2 * inverse_mass - y * y - rise * (plain_xy + xy);
-        if (reduced)
-          add_distance_of_centers(
-            x - map.center_of_volume(axisymmetric), y - rise * x, xx, xy, yy);
+        add_distance_of_centers(bounded,
+                                x - map.center_of_volume(axisymmetric),
+                                y - rise * x,
+                                xx,
+                                xy,
+                                yy);
         const auto inverse = inverse_covariance(m[0], xx, xy, yy);
         Number     slope[2][4], trace[2] = {Number(0.), Number(0.)};
         for (int c = 0; c < 4; ++c)
@@ -453,9 +458,10 @@ namespace CaissonMPM
         for (int c = 0; c < 4; ++c)
           {
             for (int d = 0; d < 2; ++d)
-              fit[3 * c + 1 + d] = mean_pressure && c < 3 ?
-                                     slope[d][c] - trace[d] * Number(1. / 3.) :
-                                     slope[d][c];
+              fit[3 * c + 1 + d] =
+                c < 3 ? slope[d][c] - trace[d] * (Number(1.) - pressure_slope) *
+                                        Number(1. / 3.) :
+                        slope[d][c];
             fit[3 * c] =
               s[3 * c] * inverse_mass - fit[3 * c + 1] * x - fit[3 * c + 2] * y;
           }

@@ -6,15 +6,15 @@
 // & Schreyer 1994, doi:10.1016/0045-7825(94)90112-0):
 //   m_I = sum m_p N_I,  p_I = sum m_p v_p N_I,
 //   f_I = sum m_p b N_I - int (sigma . grad N_I + e_r kappa sigma_tt N_I/r) dV.
-// The integral runs over the MPs in partly filled cells, and over 2 x 2 Gauss
-// points in full ones, with the stress reconstructed from the MPs by an affine
-// least-squares fit in (r, z), which is exact for a K0 state. A cell is full
-// when its MPs fill at least a given share of its volume, which is smaller
-// inside the soil than at its surface.
+// The integral runs over 2 x 2 Gauss points in full cells, with the stress
+// reconstructed from the MPs by an affine least-squares fit in (r, z), which is
+// exact for a K0 state, and over the MPs in nearly empty ones. Cells in between
+// take a mixture of both (cell_sums.h).
 #ifndef caisson_mpm_kernels_points_to_grid_h
 #define caisson_mpm_kernels_points_to_grid_h
 
 #include <caisson_mpm/kernels/cell_sums.h>
+#include <caisson_mpm/kernels/laws.h>
 
 namespace CaissonMPM
 {
@@ -207,46 +207,99 @@ namespace CaissonMPM
       }
 
       /**
-       * In the full cells of a group, replace the sums over the points in
-       * @p internal by those over Gauss points: the moments of the stress by
-       * the moments of its divergence. The coefficients of the fit go to
-       * @p rows, the internal sums of the cells, where the stress filter finds
+       * The share of the slope of the mean stress that acts on the nodes of a
+       * cell. B-bar gives all points of a cell the same change of volume. Where
+       * soil dilates in shear, those that shear more gain pressure, and no
+       * strain takes it away again. The mean stress that is conjugate to B-bar
+       * is the mean over the cell.
+       */
+      CAISSON_INLINE double
+      pressure_slope(const StepContext &step, const unsigned int cell)
+      {
+        switch (step.integration.pressure_slope)
+          {
+            case PressureSlope::acts:
+              return 1.;
+            case PressureSlope::ignored:
+              return 0.;
+            default:
+              return step.materials[step.moments[cell].material].dilates ? 0. :
+                                                                           1.;
+          }
+      }
+
+      /** ForceSums of the cells of a group that are integrated at their points,
+       * wholly or in part. @p rows: the internal sums of the cells. */
+      template <typename Number>
+      CAISSON_INLINE LaneSums<Number, 16>
+                     sums_at_points(const StepContext       &step,
+                                    const CellGroup<Number> &group,
+                                    double *const           *rows)
+      {
+        constexpr int        width = Number::width;
+        double               mixed[width][16];
+        const double        *sums[width];
+        LaneSums<Number, 16> result;
+        for (int i = 0; i < width; ++i)
+          {
+            const double full = step.moments[group.cell[i]].full;
+            sums[i]           = rows[i];
+            if (full > 0. && full < 1.)
+              {
+                sum_forces<Number>(step, group.cell[i], mixed[i]);
+                sums[i] = mixed[i];
+              }
+          }
+        result.load_lanes(sums);
+        return result;
+      }
+
+      /**
+       * Replace the sums over the points in @p internal, which are those in
+       * @p rows, by the moments of the divergence of the stress: over Gauss
+       * points in full cells, and mixed where cells are partly filled. The
+       * coefficients of the fit go to @p rows, where the stress filter finds
        * them when the points are updated.
        */
       template <typename Number>
       CAISSON_INLINE void
-      replace_in_full_cells(const StepContext          &step,
-                            const CellGroup<Number>    &group,
-                            const CellMap<Number>      &map,
-                            const LaneSums<Number, 17> &sums,
-                            double *const              *rows,
-                            LaneSums<Number, 16>       &internal)
+      integrate_stress(const StepContext          &step,
+                       const CellGroup<Number>    &group,
+                       const CellMap<Number>      &map,
+                       const LaneSums<Number, 17> &sums,
+                       double *const              *rows,
+                       LaneSums<Number, 16>       &internal)
       {
-        // Lanes hold both kinds of cells. Nothing branches on a lane: all are
-        // computed as if they were full, and the others keep what they have.
-        const auto full = group.lanes([&](const unsigned int c) {
-          return step.moments[c].full ? 1. : 0.;
-        }) > Number(0.);
-        if (!any(full))
+        // Lanes hold all kinds of cells. Nothing branches on a lane: all are
+        // computed as if they were full, and take what is theirs.
+        const Number full = group.lanes(
+          [&](const unsigned int c) { return step.moments[c].full; });
+        if (!any(full > Number(0.)))
           return;
+        LaneSums<Number, 16> at_points = internal;
+        if (any(full < Number(1.)))
+          at_points = sums_at_points(step, group, rows);
 
         // sigma(x, y) = c0 + c1 x + c2 y, by least squares over the points
         LaneSums<Number, 16> fit;
         fit.clear();
-        // The stress filter takes it as it is: a reduced one would change the
-        // stress of soil in equilibrium.
-        const auto find_fit = [&](const bool reduced) CAISSON_LAMBDA {
+        const Number slope = group.lanes(
+          [&](const unsigned int c) { return pressure_slope(step, c); });
+        const auto find_fit = [&](const Number &bounded) CAISSON_LAMBDA {
           fit_stress(map,
                      step.grid.axisymmetric,
                      sums.sum,
                      internal.sum,
-                     step.integration.mean_pressure,
-                     reduced,
+                     slope,
+                     bounded,
                      fit.sum);
         };
-        find_fit(false);
+        // The stress filter takes the fit as it is: a reduced one would change
+        // the stress of soil in equilibrium.
+        find_fit(Number(0.));
         fit.store_lanes(group.n, rows);
-        find_fit(true);
+        find_fit(group.lanes(
+          [&](const unsigned int c) { return step.moments[c].bounded; }));
 
         // int (sigma . grad N_I + e_r kappa sigma_tt N_I / r) dV
         ForceSums<Number> forces;
@@ -261,7 +314,8 @@ namespace CaissonMPM
                               }),
                               forces.sum + forces.stiffness);
         for (int k = 0; k < forces.size; ++k)
-          internal.sum[k] = select(full, forces.sum[k], internal.sum[k]);
+          internal.sum[k] =
+            full * forces.sum[k] + (Number(1.) - full) * at_points.sum[k];
       }
 
       /** See KernelTable. Lanes are cells, but for sums over points. */
@@ -304,10 +358,8 @@ namespace CaissonMPM
             CellContribution<Number> contribution(sums, body_force);
 
             // 3. f_I -= int (sigma . grad N_I + e_r kappa sigma_tt N_I/r) dV,
-            //    over the points in partly filled cells, whose sums are made,
-            //    and over Gauss points in full cells.
-            replace_in_full_cells(
-              step, group, map, sums, internal_rows, internal);
+            //    over Gauss points and points.
+            integrate_stress(step, group, map, sums, internal_rows, internal);
             contribution.add_forces(internal);
 
             // 4. Add to the nodes, cell by cell, because cells share nodes.

@@ -30,8 +30,8 @@ namespace CaissonMPM
         return {p, p, p, Number(0.)};
       }
 
-      /** The integrals over the points of a partly filled cell, of the pressure
-       * with the @p coefficients of {1, xi, eta, xi eta}. */
+      /** The integrals over the points of a cell, of the pressure with the
+       * @p coefficients of {1, xi, eta, xi eta}. */
       template <typename Number>
       void
       integrate_pressure_at_points(const StepContext &step,
@@ -58,8 +58,7 @@ namespace CaissonMPM
         sums.store(out);
       }
 
-      /** The integrals over the Gauss points of full cells, one in each lane.
-       */
+      /** The integrals over the Gauss points of cells, one in each lane. */
       template <typename Number>
       CAISSON_INLINE void
       integrate_pressure_in_full_cells(const CellMap<Number> &map,
@@ -129,16 +128,23 @@ namespace CaissonMPM
               rows[i] = of_cell[i];
             sums.store_lanes(group.n, rows);
 
-            // 3. Points instead, where the stress is integrated over them.
+            // 3. Points, as far as the stress is integrated over them.
             for (int i = 0; i < group.n; ++i)
               {
                 const unsigned int cell = group.cell[i];
+                const double       full = step.moments[cell].full;
                 const double own[4]     = {c[0][i], c[1][i], c[2][i], c[3][i]};
-                if (!step.moments[cell].full)
-                  integrate_pressure_at_points<Number>(step,
-                                                       cell,
-                                                       own,
-                                                       of_cell[i]);
+                if (full < 1.)
+                  {
+                    double at_points[ForceSums<Number>::size];
+                    integrate_pressure_at_points<Number>(step,
+                                                         cell,
+                                                         own,
+                                                         at_points);
+                    for (int k = 0; k < ForceSums<Number>::size; ++k)
+                      of_cell[i][k] =
+                        full * of_cell[i][k] + (1. - full) * at_points[k];
+                  }
                 add_to_corners(of_cell[i], step.grid.nodes[cell], out);
               }
           }

@@ -98,11 +98,11 @@ namespace CaissonMPM
       {
         CellMap<>     map, moved;
         CellField<>   advection, transfer, strain;
-        bool          full;
         double        axisymmetric;
         double        mean_divergence; // used where B-bar is on
         double        speed_limit;     // 0: none
         const double *fit;             // of the stress filter; null: no filter
+        double        filtered_share;  // of the misfit, with a fit
         double        inverse_mean_height;
       };
 
@@ -162,10 +162,9 @@ namespace CaissonMPM
       filter_stress(StressState<Number>      &stress,
                     const LocalPoint<Number> &p,
                     const Number              z,
-                    const CellUpdate         &cell,
-                    const double              share_removed)
+                    const CellUpdate         &cell)
       {
-        const Number share(share_removed);
+        const Number share(cell.filtered_share);
         const Number x = p.xi - Number(.5),
                      y = (z - Number(cell.map.center_z())) *
                          Number(cell.inverse_mean_height);
@@ -245,6 +244,22 @@ namespace CaissonMPM
         const typename Law::Parameters &parameters;
       };
 
+      /** Whether the law reads the void ratio with these parameters. */
+      template <typename Law>
+      CAISSON_INLINE auto
+      needs_void_ratio(const typename Law::Parameters &p, int)
+        -> decltype(Law::needs_void_ratio(p))
+      {
+        return Law::needs_void_ratio(p);
+      }
+
+      template <typename Law>
+      CAISSON_INLINE bool
+      needs_void_ratio(const typename Law::Parameters &, long)
+      {
+        return Law::uses_void_ratio;
+      }
+
       /** What the law knows of the points besides stress and strain. */
       template <typename Law, typename Number>
       CAISSON_INLINE LawState<Number>
@@ -252,13 +267,14 @@ namespace CaissonMPM
                                 const PointHistory &history,
                                 const int           lane,
                                 const Number        volume,
-                                const double        initial_void_ratio)
+                                const double        initial_void_ratio,
+                                const bool          uses_void_ratio)
       {
         LawState<Number> state;
         state.plastic_deviatoric = Number::load(b.plastic_deviatoric + lane);
         state.plastic_volumetric = Number::load(b.plastic_volumetric + lane);
         // grains keep their volume: (1 + e) / (1 + e_0) = V / V_0
-        if (Law::uses_void_ratio)
+        if (uses_void_ratio)
           state.void_ratio =
             Number(1. + initial_void_ratio) *
               (volume / Number::load(history.initial_volume + lane)) -
@@ -327,8 +343,7 @@ namespace CaissonMPM
         // 2. In full cells, take off what the affine fit does not contain.
         StressState<Number> stress = load_stress<Number>(b, lane);
         if (cell.fit != nullptr)
-          filter_stress(
-            stress, p, Number::load(b.z + lane), cell, settings.stress_filter);
+          filter_stress(stress, p, Number::load(b.z + lane), cell);
 
         // 3. Turn the stress with the soil, to where it is in the middle of the
         //    step, so that the law sees strain only.
@@ -349,8 +364,13 @@ namespace CaissonMPM
       {
         // 4. The law: sigma <- sigma + C : de, and its state variables.
         const Number     volume = Number::load(b.volume + lane);
-        LawState<Number> state  = load_state<Law>(
-          b, history, lane, volume, material.initial_void_ratio);
+        LawState<Number> state =
+          load_state<Law>(b,
+                          history,
+                          lane,
+                          volume,
+                          material.initial_void_ratio,
+                          needs_void_ratio<Law>(material.parameters, 0));
         StressState<Number> stress = s.old;
         Law::update(stress, s.step.strain, state, material.parameters);
         store_stress(s.half_turn(stress), b, lane);

@@ -4,8 +4,8 @@
 //
 // The return to the yield surface is one long chain of operations, each of
 // which waits for the one before, so that a processor with wide lanes idles.
-// Two blocks at once take little longer than one. Most blocks are elastic, or
-// of another law, and never come here.
+// Two blocks at once take little longer than one. Most blocks are elastic, of
+// another law or of dilatant soil, and never come here.
 #ifndef caisson_mpm_kernels_waiting_blocks_h
 #define caisson_mpm_kernels_waiting_blocks_h
 
@@ -128,11 +128,12 @@ namespace CaissonMPM
           state.plastic_volumetric =
             Two::load(b.plastic_volumetric, c.plastic_volumetric);
           StressState<Two> stress = s.old;
-          Law::update(stress,
-                      s.step.strain,
-                      state,
-                      reinterpret_cast<const typename Law::Parameters &>(
-                        v.material->parameters));
+          Law::update_at_any_void_ratio(
+            stress,
+            s.step.strain,
+            state,
+            reinterpret_cast<const typename Law::Parameters &>(
+              v.material->parameters));
 
           const Two work = work_per_volume(s.old, stress, s.step);
           add_work(v, work.a, sums);

@@ -8,18 +8,24 @@
 #include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/operators/nodal_data.h>
 
+#include <functional>
+
 namespace CaissonMPM
 {
+  using MassCorrection = std::function<void(Kernels::NodalVector *product)>;
+
   /** to = M from at all nodes that this rank knows, of the active cells of
    * @p step. Both have two components per node; hanging nodes follow their
-   * masters in @p from, and give them their part of @p to. Collective over MPI.
+   * masters in @p from, and give them their part of @p to. @p correct, if
+   * given, adds to the product of the points of this rank. Collective over MPI.
    */
   void
   apply_consistent_mass(const Kernels::KernelTable &kernels,
                         const Kernels::StepContext &step,
                         const HangingNodes         &hanging_nodes,
                         const NodalData            &from,
-                        NodalData                  &to);
+                        NodalData                  &to,
+                        const MassCorrection       &correct = MassCorrection());
 } // namespace CaissonMPM
 
 #endif

@@ -12,8 +12,7 @@
 #define caisson_mpm_operators_contact_h
 
 #include <caisson_mpm/base/conventions.h>
-#include <caisson_mpm/bodies/body_surface.h>
-#include <caisson_mpm/domain/background_grid.h>
+#include <caisson_mpm/operators/contact_corners.h>
 
 #include <array>
 #include <vector>
@@ -29,6 +28,7 @@ namespace CaissonMPM
   {
     SurfaceForces impulse    = {}; // on the body; units: N s
     double        work       = 0.; // of the body on the soil; units: J
+    double        inflow     = 0.; // of soil into the body; units: m3
     unsigned int  n_touching = 0, n_sticking = 0; // the second of the first
   };
 
@@ -52,7 +52,7 @@ namespace CaissonMPM
     bool
     empty() const
     {
-      return nodes.empty() && inner_nodes.empty();
+      return faces.empty() && inner_nodes.empty();
     }
 
     /**
@@ -64,6 +64,18 @@ namespace CaissonMPM
           const double               dt,
           const std::vector<double> &mass,
           Kernels::NodalVector      *v);
+
+    /** The corners of the body at which each face has a velocity of its own. */
+    ContactCorners &
+    corners()
+    {
+      return corners_;
+    }
+    const ContactCorners &
+    corners() const
+    {
+      return corners_;
+    }
 
     /**
      * Hold another velocity field to the contact found by the last apply():
@@ -163,12 +175,22 @@ namespace CaissonMPM
 
     void
     collect_surface_nodes(const BackgroundGrid &grid, const BodySurface &body);
+    /** Add the reactions of the corners. */
+    void
+    add_corners(ContactResult &sums, Vector2 &total) const;
+    /** The volume of soil that flows into the body through its faces. */
+    double
+    find_inflow(const double                dt,
+                const std::vector<double>  &mass,
+                const Kernels::NodalVector *v) const;
     void
     find_normals(const BackgroundGrid &grid, Node &node) const;
     void
     collect_inner_nodes(const BackgroundGrid &grid);
 
-    std::vector<Node>          nodes;
+    std::vector<ContactFace>   faces;
+    ContactCorners             corners_;
+    std::vector<Node>          nodes;       // but for corners_
     std::vector<unsigned int>  inner_nodes; // inside the body
     std::vector<NodeResult>    results;     // of the nodes, in the last step
     std::vector<bool>          on_body;

@@ -15,6 +15,24 @@
 
 namespace CaissonMPM
 {
+  /** The length of a step. What acts in each step is stated for the Courant
+   * number of reference, and acts in proportion in shorter ones: results do not
+   * depend on the step. */
+  struct StepSize
+  {
+    static constexpr double reference_courant = .8;
+
+    double seconds;
+    double courant; // over the stability limit
+
+    /** The number of steps of reference in this one. */
+    double
+    n_reference_steps() const
+    {
+      return courant / reference_courant;
+    }
+  };
+
   /** How points take their velocity from the nodes (nodal_motion.h). */
   enum class VelocityTransfer
   {
@@ -38,13 +56,6 @@ namespace CaissonMPM
     material_points
   };
 
-  /** What the fit of a full cell keeps of the mean stress. */
-  enum class PressureFit
-  {
-    affine,
-    mean
-  };
-
   /**
    * The choices of the method. Constant during a run; every rank has the same.
    */
@@ -63,7 +74,7 @@ namespace CaissonMPM
 
     /** Share of a point's own velocity that it keeps (FLIP: 1). */
     double
-    keep_velocity() const;
+    keep_velocity(const StepSize &step) const;
 
     /** Order of XPIC in what it does not keep; 1: PIC. */
     unsigned int
@@ -86,7 +97,7 @@ namespace CaissonMPM
     integration() const;
 
     Kernels::UpdateSettings
-    update(const double dt) const;
+    update(const StepSize &step) const;
 
     /** Return one line for the summary of a run. */
     std::string
@@ -105,20 +116,20 @@ namespace CaissonMPM
     void
     declare_stability();
 
-    VelocityTransfer transfer          = VelocityTransfer::blend;
-    StressUpdate     stress_update     = StressUpdate::musl;
-    ForceIntegration force_integration = ForceIntegration::gauss_in_full_cells;
-    PressureFit      pressure_fit      = PressureFit::affine;
-    unsigned int     xpic_order        = 2;
-    double           flip_fraction     = 0.95;
-    double           full_fraction     = 0.9;
-    double           full_fraction_inside = 0.5;
-    bool             mean_volume          = true;
-    double           stress_filter        = 0.01;
-    bool             mass_floor           = true;
-    double           damping              = 0.;
-    bool             limits_velocity      = true;
-    double           limiter_factor       = 0.75;
+    VelocityTransfer transfer           = VelocityTransfer::blend;
+    StressUpdate     stress_update      = StressUpdate::musl;
+    ForceIntegration force_integration  = ForceIntegration::gauss_in_full_cells;
+    Kernels::PressureSlope pressure_fit = Kernels::PressureSlope::acts;
+    unsigned int           xpic_order   = 2;
+    double                 flip_fraction        = 0.95;
+    double                 full_fraction        = 0.9;
+    double                 full_fraction_inside = 0.4;
+    bool                   mean_volume          = true;
+    double                 stress_filter        = 0.01;
+    bool                   mass_floor           = true;
+    double                 damping              = 0.;
+    bool                   limits_velocity      = true;
+    double                 limiter_factor       = 0.75;
   };
 } // namespace CaissonMPM
 

@@ -35,11 +35,22 @@ namespace CaissonMPM
     void
     collect(const ForceContext &context, NodalForces &forces);
 
+    /** How full the soil cells at a node are on average [n_nodes], in a step
+     * that collect() has begun. */
+    const double *
+    filled() const
+    {
+      return filled_.begin();
+    }
+
     /** Set the velocities before the step and, but for the constraints, after
      * it. Of the out-of-balance force away from the body, the share @p damping
      * acts against the velocity. */
     void
-    accelerate(const double dt, const double damping, const Contact &contact);
+    accelerate(const double   dt,
+               const double   damping,
+               const Vector2 &body_velocity,
+               Contact       &contact);
 
     /** Hold the new velocities to contact and boundary conditions. */
     NodalReactions
@@ -105,12 +116,17 @@ namespace CaissonMPM
     }
 
   private:
+    void
+    find_filled(const Kernels::StepContext &step);
+
     const HangingNodes *hanging_nodes  = nullptr;
     unsigned int        n_owned_nodes_ = 0;
     double              added_inertia_ = 0.;
     bool                is_finite_     = true;
     std::vector<double> mass_, inertia_;
-    NodalData           sums_, old_velocity_, new_velocity_;
+    NodalData           sums_, old_velocity_, new_velocity_, filled_;
+    // of soil cells at a node, those at hanging nodes by their masters
+    NodalData n_soil_cells;
   };
 } // namespace CaissonMPM
 

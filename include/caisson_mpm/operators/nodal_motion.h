@@ -42,13 +42,13 @@ namespace CaissonMPM
 
     /** v = p / m, and v+ = v + dt f / m. Small masses are raised first. */
     void
-    accelerate(const double dt, const Contact &contact);
+    accelerate(const StepSize &step_size,
+               const Vector2  &body_velocity,
+               Contact        &contact);
 
     /** Hold v+ to contact and boundary conditions; see reactions(). */
     void
-    constrain(const double      dt,
-              const Vector2    &body_velocity,
-              NodalConstraints &constraints);
+    constrain(const Vector2 &body_velocity, NodalConstraints &constraints);
 
     /** Find the fields that update the points. */
     void
@@ -56,15 +56,13 @@ namespace CaissonMPM
 
     /** Return the works of this step, of the nodes of this rank. */
     NodalWork
-    work_of_step(const double            dt,
-                 const NodalForces      &forces,
+    work_of_step(const NodalForces      &forces,
                  const NodalConstraints &constraints);
 
     /** Update the points, from the start of the step to its end, when the grid
      * has @p moved. */
     void
-    update_points(const double             dt,
-                  const Kernels::GridView &moved,
+    update_points(const Kernels::GridView &moved,
                   Kernels::UpdateResult   &result);
 
     const MethodSettings &
@@ -118,6 +116,7 @@ namespace CaissonMPM
     std::vector<Kernels::CellMoments> moments;
     const Kernels::KernelTable       *kernels = nullptr; // of this step
     Kernels::StepContext              step    = {};
+    StepSize                          size    = {};
     NodalReactions                    reactions_;
     Stage                             stage = Stage::points_updated;
   };

@@ -53,6 +53,13 @@ namespace CaissonMPM
          const NodalReactions       &reactions);
 
   private:
+    /** The work of the forces at corners of the body that cells see with a
+     * velocity of their own, beyond that with the velocity of the node. */
+    double
+    missing_work(const double                dt,
+                 const NodalConstraints     &constraints,
+                 const Kernels::NodalVector *strain) const;
+
     double    circumference = 0.;
     NodalData held; // the old velocity with the constraints of the new one
   };

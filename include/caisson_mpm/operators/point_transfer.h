@@ -40,6 +40,7 @@ namespace CaissonMPM
      * @p reactions. */
     void
     prepare(const MethodSettings       &settings,
+            const StepSize             &size,
             const Kernels::KernelTable &kernels,
             const Kernels::StepContext &step,
             const NodalMomentum        &momentum,
@@ -62,9 +63,12 @@ namespace CaissonMPM
       NodalReactions             &reactions;
     };
 
-    /** to = A from. */
+    /** to = A from. @p share_of_body: of the body's velocity in @p from. */
     void
-    round_trip(const Context &context, const NodalData &from, NodalData &to);
+    round_trip(const Context   &context,
+               const NodalData &from,
+               const double     share_of_body,
+               NodalData       &to);
 
     /** Add share * sum_{k=1}^{order-1} (I - A)^k v to the transfer field. */
     void
@@ -79,6 +83,7 @@ namespace CaissonMPM
     NodalData transfer_velocity, strain_velocity;
     NodalData filtered, after_round_trip; // memory of add_filter()
     bool      strains_with_new = false;   // USL
+    double    transfer_share   = 0.; // of the body's velocity in the transfer
   };
 } // namespace CaissonMPM
 

@@ -58,6 +58,13 @@ namespace CaissonMPM
       return fixed_step.value_or(courant * limit);
     }
 
+    /** A step over the stability limit, with the limit that was found last. */
+    double
+    courant_number(const double step) const
+    {
+      return step / limit;
+    }
+
     /** The cell that limits the step, in words. */
     const std::string &
     reason() const

@@ -163,8 +163,10 @@ namespace CaissonMPM
     std::vector<Kernels::Material> materials;
     const Kernels::KernelTable    *kernels = nullptr;
     EnergyBalance                  energy;
-    unsigned long                  n_limited = 0; // velocities of points
-    double force_on_body = 0.; // in the last step, if the motion needs it; N
+    unsigned long                  n_limited = 0;  // velocities of points
+    double                         inflow    = 0.; // of soil into the body, m3
+    double since_adaptation = 0.; // of points, in steps of reference
+    double force_on_body    = 0.; // in the last step, if the motion needs it; N
 
     // parameters
     std::string           instruction_set     = "auto";

@@ -1,0 +1,464 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/operators/contact_corners.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+  using Kernels::NodalSums;
+  using Kernels::NodalVector;
+
+  namespace
+  {
+    constexpr unsigned int n_sums = 5; // mass, momentum, force
+
+    Vector2
+    vector_of(const double *x)
+    {
+      Vector2 result;
+      for (unsigned int d = 0; d < 2; ++d)
+        result[d] = x[d];
+      return result;
+    }
+
+    /** The consistent mass matrix of a cell, from its moments. */
+    std::array<std::array<double, 4>, 4>
+    mass_matrix(const double *m)
+    {
+      // columns: the integrals of {1, xi, eta, xi eta} times each of them
+      constexpr int table[4][4] = {{0, 1, 2, 3},
+                                   {1, 4, 3, 6},
+                                   {2, 3, 5, 7},
+                                   {3, 6, 7, 8}};
+      // N_i = sum_a shape[i][a] {1, xi, eta, xi eta}_a
+      constexpr double                     shape[4][4] = {{1., -1., -1., 1.},
+                                                          {0., 1., 0., -1.},
+                                                          {0., 0., 1., -1.},
+                                                          {0., 0., 0., 1.}};
+      std::array<std::array<double, 4>, 4> result      = {};
+      for (unsigned int i = 0; i < 4; ++i)
+        for (unsigned int j = 0; j < 4; ++j)
+          for (unsigned int a = 0; a < 4; ++a)
+            for (unsigned int b = 0; b < 4; ++b)
+              result[i][j] += shape[i][a] * shape[j][b] * m[table[a][b]];
+      return result;
+    }
+  } // namespace
+
+  // ------------------------------------------------------------ set-up
+
+  void
+  ContactCorners::initialize(const BackgroundGrid           &grid,
+                             const std::vector<ContactFace> &faces,
+                             const BodySurface              &body)
+  {
+    n_owned_nodes = grid.n_owned_nodes();
+    corners.clear();
+    std::vector<unsigned int> n_rigid(grid.n_nodes(), 0);
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      for (const unsigned int node : grid.cell_nodes(cell).node)
+        n_rigid[node] += grid.is_rigid(cell);
+
+    std::map<unsigned int,
+             std::vector<std::pair<const ContactFace *, unsigned int>>>
+      faces_at;
+    for (const ContactFace &face : faces)
+      for (unsigned int i = 0; i < 2; ++i)
+        faces_at[face.nodes[i]].emplace_back(&face, i);
+    for (const auto &entry : faces_at)
+      {
+        const unsigned int node    = entry.first;
+        const auto        &own     = entry.second;
+        const bool         on_axis = grid.lines().reaches_axis() &&
+                             grid.is_at(node, BackgroundGrid::Side::axis);
+        if (own.size() != 2 || n_rigid[node] == 3 || on_axis ||
+            own[0].first->normal * own[1].first->normal > 1. - 1e-9)
+          continue;
+        Corner corner;
+        corner.node = node;
+        for (unsigned int i = 0; i < 2; ++i)
+          add_face(grid, body, *own[i].first, own[i].second, i, corner);
+        corners.push_back(corner);
+      }
+    number_cells(grid);
+    update_views();
+  }
+
+  void
+  ContactCorners::add_face(const BackgroundGrid &grid,
+                           const BodySurface    &body,
+                           const ContactFace    &face,
+                           const unsigned int    end,
+                           const unsigned int    i,
+                           Corner               &corner)
+  {
+    corner.normal[i]   = face.normal;
+    corner.surface[i]  = face.surface;
+    corner.friction[i] = body.friction_coefficient(face.surface);
+    corner.adhesion[i] = body.adhesion[face.surface] * face.areas[end];
+    Cell &cell         = corner.cells[i];
+    cell.cell          = face.soil_cell;
+    cell.corner        = face.corners[end];
+    cell.is_owned      = grid.is_owned(face.soil_cell);
+    cell.free          = face.is_vertical ? vertical : radial;
+    // along the face, with the free component 1
+    cell.q[radial]   = -face.normal[vertical];
+    cell.q[vertical] = face.normal[radial];
+    cell.q /= cell.q[cell.free];
+  }
+
+  void
+  ContactCorners::number_cells(const BackgroundGrid &grid)
+  {
+    const auto key = [&grid](const Cell &cell) {
+      return 4ul * index_of(grid.global_number(cell.cell)) + cell.corner;
+    };
+    std::vector<unsigned long> own;
+    for (const Corner &corner : corners)
+      for (const Cell &cell : corner.cells)
+        own.push_back(key(cell));
+    std::vector<unsigned long> all;
+    for (const auto &of_rank :
+         Utilities::MPI::all_gather(grid.communicator(), own))
+      all.insert(all.end(), of_rank.begin(), of_rank.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    for (Corner &corner : corners)
+      for (Cell &cell : corner.cells)
+        cell.index =
+          std::lower_bound(all.begin(), all.end(), key(cell)) - all.begin();
+    sums_.assign(n_sums * all.size(), 0.);
+    communicator = grid.communicator();
+  }
+
+  bool
+  ContactCorners::is_corner(const unsigned int node) const
+  {
+    return std::any_of(corners.begin(), corners.end(), [&](const Corner &c) {
+      return c.node == node;
+    });
+  }
+
+  // ------------------------------------------------------------ one step
+
+  void
+  ContactCorners::collect(const Kernels::KernelTable &kernels,
+                          const Kernels::StepContext &step)
+  {
+    if (sums_.empty())
+      return;
+    std::fill(sums_.begin(), sums_.end(), 0.);
+    for (const Corner &corner : corners)
+      for (const Cell &cell : corner.cells)
+        if (cell.is_owned && step.points.first_block[cell.cell] >= 0)
+          {
+            NodalSums all[4];
+            kernels.cell_contribution(step, cell.cell, all);
+            const NodalSums &own = all[cell.corner];
+            double *const    sum = &sums_[n_sums * cell.index];
+            sum[0]               = own.mass;
+            for (unsigned int d = 0; d < 2; ++d)
+              {
+                sum[1 + d] = own.momentum[d];
+                sum[3 + d] = own.force[d];
+              }
+          }
+    Utilities::MPI::sum(sums_, communicator, sums_);
+  }
+
+  ContactCorners::Contribution
+  ContactCorners::contribution(const Cell &cell) const
+  {
+    const double *const sum = &sums_[n_sums * cell.index];
+    return {sum[0], vector_of(sum + 1), vector_of(sum + 3)};
+  }
+
+  Vector2
+  ContactCorners::mass_of(const Corner &corner, const double total) const
+  {
+    double  plain = total;
+    Vector2 mass;
+    for (const Cell &cell : corner.cells)
+      {
+        const double own = contribution(cell).mass;
+        plain -= own;
+        for (unsigned int d = 0; d < 2; ++d)
+          mass[d] += own * (!cell.closed   ? 1. :
+                            d == cell.free ? cell.q * cell.q :
+                                             0.);
+      }
+    for (unsigned int d = 0; d < 2; ++d)
+      mass[d] = mass[d] + plain > 1e-9 * total ? mass[d] + plain : 0.;
+    return mass;
+  }
+
+  Vector2
+  ContactCorners::momentum_of(const Corner  &corner,
+                              const double   total,
+                              const Vector2 &w) const
+  {
+    double  plain = total;
+    Vector2 momentum;
+    for (const Cell &cell : corner.cells)
+      {
+        const double own = contribution(cell).mass;
+        plain -= own;
+        momentum += own * cell.see(w);
+      }
+    return momentum + plain * w;
+  }
+
+  void
+  ContactCorners::accelerate(const Vector2   &body_velocity,
+                             const double     dt,
+                             const NodalSums *sums,
+                             NodalVector     *v,
+                             NodalVector     *u)
+  {
+    velocity = body_velocity;
+    for (Corner &corner : corners)
+      {
+        const NodalSums &node = sums[corner.node];
+        corner.has_soil       = node.mass > 0.;
+        if (!corner.has_soil)
+          continue;
+        for (Cell &cell : corner.cells)
+          cell.closed = cell.closed_next;
+        Vector2 momentum = vector_of(node.momentum) - node.mass * velocity,
+                force    = vector_of(node.force);
+        for (const Cell &cell : corner.cells)
+          {
+            const Contribution own      = contribution(cell);
+            const Vector2      relative = own.momentum - own.mass * velocity;
+            momentum += cell.back(relative) - relative;
+            force += cell.back(own.force) - own.force;
+          }
+        const Vector2 mass = mass_of(corner, node.mass);
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            const double w = mass[d] > 0. ? momentum[d] / mass[d] : 0.;
+            const double a =
+              mass[d] > 0. ? force[d] / inertia_of(mass[d], dt, node) : 0.;
+            v[corner.node].value[d] = velocity[d] + w;
+            u[corner.node].value[d] = velocity[d] + w + dt * a;
+          }
+      }
+    update_views();
+  }
+
+  double
+  ContactCorners::inertia_of(const double              mass,
+                             const double              dt,
+                             const Kernels::NodalSums &node)
+  {
+    return std::max(mass, .25 * dt * dt * node.stiffness);
+  }
+
+  std::array<double, 2>
+  ContactCorners::resolve(const Corner &corner, const Vector2 &impulse) const
+  {
+    // impulse = - p_0 n_0 - p_1 n_1
+    const Vector2 &a = corner.normal[0], &b = corner.normal[1];
+    const double   det = a[0] * b[1] - a[1] * b[0];
+    return {{-(impulse[0] * b[1] - impulse[1] * b[0]) / det,
+             -(a[0] * impulse[1] - a[1] * impulse[0]) / det}};
+  }
+
+  void
+  ContactCorners::apply(const double       dt,
+                        const NodalSums   *sums,
+                        const NodalVector *v,
+                        NodalVector       *u)
+  {
+    for (Corner &corner : corners)
+      {
+        const NodalSums &node = sums[corner.node];
+        corner.reaction       = CornerReaction();
+        if (!corner.has_soil)
+          continue;
+        const Vector2 w    = vector_of(v[corner.node].value) - velocity,
+                      x    = vector_of(u[corner.node].value) - velocity;
+        const Vector2 mass = mass_of(corner, node.mass);
+        Vector2       inertia;
+        for (unsigned int d = 0; d < 2; ++d)
+          inertia[d] = mass[d] > 0. ? inertia_of(mass[d], dt, node) : 0.;
+        const Vector2 given = vector_of(node.momentum) - node.mass * velocity +
+                              dt * vector_of(node.force);
+        // what is left to the body when the velocity has changed to w + y
+        const auto remainder = [&](Vector2 y) {
+          for (unsigned int d = 0; d < 2; ++d)
+            y[d] *= mass[d] > 0. ? inertia[d] / mass[d] : 0.;
+          return given - momentum_of(corner, node.mass, w + y);
+        };
+        const Vector2 left =
+          slide(corner, dt, inertia, resolve(corner, remainder(x - w)), x);
+        Vector2 rest = remainder(left - w);
+        for (unsigned int i = 0; i < 2; ++i)
+          rest -= corner.reaction.impulse[i];
+        const auto pressed = resolve(corner, rest);
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            Cell &cell = corner.cells[i];
+            corner.reaction.impulse[i] -= pressed[i] * corner.normal[i];
+            cell.closed_next =
+              cell.closed ? pressed[i] > 0. : left * corner.normal[i] < 0.;
+          }
+        for (unsigned int d = 0; d < 2; ++d)
+          u[corner.node].value[d] = velocity[d] + left[d];
+      }
+  }
+
+  Vector2
+  ContactCorners::slide(Corner                      &corner,
+                        const double                 dt,
+                        const Vector2               &inertia,
+                        const std::array<double, 2> &pressed,
+                        const Vector2               &x)
+  {
+    std::array<double, 2> bearable = {{0., 0.}}; // by face
+    Vector2               of_component;
+    for (unsigned int i = 0; i < 2; ++i)
+      if (corner.cells[i].closed)
+        {
+          const Cell &cell = corner.cells[i];
+          bearable[i]      = (corner.friction[i] * std::max(pressed[i], 0.) +
+                         corner.adhesion[i] * dt) *
+                        cell.q.norm();
+          of_component[cell.free] += bearable[i];
+        }
+    Vector2 left = x;
+    for (unsigned int d = 0; d < 2; ++d)
+      {
+        const double borne =
+          std::min(of_component[d], inertia[d] * std::abs(x[d]));
+        corner.sticks[d] =
+          inertia[d] <= 0. || (of_component[d] > 0. && borne < of_component[d]);
+        if (borne > 0.)
+          {
+            corner.reaction.friction[d] = std::copysign(borne, x[d]);
+            left[d]                     = corner.sticks[d] ?
+                                            0. :
+                                            x[d] - corner.reaction.friction[d] / inertia[d];
+          }
+      }
+    for (unsigned int i = 0; i < 2; ++i)
+      if (bearable[i] > 0.)
+        {
+          const Cell  &cell = corner.cells[i];
+          const double share =
+            bearable[i] / of_component[cell.free] / (cell.q * cell.q);
+          corner.reaction.impulse[i] =
+            share * corner.reaction.friction[cell.free] * cell.q;
+        }
+    return left;
+  }
+
+  void
+  ContactCorners::hold(const Vector2 &body_velocity, NodalVector *v) const
+  {
+    for (const Corner &corner : corners)
+      for (unsigned int d = 0; corner.has_soil && d < 2; ++d)
+        if (corner.sticks[d])
+          v[corner.node].value[d] = body_velocity[d];
+  }
+
+  void
+  ContactCorners::correct_mass(const Kernels::StepContext &step,
+                               const NodalVector          *from,
+                               const double                share,
+                               NodalVector                *to) const
+  {
+    for (const Corner &corner : corners)
+      for (const Cell &cell : corner.cells)
+        if (cell.is_owned && cell.closed && corner.has_soil &&
+            step.points.first_block[cell.cell] >= 0)
+          {
+            const auto  matrix   = mass_matrix(step.moments[cell.cell].mass);
+            const auto &nodes    = step.grid.nodes[cell.cell].node;
+            const unsigned int k = cell.corner;
+            const Vector2      of_body = share * velocity;
+            const Vector2      w = vector_of(from[corner.node].value) - of_body;
+            const Vector2      change = cell.see(w) - w;
+            Vector2            at_corner;
+            double             lumped = 0.;
+            for (unsigned int j = 0; j < 4; ++j)
+              {
+                at_corner += matrix[k][j] * vector_of(from[nodes[j]].value);
+                lumped += matrix[k][j];
+                for (unsigned int d = 0; d < 2; ++d)
+                  to[nodes[j]].value[d] += matrix[j][k] * change[d];
+              }
+            at_corner += matrix[k][k] * change - lumped * of_body;
+            const Vector2 correction = cell.back(at_corner) - at_corner;
+            for (unsigned int d = 0; d < 2; ++d)
+              to[corner.node].value[d] += correction[d];
+          }
+  }
+
+  void
+  ContactCorners::divide_by_mass(const NodalSums *sums,
+                                 const double     share,
+                                 NodalVector     *v) const
+  {
+    // they have been divided by the plain mass
+    for (const Corner &corner : corners)
+      if (corner.has_soil)
+        {
+          const double  total = sums[corner.node].mass;
+          const Vector2 mass  = mass_of(corner, total);
+          for (unsigned int d = 0; d < 2; ++d)
+            {
+              double      &own     = v[corner.node].value[d];
+              const double of_body = share * velocity[d];
+              own                  = of_body +
+                    (mass[d] > 0. ? (own - of_body) * total / mass[d] : 0.);
+            }
+        }
+  }
+
+  double
+  ContactCorners::missing_power(const NodalVector *v) const
+  {
+    double power = 0.;
+    for (const Corner &corner : corners)
+      if (corner.has_soil && corner.node < n_owned_nodes)
+        for (const Cell &cell : corner.cells)
+          {
+            const Vector2 w = vector_of(v[corner.node].value) - velocity;
+            power += contribution(cell).force * (cell.see(w) - w);
+          }
+    return power;
+  }
+
+  Vector2
+  ContactCorners::velocity_at_face(const unsigned int node,
+                                   const unsigned int soil_cell,
+                                   const Vector2     &v) const
+  {
+    for (const Corner &corner : corners)
+      if (corner.node == node)
+        for (const Cell &cell : corner.cells)
+          if (cell.cell == soil_cell)
+            return velocity + cell.see(v - velocity);
+    return v;
+  }
+
+  void
+  ContactCorners::update_views()
+  {
+    views_.clear();
+    for (const Corner &corner : corners)
+      for (const Cell &cell : corner.cells)
+        if (corner.has_soil && cell.closed)
+          views_.push_back({cell.cell,
+                            cell.corner,
+                            cell.free,
+                            {cell.q[0], cell.q[1]},
+                            {velocity[0], velocity[1]}});
+  }
+} // namespace CaissonMPM
