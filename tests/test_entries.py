@@ -31,6 +31,12 @@ class Unused(ProgramTest):
             {f"{LAYER}/Loosest void ratio": 1.1},
         )
 
+    def test_velocity_of_no_length(self) -> None:
+        self.warning(
+            ["Internal velocity", "Internal length is 0"],
+            {f"{LAYER}/Internal velocity": 1},
+        )
+
     def test_entry_of_another_kind(self) -> None:
         self.warning(["Apex angle", "Kind is caisson"], {"Rigid body/Apex angle": 70})
 

@@ -31,6 +31,10 @@ CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
             f"{LAYER}/Residual dilatancy angle": 35,
         },
     ),
+    (
+        ["Internal length", "yield surface", "hypoplastic sand"],
+        {**HYPOPLASTIC, f"{LAYER}/Internal length": 0.01},
+    ),
     (["Porosity", "0.346405", "0.5"], {**HYPOPLASTIC, f"{LAYER}/Porosity": 0.3}),
     (
         ["Critical void ratio", "order"],

@@ -104,6 +104,28 @@ namespace CaissonMPM
                        "the layer's law, 1 - sin(phi) or, without a friction "
                        "angle, nu / (1 - nu). Units: none.",
                        Patterns::Double(0., 10.));
+    declare_internal_length();
+  }
+
+  void
+  SoilLayer::declare_internal_length()
+  {
+    add_parameter(
+      "Internal length",
+      internal_length,
+      "The strength of soil that shears grows by the share l g / v, "
+      "where l is this length, g the rate of shear and v the "
+      "internal velocity, so that a shear band is some of these "
+      "lengths wide; 0 leaves its width to the mesh. Units: m.",
+      prm,
+      Patterns::Double(0.));
+    add_parameter("Internal velocity",
+                  internal_velocity,
+                  "The internal length is that of shear bands whose sides pass "
+                  "each other at this velocity, which should be that of the "
+                  "body. Units: m/s.",
+                  prm,
+                  Patterns::Double(1e-12));
   }
 
   void
@@ -114,6 +136,13 @@ namespace CaissonMPM
                               {earth_pressure_at_rest(), void_ratio()},
                               message))
       throw BadInput(section() + "/" + message.text);
+    if (internal_length > 0. && !law_named(law).has_yield_surface)
+      throw BadInput(section() +
+                     "/Internal length = " + to_text(internal_length) +
+                     " m needs a law with a yield "
+                     "surface, and " +
+                     section() + "/Law is " + law +
+                     ". Set the length to 0, or take a law of Mohr-Coulomb.");
   }
 
   void
@@ -130,6 +159,9 @@ namespace CaissonMPM
           unused.push_back(section() + "/" + entry.first);
       }
     origins.add_unused(unused, section() + "/Law is " + law);
+    if (internal_length == 0.)
+      origins.add_unused({section() + "/Internal velocity"},
+                         section() + "/Internal length is 0");
   }
 
   std::string
@@ -176,6 +208,10 @@ namespace CaissonMPM
   std::string
   SoilLayer::known_limit() const
   {
+    // what is said of softening, the length takes care of
+    if (internal_length > 0. && law_named(law).has_yield_surface &&
+        law_value("Softening shape factor"))
+      return "";
     const char *const limit = law_named(law).warning(law_values().data());
     return limit == nullptr ? "" : section() + ": " + limit;
   }
@@ -201,6 +237,7 @@ namespace CaissonMPM
   {
     law_named(law).set(material, law_values().data());
     material.initial_void_ratio = void_ratio();
+    material.overstress_time    = internal_length / internal_velocity;
   }
 
   StateVariables

@@ -148,6 +148,7 @@ namespace CaissonMPM
                              const LocalPoint<Number> &p,
                              const StressStep<Number> &s,
                              const Material           &material,
+                             const double              time_step,
                              UpdateSums<Number>       &sums,
                              WaitingBlocks<Number>    &waiting)
       {
@@ -171,15 +172,20 @@ namespace CaissonMPM
                               work_per_volume(s.old, stress, s.step));
                 return;
               }
-            if (!Law::needs_void_ratio(parameters))
+            if (!Law::needs_void_ratio(parameters) &&
+                material.overstress_time == 0.)
               return waiting.add(b, s, p, material, in_group);
           }
-        sums.add_work(
-          p,
-          mass,
-          volume,
-          update_stress<Law>(
-            b, history, lane, s, {material.initial_void_ratio, parameters}));
+        sums.add_work(p,
+                      mass,
+                      volume,
+                      update_stress<Law>(b,
+                                         history,
+                                         lane,
+                                         s,
+                                         {material.initial_void_ratio,
+                                          material.overstress_time / time_step,
+                                          parameters}));
       }
 
       /** Update one block; returns its lanes outside the moved cell. */
@@ -209,6 +215,7 @@ namespace CaissonMPM
               p,
               begin_stress_step(b, lane, p, cell, settings),
               material,
+              settings.time_step,
               sums,
               waiting);
             limited |= move_points(b, lane, p, cell, settings, r, z) << lane;

@@ -10,6 +10,7 @@
 #include <caisson_mpm/kernels/linear_elastic.h>
 #include <caisson_mpm/kernels/mohr_coulomb.h>
 #include <caisson_mpm/kernels/mohr_coulomb_softening.h>
+#include <caisson_mpm/kernels/overstress.h>
 
 #define CAISSON_LAMBDA __attribute__((always_inline))
 
@@ -106,8 +107,9 @@ namespace CaissonMPM
       {
         static_assert(sizeof(parameters) <= sizeof(material.parameters),
                       "enlarge Material::parameters (layout.h)");
-        material.law     = law_id<Law>;
-        material.dilates = dilates<Law>(parameters, 0);
+        material.law             = law_id<Law>;
+        material.dilates         = dilates<Law>(parameters, 0);
+        material.overstress_time = 0.;
         __builtin_memcpy(material.parameters, &parameters, sizeof(parameters));
       }
 
@@ -121,6 +123,7 @@ namespace CaissonMPM
         int             n_entries;
         int             friction_entry;
         bool            stiffness_varies;
+        bool            has_yield_surface;
 
         /** Whether the values fit together; if not, why. */
         bool (*check)(const double *values, const LawContext &, LawMessage &);
@@ -226,6 +229,7 @@ namespace CaissonMPM
                     sizeof(Law::entries) / sizeof(LawEntry),
                     Law::friction_entry,
                     Law::stiffness_varies,
+                    has_yield_surface<Law>(0),
                     &Law::check,
                     warning_of<Law>(0),
                     &F::set,

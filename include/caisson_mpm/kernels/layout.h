@@ -92,6 +92,7 @@ namespace CaissonMPM
       double p_wave_modulus; // lambda + 2 mu, the largest of all points (Pa)
       bool   dilates;        // in plastic shear
       double initial_void_ratio;
+      double overstress_time; // kernels/overstress.h; 0: none (s)
       alignas(16) unsigned char parameters[256];
     };
 

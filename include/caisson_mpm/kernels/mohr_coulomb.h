@@ -28,9 +28,10 @@ namespace CaissonMPM
                                                   Entries::largest_void_ratio};
         static constexpr int         friction_entry =
                                entry_named(entries, "Friction angle"),
-                             n_state           = 0;
-        static constexpr bool uses_void_ratio  = true;
-        static constexpr bool stiffness_varies = false;
+                             n_state            = 0;
+        static constexpr bool uses_void_ratio   = true;
+        static constexpr bool stiffness_varies  = false;
+        static constexpr bool has_yield_surface = true;
 
         static constexpr double no_cutoff =
           MohrCoulombStrength<double>::no_cutoff;

@@ -13,7 +13,8 @@
 // eps grows by what it did. A stress is thus outside the new yield surface by
 // what the strength loses in one step, O(eta deps), and the next step brings
 // it back, even without strain. Softening gives shear bands a width of about
-// one cell, and eta must be scaled with it: nothing here regularizes it.
+// one cell, and eta must be scaled with it, unless overstress.h gives them one
+// of their own.
 //
 // References:
 //   A. Yerro Colom (2015), MPM modelling of landslides in brittle and
@@ -70,9 +71,10 @@ namespace CaissonMPM
               no_limit}};
         static constexpr int friction_entry =
                                entry_named(entries, "Friction angle"),
-                             n_state           = 0;
-        static constexpr bool uses_void_ratio  = false;
-        static constexpr bool stiffness_varies = false;
+                             n_state            = 0;
+        static constexpr bool uses_void_ratio   = false;
+        static constexpr bool stiffness_varies  = false;
+        static constexpr bool has_yield_surface = true;
 
         /** Angles in rad, stresses in Pa. */
         struct Parameters
@@ -103,8 +105,9 @@ namespace CaissonMPM
         static const char *
         warning(const double * /*values*/)
         {
-          return "softening is not regularized: shear bands are about a cell "
-                 "wide, so compare meshes: see doc/limitations.md";
+          return "softening needs an Internal length: without it, shear bands "
+                 "are about a cell wide, so compare meshes: see "
+                 "doc/limitations.md";
         }
 
         static bool

@@ -13,6 +13,7 @@
 
 #include <caisson_mpm/kernels/laws.h>
 #include <caisson_mpm/kernels/moments.h>
+#include <caisson_mpm/kernels/overstress.h>
 
 namespace CaissonMPM
 {
@@ -241,6 +242,7 @@ namespace CaissonMPM
       struct MaterialOf
       {
         double                          initial_void_ratio;
+        double                          overstress_steps; // 0: none
         const typename Law::Parameters &parameters;
       };
 
@@ -372,7 +374,19 @@ namespace CaissonMPM
                           material.initial_void_ratio,
                           needs_void_ratio<Law>(material.parameters, 0));
         StressState<Number> stress = s.old;
-        Law::update(stress, s.step.strain, state, material.parameters);
+        if constexpr (has_yield_surface<Law>(0))
+          {
+            if (material.overstress_steps > 0.)
+              update_with_overstress<Law>(stress,
+                                          s.step.strain,
+                                          state,
+                                          material.parameters,
+                                          material.overstress_steps);
+            else
+              Law::update(stress, s.step.strain, state, material.parameters);
+          }
+        else
+          Law::update(stress, s.step.strain, state, material.parameters);
         store_stress(s.half_turn(stress), b, lane);
         store_state<Law>(state, b, history, lane);
 

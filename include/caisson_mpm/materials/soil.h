@@ -81,16 +81,21 @@ namespace CaissonMPM
     StateVariables
     start_of_state() const;
 
-    double                top_depth     = 0.;
-    std::string           law           = "Mohr-Coulomb";
-    double                porosity      = 0.4;
-    double                solid_density = 2500.;
+    double                top_depth         = 0.;
+    std::string           law               = "Mohr-Coulomb";
+    double                porosity          = 0.4;
+    double                internal_length   = 0.;
+    double                internal_velocity = 0.1;
+    double                solid_density     = 2500.;
     std::optional<double> k0; // no value: the law's own
 
     /** The entries of all laws by name, in the units of the entries. */
     std::map<std::string, double> values;
 
   private:
+    void
+    declare_internal_length();
+
     /** "Soil/Layer k". */
     std::string
     section() const;
