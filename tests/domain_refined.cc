@@ -213,6 +213,7 @@ check_others()
       set Skirt length          = 2
       set Cells across the wall = 4
       set Initial penetration   = 1
+      set Shoulder bevel        = 0
     end
     subsection Grid
       set Outer radius = 3

@@ -69,6 +69,7 @@ inline const std::string caisson = R"(
     set Cells across the wall = 2
     set Tip angle             = 60
     set Initial penetration   = 0.5
+    set Shoulder bevel        = 0
   end
   subsection Grid
     set Outer radius          = 8

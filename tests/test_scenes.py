@@ -59,23 +59,6 @@ class UserScenes(ProgramTest):
     def test_jack_at_rest(self) -> None:
         self.assert_at_rest("jack")
 
-    def test_warn_of_few_points(self) -> None:
-        for points, warnings in (5, 1), (7, 0):
-            text = self.run_program(
-                SUCCESS,
-                user_scene("jack"),
-                "--output-directory",
-                self.directory(),
-                entries={
-                    "Material points/Per direction in path": points,
-                    "Time/End penetration": 0.502,
-                    "Output/Error bar": "",
-                    "Output/Frame penetrations": "",
-                },
-            )
-            self.assertEqual(text.count("warning:"), warnings, text)
-            self.assertEqual(text.count("break loose"), warnings, text)
-
     def test_jack_refined_at_rest(self) -> None:
         self.assert_at_rest("jack_refined")
 

@@ -9,7 +9,7 @@ Keys of the study beside the usual ones:
     [[errors]]
     name = "mesh"      each term compares two runs:
     from = "default"
-    to = "eight_cells"
+    to = "refined"
     factor = 1         extrapolates to the limit: 2 from a halved quantity on which
                        the error depends linearly, 1 from a refined mesh
 
@@ -36,13 +36,18 @@ STUDY_KEYS = {"output", "depths", "errors"}
 RUN_KEYS = set[str]()
 ERROR_WINDOW = 0.5  # m
 TABLE_DEPTHS = [1, 2, 4, 6]  # m
-FORCES = {"tip": "tip_force_N", "total": "total_force_N"}
+FORCES = {
+    "tip": "tip_force_N",
+    "inner": "inner_friction_N",
+    "outer": "outer_friction_N",
+    "total": "total_force_N",
+}
 
 Errors = dict[str, np.ndarray]  # by force: [n_depths]
 
 
 def term_errors(term: dict[str, Any], study: Study, depths: np.ndarray) -> Errors:
-    """Return the relative errors of tip and total force by one term."""
+    """Return the relative errors of all forces by one term."""
     a, b = [study.run(term[key]).results.history for key in ("from", "to")]
     errors = {}
     for name, column in FORCES.items():
@@ -65,7 +70,7 @@ def write_file(
         f"# Relative errors of the forces of {base.run.scene.name},"
         f" by scripts/caisson study {short(study.file)}",
         f"# fingerprint: {base.results.summary['fingerprint']}",
-        ",".join(["penetration_m", "tip_error", "total_error", *columns]),
+        ",".join(["penetration_m", *[f"{f}_error" for f in FORCES], *columns]),
     ]
     for i, depth in enumerate(depths):
         values = [errors[force][i] for errors in [half, *terms] for force in FORCES]

@@ -212,17 +212,6 @@ namespace CaissonMPM
     };
   } // namespace
 
-  std::vector<std::string>
-  PointGenerator::known_limits(const BodyShape &body) const
-  {
-    if (body.cells_across_wall() > 3 && per_direction[0] < 7)
-      return {"with four cells or more across the wall and fewer than seven "
-              "points per direction in the path, the tip has been seen to "
-              "break loose: set Material points/Per direction in path = 7; see "
-              "doc/limitations.md, Snaps"};
-    return {};
-  }
-
   bool
   PointGenerator::may_hold_soil(const GridLines &lines,
                                 const GlobalCell cell) const

@@ -464,6 +464,7 @@ namespace CaissonMPM
         layers[i]->set_law(result[i]);
         result[i].p_wave_modulus =
           p_wave_modulus(result[i], Stress(), layers[i]->void_ratio());
+        result[i].initial_density = inertial_density(i);
         // weight and mass ratio: buoyancy and mass scaling leave the force
         const double buoyancy =
           (1. - layers[i]->porosity) *

@@ -248,7 +248,10 @@ namespace CaissonMPM
             if (node < n_owned_nodes && mass[node] > 0.)
               flow += face.areas[i] * ((u - velocity) * face.normal);
           }
-        sum -= std::min(flow, 0.);
+        // a sliding velocity is along the face but for rounding
+        const double rounding =
+          1e-12 * velocity.norm() * (face.areas[0] + face.areas[1]);
+        sum -= std::min(flow + rounding, 0.);
       }
     return circumference * dt * sum;
   }

@@ -244,11 +244,34 @@ namespace CaissonMPM
             const double w = mass[d] > 0. ? momentum[d] / mass[d] : 0.;
             const double a =
               mass[d] > 0. ? force[d] / inertia_of(mass[d], dt, node) : 0.;
-            v[corner.node].value[d] = velocity[d] + w;
+            corner.old[d]           = velocity[d] + w;
             u[corner.node].value[d] = velocity[d] + w + dt * a;
           }
+        corner.plain_old = plain_old(corner, node);
+        for (unsigned int d = 0; d < 2; ++d)
+          v[corner.node].value[d] = corner.plain_old[d];
       }
     update_views();
+  }
+
+  Vector2
+  ContactCorners::plain_old(const Corner &corner, const NodalSums &node) const
+  {
+    double  mass     = node.mass;
+    Vector2 momentum = vector_of(node.momentum);
+    for (const Cell &cell : corner.cells)
+      {
+        mass -= contribution(cell).mass;
+        momentum -= contribution(cell).momentum;
+      }
+    return mass > 1e-9 * node.mass ? momentum / mass : corner.old;
+  }
+
+  Vector2
+  ContactCorners::own_old(const Corner &corner, const Cell &cell) const
+  {
+    const Contribution own = contribution(cell);
+    return own.mass > 0. ? own.momentum / own.mass : corner.old;
   }
 
   double
@@ -270,10 +293,7 @@ namespace CaissonMPM
   }
 
   void
-  ContactCorners::apply(const double       dt,
-                        const NodalSums   *sums,
-                        const NodalVector *v,
-                        NodalVector       *u)
+  ContactCorners::apply(const double dt, const NodalSums *sums, NodalVector *u)
   {
     for (Corner &corner : corners)
       {
@@ -281,7 +301,7 @@ namespace CaissonMPM
         corner.reaction       = CornerReaction();
         if (!corner.has_soil)
           continue;
-        const Vector2 w    = vector_of(v[corner.node].value) - velocity,
+        const Vector2 w    = corner.old - velocity,
                       x    = vector_of(u[corner.node].value) - velocity;
         const Vector2 mass = mass_of(corner, node.mass);
         Vector2       inertia;
@@ -305,8 +325,12 @@ namespace CaissonMPM
           {
             Cell &cell = corner.cells[i];
             corner.reaction.impulse[i] -= pressed[i] * corner.normal[i];
+            // A face that advances or slides stays closed: whether soil presses
+            // on it changes from step to step, and what comes off for a step
+            // and back again loses energy and gets into the body.
             cell.closed_next =
-              cell.closed ? pressed[i] > 0. : left * corner.normal[i] < 0.;
+              velocity * corner.normal[i] >= 0. ||
+              (cell.closed ? pressed[i] > 0. : left * corner.normal[i] < 0.);
           }
         for (unsigned int d = 0; d < 2; ++d)
           u[corner.node].value[d] = velocity[d] + left[d];
@@ -359,6 +383,14 @@ namespace CaissonMPM
   }
 
   void
+  ContactCorners::set_old(NodalVector *v) const
+  {
+    for (const Corner &corner : corners)
+      for (unsigned int d = 0; corner.has_soil && d < 2; ++d)
+        v[corner.node].value[d] = corner.old[d];
+  }
+
+  void
   ContactCorners::hold(const Vector2 &body_velocity, NodalVector *v) const
   {
     for (const Corner &corner : corners)
@@ -370,7 +402,7 @@ namespace CaissonMPM
   void
   ContactCorners::correct_mass(const Kernels::StepContext &step,
                                const NodalVector          *from,
-                               const double                share,
+                               const SeenField            &kind,
                                NodalVector                *to) const
   {
     for (const Corner &corner : corners)
@@ -381,11 +413,15 @@ namespace CaissonMPM
             const auto  matrix   = mass_matrix(step.moments[cell.cell].mass);
             const auto &nodes    = step.grid.nodes[cell.cell].node;
             const unsigned int k = cell.corner;
-            const Vector2      of_body = share * velocity;
-            const Vector2      w = vector_of(from[corner.node].value) - of_body;
-            const Vector2      change = cell.see(w) - w;
-            Vector2            at_corner;
-            double             lumped = 0.;
+            const Vector2      of_body = kind.net_share() * velocity;
+            const Vector2      w       = vector_of(from[corner.node].value) +
+                              kind.less_old * corner.plain_old -
+                              kind.share_of_body * velocity;
+            const Vector2 change =
+              cell.see(w) - w +
+              kind.less_old * (corner.plain_old - own_old(corner, cell));
+            Vector2 at_corner;
+            double  lumped = 0.;
             for (unsigned int j = 0; j < 4; ++j)
               {
                 at_corner += matrix[k][j] * vector_of(from[nodes[j]].value);
@@ -402,7 +438,7 @@ namespace CaissonMPM
 
   void
   ContactCorners::divide_by_mass(const NodalSums *sums,
-                                 const double     share,
+                                 const SeenField &kind,
                                  NodalVector     *v) const
   {
     // they have been divided by the plain mass
@@ -414,7 +450,7 @@ namespace CaissonMPM
           for (unsigned int d = 0; d < 2; ++d)
             {
               double      &own     = v[corner.node].value[d];
-              const double of_body = share * velocity[d];
+              const double of_body = kind.net_share() * velocity[d];
               own                  = of_body +
                     (mass[d] > 0. ? (own - of_body) * total / mass[d] : 0.);
             }
@@ -455,10 +491,15 @@ namespace CaissonMPM
     for (const Corner &corner : corners)
       for (const Cell &cell : corner.cells)
         if (corner.has_soil && cell.closed)
-          views_.push_back({cell.cell,
-                            cell.corner,
-                            cell.free,
-                            {cell.q[0], cell.q[1]},
-                            {velocity[0], velocity[1]}});
+          {
+            const Vector2 own = own_old(corner, cell);
+            views_.push_back({cell.cell,
+                              cell.corner,
+                              cell.free,
+                              {cell.q[0], cell.q[1]},
+                              {velocity[0], velocity[1]},
+                              {corner.plain_old[0], corner.plain_old[1]},
+                              {own[0], own[1]}});
+          }
   }
 } // namespace CaissonMPM

@@ -25,7 +25,7 @@ namespace CaissonMPM
       {"Gauss in full cells", ForceIntegration::gauss_in_full_cells},
       {"material points", ForceIntegration::material_points}};
     const Choices<Kernels::PressureSlope> pressure_fits = {
-      {"auto", Kernels::PressureSlope::by_material},
+      {"auto", Kernels::PressureSlope::by_dilation},
       {"affine", Kernels::PressureSlope::acts},
       {"mean", Kernels::PressureSlope::ignored}};
   } // namespace
@@ -99,7 +99,8 @@ namespace CaissonMPM
       pressure_fits,
       "The mean stress of the points of a full cell is fitted by an "
       "affine function, as the deviator always is, or by its mean; auto "
-      "takes the mean in soil with a dilatancy angle. Units: none.");
+      "goes over to the mean where soil with a dilatancy angle has dilated "
+      "by 0.5 to 2 %. Units: none.");
     add_parameter("Mean volume change",
                   mean_volume,
                   "The points of a cell are strained with its mean volume "

@@ -28,6 +28,15 @@ namespace CaissonMPM
   }
 
   void
+  NodalConstraints::hold_old(const NodalData &old, NodalData &held) const
+  {
+    held = old;
+    held.update_ghost_values();
+    contact.corners().set_old(nodal_vectors(held));
+    hold(held);
+  }
+
+  void
   NodalConstraints::hold(const Kernels::NodalSums *sums,
                          const double              share,
                          const bool                as_difference,

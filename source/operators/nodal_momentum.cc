@@ -118,7 +118,6 @@ namespace CaissonMPM
   {
     constraints.contact.corners().apply(dt,
                                         sums(),
-                                        nodal_vectors(old_velocity_),
                                         nodal_vectors(new_velocity_));
     return constraints.apply(body_velocity, dt, mass_, new_velocity_);
   }

@@ -35,8 +35,7 @@ namespace CaissonMPM
                    const NodalReactions       &reactions)
   {
     const std::size_t n = 2 * momentum.inertia().size();
-    std::copy_n(momentum.old_velocity().begin(), n, held.begin());
-    constraints.hold(held);
+    constraints.hold_old(momentum.old_velocity(), held);
 
     NodalWork                 result;
     const Kernels::NodalSums *node = momentum.sums();

@@ -11,8 +11,11 @@ namespace CaissonMPM
   void
   PointTransfer::initialize(const BackgroundGrid &grid)
   {
-    for (NodalData *v :
-         {&transfer_velocity, &strain_velocity, &filtered, &after_round_trip})
+    for (NodalData *v : {&transfer_velocity,
+                         &strain_velocity,
+                         &filtered,
+                         &after_round_trip,
+                         &held_old})
       grid.reinit(*v, 2);
   }
 
@@ -31,7 +34,7 @@ namespace CaissonMPM
                  *v       = momentum.new_velocity().begin();
     const double keep     = settings.keep_velocity(size);
 
-    transfer_share = 1. - keep;
+    less_old = keep;
     // what is added to keep * V_p: FLIP's part of it first
     double *const transfer = transfer_velocity.begin();
     for (std::size_t i = 0; i < n; ++i)
@@ -46,7 +49,7 @@ namespace CaissonMPM
   void
   PointTransfer::round_trip(const Context   &context,
                             const NodalData &from,
-                            const double     share_of_body,
+                            const SeenField &kind,
                             NodalData       &to)
   {
     const ContactCorners &corners = context.constraints.contact.corners();
@@ -58,7 +61,7 @@ namespace CaissonMPM
                           [&](NodalVector *product) {
                             corners.correct_mass(context.step,
                                                  nodal_vectors(from),
-                                                 share_of_body,
+                                                 kind,
                                                  product);
                           });
     const Kernels::NodalSums *const node = context.momentum.sums();
@@ -67,7 +70,7 @@ namespace CaissonMPM
       if (node[i].mass > 0.)
         for (unsigned int d = 0; d < 2; ++d)
           v[i].value[d] /= node[i].mass;
-    corners.divide_by_mass(node, share_of_body, v);
+    corners.divide_by_mass(node, kind, v);
   }
 
   void
@@ -76,11 +79,10 @@ namespace CaissonMPM
                             const double       share)
   {
     const std::size_t n = 2 * context.momentum.inertia().size();
-    std::copy_n(context.momentum.old_velocity().begin(), n, filtered.begin());
-    context.constraints.hold(filtered);
+    context.constraints.hold_old(context.momentum.old_velocity(), filtered);
     for (unsigned int k = 1; k < order; ++k)
       {
-        round_trip(context, filtered, k == 1 ? 1. : 0., after_round_trip);
+        round_trip(context, filtered, {k == 1 ? 1. : 0., 0.}, after_round_trip);
         // From the second round on the field is a difference. The round trip
         // keeps momentum, and holding it does not: the points lose its share.
         context.constraints.hold(context.momentum.sums(),
@@ -103,8 +105,9 @@ namespace CaissonMPM
   PointTransfer::find_strain_velocity(const Context &context, const double keep)
   {
     // S+ (keep V_p + S transfer) = keep v + A transfer
-    round_trip(context, transfer_velocity, transfer_share, strain_velocity);
-    const double *const old    = context.momentum.old_velocity().begin();
+    round_trip(context, transfer_velocity, {1., less_old}, strain_velocity);
+    context.constraints.hold_old(context.momentum.old_velocity(), held_old);
+    const double *const old    = held_old.begin();
     double *const       strain = strain_velocity.begin();
     for (std::size_t i = 0; i < 2 * context.momentum.inertia().size(); ++i)
       strain[i] += keep * old[i];
@@ -118,6 +121,6 @@ namespace CaissonMPM
     return {nodal_vectors(v),
             nodal_vectors(transfer_velocity),
             nodal_vectors(strains_with_new ? v : strain_velocity),
-            transfer_share};
+            less_old};
   }
 } // namespace CaissonMPM

@@ -282,9 +282,8 @@ namespace CaissonMPM
   Simulation::known_limits() const
   {
     std::vector<std::string> result;
-    for (const auto &limits : {soil.known_limits(),
-                               nodal_motion.settings().known_limits(),
-                               generator.known_limits(body.shape())})
+    for (const auto &limits :
+         {soil.known_limits(), nodal_motion.settings().known_limits()})
       result.insert(result.end(), limits.begin(), limits.end());
     return result;
   }

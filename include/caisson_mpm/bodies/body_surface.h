@@ -54,7 +54,7 @@ namespace CaissonMPM
     /** Contact adhesion by surface. Units: Pa. */
     std::array<double, n_surfaces> adhesion = {{0., 0., 0., 0., 0.}};
 
-    CornerNormals corner_normals = CornerNormals::average;
+    CornerNormals corner_normals = CornerNormals::split;
   };
 } // namespace CaissonMPM
 

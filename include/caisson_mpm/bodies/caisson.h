@@ -44,6 +44,14 @@ namespace CaissonMPM
                     "horizontal. Units: degrees.",
                     prm,
                     Double(1., 80.));
+      add_parameter("Shoulder bevel",
+                    shoulder_bevel,
+                    "The height by which the mesh raises the outer nodes of "
+                    "the tip, in widths of a cell there. It makes up for the "
+                    "resistance that cells at a sharp corner add, and vanishes "
+                    "as cells become smaller. Units: none.",
+                    prm,
+                    Double(0., 2.));
       add_parameter("Lid thickness",
                     lid_thickness,
                     "The thickness of the lid that closes the top of a "
@@ -124,20 +132,22 @@ namespace CaissonMPM
     double
     tip_height() const override
     {
-      return tip == Tip::triangular ?
-               .5 * wall_thickness * std::tan(radians(tip_angle)) :
-               0.;
+      return slope() * .5 * wall_thickness + bevel();
+    }
+
+    double
+    height_of_bent_rows() const override
+    {
+      return 8. * std::max(slope() * .5 * wall_thickness, bevel());
     }
 
     double
     lower_surface(const double r) const override
     {
-      if (tip == Tip::flat)
-        return bottom();
-      const double edge = .5 * (left() + right());
-      return bottom() +
-             tip_height() *
-               std::min(1., std::abs(r - edge) / (.5 * wall_thickness));
+      const double from_edge = std::abs(r - .5 * (left() + right())),
+                   from_side = .5 * wall_thickness - from_edge;
+      return bottom() + slope() * std::min(from_edge, .5 * wall_thickness) +
+             bevel() * std::clamp(1. - from_side / cell_width(), 0., 1.);
     }
 
     bool
@@ -197,6 +207,20 @@ namespace CaissonMPM
       flat
     };
 
+    /** Of the tip's faces. */
+    double
+    slope() const
+    {
+      return tip == Tip::triangular ? std::tan(radians(tip_angle)) : 0.;
+    }
+
+    /** Of the outer nodes above the faces. Units: m. */
+    double
+    bevel() const
+    {
+      return cells_across > 1 ? shoulder_bevel * cell_width() : 0.;
+    }
+
     void
     check_tip() const
     {
@@ -223,6 +247,7 @@ namespace CaissonMPM
     unsigned int cells_across        = 2;
     Tip          tip                 = Tip::triangular;
     double       tip_angle           = 45.;
+    double       shoulder_bevel      = 0.5;
     double       lid_thickness       = 0.;
     double       initial_penetration = 0.5;
   };

@@ -38,10 +38,6 @@ namespace CaissonMPM
     void
     name_unused_entries(ParameterOrigins &origins) const;
 
-    /** Return what is known to go wrong with these entries, for a warning. */
-    std::vector<std::string>
-    known_limits(const BodyShape &body) const;
-
     /**
      * Create all points, with the soil's initial stress. Those that @p points
      * has are forgotten. Throws BadInput where there would be none, or too

@@ -224,12 +224,12 @@ namespace CaissonMPM
         return outside;
       }
 
-      /** Give a field the value at a corner that the cell sees. @p share: of
-       * the body's velocity in the field. */
+      /** Give a field the value at a corner that the cell sees. The field has
+       * been reduced by @p less_old of the velocities before the step. */
       CAISSON_INLINE void
       see_corner(const CornerView  &corner,
                  const NodalVector &at_node,
-                 const double       share,
+                 const double       less_old,
                  CellField<>       &field)
       {
         // the coefficients of {1, xi, eta, xi eta} of each N_I
@@ -237,11 +237,14 @@ namespace CaissonMPM
                                         {0., 1., 0., -1.},
                                         {0., 0., 1., -1.},
                                         {0., 0., 0., 1.}};
-        const double     free =
-          at_node.value[corner.free] - share * corner.velocity[corner.free];
-        const auto change = [&](const int d) {
-          return share * corner.velocity[d] + free * corner.q[d] -
-                 at_node.value[d];
+        const auto       relative    = [&](const int d) {
+          return at_node.value[d] + less_old * corner.old[d] -
+                 corner.velocity[d];
+        };
+        const double free   = relative(corner.free);
+        const auto   change = [&](const int d) {
+          return free * corner.q[d] - relative(d) +
+                 less_old * (corner.old[d] - corner.own_old[d]);
         };
         const double r = change(0), z = change(1);
         for (int k = 0; k < 4; ++k)
@@ -264,11 +267,11 @@ namespace CaissonMPM
               const CornerView  &corner = step.corners[i];
               const unsigned int node =
                 step.grid.nodes[cell].node[corner.corner];
-              see_corner(corner, fields.advection[node], 1., update.advection);
-              see_corner(corner, fields.strain[node], 1., update.strain);
+              see_corner(corner, fields.advection[node], 0., update.advection);
+              see_corner(corner, fields.strain[node], 0., update.strain);
               see_corner(corner,
                          fields.transfer[node],
-                         fields.transfer_share,
+                         fields.transfer_less_old,
                          update.transfer);
             }
       }

@@ -92,6 +92,7 @@ namespace CaissonMPM
       double p_wave_modulus; // lambda + 2 mu, the largest of all points (Pa)
       bool   dilates;        // in plastic shear
       double initial_void_ratio;
+      double initial_density; // of the scaled mass, kg/m3
       double overstress_time; // kernels/overstress.h; 0: none (s)
       alignas(16) unsigned char parameters[256];
     };
@@ -170,18 +171,20 @@ namespace CaissonMPM
     };
 
     /** A corner at which a cell sees another velocity than that of its node:
-     * v' = V + (v - V)[free] q, with the velocity V of the body. */
+     * v' = V + (v - V)[free] q, with the velocity V of the body. Before the
+     * step the cell has the velocity @p own_old there, and cells that see that
+     * of the node have @p old. */
     struct CornerView
     {
       unsigned int cell, corner, free;
-      double       q[2], velocity[2];
+      double       q[2], velocity[2], old[2], own_old[2];
     };
 
     /** Whether the slope of the mean stress in a full cell acts on its nodes.
      */
     enum class PressureSlope
     {
-      by_material, // Material::dilates
+      by_dilation, // acts in soil that has not dilated
       acts,
       ignored
     };
@@ -227,7 +230,9 @@ namespace CaissonMPM
       const NodalVector *advection; // moves the MPs
       const NodalVector *transfer;  // added to keep_velocity * velocity
       const NodalVector *strain;    // its gradient strains the MPs
-      double transfer_share = 0.;   // of the body's velocity in transfer
+      // transfer has been reduced by this share of the velocities before the
+      // step
+      double transfer_less_old = 0.;
     };
 
     /** What grid_to_points needs besides the context of the step. */

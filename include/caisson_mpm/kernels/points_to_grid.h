@@ -211,7 +211,8 @@ namespace CaissonMPM
        * cell. B-bar gives all points of a cell the same change of volume. Where
        * soil dilates in shear, those that shear more gain pressure, and no
        * strain takes it away again. The mean stress that is conjugate to B-bar
-       * is the mean over the cell.
+       * is the mean over the cell. Soil that has not dilated keeps its slope,
+       * and its equilibrium with the weight.
        */
       CAISSON_INLINE double
       pressure_slope(const StepContext &step, const unsigned int cell)
@@ -223,8 +224,17 @@ namespace CaissonMPM
             case PressureSlope::ignored:
               return 0.;
             default:
-              return step.materials[step.moments[cell].material].dilates ? 0. :
-                                                                           1.;
+              {
+                const CellMoments &moments  = step.moments[cell];
+                const Material    &material = step.materials[moments.material];
+                if (!material.dilates || moments.several_materials)
+                  return 1.;
+                const double dilation = step.points.filled_volume[cell] *
+                                          material.initial_density /
+                                          moments.mass[0] -
+                                        1.;
+                return 1. - ramp(dilation, .005, .02);
+              }
           }
       }
 

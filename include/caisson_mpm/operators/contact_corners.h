@@ -37,6 +37,21 @@ namespace CaissonMPM
     Vector2                friction;
   };
 
+  /** A field of velocities of which each cell at a corner sees its own part,
+   * less a share of the velocities before the step. */
+  struct SeenField
+  {
+    double share_of_body; // in what cells see
+    double less_old;
+
+    /** The share of the body's velocity in the field. */
+    double
+    net_share() const
+    {
+      return share_of_body - less_old;
+    }
+  };
+
   /**
    * The convex corners that this rank knows, and their state. Every rank treats
    * all of them in the same way. initialize() and collect() are collective over
@@ -60,8 +75,9 @@ namespace CaissonMPM
     collect(const Kernels::KernelTable &kernels,
             const Kernels::StepContext &step);
 
-    /** Replace the velocities @p v before and @p u after the step by those that
-     * follow from virtual power, if the body has the given velocity. */
+    /** Replace the velocities @p v before the step by those in the cells
+     * without a face, and @p u after it by those that follow from virtual power,
+     * if the body has the given velocity. */
     void
     accelerate(const Vector2            &body_velocity,
                const double              dt,
@@ -71,27 +87,31 @@ namespace CaissonMPM
 
     /** Let friction act on @p u, and find the reactions. */
     void
-    apply(const double                dt,
-          const Kernels::NodalSums   *sums,
-          const Kernels::NodalVector *v,
-          Kernels::NodalVector       *u);
+    apply(const double              dt,
+          const Kernels::NodalSums *sums,
+          Kernels::NodalVector     *u);
+
+    /** Set the velocities before the step to those that follow from virtual
+     * power. */
+    void
+    set_old(Kernels::NodalVector *v) const;
 
     /** Hold a velocity field to what sticks to a body of this velocity. */
     void
     hold(const Vector2 &body_velocity, Kernels::NodalVector *v) const;
 
     /** Add to @p to what the product of the mass matrix with @p from lacks at
-     * the corners. @p share: of the body's velocity in @p from. */
+     * the corners. */
     void
     correct_mass(const Kernels::StepContext &step,
                  const Kernels::NodalVector *from,
-                 const double                share,
+                 const SeenField            &kind,
                  Kernels::NodalVector       *to) const;
 
     /** Finish the division of this product by the mass. */
     void
     divide_by_mass(const Kernels::NodalSums *sums,
-                   const double              share,
+                   const SeenField          &kind,
                    Kernels::NodalVector     *v) const;
 
     /** The power of the forces in the cells at the corners, with the velocities
@@ -163,6 +183,8 @@ namespace CaissonMPM
       std::array<double, 2>  friction, adhesion; // adhesion: a A, N per radian
       std::array<bool, 2>    sticks = {{false, false}}; // by component
       CornerReaction         reaction;
+      // before the step: in cells without face, and as virtual power has it
+      Vector2 plain_old, old;
     };
 
     /** What a cell brings to its corner. */
@@ -184,6 +206,14 @@ namespace CaissonMPM
 
     Contribution
     contribution(const Cell &cell) const;
+
+    /** The velocity before the step in the cells without a face. */
+    Vector2
+    plain_old(const Corner &corner, const Kernels::NodalSums &node) const;
+
+    /** The velocity before the step in a cell. */
+    Vector2
+    own_old(const Corner &corner, const Cell &cell) const;
 
     /** sum Q^T m Q, which is diagonal; 0 where a component acts on no cell. */
     Vector2

@@ -119,7 +119,7 @@ namespace CaissonMPM
     VelocityTransfer transfer           = VelocityTransfer::blend;
     StressUpdate     stress_update      = StressUpdate::musl;
     ForceIntegration force_integration  = ForceIntegration::gauss_in_full_cells;
-    Kernels::PressureSlope pressure_fit = Kernels::PressureSlope::acts;
+    Kernels::PressureSlope pressure_fit = Kernels::PressureSlope::by_dilation;
     unsigned int           xpic_order   = 2;
     double                 flip_fraction        = 0.95;
     double                 full_fraction        = 0.9;

@@ -39,6 +39,11 @@ namespace CaissonMPM
     void
     hold(NodalData &v) const;
 
+    /** Set @p held to the velocities @p old before the step, constrained
+     * likewise. */
+    void
+    hold_old(const NodalData &old, NodalData &held) const;
+
     /** Constrain a field, or the difference of two that are held, of which the
      * soil gains the momentum @p share times m_I v_I, and add what the
      * constraints bear to @p result, that of the last apply(). */

@@ -67,7 +67,7 @@ namespace CaissonMPM
     void
     round_trip(const Context   &context,
                const NodalData &from,
-               const double     share_of_body,
+               const SeenField &kind,
                NodalData       &to);
 
     /** Add share * sum_{k=1}^{order-1} (I - A)^k v to the transfer field. */
@@ -82,8 +82,9 @@ namespace CaissonMPM
 
     NodalData transfer_velocity, strain_velocity;
     NodalData filtered, after_round_trip; // memory of add_filter()
-    bool      strains_with_new = false;   // USL
-    double    transfer_share   = 0.; // of the body's velocity in the transfer
+    NodalData held_old;
+    bool      strains_with_new = false; // USL
+    double    less_old         = 0.;    // see NodalFields::transfer_less_old
   };
 } // namespace CaissonMPM
 
