@@ -260,10 +260,11 @@ namespace CaissonMPM
     double  mass     = node.mass;
     Vector2 momentum = vector_of(node.momentum);
     for (const Cell &cell : corner.cells)
-      {
-        mass -= contribution(cell).mass;
-        momentum -= contribution(cell).momentum;
-      }
+      if (cell.closed)
+        {
+          mass -= contribution(cell).mass;
+          momentum -= contribution(cell).momentum;
+        }
     return mass > 1e-9 * node.mass ? momentum / mass : corner.old;
   }
 
