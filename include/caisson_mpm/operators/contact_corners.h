@@ -17,9 +17,9 @@
 //   sum Q_c^T m_c Q_c dv/dt = sum Q_c^T f_c      (Q = I in cells without face),
 // and what is missing to the plain balance is the force on the body. It is
 // resolved along the normals of both faces, and bears friction along each. The
-// points of a cell gain the difference of v_c to their own mean before the step,
-// p_c / m_c: the momentum that the constraint takes is theirs, once. A face is
-// open, and its cell has Q = I, only while the body moves away from it.
+// points of a cell gain the difference of v_c to their own mean before the
+// step, p_c / m_c: the momentum that the constraint takes is theirs, once. A
+// face is open, and its cell has Q = I, only while the body moves away from it.
 #ifndef caisson_mpm_operators_contact_corners_h
 #define caisson_mpm_operators_contact_corners_h
 
