@@ -227,8 +227,7 @@ namespace CaissonMPM
     report_lost(const MaterialPoint &point) const;
 
     /** Stop a point that has been thrown off a free surface, and beyond the
-     * side
-     * of the mesh at @p face; @p coordinate is that in its cell. */
+     * side of the mesh at @p face; @p coordinate is that in its cell. */
     void
     stop_at_side(const double       coordinate,
                  const unsigned int face,
