@@ -209,6 +209,54 @@ check_split_and_merge()
           1e-12);
 }
 
+/** The sizes of points follow their stretch, and points that it has made too
+ * long are split that way only. */
+void
+check_stretch()
+{
+  Scene s(caisson);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+  double largest[2] = {0., 0.};
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    for (unsigned int d = 0; d < 2; ++d)
+      largest[d] = std::max(largest[d], p.size[d]);
+  });
+  for (unsigned int k = 0; k < 5; ++k)
+    s.points.stretch([](const unsigned int, const dealii::Point<2> &) {
+      return std::array<double, 2>{{.12, -.12}};
+    });
+  double now[2] = {0., 0.};
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    for (unsigned int d = 0; d < 2; ++d)
+      now[d] = std::max(now[d], p.size[d]);
+  });
+  verdict("five strains of 0.12 and -0.12: error of the size in r and z",
+          std::max(std::abs(now[0] / largest[0] - std::exp(.6)),
+                   std::abs(now[1] / largest[1] - std::exp(-.6))),
+          1e-12);
+  const auto before = resultants(s.points);
+  s.points.adapt([&](const unsigned int) {
+    return std::array<double, 2>{{largest[0], now[1]}};
+  });
+  double after[2] = {0., 0.};
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
+    const auto &g    = s.grid.geometry(cell);
+    const bool  side = p.position[0] < g.left + .3 * g.width ||
+                      p.position[0] > g.left + .7 * g.width;
+    for (unsigned int d = 0; d < 2 && !side; ++d)
+      after[d] = std::max(after[d], p.size[d]);
+  });
+  verdict("size after splitting over the wanted one, in r",
+          after[0] / largest[0],
+          1.05);
+  verdict("size after splitting over the wanted one, in z",
+          after[1] / now[1],
+          1.05);
+  verdict("splitting changes mass, moments, momentum, volume, stress by",
+          change(resultants(s.points), before),
+          1e-12);
+}
+
 /** The sum over the points of what depends on which of them were merged, if a
  * cell is given its points from the first or from the last one on. */
 double
@@ -304,6 +352,7 @@ main(int argc, char *argv[])
   check_points();
   check_spacing();
   check_split_and_merge();
+  check_stretch();
   verdict("merged points depend on the order in which they came by",
           std::abs(merged_sum(true) / merged_sum(false) - 1.),
           1e-13);

@@ -244,7 +244,7 @@ check_narrow_band()
       map.left = map.bottom = map.bottom_slope = map.height_slope = Scalar(0.);
       map.width = map.inverse_width = map.height = Scalar(1.);
       Scalar fit[12];
-      fit_stress(map, 0., points.sum, sums.sum, Scalar(1.), Scalar(1.), fit);
+      fit_stress(map, 0., points.sum, sums.sum, {Scalar(1.)}, Scalar(1.), fit);
       // the center of the points is 0.1 off that of the cell
       const double variance = half_width * half_width,
                    raised   = variance +

@@ -226,17 +226,21 @@ namespace CaissonMPM
   {
     flags.assign(n_cells(), 0);
     // a soil cell is next to the body where the two share a node
-    std::vector<bool> at_body(partitioner->locally_owned_size() +
-                                partitioner->n_ghost_indices(),
-                              false);
+    std::vector<unsigned int> n_rigid(partitioner->locally_owned_size() +
+                                        partitioner->n_ghost_indices(),
+                                      0);
     for (unsigned int c = 0; c < n_cells(); ++c)
       if (rigid[c])
         for (const unsigned int node : nodes[c].node)
-          at_body[node] = true;
+          ++n_rigid[node];
     for (unsigned int c = 0; c < n_cells(); ++c)
       for (const unsigned int node : nodes[c].node)
-        if (!rigid[c] && at_body[node])
-          flags[c] |= Kernels::next_to_body;
+        if (!rigid[c] && n_rigid[node] > 0)
+          {
+            flags[c] |= Kernels::next_to_body;
+            if (n_rigid[node] == 1)
+              flags[c] |= Kernels::at_corner_of_body;
+          }
   }
 
   void

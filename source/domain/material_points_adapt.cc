@@ -123,6 +123,28 @@ namespace CaissonMPM
   }
 
   void
+  MaterialPoints::stretch(const Stretch &stretch_at)
+  {
+    for (const unsigned int cell : active_cells)
+      {
+        auto &range = sizes[cell];
+        range       = {};
+        for_each_lane(cell, [&](const int b, const int lane) {
+          const auto strain =
+            stretch_at(cell, Point<2>(blocks[b].r[lane], blocks[b].z[lane]));
+          double *const size[2] = {&histories[b].size_r[lane],
+                                   &histories[b].size_z[lane]};
+          for (unsigned int d = 0; d < 2; ++d)
+            {
+              // what is thrown about is not stretched
+              *size[d] *= std::exp(std::clamp(strain[d], -.3, .3));
+              range[d].include(*size[d]);
+            }
+        });
+      }
+  }
+
+  void
   MaterialPoints::adapt(const WantedSize &wanted)
   {
     std::vector<PlacedPoint> moving;

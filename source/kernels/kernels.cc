@@ -2,7 +2,6 @@
 //
 // Compiled once per instruction set, with CAISSON_KERNEL_ISA naming it.
 #include <caisson_mpm/kernels/apply_mass.h>
-#include <caisson_mpm/kernels/cell_contribution.h>
 #include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/kernels/grid_to_points.h>
 #include <caisson_mpm/kernels/points_to_grid.h>
@@ -24,7 +23,6 @@ namespace CaissonMPM
                                             NativeLanes::width,
                                             &points_to_grid<NativeLanes>,
                                             &pressure_force<NativeLanes>,
-                                            &cell_contribution<NativeLanes>,
                                             &apply_mass,
                                             &grid_to_points<NativeLanes>};
       return table;

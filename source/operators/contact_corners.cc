@@ -58,6 +58,7 @@ namespace CaissonMPM
                              const BodySurface              &body)
   {
     n_owned_nodes = grid.n_owned_nodes();
+    of_cell.assign(grid.n_nodes(), NodalSums());
     corners.clear();
     std::vector<unsigned int> n_rigid(grid.n_nodes(), 0);
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
@@ -148,18 +149,26 @@ namespace CaissonMPM
 
   void
   ContactCorners::collect(const Kernels::KernelTable &kernels,
-                          const Kernels::StepContext &step)
+                          const Kernels::StepContext &step,
+                          const double                share_that_points_keep)
   {
+    keep = share_that_points_keep;
     if (sums_.empty())
       return;
     std::fill(sums_.begin(), sums_.end(), 0.);
+    Kernels::StepContext alone  = step; // a step in which one cell has points
+    alone.points.n_active_cells = 1;
     for (const Corner &corner : corners)
       for (const Cell &cell : corner.cells)
         if (cell.is_owned && step.points.first_block[cell.cell] >= 0)
           {
-            NodalSums all[4];
-            kernels.cell_contribution(step, cell.cell, all);
-            const NodalSums &own = all[cell.corner];
+            for (const unsigned int node : step.grid.nodes[cell.cell].node)
+              of_cell[node] = NodalSums();
+            // its moments hold the fit now, and have to be summed again
+            step.points.changed[cell.cell] = true;
+            alone.points.active_cells      = &cell.cell;
+            kernels.points_to_grid(alone, of_cell.data());
+            const NodalSums &own = of_cell[corner.node];
             double *const    sum = &sums_[n_sums * cell.index];
             sum[0]               = own.mass;
             for (unsigned int d = 0; d < 2; ++d)
@@ -245,34 +254,11 @@ namespace CaissonMPM
             const double a =
               mass[d] > 0. ? force[d] / inertia_of(mass[d], dt, node) : 0.;
             corner.old[d]           = velocity[d] + w;
-            u[corner.node].value[d] = velocity[d] + w + dt * a;
+            v[corner.node].value[d] = corner.old[d];
+            u[corner.node].value[d] = corner.old[d] + dt * a;
           }
-        corner.plain_old = plain_old(corner, node);
-        for (unsigned int d = 0; d < 2; ++d)
-          v[corner.node].value[d] = corner.plain_old[d];
       }
     update_views();
-  }
-
-  Vector2
-  ContactCorners::plain_old(const Corner &corner, const NodalSums &node) const
-  {
-    double  mass     = node.mass;
-    Vector2 momentum = vector_of(node.momentum);
-    for (const Cell &cell : corner.cells)
-      if (cell.closed)
-        {
-          mass -= contribution(cell).mass;
-          momentum -= contribution(cell).momentum;
-        }
-    return mass > 1e-9 * node.mass ? momentum / mass : corner.old;
-  }
-
-  Vector2
-  ContactCorners::own_old(const Corner &corner, const Cell &cell) const
-  {
-    const Contribution own = contribution(cell);
-    return own.mass > 0. ? own.momentum / own.mass : corner.old;
   }
 
   double
@@ -308,13 +294,16 @@ namespace CaissonMPM
         Vector2       inertia;
         for (unsigned int d = 0; d < 2; ++d)
           inertia[d] = mass[d] > 0. ? inertia_of(mass[d], dt, node) : 0.;
-        const Vector2 given = vector_of(node.momentum) - node.mass * velocity +
-                              dt * vector_of(node.force);
-        // what is left to the body when the velocity has changed to w + y
+        // what points have besides, and lose in this step
+        const Vector2 lost =
+          (1. - keep) * (vector_of(node.momentum) - node.mass * velocity -
+                         momentum_of(corner, node.mass, w));
+        const Vector2 given = dt * vector_of(node.force) + lost;
+        // what is left to the body when the velocity has changed by y
         const auto remainder = [&](Vector2 y) {
           for (unsigned int d = 0; d < 2; ++d)
             y[d] *= mass[d] > 0. ? inertia[d] / mass[d] : 0.;
-          return given - momentum_of(corner, node.mass, w + y);
+          return given - momentum_of(corner, node.mass, y);
         };
         const Vector2 left =
           slide(corner, dt, inertia, resolve(corner, remainder(x - w)), x);
@@ -384,14 +373,6 @@ namespace CaissonMPM
   }
 
   void
-  ContactCorners::set_old(NodalVector *v) const
-  {
-    for (const Corner &corner : corners)
-      for (unsigned int d = 0; corner.has_soil && d < 2; ++d)
-        v[corner.node].value[d] = corner.old[d];
-  }
-
-  void
   ContactCorners::hold(const Vector2 &body_velocity, NodalVector *v) const
   {
     for (const Corner &corner : corners)
@@ -403,9 +384,10 @@ namespace CaissonMPM
   void
   ContactCorners::correct_mass(const Kernels::StepContext &step,
                                const NodalVector          *from,
-                               const SeenField            &kind,
+                               const double                share_of_body,
                                NodalVector                *to) const
   {
+    const Vector2 of_body = share_of_body * velocity;
     for (const Corner &corner : corners)
       for (const Cell &cell : corner.cells)
         if (cell.is_owned && cell.closed && corner.has_soil &&
@@ -414,15 +396,10 @@ namespace CaissonMPM
             const auto  matrix   = mass_matrix(step.moments[cell.cell].mass);
             const auto &nodes    = step.grid.nodes[cell.cell].node;
             const unsigned int k = cell.corner;
-            const Vector2      of_body = kind.net_share() * velocity;
-            const Vector2      w       = vector_of(from[corner.node].value) +
-                              kind.less_old * corner.plain_old -
-                              kind.share_of_body * velocity;
-            const Vector2 change =
-              cell.see(w) - w +
-              kind.less_old * (corner.plain_old - own_old(corner, cell));
-            Vector2 at_corner;
-            double  lumped = 0.;
+            const Vector2      w = vector_of(from[corner.node].value) - of_body;
+            const Vector2      change = cell.see(w) - w;
+            Vector2            at_corner;
+            double             lumped = 0.;
             for (unsigned int j = 0; j < 4; ++j)
               {
                 at_corner += matrix[k][j] * vector_of(from[nodes[j]].value);
@@ -439,7 +416,7 @@ namespace CaissonMPM
 
   void
   ContactCorners::divide_by_mass(const NodalSums *sums,
-                                 const SeenField &kind,
+                                 const double     share_of_body,
                                  NodalVector     *v) const
   {
     // they have been divided by the plain mass
@@ -451,7 +428,7 @@ namespace CaissonMPM
           for (unsigned int d = 0; d < 2; ++d)
             {
               double      &own     = v[corner.node].value[d];
-              const double of_body = kind.net_share() * velocity[d];
+              const double of_body = share_of_body * velocity[d];
               own                  = of_body +
                     (mass[d] > 0. ? (own - of_body) * total / mass[d] : 0.);
             }
@@ -492,15 +469,10 @@ namespace CaissonMPM
     for (const Corner &corner : corners)
       for (const Cell &cell : corner.cells)
         if (corner.has_soil && cell.closed)
-          {
-            const Vector2 own = own_old(corner, cell);
-            views_.push_back({cell.cell,
-                              cell.corner,
-                              cell.free,
-                              {cell.q[0], cell.q[1]},
-                              {velocity[0], velocity[1]},
-                              {corner.plain_old[0], corner.plain_old[1]},
-                              {own[0], own[1]}});
-          }
+          views_.push_back({cell.cell,
+                            cell.corner,
+                            cell.free,
+                            {cell.q[0], cell.q[1]},
+                            {velocity[0], velocity[1]}});
   }
 } // namespace CaissonMPM

@@ -32,7 +32,6 @@ namespace CaissonMPM
   {
     held = old;
     held.update_ghost_values();
-    contact.corners().set_old(nodal_vectors(held));
     hold(held);
   }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/kernels/cell_map.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 
 namespace CaissonMPM
@@ -50,7 +51,7 @@ namespace CaissonMPM
   {
     enter(Stage::accelerated);
     size = step_size;
-    contact.corners().collect(*kernels, step);
+    contact.corners().collect(*kernels, step, settings_.keep_velocity(size));
     momentum.accelerate(size.seconds,
                         settings_.local_damping(),
                         body_velocity,
@@ -99,5 +100,28 @@ namespace CaissonMPM
     enter(Stage::points_updated);
     kernels->grid_to_points(
       step, {moved, settings_.update(size), transfer.fields(momentum)}, result);
+  }
+
+  std::array<double, 2>
+  NodalMotion::rate_of_stretch(const BackgroundGrid   &grid,
+                               const unsigned int      cell,
+                               const dealii::Point<2> &place) const
+  {
+    const Kernels::CellMap<>          map(grid.geometry(cell));
+    const Kernels::LocalPoint<double> p =
+      map.at_position(place[radial], place[vertical]);
+    const Kernels::NodalVector *const v =
+      nodal_vectors(momentum.new_velocity());
+    std::array<double, 2> rates;
+    for (unsigned int d = 0; d < 2; ++d)
+      {
+        double at_corner[4], field[4], slope[2];
+        for (unsigned int k = 0; k < 4; ++k)
+          at_corner[k] = v[grid.cell_nodes(cell).node[k]].value[d];
+        Kernels::coefficients(at_corner, field);
+        Kernels::gradient(field, p, map.inverse_width, slope[0], slope[1]);
+        rates[d] = slope[d];
+      }
+    return rates;
   }
 } // namespace CaissonMPM

@@ -34,7 +34,7 @@ namespace CaissonMPM
                  *v       = momentum.new_velocity().begin();
     const double keep     = settings.keep_velocity(size);
 
-    less_old = keep;
+    transfer_of_body = 1. - keep;
     // what is added to keep * V_p: FLIP's part of it first
     double *const transfer = transfer_velocity.begin();
     for (std::size_t i = 0; i < n; ++i)
@@ -49,7 +49,7 @@ namespace CaissonMPM
   void
   PointTransfer::round_trip(const Context   &context,
                             const NodalData &from,
-                            const SeenField &kind,
+                            const double     share_of_body,
                             NodalData       &to)
   {
     const ContactCorners &corners = context.constraints.contact.corners();
@@ -61,7 +61,7 @@ namespace CaissonMPM
                           [&](NodalVector *product) {
                             corners.correct_mass(context.step,
                                                  nodal_vectors(from),
-                                                 kind,
+                                                 share_of_body,
                                                  product);
                           });
     const Kernels::NodalSums *const node = context.momentum.sums();
@@ -70,7 +70,7 @@ namespace CaissonMPM
       if (node[i].mass > 0.)
         for (unsigned int d = 0; d < 2; ++d)
           v[i].value[d] /= node[i].mass;
-    corners.divide_by_mass(node, kind, v);
+    corners.divide_by_mass(node, share_of_body, v);
   }
 
   void
@@ -82,7 +82,7 @@ namespace CaissonMPM
     context.constraints.hold_old(context.momentum.old_velocity(), filtered);
     for (unsigned int k = 1; k < order; ++k)
       {
-        round_trip(context, filtered, {k == 1 ? 1. : 0., 0.}, after_round_trip);
+        round_trip(context, filtered, k == 1 ? 1. : 0., after_round_trip);
         // From the second round on the field is a difference. The round trip
         // keeps momentum, and holding it does not: the points lose its share.
         context.constraints.hold(context.momentum.sums(),
@@ -105,7 +105,7 @@ namespace CaissonMPM
   PointTransfer::find_strain_velocity(const Context &context, const double keep)
   {
     // S+ (keep V_p + S transfer) = keep v + A transfer
-    round_trip(context, transfer_velocity, {1., less_old}, strain_velocity);
+    round_trip(context, transfer_velocity, 1. - keep, strain_velocity);
     context.constraints.hold_old(context.momentum.old_velocity(), held_old);
     const double *const old    = held_old.begin();
     double *const       strain = strain_velocity.begin();
@@ -121,6 +121,6 @@ namespace CaissonMPM
     return {nodal_vectors(v),
             nodal_vectors(transfer_velocity),
             nodal_vectors(strains_with_new ? v : strain_velocity),
-            less_old};
+            transfer_of_body};
   }
 } // namespace CaissonMPM

@@ -324,7 +324,10 @@ namespace CaissonMPM
     since_adaptation += size.n_reference_steps();
     if (generator.splits_and_merges() &&
         since_adaptation >= steps_between_adaptations)
-      timed("split and merge", [&]() { adapt_points(); });
+      timed("split and merge", [&]() {
+        adapt_points(since_adaptation * size.seconds /
+                     size.n_reference_steps());
+      });
     add_step(work);
     clock.time += size.seconds;
     ++clock.step;
@@ -364,8 +367,14 @@ namespace CaissonMPM
   }
 
   void
-  Simulation::adapt_points()
+  Simulation::adapt_points(const double interval)
   {
+    points.stretch([&](const unsigned int cell, const Point<2> &place) {
+      auto strain = nodal_motion.rate_of_stretch(grid, cell, place);
+      for (double &s : strain)
+        s *= interval;
+      return strain;
+    });
     since_adaptation    = 0.;
     const double travel = lines.total_travel();
     points.adapt([&](const unsigned int cell) {

@@ -25,7 +25,7 @@ namespace CaissonMPM
     dealii::Point<2> position;
     double           velocity[2] = {0., 0.};
     dealii::Point<2> initial_position;
-    double           size[2]  = {0., 0.}; // in r and z when it was made
+    double           size[2]  = {0., 0.}; // in r and z, as stretched
     unsigned int     material = 0;
     CAISSON_BLOCK_FIELDS(CAISSON_NO_MEMBER, CAISSON_LIST_MEMBER, CAISSON_MEMBER)
     CAISSON_HISTORY_FIELDS(CAISSON_NO_MEMBER,

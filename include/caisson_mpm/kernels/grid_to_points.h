@@ -4,7 +4,7 @@
 // and place, and the sums over the points for the next step.
 //
 //   V_p <- keep V_p + sum_I N_I(x_p) v_I^transfer,
-//   x_p <- x_p + dt sum_I N_I(x_p) v_I^advection.
+//   x_p <- x_p + dt (sum_I N_I(x_p) v_I^advection + bubbles).
 #ifndef caisson_mpm_kernels_grid_to_points_h
 #define caisson_mpm_kernels_grid_to_points_h
 
@@ -105,6 +105,11 @@ namespace CaissonMPM
                             evaluate(cell.transfer.z, p);
         Number move_r = evaluate(cell.advection.r, p),
                move_z = evaluate(cell.advection.z, p);
+        const Number one(1.),
+          bubble_xi  = Number(cell.bubble[0]) * p.xi * (p.xi - one),
+          bubble_eta = Number(cell.bubble[1]) * p.eta * (p.eta - one);
+        move_r += Number(cell.map.width) * bubble_xi;
+        move_z += p.height * (p.slope * bubble_xi + bubble_eta);
         // Beside the body a cell may be squeezed flat: |v| <= k H / dt keeps a
         // point from passing more than a share of it in a step.
         unsigned int limited = 0;
@@ -224,12 +229,12 @@ namespace CaissonMPM
         return outside;
       }
 
-      /** Give a field the value at a corner that the cell sees. The field has
-       * been reduced by @p less_old of the velocities before the step. */
+      /** Give a field the value at a corner that the cell sees, if it has this
+       * share of the body's velocity. */
       CAISSON_INLINE void
       see_corner(const CornerView  &corner,
                  const NodalVector &at_node,
-                 const double       less_old,
+                 const double       share_of_body,
                  CellField<>       &field)
       {
         // the coefficients of {1, xi, eta, xi eta} of each N_I
@@ -238,13 +243,11 @@ namespace CaissonMPM
                                         {0., 0., 1., -1.},
                                         {0., 0., 0., 1.}};
         const auto       relative    = [&](const int d) {
-          return at_node.value[d] + less_old * corner.old[d] -
-                 corner.velocity[d];
+          return at_node.value[d] - share_of_body * corner.velocity[d];
         };
         const double free   = relative(corner.free);
         const auto   change = [&](const int d) {
-          return free * corner.q[d] - relative(d) +
-                 less_old * (corner.old[d] - corner.own_old[d]);
+          return free * corner.q[d] - relative(d);
         };
         const double r = change(0), z = change(1);
         for (int k = 0; k < 4; ++k)
@@ -267,11 +270,11 @@ namespace CaissonMPM
               const CornerView  &corner = step.corners[i];
               const unsigned int node =
                 step.grid.nodes[cell].node[corner.corner];
-              see_corner(corner, fields.advection[node], 0., update.advection);
-              see_corner(corner, fields.strain[node], 0., update.strain);
+              see_corner(corner, fields.advection[node], 1., update.advection);
+              see_corner(corner, fields.strain[node], 1., update.strain);
               see_corner(corner,
                          fields.transfer[node],
-                         fields.transfer_less_old,
+                         fields.transfer_of_body,
                          update.transfer);
             }
       }
@@ -296,8 +299,9 @@ namespace CaissonMPM
         if (grid.flags[cell] & next_to_body)
           see_corners(step, fields, cell, update);
         update.axisymmetric = grid.axisymmetric;
-        update.speed_limit  = 0.;
-        update.fit          = nullptr;
+        update.bubble[0] = update.bubble[1] = 0.;
+        update.speed_limit                  = 0.;
+        update.fit                          = nullptr;
         if (settings.stress_filter > 0. && moments.full > 0.)
           {
             update.fit                 = moments.fit;
@@ -314,6 +318,27 @@ namespace CaissonMPM
           }
       }
 
+      /** One of the fields in @p update [group.n], one cell in each lane. */
+      template <typename Number>
+      CAISSON_INLINE CellField<Number>
+                     field_of_group(const CellGroup<Number> &group,
+                                    const CellUpdate        *update,
+                                    CellField<> CellUpdate::*field)
+      {
+        const double *rows[Number::width];
+        for (int i = 0; i < Number::width; ++i)
+          rows[i] = (update[i < group.n ? i : 0].*field).r; // and then z
+        LaneSums<Number, 8> values;
+        values.load_lanes(rows);
+        CellField<Number> result;
+        for (int k = 0; k < 4; ++k)
+          {
+            result.r[k] = values.sum[k];
+            result.z[k] = values.sum[4 + k];
+          }
+        return result;
+      }
+
       /** The mean divergence of each cell of a group, from the strain fields of
        * @p update [group.n]. */
       template <typename Number>
@@ -323,20 +348,75 @@ namespace CaissonMPM
                            const double             axisymmetric,
                            CellUpdate              *update)
       {
-        const double *rows[Number::width];
-        for (int i = 0; i < Number::width; ++i)
-          rows[i] = update[i < group.n ? i : 0].strain.r; // and then z
-        LaneSums<Number, 8> fields;
-        fields.load_lanes(rows);
-        CellField<Number> strain;
-        for (int k = 0; k < 4; ++k)
-          {
-            strain.r[k] = fields.sum[k];
-            strain.z[k] = fields.sum[4 + k];
-          }
-        const Number mean = mean_divergence(map, axisymmetric, strain);
+        const Number mean =
+          mean_divergence(map,
+                          axisymmetric,
+                          field_of_group(group, update, &CellUpdate::strain));
         for (int i = 0; i < group.n; ++i)
           update[i].mean_divergence = mean[i];
+      }
+
+      /**
+       * Find what makes the divergence of the velocity that moves the points of
+       * a cell the same everywhere in it. B-bar gives them the mean change of
+       * volume; where they moved apart and together in one cell all the same,
+       * volumes and places would part, and gaps open. Added are
+       *   dxi/dt += a xi (xi - 1),   deta/dt += b eta (eta - 1),
+       * which vanish at the sides that they point to, so that no flow through a
+       * side changes (conservative velocity interpolation: Wang, Agrusta & van
+       * Hunen 2015, doi:10.1002/2015GC005824).
+       */
+      template <typename Number>
+      CAISSON_INLINE void
+      find_bubbles(const CellGroup<Number> &group,
+                   const CellMap<Number>   &map,
+                   const double             axisymmetric,
+                   CellUpdate              *update)
+      {
+        const CellField<Number> v =
+          field_of_group(group, update, &CellUpdate::advection);
+        // div v and 1, times r dz/deta, in the middle of the sides
+        constexpr double xi[4] = {0., 1., .5, .5}, eta[4] = {.5, .5, 0., 1.};
+        Number           flow[4], weight[4], sum_of_flow(0.), total(0.);
+        for (int i = 0; i < 4; ++i)
+          {
+            const LocalPoint<Number> p =
+              map.at_reference(Number(xi[i]), Number(eta[i]));
+            const VelocityGradient<Number> L(v,
+                                             p,
+                                             map.inverse_width,
+                                             Number(0.));
+            const Number                   r =
+              Number(axisymmetric) * (map.left + map.width * p.xi) +
+              Number(1. - axisymmetric);
+            weight[i] = r * p.height;
+            flow[i]   = weight[i] * (L.rr + L.zz) +
+                      Number(axisymmetric) * p.height * evaluate(v.r, p);
+            sum_of_flow += flow[i];
+            total += weight[i];
+          }
+        const Number mean = sum_of_flow / total, scale = Number(-2.) / total;
+        const Number a = scale *
+                         (flow[1] - flow[0] - mean * (weight[1] - weight[0])),
+                     b = scale *
+                         (flow[3] - flow[2] - mean * (weight[3] - weight[2]));
+        for (int i = 0; i < group.n; ++i)
+          {
+            update[i].bubble[0] = a[i];
+            update[i].bubble[1] = b[i];
+          }
+      }
+
+      /** Both for B-bar: the volume change of points, and where they move. */
+      template <typename Number>
+      CAISSON_INLINE void
+      make_volume_change_uniform(const CellGroup<Number> &group,
+                                 const CellMap<Number>   &map,
+                                 const double             axisymmetric,
+                                 CellUpdate              *update)
+      {
+        find_mean_divergence(group, map, axisymmetric, update);
+        find_bubbles(group, map, axisymmetric, update);
       }
 
       /** Append the points of a block in the lanes @p outside to the list. */
@@ -464,7 +544,10 @@ namespace CaissonMPM
             for (int i = 0; i < group.n; ++i)
               prepare_cell(step, how, group.cell[i], update[i]);
             if (how.settings.mean_volume_change)
-              find_mean_divergence(group, map, step.grid.axisymmetric, update);
+              make_volume_change_uniform(group,
+                                         map,
+                                         step.grid.axisymmetric,
+                                         update);
 
             // 3. Stress, volume, velocity and place of the points.
             update_group(step, how, group, update, progress);

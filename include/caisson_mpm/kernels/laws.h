@@ -84,20 +84,20 @@ namespace CaissonMPM
       template <typename Law>
       constexpr int law_id = slot_of<Law>(Slots());
 
-      /** Law::dilates() if the law has one; chosen for the argument 0. */
+      /** From Law::dilates(), if the law has one; chosen for the argument 0. */
       template <typename Law>
       inline auto
-      dilates(const typename Law::Parameters &p, int)
-        -> decltype(Law::dilates(p))
+      volume_in_shear(const typename Law::Parameters &p, int)
+        -> decltype(Law::dilates(p), VolumeInShear::kept)
       {
-        return Law::dilates(p);
+        return Law::dilates(p) ? VolumeInShear::gained : VolumeInShear::kept;
       }
 
       template <typename Law>
-      inline bool
-      dilates(const typename Law::Parameters &, long)
+      inline VolumeInShear
+      volume_in_shear(const typename Law::Parameters &, long)
       {
-        return false;
+        return VolumeInShear::by_state;
       }
 
       /** Write a law and its parameters into a material. */
@@ -108,7 +108,7 @@ namespace CaissonMPM
         static_assert(sizeof(parameters) <= sizeof(material.parameters),
                       "enlarge Material::parameters (layout.h)");
         material.law             = law_id<Law>;
-        material.dilates         = dilates<Law>(parameters, 0);
+        material.volume_in_shear = volume_in_shear<Law>(parameters, 0);
         material.overstress_time = 0.;
         __builtin_memcpy(material.parameters, &parameters, sizeof(parameters));
       }

@@ -78,7 +78,16 @@ namespace CaissonMPM
     /** Options of the kernels for a cell. */
     enum CellFlags : unsigned char
     {
-      next_to_body = 1
+      next_to_body      = 1,
+      at_corner_of_body = 2 // where just one cell of the body meets a node
+    };
+
+    /** What plastic shear does to the volume of a soil. */
+    enum class VolumeInShear : unsigned char
+    {
+      kept,
+      gained,
+      by_state // or it has no plastic shear
     };
 
     /**
@@ -90,10 +99,10 @@ namespace CaissonMPM
       int    law;
       double body_force[2];  // acceleration of the scaled mass (m/s2)
       double p_wave_modulus; // lambda + 2 mu, the largest of all points (Pa)
-      bool   dilates;        // in plastic shear
-      double initial_void_ratio;
-      double initial_density; // of the scaled mass, kg/m3
-      double overstress_time; // kernels/overstress.h; 0: none (s)
+      VolumeInShear volume_in_shear;
+      double        initial_void_ratio;
+      double        initial_density; // of the scaled mass, kg/m3
+      double        overstress_time; // kernels/overstress.h; 0: none (s)
       alignas(16) unsigned char parameters[256];
     };
 
@@ -171,13 +180,11 @@ namespace CaissonMPM
     };
 
     /** A corner at which a cell sees another velocity than that of its node:
-     * v' = V + (v - V)[free] q, with the velocity V of the body. Before the
-     * step the cell has the velocity @p own_old there, and cells that see that
-     * of the node have @p old. */
+     * v' = V + (v - V)[free] q, with the velocity V of the body. */
     struct CornerView
     {
       unsigned int cell, corner, free;
-      double       q[2], velocity[2], old[2], own_old[2];
+      double       q[2], velocity[2];
     };
 
     /** Whether the slope of the mean stress in a full cell acts on its nodes.
@@ -230,9 +237,7 @@ namespace CaissonMPM
       const NodalVector *advection; // moves the MPs
       const NodalVector *transfer;  // added to keep_velocity * velocity
       const NodalVector *strain;    // its gradient strains the MPs
-      // transfer has been reduced by this share of the velocities before the
-      // step
-      double transfer_less_old = 0.;
+      double transfer_of_body = 1.; // share of the body's velocity in it
     };
 
     /** What grid_to_points needs besides the context of the step. */
@@ -286,13 +291,6 @@ namespace CaissonMPM
       void (*pressure_force)(const StepContext &,
                              const double *pressure,
                              NodalVector  *out);
-
-      /** What a cell has added to its @p corners [4], but for the stiffness and
-       * body forces of other materials than its first: call it after
-       * points_to_grid. */
-      void (*cell_contribution)(const StepContext &,
-                                const unsigned int cell,
-                                NodalSums         *corners);
 
       /**
        * out += M x with the consistent mass matrix of the MPs, out and x

@@ -409,10 +409,22 @@ namespace CaissonMPM
         }
       };
 
+      constexpr double unlimited = 1e300;
+
+      /** What is kept of the slope of the mean stress in a cell. */
+      template <typename Number>
+      struct KeptPressureSlope
+      {
+        Number share; // of the slope
+        // of the change of the trace of the stress over the width and the mean
+        // height of the cell, Pa
+        Number largest[2] = {Number(unlimited), Number(unlimited)};
+      };
+
       /**
        * The affine stress of a cell, into fit[12] (see CellMoments): the
        * least-squares fit to the sums @p s of FitSums, with the moments of mass
-       * @p m [9]. Of the slope of the mean stress the share @p pressure_slope is kept. In
+       * @p m [9]. Of the slope of the mean stress @p pressure_slope is kept. In
        * a cell whose rows rise (over its mean height, from left to right) the
        * slopes are found along them, in x and y - rise x. A stress that is
        * affine is found as it is, unless it is @p bounded (0 to 1) and the
@@ -420,13 +432,13 @@ namespace CaissonMPM
        */
       template <typename Number>
       CAISSON_INLINE void
-      fit_stress(const CellMap<Number> &map,
-                 const double           axisymmetric,
-                 const Number          *m,
-                 const Number          *s,
-                 const Number           pressure_slope,
-                 const Number           bounded,
-                 Number                *fit)
+      fit_stress(const CellMap<Number>           &map,
+                 const double                     axisymmetric,
+                 const Number                    *m,
+                 const Number                    *s,
+                 const KeptPressureSlope<Number> &pressure_slope,
+                 const Number                     bounded,
+                 Number                          *fit)
       {
         const MassOverHeight<Number> over_height(map, m);
         const Number inverse_mass = Number(1.) / m[0], rise = map.rise(),
@@ -455,13 +467,18 @@ namespace CaissonMPM
             for (int d = 0; d < 2 && c < 3; ++d)
               trace[d] += slope[d][c];
           }
+        Number taken[2]; // of the slope of the mean stress
+        for (int d = 0; d < 2; ++d)
+          {
+            const Number largest = pressure_slope.largest[d],
+                         kept    = pressure_slope.share *
+                                max(min(trace[d], largest), -largest);
+            taken[d] = (trace[d] - kept) * Number(1. / 3.);
+          }
         for (int c = 0; c < 4; ++c)
           {
             for (int d = 0; d < 2; ++d)
-              fit[3 * c + 1 + d] =
-                c < 3 ? slope[d][c] - trace[d] * (Number(1.) - pressure_slope) *
-                                        Number(1. / 3.) :
-                        slope[d][c];
+              fit[3 * c + 1 + d] = c < 3 ? slope[d][c] - taken[d] : slope[d][c];
             fit[3 * c] =
               s[3 * c] * inverse_mass - fit[3 * c + 1] * x - fit[3 * c + 2] * y;
           }

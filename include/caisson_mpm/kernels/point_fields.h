@@ -37,7 +37,7 @@
   PART(initial_z, initial_position, 1, "m", by_mass, not_drawn, "")        \
   FIELD(initial_volume, "m3/rad", sum, not_drawn, "")                      \
   FIELD(id, "none", smallest, not_drawn, "")                               \
-  PART(size_r, size, 0, "m", by_mass, not_drawn, "when made")              \
-  PART(size_z, size, 1, "m", by_mass, not_drawn, "when made")
+  PART(size_r, size, 0, "m", by_mass, not_drawn, "as stretched")           \
+  PART(size_z, size, 1, "m", by_mass, not_drawn, "as stretched")
 
 #endif

@@ -101,6 +101,7 @@ namespace CaissonMPM
         CellField<>   advection, transfer, strain;
         double        axisymmetric;
         double        mean_divergence; // used where B-bar is on
+        double        bubble[2];       // a, b of find_bubbles()
         double        speed_limit;     // 0: none
         const double *fit;             // of the stress filter; null: no filter
         double        filtered_share;  // of the misfit, with a fit

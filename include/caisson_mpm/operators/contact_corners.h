@@ -17,9 +17,11 @@
 //   sum Q_c^T m_c Q_c dv/dt = sum Q_c^T f_c      (Q = I in cells without face),
 // and what is missing to the plain balance is the force on the body. It is
 // resolved along the normals of both faces, and bears friction along each. The
-// points of a cell gain the difference of v_c to their own mean before the
-// step, p_c / m_c: the momentum that the constraint takes is theirs, once. A
-// face is open, and its cell has Q = I, only while the body moves away from it.
+// velocity before the step follows likewise, from sum Q_c^T p_c. What the
+// points of a cell have besides stays theirs, as anywhere with FLIP, and goes
+// with the share of XPIC: taken away in every step, it would make the force on
+// the body depend on the length of a step. A face is open, and its cell has Q =
+// I, only while the body moves away from it.
 #ifndef caisson_mpm_operators_contact_corners_h
 #define caisson_mpm_operators_contact_corners_h
 
@@ -40,21 +42,6 @@ namespace CaissonMPM
     Vector2                friction;
   };
 
-  /** A field of velocities of which each cell at a corner sees its own part,
-   * less a share of the velocities before the step. */
-  struct SeenField
-  {
-    double share_of_body; // in what cells see
-    double less_old;
-
-    /** The share of the body's velocity in the field. */
-    double
-    net_share() const
-    {
-      return share_of_body - less_old;
-    }
-  };
-
   /**
    * The convex corners that this rank knows, and their state. Every rank treats
    * all of them in the same way. initialize() and collect() are collective over
@@ -73,14 +60,15 @@ namespace CaissonMPM
     bool
     is_corner(const unsigned int node) const;
 
-    /** Collect what the cells at the corners brought to them in this step. */
+    /** Collect what the cells at the corners brought to them in this step, in
+     * which points keep the share @p keep of their velocity. */
     void
     collect(const Kernels::KernelTable &kernels,
-            const Kernels::StepContext &step);
+            const Kernels::StepContext &step,
+            const double                keep);
 
-    /** Replace the velocities @p v before the step by those in the cells
-     * without a face, and @p u after it by those that follow from virtual power,
-     * if the body has the given velocity. */
+    /** Replace the velocities @p v before and @p u after the step by those that
+     * follow from virtual power, if the body has the given velocity. */
     void
     accelerate(const Vector2            &body_velocity,
                const double              dt,
@@ -94,27 +82,23 @@ namespace CaissonMPM
           const Kernels::NodalSums *sums,
           Kernels::NodalVector     *u);
 
-    /** Set the velocities before the step to those that follow from virtual
-     * power. */
-    void
-    set_old(Kernels::NodalVector *v) const;
-
     /** Hold a velocity field to what sticks to a body of this velocity. */
     void
     hold(const Vector2 &body_velocity, Kernels::NodalVector *v) const;
 
     /** Add to @p to what the product of the mass matrix with @p from lacks at
-     * the corners. */
+     * the corners. The field has this share of the body's velocity: 1 for a
+     * velocity, 0 for a difference of velocities. */
     void
     correct_mass(const Kernels::StepContext &step,
                  const Kernels::NodalVector *from,
-                 const SeenField            &kind,
+                 const double                share_of_body,
                  Kernels::NodalVector       *to) const;
 
     /** Finish the division of this product by the mass. */
     void
     divide_by_mass(const Kernels::NodalSums *sums,
-                   const SeenField          &kind,
+                   const double              share_of_body,
                    Kernels::NodalVector     *v) const;
 
     /** The power of the forces in the cells at the corners, with the velocities
@@ -186,8 +170,7 @@ namespace CaissonMPM
       std::array<double, 2>  friction, adhesion; // adhesion: a A, N per radian
       std::array<bool, 2>    sticks = {{false, false}}; // by component
       CornerReaction         reaction;
-      // before the step: in cells without face, and as virtual power has it
-      Vector2 plain_old, old;
+      Vector2                old; // the velocity before the step
     };
 
     /** What a cell brings to its corner. */
@@ -209,14 +192,6 @@ namespace CaissonMPM
 
     Contribution
     contribution(const Cell &cell) const;
-
-    /** The velocity before the step in the cells without a closed face. */
-    Vector2
-    plain_old(const Corner &corner, const Kernels::NodalSums &node) const;
-
-    /** The velocity before the step in a cell. */
-    Vector2
-    own_old(const Corner &corner, const Cell &cell) const;
 
     /** sum Q^T m Q, which is diagonal; 0 where a component acts on no cell. */
     Vector2
@@ -253,9 +228,11 @@ namespace CaissonMPM
     update_views();
 
     std::vector<Corner>              corners;
-    std::vector<double>              sums_; // contributions of all cells
+    std::vector<double>              sums_;   // contributions of all cells
+    std::vector<Kernels::NodalSums>  of_cell; // memory of collect()
     std::vector<Kernels::CornerView> views_;
-    Vector2                          velocity; // of the body
+    Vector2                          velocity;           // of the body
+    double                           keep          = 1.; // see collect()
     MPI_Comm                         communicator  = MPI_COMM_SELF;
     unsigned int                     n_owned_nodes = 0;
   };

@@ -8,6 +8,7 @@
 #include <caisson_mpm/operators/nodal_work.h>
 #include <caisson_mpm/operators/point_transfer.h>
 
+#include <array>
 #include <vector>
 
 namespace CaissonMPM
@@ -70,6 +71,13 @@ namespace CaissonMPM
     {
       return settings_;
     }
+
+    /** The rates of stretch in r and z at a place in a cell, with the
+     * velocities at the end of the last step. Units: 1/s. */
+    std::array<double, 2>
+    rate_of_stretch(const BackgroundGrid   &grid,
+                    const unsigned int      cell,
+                    const dealii::Point<2> &place) const;
 
     /** What the constraints did in the last step. */
     const NodalReactions &

@@ -67,7 +67,7 @@ namespace CaissonMPM
     void
     round_trip(const Context   &context,
                const NodalData &from,
-               const SeenField &kind,
+               const double     share_of_body,
                NodalData       &to);
 
     /** Add share * sum_{k=1}^{order-1} (I - A)^k v to the transfer field. */
@@ -84,7 +84,7 @@ namespace CaissonMPM
     NodalData filtered, after_round_trip; // memory of add_filter()
     NodalData held_old;
     bool      strains_with_new = false; // USL
-    double    less_old         = 0.;    // see NodalFields::transfer_less_old
+    double    transfer_of_body = 1.;    // see NodalFields
   };
 } // namespace CaissonMPM
 

@@ -119,7 +119,7 @@ namespace CaissonMPM
     void
     update_points();
     void
-    adapt_points();
+    adapt_points(const double interval);
     /** Hand the sums of this step to those who keep them. */
     void
     add_step(const NodalWork &work);
