@@ -221,10 +221,28 @@ check_stretch()
     for (unsigned int d = 0; d < 2; ++d)
       largest[d] = std::max(largest[d], p.size[d]);
   });
-  for (unsigned int k = 0; k < 5; ++k)
-    s.points.stretch([](const unsigned int, const dealii::Point<2> &) {
-      return std::array<double, 2>{{.12, -.12}};
-    });
+  const auto stretch = [&](const double strain, const unsigned int n) {
+    for (unsigned int k = 0; k < n; ++k)
+      s.points.stretch(
+        [&](const unsigned int, const dealii::Point<2> &) {
+          return std::array<double, 2>{{strain, -strain}};
+        },
+        [&](const unsigned int) {
+          return std::array<double, 2>{{largest[0], largest[1]}};
+        });
+  };
+  stretch(1., 20);
+  stretch(-1., 20);
+  double bounded[2] = {1e300, 0.};
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    bounded[0] = std::min(bounded[0], p.size[0] / largest[0]);
+    bounded[1] = std::max(bounded[1], p.size[1] / largest[1]);
+  });
+  verdict("forth and back by 20: error of the bounds of the size",
+          std::max(std::abs(bounded[0] - .3), std::abs(bounded[1] - 2.)),
+          1e-12);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+  stretch(.12, 5);
   double now[2] = {0., 0.};
   s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
     for (unsigned int d = 0; d < 2; ++d)

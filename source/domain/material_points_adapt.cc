@@ -123,12 +123,13 @@ namespace CaissonMPM
   }
 
   void
-  MaterialPoints::stretch(const Stretch &stretch_at)
+  MaterialPoints::stretch(const Stretch &stretch_at, const WantedSize &wanted)
   {
     for (const unsigned int cell : active_cells)
       {
-        auto &range = sizes[cell];
-        range       = {};
+        const auto suitable = wanted(cell);
+        auto      &range    = sizes[cell];
+        range               = {};
         for_each_lane(cell, [&](const int b, const int lane) {
           const auto strain =
             stretch_at(cell, Point<2>(blocks[b].r[lane], blocks[b].z[lane]));
@@ -136,8 +137,10 @@ namespace CaissonMPM
                                    &histories[b].size_z[lane]};
           for (unsigned int d = 0; d < 2; ++d)
             {
-              // what is thrown about is not stretched
-              *size[d] *= std::exp(std::clamp(strain[d], -.3, .3));
+              const double old = *size[d];
+              *size[d]         = std::clamp(old * std::exp(strain[d]),
+                                    std::min(old, .3 * suitable[d]),
+                                    std::max(old, 2. * suitable[d]));
               range[d].include(*size[d]);
             }
         });

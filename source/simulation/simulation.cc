@@ -369,17 +369,20 @@ namespace CaissonMPM
   void
   Simulation::adapt_points(const double interval)
   {
-    points.stretch([&](const unsigned int cell, const Point<2> &place) {
-      auto strain = nodal_motion.rate_of_stretch(grid, cell, place);
-      for (double &s : strain)
-        s *= interval;
-      return strain;
-    });
     since_adaptation    = 0.;
     const double travel = lines.total_travel();
-    points.adapt([&](const unsigned int cell) {
+    const auto   wanted = [&](const unsigned int cell) {
       return generator.wanted_size(grid.geometry(cell), body.shape(), travel);
-    });
+    };
+    points.stretch(
+      [&](const unsigned int cell, const Point<2> &place) {
+        auto strain = nodal_motion.rate_of_stretch(grid, cell, place);
+        for (double &s : strain)
+          s *= interval;
+        return strain;
+      },
+      wanted);
+    points.adapt(wanted);
   }
 
   void

@@ -116,16 +116,6 @@ namespace CaissonMPM
     using WantedSize =
       std::function<std::array<double, 2>(const unsigned int cell)>;
 
-    /** Gives the logarithmic strain in r and z, since the last adaptation, at a
-     * place in a cell. */
-    using Stretch =
-      std::function<std::array<double, 2>(const unsigned int      cell,
-                                          const dealii::Point<2> &place)>;
-
-    /** Let the sizes of the points follow their stretch. */
-    void
-    stretch(const Stretch &stretch_at);
-
     /**
      * Split the points that are more than 1.05 times as large as wanted in
      * their cell, and merge those below 0.51 times that size with a neighbor.
@@ -135,6 +125,17 @@ namespace CaissonMPM
      */
     void
     adapt(const WantedSize &wanted);
+
+    /** Gives the logarithmic strain in r and z, since the last adaptation, at a
+     * place in a cell. */
+    using Stretch =
+      std::function<std::array<double, 2>(const unsigned int      cell,
+                                          const dealii::Point<2> &place)>;
+
+    /** Let the sizes of the points follow their stretch, from 0.3 to twice what
+     * is wanted: a point that cannot be split or merged waits. */
+    void
+    stretch(const Stretch &stretch_at, const WantedSize &wanted);
 
     /** Call action(position, velocity, mass, material) for every point: less
      * work than for_each(). */
