@@ -91,6 +91,12 @@ namespace CaissonMPM
           const MaterialPoint whole = points[i].second;
           if (!is_too_large(whole.size[d], wanted[d]))
             continue;
+          // One whose size says more than its volume has been stretched by
+          // noise: splitting it would make points without end.
+          const double area =
+            whole.volume / (grid.axisymmetric() ? whole.position[radial] : 1.);
+          if (area < .4 * whole.size[0] * whole.size[1])
+            continue;
           const MaterialPoint lower = half_of(whole, d, -1.),
                               upper = half_of(whole, d, 1.);
           // beside the body or the end of the mesh it waits
