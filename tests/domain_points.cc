@@ -209,6 +209,18 @@ check_split_and_merge()
           1e-12);
 }
 
+/** The largest size of all points in r and z. */
+std::array<double, 2>
+largest_size(const MaterialPoints &points)
+{
+  std::array<double, 2> largest = {{0., 0.}};
+  points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    for (unsigned int d = 0; d < 2; ++d)
+      largest[d] = std::max(largest[d], p.size[d]);
+  });
+  return largest;
+}
+
 /** The sizes of points follow their stretch, and points that it has made too
  * long are split that way only. */
 void
@@ -216,27 +228,17 @@ check_stretch()
 {
   Scene s(caisson);
   s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
-  double largest[2] = {0., 0.};
-  s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
-    for (unsigned int d = 0; d < 2; ++d)
-      largest[d] = std::max(largest[d], p.size[d]);
-  });
+  const auto largest = largest_size(s.points);
   const auto stretch = [&](const double strain, const unsigned int n) {
     for (unsigned int k = 0; k < n; ++k)
       s.points.stretch(
         [&](const unsigned int, const dealii::Point<2> &) {
           return std::array<double, 2>{{strain, -strain}};
         },
-        [&](const unsigned int) {
-          return std::array<double, 2>{{largest[0], largest[1]}};
-        });
+        [&](const unsigned int) { return largest; });
   };
   stretch(.12, 5);
-  double now[2] = {0., 0.};
-  s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
-    for (unsigned int d = 0; d < 2; ++d)
-      now[d] = std::max(now[d], p.size[d]);
-  });
+  const auto now = largest_size(s.points);
   verdict("five strains of 0.12 and -0.12: error of the size in r and z",
           std::max(std::abs(now[0] / largest[0] - std::exp(.6)),
                    std::abs(now[1] / largest[1] - std::exp(-.6))),
