@@ -10,6 +10,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -125,11 +126,11 @@ namespace CaissonMPM
     double                 full_fraction        = 0.9;
     double                 full_fraction_inside = 0.4;
     bool                   mean_volume          = true;
-    double                 stress_filter        = 0.01;
-    bool                   mass_floor           = true;
-    double                 damping              = 0.;
-    bool                   limits_velocity      = true;
-    double                 limiter_factor       = 0.75;
+    std::optional<double>  stress_filter; // no value: auto
+    bool                   mass_floor      = true;
+    double                 damping         = 0.;
+    bool                   limits_velocity = true;
+    double                 limiter_factor  = 0.75;
   };
 } // namespace CaissonMPM
 
