@@ -29,8 +29,8 @@ check_linear_field(const double axisymmetric)
   const auto                     v = [&](const double r, const double z) {
     return std::array<double, 2>{{a * r, b * z + c * r}};
   };
-  const UpdateResult sums = update(
-    s, *select_kernels("auto"), {dt, keep, true, 0., 0., 0.}, v, moments);
+  const UpdateResult sums =
+    update(s, *select_kernels("auto"), {dt, keep, true, 0.}, v, moments);
   double       work = 0.;
   const double M    = E * (1. - nu) / ((1. + nu) * (1. - 2. * nu)),
                l = M * nu / (1. - nu), G = E / (2. * (1. + nu));
@@ -102,7 +102,7 @@ moves(Scene                                     s,
   update(
     s,
     *select_kernels("auto"),
-    {dt, 0., mean_volume_change, 0., 0., 0.},
+    {dt, 0., mean_volume_change, 0.},
     [](const double r, const double z) {
       return std::array<double, 2>{{r * z + std::sin(3. * r), z * z - r * z}};
     },
@@ -192,8 +192,7 @@ repeat(Scene                                                      &s,
   const std::vector<CellMoments> moments(n_cells, CellMoments());
   for (unsigned int k = 0; k < n_steps; ++k)
     {
-      update(
-        s, *select_kernels("auto"), {dt, 0., false, 0., 0., 0.}, v, moments);
+      update(s, *select_kernels("auto"), {dt, 0., false, 0.}, v, moments);
       for_all(s, [](PointBlock &block, int lane, const Point &p) {
         block.r[lane] = p.r;
         block.z[lane] = p.z;
@@ -298,7 +297,7 @@ check_work(const double axisymmetric)
   const auto   sums = update(
     s,
     kernels,
-    {dt, 0., true, 0., 0., 0.},
+    {dt, 0., true, 0.},
     [&](const double r, const double z) {
       return std::array<double, 2>{{a * r, b * z}};
     },
@@ -390,13 +389,8 @@ check_mean_volume(const double axisymmetric)
   Scene with = make_scene(axisymmetric, false);
   fill_blocks(with);
   Scene without = with;
-  update(
-    with, *select_kernels("auto"), {1e-3, 0., true, 0., 0., 0.}, v, moments);
-  update(without,
-         *select_kernels("auto"),
-         {1e-3, 0., false, 0., 0., 0.},
-         v,
-         moments);
+  update(with, *select_kernels("auto"), {1e-3, 0., true, 0.}, v, moments);
+  update(without, *select_kernels("auto"), {1e-3, 0., false, 0.}, v, moments);
   double                             spread = 0., largest = 0., deviator = 0.;
   std::vector<std::array<double, 4>> stress;
   std::vector<double>                ratio(n_cells, -1.);
@@ -445,7 +439,7 @@ check_limiter()
     return std::array<double, 2>{{6., -8.}};
   };
   const UpdateResult result =
-    update(s, *select_kernels("auto"), {dt, 0., false, k, 0., 0.}, v, moments);
+    update(s, *select_kernels("auto"), {dt, 0., false, k}, v, moments);
   double       error = 0., direction = 0.;
   unsigned int n_limited = 0;
   for_all(s, [&](PointBlock &b, int lane, const Point &p) {
@@ -512,8 +506,6 @@ check_stress_filter()
   verdict("filter: misfit left in full cells", affine / 1e4, 1e-9);
   verdict("filter: change in other cells", partly / 1e4, 1e-14);
 }
-
-
 
 // ------------------------------------------------------- instruction sets
 

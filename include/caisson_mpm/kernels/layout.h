@@ -230,7 +230,7 @@ namespace CaissonMPM
       bool   mean_volume_change; // B-bar
       double limiter;            // k of |v| <= k H / dt; 0: off
       // share of the misfit removed, in elastic and in other soil; 0: off
-      double elastic_stress_filter, stress_filter;
+      double elastic_stress_filter = 0., stress_filter = 0.;
     };
 
     /** The nodal velocities that update the points, each [n_nodes]. */
