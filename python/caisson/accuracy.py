@@ -66,7 +66,7 @@ def find(study: Study) -> Found:
 
 def draw(study: Study, found: Found, options: Options) -> None:
     """Draw error against time, a line for each choice."""
-    figure = Figure(figsize=(7, 5))
+    figure = Figure(figsize=(9, 5))
     axes = figure.subplots()
     for i, name in enumerate(dict.fromkeys(run.variant for run, _, _ in found)):
         shown = sorted((s, e) for run, s, e in found if run.variant == name and e)
@@ -81,7 +81,7 @@ def draw(study: Study, found: Found, options: Options) -> None:
     axes.set_ylabel(f"relative error: {study.keys['measure']}")
     axes.set_title(study.title, fontsize=10)
     axes.grid(color="0.9", which="both")
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     figure.tight_layout()
     path = options.results / f"accuracy_{study.id}.png"
     figure.savefig(path, dpi=130)
