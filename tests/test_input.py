@@ -43,6 +43,10 @@ CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
     (["Solid density", "float"], {f"{LAYER}/Solid density": 900}),
     (["K0", "Change"], {f"{LAYER}/K0": 9}),
     (["Top depth", "layers"], {"Soil/Number of layers": 2}),
+    (
+        ["Layer 2/Top depth", "below the mesh", "lower the bottom"],
+        {"Soil/Number of layers": 2, "Soil/Layer 2/Top depth": 300},
+    ),
     (["Wall thickness", "plug"], {f"{BODY}/Wall thickness": 3.5}),
     (["even number"], {f"{BODY}/Cells across the wall": 3}),
     (["Tip angle", "Reduce"], {f"{BODY}/Skirt length": 0.05}),

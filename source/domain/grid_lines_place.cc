@@ -172,8 +172,17 @@ namespace CaissonMPM
                                     {0., "the soil surface"},
                                     {top, "Grid/Top"}};
     for (const double z : soil.interfaces())
-      fixed.push_back(
-        {z, "Soil/Layer " + to_text(fixed.size() - 1) + "/Top depth"});
+      {
+        const std::string entry =
+          "Soil/Layer " + to_text(fixed.size() - 1) + "/Top depth";
+        if (z < bottom)
+          throw BadInput(
+            entry + " = " + meters(-z) +
+            " lies below the mesh, which ends at Grid/Bottom = " +
+            meters(bottom) +
+            ". Reduce Soil/Number of layers, or lower the bottom.");
+        fixed.push_back({z, entry});
+      }
     if (!body.exists() || body.expands())
       return even_spacing(fixed, cell_height);
     if (body.bottom() < bottom || body.top() > top)
