@@ -185,7 +185,7 @@ namespace
                                       filled_at_node.data()};
     // the points stay where they are, and their stresses change
     const PointUpdate update = {s.grid(),
-                                {1e-6, .9, true, 0., .01, .01},
+                                {1e-6, .9, true, 0., .01},
                                 {rest.data(), rest.data(), v.data()}};
 
     const double to_grid   = best_time(repetitions, [&]() {

@@ -105,18 +105,14 @@ namespace CaissonMPM
                   mean_volume,
                   "The points of a cell are strained with its mean volume "
                   "change (B-bar), which prevents locking. Units: none.");
-    add_word_or_number(
-      *this,
-      "Stress filter",
-      stress_filter,
-      "auto",
-      std::nullopt,
-      "In full cells a step with a Courant number of 0.8 removes this share "
-      "of the misfit between the stress of a point and the affine fit of its "
-      "cell, which changes no nodal force; shorter steps remove less, in "
-      "proportion; auto removes 0.2 in linear elastic soil and 0.01 in any "
-      "other. Units: none.",
-      Patterns::Double(0., 1.));
+    add_parameter("Stress filter",
+                  stress_filter,
+                  "In full cells a step with a Courant number of 0.8 removes "
+                  "this share of the misfit between the stress of a point and "
+                  "the affine fit of its cell, which changes no nodal force; "
+                  "shorter steps remove less, in proportion. Units: none.",
+                  prm,
+                  Patterns::Double(0., 1.));
   }
 
   void
@@ -215,16 +211,12 @@ namespace CaissonMPM
   Kernels::UpdateSettings
   MethodSettings::update(const StepSize &step) const
   {
-    const double n     = step.n_reference_steps();
-    const auto   share = [&](const double automatic) {
-      return 1. - std::pow(1. - stress_filter.value_or(automatic), n);
-    };
+    const double n = step.n_reference_steps();
     return {step.seconds,
             keep_velocity(step),
             mean_volume,
             limits_velocity ? limiter_factor * n : 0.,
-            share(.2),
-            share(.01)};
+            1. - std::pow(1. - stress_filter, n)};
   }
 
   std::string

@@ -279,18 +279,6 @@ namespace CaissonMPM
             }
       }
 
-      /** The share of the misfit that the stress filter removes in a cell. */
-      CAISSON_INLINE double
-      stress_filter(const StepContext    &step,
-                    const UpdateSettings &settings,
-                    const CellMoments    &moments)
-      {
-        const bool is_elastic = !moments.several_materials &&
-                                step.materials[moments.material].is_elastic;
-        return is_elastic ? settings.elastic_stress_filter :
-                            settings.stress_filter;
-      }
-
       /** Prepare the update of a cell, all but the mean divergence. */
       CAISSON_INLINE void
       prepare_cell(const StepContext &step,
@@ -314,11 +302,10 @@ namespace CaissonMPM
         update.bubble[0] = update.bubble[1] = 0.;
         update.speed_limit                  = 0.;
         update.fit                          = nullptr;
-        const double filter = stress_filter(step, settings, moments);
-        if (filter > 0. && moments.full > 0.)
+        if (settings.stress_filter > 0. && moments.full > 0.)
           {
             update.fit                 = moments.fit;
-            update.filtered_share      = filter * moments.full;
+            update.filtered_share      = settings.stress_filter * moments.full;
             update.inverse_mean_height = 1. / update.map.mean_height();
           }
         if (settings.limiter > 0. && (grid.flags[cell] & next_to_body))

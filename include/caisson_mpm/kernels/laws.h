@@ -109,8 +109,6 @@ namespace CaissonMPM
                       "enlarge Material::parameters (layout.h)");
         material.law             = law_id<Law>;
         material.volume_in_shear = volume_in_shear<Law>(parameters, 0);
-        material.is_elastic =
-          !Law::stiffness_varies && !has_yield_surface<Law>(0);
         material.overstress_time = 0.;
         __builtin_memcpy(material.parameters, &parameters, sizeof(parameters));
       }

@@ -100,7 +100,6 @@ namespace CaissonMPM
       double body_force[2];  // acceleration of the scaled mass (m/s2)
       double p_wave_modulus; // lambda + 2 mu, the largest of all points (Pa)
       VolumeInShear volume_in_shear;
-      bool          is_elastic; // with constant moduli
       double        initial_void_ratio;
       double        initial_density; // of the scaled mass, kg/m3
       double        overstress_time; // kernels/overstress.h; 0: none (s)
@@ -229,8 +228,7 @@ namespace CaissonMPM
       double keep_velocity;      // share of the MP's own velocity (FLIP 1)
       bool   mean_volume_change; // B-bar
       double limiter;            // k of |v| <= k H / dt; 0: off
-      // share of the misfit removed, in elastic and in other soil; 0: off
-      double elastic_stress_filter = 0., stress_filter = 0.;
+      double stress_filter;      // share of the misfit removed; 0: off
     };
 
     /** The nodal velocities that update the points, each [n_nodes]. */

@@ -10,7 +10,6 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -126,11 +125,11 @@ namespace CaissonMPM
     double                 full_fraction        = 0.9;
     double                 full_fraction_inside = 0.4;
     bool                   mean_volume          = true;
-    std::optional<double>  stress_filter; // no value: auto
-    bool                   mass_floor      = true;
-    double                 damping         = 0.;
-    bool                   limits_velocity = true;
-    double                 limiter_factor  = 0.75;
+    double                 stress_filter        = 0.01;
+    bool                   mass_floor           = true;
+    double                 damping              = 0.;
+    bool                   limits_velocity      = true;
+    double                 limiter_factor       = 0.75;
   };
 } // namespace CaissonMPM
 
