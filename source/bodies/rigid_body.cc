@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/bodies/box.h>
 #include <caisson_mpm/bodies/caisson.h>
 #include <caisson_mpm/bodies/cone.h>
 #include <caisson_mpm/bodies/cylinder.h>
+#include <caisson_mpm/bodies/lowered_motion.h>
 #include <caisson_mpm/bodies/prescribed_motion.h>
 #include <caisson_mpm/bodies/rigid_body.h>
 
@@ -132,7 +134,8 @@ namespace CaissonMPM
   RigidBody::RigidBody()
     : ParameterAcceptor("/Rigid body")
     , shapes(one_of_each<BodyShape, NoShape, Caisson, Box, Cone, Cylinder>())
-    , motions(one_of_each<BodyMotion, NoMotion, PrescribedMotion>())
+    , motions(
+        one_of_each<BodyMotion, NoMotion, PrescribedMotion, LoweredMotion>())
   {
     add_list(
       *this, "Kind", shapes, 0, chosen_shape, "The rigid body is one of these");
@@ -147,6 +150,26 @@ namespace CaissonMPM
                   "The density of the body's material. Units: kg/m3.",
                   prm,
                   Patterns::Double(1e-9));
+    add_word_or_number(*this,
+                       "Submerged weight",
+                       weight,
+                       "auto",
+                       -1.,
+                       "The weight of the body in water, with everything that "
+                       "it carries; auto takes that of its own material, "
+                       "without lid and ballast where the mesh has none. "
+                       "Units: N.",
+                       Patterns::Double(0.));
+  }
+
+
+
+  void
+  RigidBody::find_weight(const double mass, const Soil &soil)
+  {
+    const double buoyancy = soil.unit_weight_of_water() * mass / density;
+    submerged_weight_     = weight.value_or(-soil.gravity[vertical] * mass -
+                                        (soil.is_submerged() ? buoyancy : 0.));
   }
 
 

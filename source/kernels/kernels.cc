@@ -6,6 +6,7 @@
 #include <caisson_mpm/kernels/grid_to_points.h>
 #include <caisson_mpm/kernels/points_to_grid.h>
 #include <caisson_mpm/kernels/pressure_force.h>
+#include <caisson_mpm/kernels/pressure_gradient_force.h>
 
 #define CAISSON_CONCATENATE(a, b) a##b
 #define CAISSON_TABLE(isa) CAISSON_CONCATENATE(kernels_, isa)
@@ -19,12 +20,14 @@ namespace CaissonMPM
     const KernelTable &
     CAISSON_TABLE(CAISSON_KERNEL_ISA)()
     {
-      static constexpr KernelTable table = {CAISSON_QUOTE(CAISSON_KERNEL_ISA),
-                                            NativeLanes::width,
-                                            &points_to_grid<NativeLanes>,
-                                            &pressure_force<NativeLanes>,
-                                            &apply_mass,
-                                            &grid_to_points<NativeLanes>};
+      static constexpr KernelTable table = {
+        CAISSON_QUOTE(CAISSON_KERNEL_ISA),
+        NativeLanes::width,
+        &points_to_grid<NativeLanes>,
+        &pressure_force<NativeLanes>,
+        &pressure_gradient_force<NativeLanes>,
+        &apply_mass,
+        &grid_to_points<NativeLanes>};
       return table;
     }
   } // namespace Kernels

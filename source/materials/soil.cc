@@ -104,7 +104,30 @@ namespace CaissonMPM
                        "the layer's law, 1 - sin(phi) or, without a friction "
                        "angle, nu / (1 - nu). Units: none.",
                        Patterns::Double(0., 10.));
+    declare_permeability();
     declare_internal_length();
+  }
+
+  void
+  SoilLayer::declare_permeability()
+  {
+    add_parameter("Permeability",
+                  permeability,
+                  "The permeability to water in the vertical, where water "
+                  "flows (Water/Level). Units: m/s.",
+                  prm,
+                  Patterns::Double(1e-20));
+    add_parameter("Permeability ratio",
+                  anisotropy,
+                  "The horizontal permeability over the vertical one. Units: "
+                  "none.",
+                  prm,
+                  Patterns::Double(1e-6, 1e6));
+    add_parameter("Permeability by void ratio",
+                  loosening_conducts,
+                  "The permeability follows the void ratio e as e3/(1 + e) "
+                  "(Kozeny-Carman); Permeability is that of the porosity at "
+                  "the start. Units: none.");
   }
 
   void
@@ -230,6 +253,17 @@ namespace CaissonMPM
   SoilLayer::stiffness_varies() const
   {
     return law_named(law).stiffness_varies;
+  }
+
+  double
+  SoilLayer::permeability_at(const double e) const
+  {
+    if (!loosening_conducts)
+      return permeability;
+    const auto carman = [](const double e) { return e * e * e / (1. + e); };
+    // points that are pressed together may have lost all pores
+    return permeability * carman(std::max(e, .1 * void_ratio())) /
+           carman(void_ratio());
   }
 
   void
@@ -414,6 +448,12 @@ namespace CaissonMPM
     const SoilLayer &l = *layers[i];
     return -gravity[vertical] * (1. - l.porosity) *
            (l.solid_density - (submerged ? fluid_density : 0.));
+  }
+
+  double
+  Soil::unit_weight_of_water() const
+  {
+    return -fluid_density * gravity[vertical];
   }
 
   Stress

@@ -62,9 +62,18 @@ namespace CaissonMPM
   void
   Recorder::check_parameters()
   {
-    const auto counts = parts.totals.count_names();
+    const auto counts = count_names();
     observations.initialize(Records::names(counts, {}));
     verification.check_parameters(Records::names(counts, observations.names()));
+  }
+
+  std::vector<std::string>
+  Recorder::count_names() const
+  {
+    auto names = parts.totals.count_names();
+    for (const std::string &name : parts.water.column_names())
+      names.push_back(name);
+    return names;
   }
 
   Console::Verbosity
@@ -92,10 +101,8 @@ namespace CaissonMPM
       directory = output_directory;
     locked_directory =
       std::make_unique<OutputDirectory>(directory, parts.grid.communicator());
-    console       = std::make_unique<Console>(verbosity());
-    records       = std::make_unique<Records>(directory,
-                                        observations,
-                                        parts.totals.count_names());
+    console = std::make_unique<Console>(verbosity());
+    records = std::make_unique<Records>(directory, observations, count_names());
     visualization = std::make_unique<Visualization>(directory);
   }
 
@@ -210,6 +217,8 @@ namespace CaissonMPM
       Utilities::MPI::sum(parts.nodal_motion.reactions().contact.n_sticking,
                           communicator);
     row.counts = parts.totals.counts();
+    for (const auto &column : parts.water.columns())
+      row.counts.push_back(column);
     add_forces(row);
     add_sums_over_points(row);
     const std::vector<double> observed = observed_values();
@@ -217,6 +226,8 @@ namespace CaissonMPM
       records->append(row, observed);
     print_record(row);
     warn_of_lid(row);
+    warn_of_piping();
+    tell_of_rest();
   }
 
   void
@@ -306,6 +317,32 @@ namespace CaissonMPM
                      to_text(row.penetration, 6) +
                      " m: from here on the lid carries load, and the mesh "
                      "allows no more heave");
+  }
+
+  void
+  Recorder::warn_of_piping()
+  {
+    if (has_warned_of_piping || parts.water.piping_ratio() < 1.)
+      return;
+    has_warned_of_piping = true;
+    console->warning(
+      "the flow out of the plug carries the soil at the inner wall from a "
+      "penetration of " +
+      to_text(parts.body.penetration(), 5) +
+      " m on: its exit gradient exceeds the critical one. Piping may begin, "
+      "which the program does not follow");
+  }
+
+  void
+  Recorder::tell_of_rest()
+  {
+    const auto travel = parts.body.motion().travel_at_rest();
+    if (has_told_of_rest || !travel)
+      return;
+    has_told_of_rest = true;
+    console->message("the body came to rest at a penetration of " +
+                     to_text(parts.body.shape().initial_depth() + *travel, 5) +
+                     " m");
   }
 
   void

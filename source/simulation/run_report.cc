@@ -150,6 +150,12 @@ namespace CaissonMPM
       append(members,
              {{"layers", "[" + layers + "]"},
               {"frame_penetrations_m", "[" + frames + "]"}});
+      if (parts.water.acts())
+        append(members, Json::numbers(parts.water.limits()));
+      if (const auto travel = parts.body.motion().travel_at_rest())
+        append(members,
+               {{"rest_penetration_m",
+                 Json::number(parts.body.shape().initial_depth() + *travel)}});
       return members;
     }
 

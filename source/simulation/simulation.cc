@@ -5,6 +5,7 @@
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/simulation/physics_text.h>
 #include <caisson_mpm/simulation/simulation.h>
+#include <caisson_mpm/water/seepage_force.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
@@ -34,6 +35,7 @@ namespace CaissonMPM
     : ParameterAcceptor("/")
     , grid(lines, communicator)
     , points(grid)
+    , water(grid, points, soil, body)
     , schedule(body, clock)
     , recorder({clock,
                 schedule,
@@ -47,8 +49,10 @@ namespace CaissonMPM
                 timer,
                 grid,
                 energy,
-                totals})
+                totals,
+                water})
   {
+    nodal_forces.add(std::make_unique<SeepageForce>(water));
     enter_subsection("Method");
     add_parameter("Instruction set",
                   instruction_set,
@@ -81,6 +85,7 @@ namespace CaissonMPM
     totals.count("soil_into_body_m3", inflow);
     points.register_totals(totals);
     energy.register_totals(totals);
+    water.register_totals(totals);
     schedule.register_totals(totals);
     recorder.register_totals(totals);
   }
@@ -95,6 +100,7 @@ namespace CaissonMPM
     lines.check_parameters();
     generator.check_parameters();
     boundary_conditions.check_parameters(lines);
+    water.check_parameters();
     nodal_forces.check_parameters();
     nodal_motion.settings().check_parameters();
     recorder.check_parameters();
@@ -115,7 +121,11 @@ namespace CaissonMPM
     grid.create_mesh();
     set_up_part();
     nodal_forces.initialize(soil.mass_scaling());
-    materials = soil.kernel_materials();
+    materials   = soil.kernel_materials();
+    double mass = 0.;
+    for (const BodyPoint &p : body_points)
+      mass += p.mass;
+    body.find_weight(Utilities::MPI::sum(mass, grid.communicator()), soil);
   }
 
   void
@@ -174,6 +184,7 @@ namespace CaissonMPM
     soil.name_unused_entries(origins);
     generator.name_unused_entries(origins);
     boundary_conditions.name_unused_entries(origins);
+    water.name_unused_entries(origins);
     nodal_motion.settings().name_unused_entries(origins);
     schedule.name_unused_entries(origins);
   }
@@ -209,6 +220,7 @@ namespace CaissonMPM
   {
     body_points = generate_body_points(grid, body);
     contact.initialize(grid, body.surface());
+    water.initialize();
     boundary_conditions.initialize(grid);
     nodal_motion.initialize(grid);
     grid.move_to(body.motion().travel());
@@ -295,8 +307,8 @@ namespace CaissonMPM
   {
     NodalWork work;
     timed("choose step", [&]() { choose_step(); });
-    timed("move body",
-          [&]() { body.motion().advance(clock.step_size, force_on_body); });
+    timed("ground water", [&]() { water.update(); });
+    timed("move body", [&]() { move_body(); });
     const StepSize size = {clock.step_size,
                            time_step.courant_number(clock.step_size)};
     timed("points to grid", [&]() {
@@ -349,6 +361,13 @@ namespace CaissonMPM
   }
 
   void
+  Simulation::move_body()
+  {
+    body.motion().set_load(body.submerged_weight() + water.load_on_body());
+    body.motion().advance(clock.step_size, force_on_body);
+  }
+
+  void
   Simulation::add_step(const NodalWork &work)
   {
     energy.add(work, grid.circumference() * points.update_result().stress_work);
@@ -356,7 +375,7 @@ namespace CaissonMPM
     const SurfaceForces  &on_body   = reactions.contact.impulse;
     inflow += reactions.contact.inflow;
     recorder.add_step(on_body, reactions.prescribed.impulse);
-    if (body.motion().needs_force())
+    if (body.motion().needs_force() || water.acts())
       {
         const Vector2 impulse =
           std::accumulate(on_body.begin(), on_body.end(), Vector2());
@@ -364,6 +383,7 @@ namespace CaissonMPM
                                             grid.communicator()) /
                         clock.step_size;
       }
+    water.advance(clock.time, clock.step_size, force_on_body);
   }
 
   void
@@ -538,7 +558,7 @@ namespace CaissonMPM
         recorder.write_frame();
         recorder.record();
       }
-    while (!schedule.is_finished())
+    while (!schedule.is_finished() && water.reason_to_end().empty())
       {
         advance();
         output();
@@ -548,6 +568,18 @@ namespace CaissonMPM
         if (!reason.empty())
           return stop(reason);
       }
+    if (!schedule.is_finished())
+      end_early();
     return finish();
+  }
+
+  void
+  Simulation::end_early()
+  {
+    recorder.record();
+    recorder.write_frame();
+    recorder.message("ended at a penetration of " +
+                     to_text(body.penetration(), 5) +
+                     " m: " + water.reason_to_end());
   }
 } // namespace CaissonMPM

@@ -52,6 +52,29 @@ namespace CaissonMPM
       time_ = travel_ = mean_velocity_ = velocity_ = 0.;
     }
 
+    /** Set what presses the body in the direction of a positive travel besides
+     * the soil: its submerged weight, and the suction. Units: N. */
+    void
+    set_load(const double load)
+    {
+      load_ = load;
+    }
+
+    /** Whether loads move the body, so that it can come to rest. */
+    virtual bool
+    follows_loads() const
+    {
+      return false;
+    }
+
+    /** Return the travel at which a body that its loads move came to rest
+     * first, and no value before that. Units: m. */
+    virtual std::optional<double>
+    travel_at_rest() const
+    {
+      return {};
+    }
+
     /** Whether advance() needs the force on the body, which must be summed over
      * the ranks. */
     virtual bool
@@ -130,10 +153,16 @@ namespace CaissonMPM
     virtual void
     move(const double dt, const double force) = 0;
 
+    double
+    load() const
+    {
+      return load_;
+    }
+
     double time_ = 0., travel_ = 0., velocity_ = 0.;
 
   private:
-    double mean_velocity_ = 0.;
+    double mean_velocity_ = 0., load_ = 0.;
   };
 } // namespace CaissonMPM
 

@@ -7,8 +7,10 @@
 #include <caisson_mpm/bodies/body_motion.h>
 #include <caisson_mpm/bodies/body_shape.h>
 #include <caisson_mpm/bodies/body_surface.h>
+#include <caisson_mpm/materials/soil.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,6 +73,19 @@ namespace CaissonMPM
       return motion().mean_velocity() * shape().direction();
     }
 
+    /** Find submerged_weight(), from the mass of the body's cells where the
+     * entry is auto. On the whole circumference. Units: kg. */
+    void
+    find_weight(const double mass, const Soil &soil);
+
+    /** The weight of the body in water, or in air where the soil is dry, on the
+     * whole circumference. Units: N. */
+    double
+    submerged_weight() const
+    {
+      return submerged_weight_;
+    }
+
     /** The density of the body's material. Units: kg/m3. */
     double density = 7850.;
 
@@ -80,6 +95,8 @@ namespace CaissonMPM
     /** The first one rests. */
     std::vector<std::unique_ptr<BodyMotion>> motions;
     BodySurface                              surface_;
+    std::optional<double>                    weight; // or that of its cells
+    double                                   submerged_weight_ = 0.;
     std::size_t chosen_shape = 0, chosen_motion = 1;
   };
 } // namespace CaissonMPM

@@ -10,6 +10,8 @@
 
 #include <deal.II/base/point.h>
 
+#include <array>
+
 namespace CaissonMPM
 {
   /** Return the coordinates xi and eta of a place, 0 to 1 inside the cell. */
@@ -31,6 +33,18 @@ namespace CaissonMPM
     const double height =
       g.height_left + (g.height_right - g.height_left) * x[0];
     return dealii::Point<2>(g.left + g.width * x[0], bottom + height * x[1]);
+  }
+  /** Return the areas of the upper or lower side of a cell, seen from above,
+   * that belong to its left and right node: the integrals of their shape
+   * functions. Units: m2 per radian (m in plane strain). */
+  inline std::array<double, 2>
+  areas_of_side(const Kernels::CellGeometry &g, const bool axisymmetric)
+  {
+    const double right = g.left + g.width;
+    if (!axisymmetric)
+      return {{.5 * g.width, .5 * g.width}};
+    return {{(2. * g.left + right) * g.width / 6.,
+             (g.left + 2. * right) * g.width / 6.}};
   }
 } // namespace CaissonMPM
 

@@ -153,6 +153,24 @@ namespace CaissonMPM
         });
     }
 
+    /** Return the volume of the points in a cell of this rank. Units: m3 per
+     * radian. */
+    double
+    filled_volume_in(const unsigned int cell) const
+    {
+      return filled_volume[cell];
+    }
+
+    /** Call action(const MaterialPoint &) for every point of a cell of this
+     * rank. */
+    template <typename Action>
+    void
+    for_each_in(const unsigned int cell, const Action &action) const
+    {
+      for_each_lane(cell,
+                    [&](const int b, const int lane) { action(get(b, lane)); });
+    }
+
     /** Call action(const MaterialPoint &, cell) for every point of this rank.
      */
     template <typename Action>

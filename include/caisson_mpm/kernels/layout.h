@@ -293,6 +293,20 @@ namespace CaissonMPM
                              NodalVector  *out);
 
       /**
+       * Add the nodal forces of a pore pressure, at the points of all cells, to
+       * @p out [n_nodes],
+       *   out_I -= sum_p V_p N_I(x_p) grad p(x_p),
+       * with the nodal values @p pressure [n_nodes] in Pa. @p filled [n_cells]
+       * is the share of the height below the free surface of the water, whose
+       * pressure the upper corners of a cut cell have; cells with 0 have no
+       * part in it. Units: N per radian.
+       */
+      void (*pressure_gradient_force)(const StepContext &,
+                                      const double *pressure,
+                                      const double *filled,
+                                      NodalVector  *out);
+
+      /**
        * out += M x with the consistent mass matrix of the MPs, out and x
        * [n_nodes].
        */

@@ -73,6 +73,10 @@ namespace CaissonMPM
     bool
     stiffness_varies() const;
 
+    /** Return the vertical permeability at a void ratio. Units: m/s. */
+    double
+    permeability_at(const double void_ratio) const;
+
     /** Write the law and its parameters for the kernels. */
     void
     set_law(Kernels::Material &material) const;
@@ -81,12 +85,15 @@ namespace CaissonMPM
     StateVariables
     start_of_state() const;
 
-    double                top_depth         = 0.;
-    std::string           law               = "Mohr-Coulomb";
-    double                porosity          = 0.4;
-    double                internal_length   = 0.;
-    double                internal_velocity = 0.1;
-    double                solid_density     = 2500.;
+    double                top_depth          = 0.;
+    std::string           law                = "Mohr-Coulomb";
+    double                porosity           = 0.4;
+    double                internal_length    = 0.;
+    double                internal_velocity  = 0.1;
+    double                solid_density      = 2500.;
+    double                permeability       = 1e-4; // vertical
+    double                anisotropy         = 1.;   // horizontal over vertical
+    bool                  loosening_conducts = false;
     std::optional<double> k0; // no value: the law's own
 
     /** The entries of all laws by name, in the units of the entries. */
@@ -95,6 +102,8 @@ namespace CaissonMPM
   private:
     void
     declare_internal_length();
+    void
+    declare_permeability();
 
     /** "Soil/Layer k". */
     std::string
@@ -167,6 +176,17 @@ namespace CaissonMPM
     /** The effective unit weight (submerged or dry). Units: N/m3. */
     double
     unit_weight(const unsigned int layer) const;
+
+    /** Whether the soil is below water. */
+    bool
+    is_submerged() const
+    {
+      return submerged;
+    }
+
+    /** The unit weight of the pore water. Units: N/m3. */
+    double
+    unit_weight_of_water() const;
 
     /** Effective stress at height z before anything happens. Units: Pa. */
     Stress

@@ -17,6 +17,7 @@
 #include <caisson_mpm/operators/time_step.h>
 #include <caisson_mpm/simulation/clock.h>
 #include <caisson_mpm/simulation/schedule.h>
+#include <caisson_mpm/water/ground_water.h>
 
 #include <vector>
 
@@ -40,6 +41,7 @@ namespace CaissonMPM
     BackgroundGrid                       &grid;
     EnergyBalance                        &energy;
     RunTotals                            &totals;
+    GroundWater                          &water;
   };
 } // namespace CaissonMPM
 

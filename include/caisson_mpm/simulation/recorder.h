@@ -106,6 +106,9 @@ namespace CaissonMPM
     unsigned int n_repartitions = 0;
 
   private:
+    /** The names of the columns that not every scene has. */
+    std::vector<std::string>
+    count_names() const;
     Console::Verbosity
     verbosity() const;
     void
@@ -121,6 +124,12 @@ namespace CaissonMPM
     observed_values() const;
     void
     warn_of_lid(const HistoryRow &row);
+    /** Warn once where the exit gradient becomes critical. */
+    void
+    warn_of_piping();
+    /** Say once where a body that its loads move came to rest. */
+    void
+    tell_of_rest();
     void
     print_record(const HistoryRow &row);
     void
@@ -165,8 +174,10 @@ namespace CaissonMPM
     double        fraction_printed  = 0.;
     unsigned long first_step        = 0;
 
-    unsigned int max_in_body = 0;
-    bool         at_lid      = false;
+    unsigned int max_in_body          = 0;
+    bool         at_lid               = false;
+    bool         has_told_of_rest     = false;
+    bool         has_warned_of_piping = false;
   };
 } // namespace CaissonMPM
 

@@ -26,6 +26,7 @@
 #include <caisson_mpm/simulation/recorder.h>
 #include <caisson_mpm/simulation/run_cost.h>
 #include <caisson_mpm/simulation/schedule.h>
+#include <caisson_mpm/water/ground_water.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -115,6 +116,8 @@ namespace CaissonMPM
     void
     choose_step();
     void
+    move_body();
+    void
     constrain_nodes();
     void
     update_points();
@@ -140,6 +143,9 @@ namespace CaissonMPM
      * files as they are. */
     ExitStatus
     nothing_left();
+    /** Tell that water ends the run, and how things are. */
+    void
+    end_early();
     ExitStatus
     finish();
 
@@ -150,6 +156,7 @@ namespace CaissonMPM
     RigidBody          body;
     PointGenerator     generator;
     BoundaryConditions boundary_conditions;
+    GroundWater        water;
     NodalForces        nodal_forces;
     NodalMotion        nodal_motion;
     TimeStep           time_step;

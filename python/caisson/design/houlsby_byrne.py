@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Penetration resistance of a caisson that is pushed into layers of sand.
+"""Penetration resistance of a caisson in layers of sand, also under suction.
 
 Houlsby and Byrne (2005), Design procedures for installation of suction
 caissons in sand, doi:10.1680/geng.2005.158.3.135. Plain: vertical stress
@@ -14,6 +14,11 @@ The paper has one layer. With several, gamma' and K are those of the layer at th
 depth, and the stress goes on from layer to layer without a jump. The tip is a
 strip footing, in the layer in which it is, under the (unequal) stress of both
 sides.
+
+Suction makes water flow down outside and up inside. The paper takes both
+gradients as uniform over the embedment; so they are here, in layers too: flow
+adds the same to the unit weight of all layers on one side of the wall. No unit
+weight falls below 0. At the tip the unit weight is that of the inside.
 
 SI units, angles in degrees.
 """
@@ -73,6 +78,21 @@ class Layer:
     friction_angle: float
     lateral_stress_ratio: float  # K
 
+    def weight_under(self, added: float) -> float:
+        """Return the unit weight with what flow adds to it, but not below 0."""
+        return max(self.unit_weight + added, 0.0)
+
+
+@dataclass(frozen=True)
+class Seepage:
+    """What the flow of water adds to the unit weight on each side, N/m3."""
+
+    outer: float = 0.0
+    inner: float = 0.0
+
+
+STILL = Seepage()
+
 
 class Wall:
     """One side of the wall: the vertical stress beside it, and its friction."""
@@ -83,21 +103,25 @@ class Wall:
         self.tan_delta = tan(radians(friction_angle))
 
     def step(
-        self, layer: Layer, stress: float, thickness: float, enhanced: bool
+        self,
+        layer: Layer,
+        stress: float,
+        thickness: float,
+        enhanced: bool,
+        added: float,
     ) -> tuple[float, float]:
         """Return the vertical stress below a piece of a layer, from that above
-        it, and the friction on the piece."""
+        it, and the friction on the piece. added: to the unit weight, by flow."""
+        weight = layer.weight_under(added)
         k_tan = layer.lateral_stress_ratio * self.tan_delta
         d, z = thickness, self.reach / k_tan if k_tan > 0 else inf
         if enhanced and z < inf:
             growth = exp(d / z) - 1
-            below = stress + (stress + layer.unit_weight * z) * growth
-            integral = stress * z * growth + layer.unit_weight * z**2 * (
-                growth - d / z
-            )
+            below = stress + (stress + weight * z) * growth
+            integral = stress * z * growth + weight * z**2 * (growth - d / z)
         else:
-            below = stress + layer.unit_weight * d
-            integral = stress * d + layer.unit_weight * d**2 / 2
+            below = stress + weight * d
+            integral = stress * d + weight * d**2 / 2
         return below, integral * k_tan * pi * self.diameter
 
 
@@ -133,36 +157,51 @@ class Caisson:
             if layer.top < h
         ]
 
-    def _go_down(self, wall: Wall, h: float, enhanced: bool) -> tuple[float, float]:
+    def _go_down(
+        self, wall: Wall, h: float, enhanced: bool, added: float
+    ) -> tuple[float, float]:
         """Return the vertical stress at h and the friction down to it."""
         stress = friction = 0.0
         for layer, thickness in self.pieces(h):
-            stress, part = wall.step(layer, stress, thickness, enhanced)
+            stress, part = wall.step(layer, stress, thickness, enhanced, added)
             friction += part
         return stress, friction
 
-    def inner_friction(self, h: float, enhanced: bool) -> float:
+    def inner_friction(
+        self, h: float, enhanced: bool, seepage: Seepage = STILL
+    ) -> float:
         """Return the friction on the inner wall."""
-        return self._go_down(self.inner, h, enhanced)[1]
+        return self._go_down(self.inner, h, enhanced, seepage.inner)[1]
 
-    def outer_friction(self, h: float, enhanced: bool) -> float:
+    def outer_friction(
+        self, h: float, enhanced: bool, seepage: Seepage = STILL
+    ) -> float:
         """Return the friction on the outer wall."""
-        return self._go_down(self.outer, h, enhanced)[1]
+        return self._go_down(self.outer, h, enhanced, seepage.outer)[1]
 
-    def tip(self, h: float, enhanced: bool) -> float:
+    def tip(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
         """Return the force on the tip, with a flat end of the wall."""
         low, high = sorted(
-            self._go_down(wall, h, enhanced)[0] for wall in (self.inner, self.outer)
+            self._go_down(wall, h, enhanced, added)[0]
+            for wall, added in (
+                (self.inner, seepage.inner),
+                (self.outer, seepage.outer),
+            )
         )
         layer = [layer for layer in self.layers if layer.top < h or layer.top <= 0][-1]
         n_q = bearing_factor_surcharge(layer.friction_angle)
         n_gamma = bearing_factor_weight(layer.friction_angle)
-        weight, t = layer.unit_weight, self.t
+        weight, t = layer.weight_under(seepage.inner), self.t
         x = t  # the part of the tip where the soil flows to the low side
-        if n_gamma > 0:
+        if n_gamma > 0 and weight > 0:
             x = t / 2 + (high - low) * n_q / (4 * weight * n_gamma)
         if high > low and x >= t:
             end = low * n_q + weight * t * n_gamma
         else:
             end = high * n_q + weight * n_gamma * (t - 2 * min(x, t) ** 2 / t)
         return end * pi * (self.outer_diameter - t) * t
+
+    def resistance(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
+        """Return the friction on both walls and the force on the tip."""
+        parts = (self.outer_friction, self.inner_friction, self.tip)
+        return sum(part(h, enhanced, seepage) for part in parts)

@@ -20,7 +20,7 @@ from caisson.paths import ROOT
 
 Violations = Iterator[tuple[int, str]]  # (line, text)
 
-FLOORS = """base kernels materials bodies domain operators output checks restart
+FLOORS = """base kernels materials bodies domain operators water output checks restart
     simulation""".split()
 NOT_IN_KERNELS = re.compile(
     r"deal\.II/.*|vector|map|string|array|functional|memory|unordered_map|"

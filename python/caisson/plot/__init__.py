@@ -10,15 +10,17 @@ from caisson.results import Results, ResultsError
 def draw(directory: Path) -> list[Path]:
     """Write all pictures of a run; return their paths.
 
-    forces.png, and where there are frames stress.png, displacement.png and, where
-    the soil changes its volume, void_ratio.png. Raises ResultsError.
+    forces.png, with suction also suction.png and design.csv, and where there are
+    frames stress.png, displacement.png and, where the soil changes its volume,
+    void_ratio.png. Raises ResultsError.
     """
-    from caisson.plot import fields, forces
+    from caisson.plot import fields, forces, suction
 
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
     run = Results(directory)
     pictures = [forces.draw(directory / "forces.png", run, run.title)]
+    pictures += suction.draw(directory, run)
     if run.has_frames:
         pictures += fields.draw(run)
     else:

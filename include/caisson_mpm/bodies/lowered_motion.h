@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A body that is lowered: it sinks as slowly as its loads let it.
+#ifndef caisson_mpm_bodies_lowered_motion_h
+#define caisson_mpm_bodies_lowered_motion_h
+
+#include <caisson_mpm/bodies/body_motion.h>
+
+namespace CaissonMPM
+{
+  /**
+   * Weight and suction press the body down, and the soil resists. While they
+   * exceed the resistance by a tenth or more, the body sinks at the velocity of
+   * the crane or the pump; closer to equilibrium it sinks more slowly, and it
+   * rises slowly where the resistance is larger:
+   *   v = v0 clamp((F - R) / (F / 10), -1/5, 1).
+   * The mass of the body does not enter, so that neither the step nor the mass
+   * scaling of the soil matters, and the body rests where R = F: it does not
+   * overshoot as one that is dropped would.
+   */
+  class LoweredMotion : public BodyMotion
+  {
+  public:
+    LoweredMotion();
+
+    std::string
+    name() const override
+    {
+      return "lowered";
+    }
+
+    std::string
+    description() const override
+    {
+      return "weight and suction let the body sink until the soil holds it";
+    }
+
+    void
+    start() override;
+
+    bool
+    needs_force() const override
+    {
+      return true;
+    }
+
+    bool
+    follows_loads() const override
+    {
+      return true;
+    }
+
+    std::optional<double>
+    travel_at_rest() const override;
+
+    void
+    register_totals(RunTotals &totals) override;
+
+  protected:
+    void
+    move(const double dt, const double force) override;
+
+  private:
+    void
+    look_for_rest(const double dt);
+
+    double largest_velocity = 0.1, delay = 0.1;
+
+    double resistance    = 0.; // over the last moments, N
+    double mean_speed    = 0.; // over a longer time, m/s
+    bool   rests         = false;
+    double rested_travel = 0.; // when it rested first, m
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Where the soil ends and free water begins: the height of the soil in each
+// column of the mesh, and how far each cell is filled with soil.
+#ifndef caisson_mpm_water_mudline_h
+#define caisson_mpm_water_mudline_h
+
+#include <caisson_mpm/bodies/body_shape.h>
+#include <caisson_mpm/domain/background_grid.h>
+#include <caisson_mpm/domain/material_points.h>
+
+#include <vector>
+
+namespace CaissonMPM
+{
+  /**
+   * The height of a column follows from the tops of its highest points, and not
+   * from how full its cells are: a cell with three points in its height fills
+   * in thirds, but points move continuously.
+   *
+   * Below the mudline every cell that is not the body's belongs to the ground
+   * water, also if a gap beside the wall has no point in it.
+   */
+  class Mudline
+  {
+  public:
+    /** Where the pore water of a column ends. */
+    enum class Side : unsigned char
+    {
+      plug,  // inside the body
+      body,  // at its lower surface
+      beyond // outside, or there is no body
+    };
+
+    /** Find the columns of the mesh that lie inside the body. Not collective.
+     */
+    void
+    initialize(const BackgroundGrid &grid, const BodyShape &body);
+
+    /** Find the height of the soil in all columns. Collective. */
+    void
+    find(const BackgroundGrid &grid, const MaterialPoints &points);
+
+    /** Return the share of the height of a cell that is below the mudline, 0
+     * for cells above it and for those of the body, at least least_filled for
+     * all others. [n_cells] */
+    const std::vector<double> &
+    filled() const
+    {
+      return filled_;
+    }
+
+    /** Return whether the mudline is in a cell, or at its upper face. */
+    bool
+    is_top(const unsigned int cell) const
+    {
+      return top[cell];
+    }
+
+    /** Return where the column of a cell ends. */
+    Side
+    side_of(const unsigned int cell) const
+    {
+      return sides[first_column[cell]];
+    }
+
+    /** Return the mean height of the soil in the columns of a side, by area.
+     * Units: m. */
+    double
+    mean_height(const Side side) const;
+
+    /** Return the height of the soil beside the inner or the outer wall. Units:
+     * m. */
+    double
+    height_at_wall(const Side side) const;
+
+    /** Return the largest change of a height against those of @p other, over
+     * the height of the cells there. */
+    double
+    largest_change(const Mudline &other) const;
+
+    /** Below this share, the conductance of a cut cell grows no more. */
+    static constexpr double least_filled = .02;
+
+  private:
+    /** Points at the top of the soil. */
+    struct Top
+    {
+      unsigned int column, n_columns; // of the lattice
+      double       height, size, volume;
+    };
+
+    std::vector<Top>
+    find_tops(const BackgroundGrid &grid, const MaterialPoints &points) const;
+    void
+    fill_cells(const BackgroundGrid &grid);
+
+    // of the columns of the lattice [n_columns]
+    std::vector<Side>   sides;
+    std::vector<double> left, width; // m
+    std::vector<double> heights;     // m; of no use at the body
+    std::vector<double> cell_height; // m, of the cell at the mudline
+    bool                axisymmetric = true;
+    // [n_cells]
+    std::vector<unsigned int>  first_column, n_columns;
+    std::vector<double>        filled_;
+    std::vector<unsigned char> top, is_below_body;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The suction beneath the lid of a caisson: how large it is, and what limits
+// it.
+#ifndef caisson_mpm_water_suction_h
+#define caisson_mpm_water_suction_h
+
+#include <caisson_mpm/base/run_totals.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** What the suction acts on, at one time. */
+  struct SuctionLoad
+  {
+    double resistance = 0.; // of the soil, effective and upward; N
+    double weight     = 0.; // submerged; N
+    double area       = 0.; // of the lid, plus that of the tip times the share
+                            // of the suction that has reached it; m2
+  };
+
+  /**
+   * The suction is either given over time, or the one that a body that moves as
+   * prescribed requires: with the resistance R, the weight W and the area A,
+   * (R - W)/A, but never negative. The required suction is followed with a
+   * delay, because suction weakens the soil: at depth, 1 kPa takes several
+   * times as much resistance as it loads the lid, and following at once would
+   * swing. Not collective; the same on all ranks.
+   */
+  class Suction : public dealii::ParameterAcceptor
+  {
+  public:
+    Suction();
+
+    /** Throw BadInput where the entries contradict each other. */
+    void
+    check_parameters() const;
+
+    /** Whether the motion of the body decides how large the suction is. */
+    bool
+    is_result() const
+    {
+      return control == Control::required;
+    }
+
+    /** Continue by a step of length @p dt to @p time, that of the table. Units:
+     * s. */
+    void
+    advance(const double time, const double dt, const SuctionLoad &load);
+
+    /** Units: Pa. */
+    double
+    value() const
+    {
+      return suction;
+    }
+
+    /** The suction of equilibrium, negative where the weight alone is more than
+     * the resistance. Units: Pa. */
+    double
+    required() const
+    {
+      return required_;
+    }
+
+    /** Return the suction at which water beneath the lid boils. @p
+     * unit_weight_of_water: N/m3. Units: Pa. */
+    double
+    cavitation(const double unit_weight_of_water) const;
+
+    /** Return why the suction cannot grow as it should, or an empty text. */
+    std::string
+    limit_reached(const double unit_weight_of_water) const;
+
+    void
+    register_totals(RunTotals &totals);
+
+  private:
+    enum class Control
+    {
+      required,
+      table
+    };
+
+    void
+    fill_table();
+
+    Control                                control = Control::required;
+    std::string                            table_text;
+    double                                 delay = 0.2;
+    std::optional<double>                  largest;
+    double                                 water_depth = 30.;
+    std::vector<std::pair<double, double>> table; // s, Pa
+
+    double suction = 0., required_ = 0.;
+  };
+} // namespace CaissonMPM
+
+#endif

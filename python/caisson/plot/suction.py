@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Suction, exit gradient and heave of the plug over penetration, depth downward."""
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from caisson.plot import suction_methods as methods
+from caisson.plot.forces import COLORS, penetration
+from caisson.results import Results, Table
+
+BLUE, GREEN, RED = (
+    COLORS[name] for name in ("inner friction", "outer friction", "tip")
+)
+# column of design.csv: label, color and line
+CRITICAL = {
+    methods.CRITICAL_FELD: ("Feld (2001)", "#8c510a", ":"),
+    methods.CRITICAL_SENDERS_RANDOLPH: ("Senders & Randolph (2009)", GREEN, "-"),
+    methods.CRITICAL_IBSEN_THILSTED: ("Ibsen & Thilsted (2011)", RED, (0, (6, 6))),
+}
+WHITE = {"facecolor": "white", "edgecolor": "0.8"}  # behind a text
+
+
+def rest_of_run(history: Table) -> float | None:
+    """Return the penetration from which on suction is never 0 again, in m; None
+    where it is 0 at the end, or acts from the first row on."""
+    without = np.flatnonzero(history["suction_Pa"] <= 0)
+    if len(without) == 0 or without[-1] in (0, len(history["suction_Pa"]) - 1):
+        return None
+    return float(history["penetration_m"][without[-1]])
+
+
+def from_rest_on(suction: np.ndarray) -> np.ndarray:
+    """Return a suction in kPa, nan where it is 0, but for the last such row."""
+    needed = suction != 0
+    needed[:-1] |= needed[1:]
+    return np.where(needed, suction / 1e3, np.nan)
+
+
+def draw_required(axes: Axes, answers: methods.Answers) -> None:
+    """Draw the required suction of the methods, in kPa."""
+    plain, enhanced, senders_randolph = [
+        from_rest_on(answers.suctions[name])
+        for name in (methods.PLAIN, methods.ENHANCED, methods.SENDERS_RANDOLPH)
+    ]
+    depth = answers.depth
+    axes.fill_betweenx(
+        depth,
+        *[answers.suctions[name] / 1e3 for name in (methods.PLAIN, methods.ENHANCED)],
+        facecolor=BLUE,
+        alpha=0.18,
+        linewidth=0,
+        label="required, Houlsby & Byrne (2005)",
+    )
+    axes.plot(plain, depth, color=BLUE, linewidth=0.8, linestyle="--")
+    axes.plot(enhanced, depth, color=BLUE, linewidth=0.8, linestyle=":")
+    axes.plot(
+        senders_randolph,
+        depth,
+        color=GREEN,
+        linewidth=1.5,
+        linestyle="-.",
+        label="required, Senders & Randolph (2009)",
+    )
+
+
+def draw_critical(axes: Axes, answers: methods.Answers) -> None:
+    """Draw the critical suctions as thin lines, in kPa."""
+    for column, (name, color, line) in CRITICAL.items():
+        axes.plot(
+            answers.suctions[column] / 1e3,
+            answers.depth,
+            color=color,
+            linewidth=0.9,
+            linestyle=line,
+            label=f"critical, {name}",
+        )
+
+
+def draw_rest(axes: Axes, history: Table, answers: methods.Answers) -> None:
+    """Mark the penetrations by weight alone at zero suction."""
+    marks = [(h, BLUE, "Houlsby & Byrne") for h in answers.rest.values()]
+    computed = rest_of_run(history)
+    if computed is not None:
+        marks.append((computed, "black", "computed"))
+    known = set()
+    for h, color, name in marks:
+        label = f"penetration by weight, {name}"
+        axes.plot(
+            0,
+            h,
+            marker=">",
+            markersize=8,
+            color=color,
+            linestyle="none",
+            clip_on=False,
+            zorder=3,
+            label=None if label in known else label,
+        )
+        known.add(label)
+
+
+def draw_cavitation(axes: Axes, limit: float | None) -> None:
+    """Draw the suction at which water boils, in Pa, if it is in the range."""
+    if limit is not None and limit / 1e3 < axes.get_xlim()[1]:
+        axes.axvline(limit / 1e3, color=RED, linewidth=1.2, label="water boils")
+
+
+def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
+    """Draw the suction of the run and of the methods."""
+    history = run.history
+    depth, applied = history["penetration_m"], history["suction_Pa"] / 1e3
+    required = np.maximum(history["required_suction_Pa"], 0) / 1e3
+    axes.plot(applied, depth, color="black", linewidth=1.8, label="applied, computed")
+    axes.plot(
+        required,
+        depth,
+        color="black",
+        linewidth=0.5,
+        alpha=0.5,
+        label="required, computed",
+    )
+    lines = [applied]
+    if answers.suctions:
+        draw_required(axes, answers)
+        draw_critical(axes, answers)
+        lines += [suctions / 1e3 for suctions in answers.suctions.values()]
+    most = max(np.nanmax(line, initial=1e-3) for line in lines)
+    axes.set_xlim(-0.02 * most, 1.08 * most)
+    draw_cavitation(axes, run.scene.get("cavitation_suction_Pa"))
+    draw_rest(axes, history, answers)
+    axes.set_xlabel("suction (kPa)")
+
+
+def draw_gradients(axes: Axes, history: Table) -> None:
+    """Draw the exit gradients over the one at which soil has no weight."""
+    depth, critical = history["penetration_m"], history["critical_gradient"]
+    for place, color, width in (("wall", "black", 1.8), ("axis", BLUE, 1.2)):
+        gradient = history[f"exit_gradient_{place}"] / critical
+        label = f"at the {'inner wall' if place == 'wall' else place}"
+        axes.plot(gradient, depth, color=color, linewidth=width, label=label)
+    axes.axvline(1, color=RED, linewidth=1.2, linestyle="--", label="no weight left")
+    axes.set_xlim(left=-0.02)
+    axes.set_xlabel("exit gradient / critical gradient")
+
+
+def draw_heave(axes: Axes, history: Table) -> None:
+    """Draw the heave of the plug and tell the volumes of water at the end."""
+    axes.plot(
+        history["plug_heave_m"],
+        history["penetration_m"],
+        color="black",
+        linewidth=1.8,
+        label="mean over the plug",
+    )
+    axes.axvline(0, color="0.6", linewidth=0.8)
+    pumped, seepage = [
+        history[f"{name}_volume_m3"][-1] for name in ("pumped", "seepage")
+    ]
+    text = f"pumped at the end: {pumped:.3g} m³,\nof which seepage: {seepage:.2g} m³"
+    axes.text(0.04, 0.03, text, transform=axes.transAxes, fontsize=8, bbox=WHITE)
+    axes.set_xlabel("heave of the plug (m)")
+
+
+def caption(answers: methods.Answers) -> str:
+    """Return what the lines of the methods mean, or why there are none."""
+    if not answers.suctions:
+        return f"no design methods: {answers.why_not}"
+    text = (
+        "band: Houlsby & Byrne (2005), dashed without, dotted with stress enhancement"
+        " (m = 1.5); both methods with equal permeability inside and outside"
+    )
+    if not answers.rest:
+        deepest = answers.depth.max()
+        text += f"\nBy the methods the weight suffices down to {deepest:.3g} m."
+    elif any(np.isnan(line).any() for line in answers.suctions.values()):
+        text += "\nA line ends where no suction suffices."
+    return text
+
+
+def set_depth_axis(axes: Axes, depth: np.ndarray, place: str) -> None:
+    """Let depth point downward, label the upper side, and place the legend."""
+    axes.grid(color="0.9")
+    axes.set_axisbelow(True)
+    axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
+    axes.xaxis.set_label_position("top")
+    axes.xaxis.tick_top()
+    axes.legend(fontsize=8, framealpha=0.9, loc=place)
+
+
+def draw(directory: Path, run: Results) -> list[Path]:
+    """Write suction.png and design.csv; return their paths, none without suction
+    or without penetration."""
+    history = run.history
+    if "suction_Pa" not in history:
+        return []
+    depth = penetration(history)
+    if depth is None:
+        print("plot: no penetration, so no suction.png and no design.csv")
+        return []
+    answers = methods.answers_of(run.scene, np.linspace(0, max(depth.max(), 0), 200))
+    figure = Figure(figsize=(14, 6.5))
+    panels = figure.subplots(1, 3, width_ratios=[1.7, 1, 1])
+    figure.suptitle(run.title, fontsize=10)
+    draw_suction(panels[0], run, answers)
+    draw_gradients(panels[1], history)
+    draw_heave(panels[2], history)
+    for axes, place in zip(panels, ("upper right", "lower left", "upper right")):
+        set_depth_axis(axes, depth, place)
+    panels[0].set_ylabel("penetration of the skirt tip (m)")
+    figure.text(0.5, 0.008, caption(answers), ha="center", fontsize=8, color="0.3")
+    figure.tight_layout(rect=(0, 0.045, 1, 1))
+    picture = directory / "suction.png"
+    figure.savefig(picture, dpi=150)
+    return [picture, methods.write(directory / "design.csv", run)]

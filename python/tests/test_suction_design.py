@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Installation by suction in sand, against formulas worked out by hand."""
+import unittest
+from collections.abc import Sequence
+from itertools import pairwise
+from math import exp, isnan, nan, pi, radians, tan
+
+import numpy as np
+
+from caisson.design.houlsby_byrne import Caisson, Layer, Seepage
+from caisson.design.seepage import CRITICAL_SUCTIONS, houlsby_byrne, pressure_factor
+from caisson.design.suction_installation import (
+    critical_suction,
+    piping_suction,
+    required_suction,
+    required_suction_senders_randolph,
+    self_weight_penetration,
+)
+
+DO, T, GAMMA, K = 6.0, 0.05, 9e3, 0.8
+DI, K_TAN = DO - 2 * T, K * tan(radians(25))
+RIM = pi * (DO - T) * T  # area of the end of the wall
+AREA = pi * DI**2 / 4
+N_Q, N_GAMMA = 18.4011, 14.754  # of 30 degrees
+SAND = Layer(0, GAMMA, 30, K)
+WEIGHT = 600e3
+
+
+def caisson(layers: Sequence[Layer] = (SAND,), angle: float = 25) -> Caisson:
+    """Return a caisson of 6 m with a wall of 0.05 m."""
+    return Caisson(DO, T, layers, angle, angle)
+
+
+def stress_and_friction(
+    weight: float, h: float, diameter: float, z: float
+) -> tuple[float, float]:
+    """Return the vertical stress at h and the friction down to it, in one layer.
+
+    z: length of Houlsby and Byrne over which the stress grows; 0: plain.
+    """
+    if z == 0:
+        return weight * h, weight * h**2 / 2 * K_TAN * pi * diameter
+    stress = weight * z * (exp(h / z) - 1)
+    integral = weight * z**2 * (exp(h / z) - 1 - h / z)
+    return stress, integral * K_TAN * pi * diameter
+
+
+def residual(
+    suction: float, weight: float, h: float, kf: float, enhanced: bool
+) -> float:
+    """Return the resistance less V' + s A_i, where the soil flows all inwards."""
+    a1 = 0.45 - 0.36 * (1 - exp(-h / DO / 0.48))
+    a = a1 * kf / ((1 - a1) + a1 * kf)
+    inside, outside = GAMMA - (1 - a) * suction / h, GAMMA + a * suction / h
+    z_i, z_o = DI / (4 * K_TAN), DO * (1.5**2 - 1) / (4 * K_TAN)
+    stress_i, friction_i = stress_and_friction(inside, h, DI, enhanced * z_i)
+    stress_o, friction_o = stress_and_friction(outside, h, DO, enhanced * z_o)
+    # the whole end of the wall yields to the inside
+    assert stress_o - stress_i > 2 * T * inside * N_GAMMA / N_Q
+    tip = (stress_i * N_Q + inside * T * N_GAMMA) * RIM
+    return friction_o + friction_i + tip - weight - suction * AREA
+
+
+class Fits(unittest.TestCase):
+    """Functions of h / D."""
+
+    def test_pressure_factor(self) -> None:
+        self.assertAlmostEqual(pressure_factor(0), 0.45)
+        self.assertAlmostEqual(pressure_factor(100), 0.09)
+        # 0.45 - 0.36 (1 - exp(-1)), and three times the permeability inside
+        self.assertAlmostEqual(pressure_factor(0.48), 0.222437, places=6)
+        self.assertAlmostEqual(pressure_factor(0.48, 1.0), 0.222437, places=6)
+        self.assertAlmostEqual(pressure_factor(0.48, 3.0), 0.461847, places=6)
+        self.assertLess(pressure_factor(0.48, 0.5), 0.222437)
+
+    def test_critical_suctions(self) -> None:
+        """Over gamma' h at h / D = 0.5, where 0.5^0.85 is 0.554785."""
+        by_hand = {
+            "Houlsby & Byrne (2005)": 1.27719,  # 1 / (1 - 0.217032)
+            "Senders & Randolph (2009)": 1.47168,  # pi - 1.22480 1.363380
+            "Ibsen & Thilsted (2011)": 1.47310,  # 2.86 - 1.15666 1.199081
+            "Feld (2001)": 1.56977,  # 1.32 0.594604 / 0.5
+        }
+        self.assertEqual(set(by_hand), set(CRITICAL_SUCTIONS))
+        for name, ratio in by_hand.items():
+            found = CRITICAL_SUCTIONS[name](10e3, 4, 8) / 40e3
+            self.assertAlmostEqual(found, ratio, places=4, msg=name)
+
+    def test_limits_of_the_critical_suction(self) -> None:
+        """Senders and Randolph: pi at the surface, 1 in a long column."""
+        found = CRITICAL_SUCTIONS["Senders & Randolph (2009)"]
+        self.assertAlmostEqual(found(10e3, 1e-9, 1) / 1e-5, pi, places=5)
+        self.assertAlmostEqual(found(10e3, 1e9, 1) / 1e13, 1, places=5)
+
+
+class Flow(unittest.TestCase):
+    """Forces of Caisson under flow."""
+
+    def test_two_layers_by_hand(self) -> None:
+        """Flow adds 4 kPa/m outside to 6 and 16, and takes 8 inside, but not
+        below 0; K tan(delta) is 0.5 and 0.25."""
+        layers = [Layer(0, 6e3, 30, 0.5), Layer(1, 16e3, 30, 0.25)]
+        body, flow = caisson(layers, 45), Seepage(4e3, -8e3)
+        outer = pi * DO * (0.5 * 5e3 + 0.25 * (10e3 + 10e3))
+        self.assertAlmostEqual(body.outer_friction(2, False, flow) / outer, 1)
+        inner = pi * DI * 0.25 * 4e3
+        self.assertAlmostEqual(body.inner_friction(2, False, flow) / inner, 1)
+        # 30 kPa outside, 8 kPa inside: the soil flows inwards
+        tip = (8e3 * N_Q + 8e3 * T * N_GAMMA) * RIM
+        self.assertAlmostEqual(body.tip(2, False, flow) / tip, 1, places=5)
+
+    def test_tip_that_yields_to_both_sides(self) -> None:
+        """At 1 m: 9.1 kPa outside, 8.7 kPa inside."""
+        flow, weight = Seepage(100, -300), 8.7e3
+        x = T / 2 + 400 * N_Q / (4 * weight * N_GAMMA)
+        end = 9.1e3 * N_Q + weight * N_GAMMA * (T - 2 * x**2 / T)
+        self.assertLess(x, T)
+        self.assertAlmostEqual(caisson().tip(1, False, flow) / (end * RIM), 1, places=5)
+
+    def test_no_weight_at_the_tip(self) -> None:
+        flow = Seepage(3e3, -GAMMA)
+        self.assertEqual(caisson().tip(2, True, flow), 0)
+        self.assertEqual(caisson().inner_friction(2, True, flow), 0)
+
+    def test_resistance_is_the_sum(self) -> None:
+        body, flow = caisson(), Seepage(3e3, -4e3)
+        parts = (body.tip, body.inner_friction, body.outer_friction)
+        for enhanced in (False, True):
+            total = sum(part(2, enhanced, flow) for part in parts)
+            self.assertAlmostEqual(body.resistance(2, enhanced, flow) / total, 1)
+
+
+class SelfWeight(unittest.TestCase):
+    """Penetration without suction."""
+
+    def test_resistance_is_the_weight(self) -> None:
+        for enhanced in (False, True):
+            h = self_weight_penetration(caisson(), WEIGHT, enhanced, 6)
+            self.assertAlmostEqual(caisson().resistance(h, enhanced) / WEIGHT, 1)
+
+    def test_by_hand(self) -> None:
+        """Plain: a h^2 + b h + c = V'."""
+        a = GAMMA / 2 * K_TAN * pi * (DO + DI)
+        b, c = GAMMA * N_Q * RIM, GAMMA * T / 2 * N_GAMMA * RIM
+        h = (-b + np.sqrt(b**2 + 4 * a * (WEIGHT - c))) / (2 * a)
+        found = self_weight_penetration(caisson(), WEIGHT, False, 6)
+        self.assertAlmostEqual(found, h, places=4)
+
+    def test_it_stands_on_the_first_strong_layer(self) -> None:
+        """The resistance rises at 1 m and falls at 1.5 m without reaching it again
+        before 3 m."""
+        layers = [
+            Layer(0, 9e3, 20, 0.5),
+            Layer(1, 9e3, 40, 0.5),
+            Layer(1.5, 9e3, 20, 0.5),
+        ]
+        body = caisson(layers)
+        weight = (body.resistance(1, False) + body.resistance(1.01, False)) / 2
+        self.assertGreater(weight, body.resistance(1.51, False))
+        found = self_weight_penetration(body, weight, False, 3)
+        self.assertAlmostEqual(found, 1, places=9)
+
+    def test_none(self) -> None:
+        with self.assertRaisesRegex(ValueError, "deeper than 1 m"):
+            self_weight_penetration(caisson(), 1e8, False, 1)
+        self.assertEqual(self_weight_penetration(caisson(), 0, False, 1), 0)
+
+
+class HoulsbyByrne(unittest.TestCase):
+    """Required suction with the flow in the unit weights."""
+
+    def test_equilibrium(self) -> None:
+        for h in (2.5, 4, 6):
+            for kf in (1, 3):
+                for enhanced in (False, True):
+                    s = required_suction(caisson(), WEIGHT, h, enhanced, kf)
+                    left = residual(s, WEIGHT, h, kf, enhanced)
+                    self.assertLess(abs(left) / (s * AREA), 1e-5, (h, kf, enhanced))
+
+    def test_it_begins_at_the_self_weight_penetration(self) -> None:
+        for enhanced in (False, True):
+            h = self_weight_penetration(caisson(), WEIGHT, enhanced, 6)
+            at = [
+                required_suction(caisson(), WEIGHT, f * h, enhanced)
+                for f in (0.5, 0.9999, 1.0001, 1.01, 1.1)
+            ]
+            self.assertEqual(at[:2], [0, 0])
+            self.assertTrue(0 < at[2] < 20 < at[3] < at[4], at)
+
+    def test_more_weight_takes_less_suction(self) -> None:
+        found = [
+            required_suction(caisson(), weight, 5, True)
+            for weight in np.linspace(0, 3e6, 20)
+        ]
+        self.assertTrue(all(a > b or a == b == 0 for a, b in pairwise(found)), found)
+        self.assertGreater(found[0], found[-1])
+
+    def test_equal_layers_are_one(self) -> None:
+        many = caisson([Layer(top, GAMMA, 30, K) for top in (0, 1.3, 3.1)])
+        for enhanced in (False, True):
+            one = required_suction(caisson(), WEIGHT, 5, enhanced)
+            self.assertAlmostEqual(required_suction(many, WEIGHT, 5, enhanced) / one, 1)
+
+    def test_piping(self) -> None:
+        """At piping only the outer friction is left: without weight, the plain
+        forces allow h up to D_i^2 / (2 K tan(delta) D_o) for any permeability."""
+        deepest = DI**2 / (2 * K_TAN * DO)
+        for kf in (0.5, 1, 3):
+            s = required_suction(caisson(), 0, 0.999 * deepest, False, kf)
+            most = houlsby_byrne(GAMMA, 0.999 * deepest, DO, kf)
+            self.assertTrue(0.99 * most < s < most, (s, most))
+            beyond = required_suction(caisson(), 0, 1.001 * deepest, False, kf)
+            self.assertTrue(isnan(beyond))
+        self.assertTrue(isnan(required_suction(caisson(), 0, 0, False)))
+
+    def test_piping_of_the_lightest_layer(self) -> None:
+        body = caisson([Layer(0, 10e3, 30, K), Layer(2, 8e3, 30, K)])
+        self.assertAlmostEqual(piping_suction(body, 2), houlsby_byrne(10e3, 2, DO))
+        self.assertAlmostEqual(piping_suction(body, 3), houlsby_byrne(8e3, 3, DO))
+
+
+class SendersRandolph(unittest.TestCase):
+    """Required suction with inner friction and tip in proportion to 1 - s / s_cr."""
+
+    def test_equilibrium(self) -> None:
+        for h in (2.5, 4, 6):
+            s = required_suction_senders_randolph(caisson(), WEIGHT, h)
+            critical = CRITICAL_SUCTIONS["Senders & Randolph (2009)"](GAMMA, h, DO)
+            _, friction_i = stress_and_friction(GAMMA, h, DI, 0)
+            _, friction_o = stress_and_friction(GAMMA, h, DO, 0)
+            tip = GAMMA * (h * N_Q + T / 2 * N_GAMMA) * RIM
+            left = (friction_i + tip) * (1 - s / critical) + friction_o
+            self.assertLess(s, critical)
+            np.testing.assert_allclose(left, WEIGHT + s * AREA, rtol=1e-5)
+
+    def test_limits(self) -> None:
+        """0 above the self-weight penetration; nan where F_o exceeds V' + s_cr A_i."""
+        h = self_weight_penetration(caisson(), WEIGHT, False, 6)
+        for factor, expected in ((0.99, True), (1.01, False)):
+            s = required_suction_senders_randolph(caisson(), WEIGHT, factor * h)
+            self.assertEqual(s == 0, expected)
+        _, friction = stress_and_friction(GAMMA, 12, DO, 0)
+        weight = friction - critical_suction(caisson(), 12) * AREA
+        self.assertGreater(weight, 0)
+        for factor, expected in ((1.01, False), (0.99, True)):
+            s = required_suction_senders_randolph(caisson(), factor * weight, 12)
+            self.assertEqual(isnan(s), expected)
+        nothing = required_suction_senders_randolph(caisson(), 0, 0)
+        np.testing.assert_equal(nothing, nan)
+
+    def test_mean_unit_weight(self) -> None:
+        """10 kN/m3 over 2 m and 7 over 1 m are 9 over 3 m."""
+        body = caisson([Layer(0, 10e3, 30, K), Layer(2, 7e3, 30, K)])
+        self.assertAlmostEqual(
+            critical_suction(body, 3), critical_suction(caisson(), 3)
+        )
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""suction.png and design.csv of a made-up run."""
+import csv
+import json
+import tempfile
+import unittest
+from pathlib import Path
+from typing import Any
+from unittest import mock
+
+import numpy as np
+
+from caisson import plot
+from caisson.design import seepage
+from caisson.design import suction_installation as installation
+from caisson.design.houlsby_byrne import Caisson, Layer
+from caisson.plot import suction
+from caisson.plot import suction_methods as methods
+from caisson.results import Results
+from caisson.table import write_csv
+
+GAMMA, WEIGHT, D = 8829.0, 1e6, 6.0
+SAND: dict[str, Any] = {
+    "top_depth_m": 0,
+    "law": "Mohr-Coulomb",
+    "submerged_unit_weight_N_m3": GAMMA,
+    "K0": 0.5,
+    "friction_angle_deg": 30,
+    "cohesion_Pa": 0,
+}
+SCENE: dict[str, Any] = {
+    "diameter_m": D,
+    "wall_thickness_m": 0.1,
+    "inner_wall_friction_angle_deg": 20,
+    "outer_wall_friction_angle_deg": 20,
+    "layers": [SAND],
+    "submerged_weight_N": WEIGHT,
+    "cavitation_suction_Pa": 394e3,
+}
+CAISSON = Caisson(D, 0.1, [Layer(0, GAMMA, 30, 0.5)], 20, 20)
+REST = 2.0  # m, of the made-up run
+
+
+def made_up() -> dict[str, np.ndarray]:
+    """Return columns of history.csv: required suction 10 kPa for each meter."""
+    depth = np.linspace(0.5, 4.53, 32)
+    required = 1e4 * (depth - REST)
+    table = {
+        "time_s": depth,
+        "penetration_m": depth,
+        "total_force_N": WEIGHT + 26 * required,
+        "suction_Pa": np.maximum(required, 0),
+        "required_suction_Pa": required,
+        "exit_gradient_wall": 0.2 * depth,
+        "exit_gradient_axis": 0.1 * depth,
+        "critical_gradient": np.full(32, 0.9),
+        "plug_heave_m": 0.05 * depth,
+        "pumped_volume_m3": 26 * depth,
+        "seepage_volume_m3": 0.01 * depth,
+    }
+    return table
+
+
+class MadeUpRun(unittest.TestCase):
+    """A run directory with nothing but history.csv and run.json."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name)
+        printed = mock.patch("builtins.print")
+        printed.start()
+        self.addCleanup(printed.stop)
+
+    def write(self, history: dict[str, np.ndarray], **change: Any) -> Results:
+        """Write a run whose scene has some entries changed."""
+        rows = list(zip(*(column.tolist() for column in history.values())))
+        write_csv(self.path / "history.csv", list(history), rows)
+        text = json.dumps({"title": "made up", "scene": {**SCENE, **change}})
+        (self.path / "run.json").write_text(text, encoding="utf-8")
+        return Results(self.path)
+
+    def design(self) -> list[dict[str, str]]:
+        """Return the rows of design.csv."""
+        with (self.path / "design.csv").open(encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def test_files(self) -> None:
+        self.write(made_up())
+        names = [path.name for path in plot.draw(self.path)]
+        self.assertEqual(names, ["forces.png", "suction.png", "design.csv"])
+        picture = (self.path / "suction.png").read_bytes()
+        self.assertEqual(picture[:4], b"\x89PNG")
+        self.assertGreater(len(picture), 10_000)
+
+    def test_values_at_one_depth(self) -> None:
+        methods.write(self.path / "design.csv", self.write(made_up()))
+        rows = self.design()
+        depths = [float(row["penetration_m"]) for row in rows]
+        np.testing.assert_allclose(depths, np.arange(5, 46) / 10)
+        h, row = 4.0, rows[35]
+        fits = seepage.CRITICAL_SUCTIONS
+        expected = {
+            "penetration_m": h,
+            "required_suction_Pa": 1e4 * (h - REST),
+            "houlsby_byrne_plain_Pa": installation.required_suction(
+                CAISSON, WEIGHT, h, False
+            ),
+            "houlsby_byrne_enhanced_Pa": installation.required_suction(
+                CAISSON, WEIGHT, h, True
+            ),
+            "senders_randolph_Pa": installation.required_suction_senders_randolph(
+                CAISSON, WEIGHT, h
+            ),
+            "critical_feld_Pa": fits["Feld (2001)"](GAMMA, h, D),
+            "critical_senders_randolph_Pa": fits["Senders & Randolph (2009)"](
+                GAMMA, h, D
+            ),
+            "critical_ibsen_thilsted_Pa": fits["Ibsen & Thilsted (2011)"](GAMMA, h, D),
+            "critical_houlsby_byrne_Pa": fits["Houlsby & Byrne (2005)"](GAMMA, h, D),
+        }
+        self.assertEqual(list(row), list(expected))
+        for name, value in expected.items():
+            self.assertGreater(value, 0)
+            self.assertAlmostEqual(float(row[name]) / value, 1, 9, name)
+
+    def test_cells_without_an_answer_are_empty(self) -> None:
+        """Without weight, and with much friction outside, no suction suffices."""
+        change: dict[str, Any] = {
+            "submerged_weight_N": 0,
+            "outer_wall_friction_angle_deg": 45,
+        }
+        layer = {**SAND, "K0": 2}
+        methods.write(
+            self.path / "design.csv", self.write(made_up(), layers=[layer], **change)
+        )
+        last = self.design()[-1]
+        self.assertEqual(last["houlsby_byrne_plain_Pa"], "")
+        self.assertGreater(float(last["critical_feld_Pa"]), 0)
+
+    def test_layers_have_a_mean_weight(self) -> None:
+        """6 kN/m3 over 1 m and 10 over 3 m are 9 over 4 m."""
+        layers = [
+            {**SAND, "submerged_unit_weight_N_m3": 6e3},
+            {**SAND, "submerged_unit_weight_N_m3": 10e3, "top_depth_m": 1},
+        ]
+        answers = methods.answers_of({**SCENE, "layers": layers}, np.array([4.0]))
+        found = answers.suctions["critical_feld_Pa"][0]
+        self.assertAlmostEqual(found / seepage.feld(9e3, 4, D), 1)
+
+    def test_penetration_by_weight(self) -> None:
+        history = made_up()
+        self.assertAlmostEqual(suction.rest_of_run(history) or 0, REST, delta=0.14)
+        history["suction_Pa"][0] = 5.0  # not for good
+        self.assertAlmostEqual(suction.rest_of_run(history) or 0, REST, delta=0.14)
+        history["suction_Pa"][1:] = 5.0
+        self.assertIsNone(suction.rest_of_run(history))
+        history["suction_Pa"][:] = 0.0
+        self.assertIsNone(suction.rest_of_run(history))
+        answers = methods.answers_of(SCENE, np.array([1.0, 6.0]))
+        for name, enhanced in ((methods.PLAIN, False), (methods.ENHANCED, True)):
+            force = CAISSON.resistance(answers.rest[name], enhanced)
+            self.assertAlmostEqual(force / WEIGHT, 1)
+
+    def test_heavy_caisson(self) -> None:
+        answers = methods.answers_of(
+            {**SCENE, "submerged_weight_N": 1e9}, np.array([1.0, 6.0])
+        )
+        self.assertEqual(answers.rest, {})
+        self.assertIn("suffices down to 6 m", suction.caption(answers))
+
+    def test_drained_run_has_neither_file(self) -> None:
+        history = made_up()
+        del history["suction_Pa"]
+        self.write(history)
+        names = [path.name for path in plot.draw(self.path)]
+        self.assertEqual(names, ["forces.png"])
+        self.assertFalse((self.path / "suction.png").exists())
+        self.assertFalse((self.path / "design.csv").exists())
+
+    def test_body_at_rest_has_neither_file(self) -> None:
+        history = made_up()
+        history["penetration_m"][:] = 1.0
+        self.assertEqual(suction.draw(self.path, self.write(history)), [])
+
+    def test_clay_says_why(self) -> None:
+        run = self.write(made_up(), layers=[{**SAND, "cohesion_Pa": 5e3}])
+        self.assertEqual(len(suction.draw(self.path, run)), 2)
+        row = self.design()[10]
+        self.assertEqual({row[name] for name in methods.METHODS}, {""})
+        self.assertAlmostEqual(float(row["required_suction_Pa"]), -5e3)
+        answers = methods.answers_of(run.scene, np.array([1.0]))
+        text = suction.caption(answers)
+        self.assertEqual(text, "no design methods: layer 1 has cohesion")
+
+    def test_file_without_weight_says_why(self) -> None:
+        run = self.write(made_up(), submerged_weight_N=None)
+        answers = methods.answers_of(run.scene, np.array([1.0]))
+        self.assertIn("submerged_weight_N", answers.why_not)
+
+    def test_way_back_is_left_out(self) -> None:
+        history = made_up()
+        back = {name: np.append(column, -9.0) for name, column in history.items()}
+        depth = methods.depths_of(back)
+        np.testing.assert_allclose(depth, methods.depths_of(history))
+        np.testing.assert_allclose(
+            methods.computed_at(back, depth), 1e4 * (depth - REST), atol=1e-6
+        )
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/water/mudline.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double nowhere = -std::numeric_limits<double>::max();
+
+    // A cell with less soil than this holds points that were thrown off.
+    constexpr double least_share_of_soil = .05;
+
+    constexpr double round_off = 1e-6; // of the height of a cell
+
+    double
+    volume_of(const Kernels::CellGeometry &g, const bool axisymmetric)
+    {
+      const double area = .5 * g.width * (g.height_left + g.height_right),
+                   moment =
+                     g.width *
+                     (g.left * .5 * (g.height_left + g.height_right) +
+                      g.width * (g.height_left + 2. * g.height_right) / 6.);
+      return axisymmetric ? moment : area;
+    }
+
+    double
+    bottom_of(const Kernels::CellGeometry &g)
+    {
+      return .5 * (g.bottom_left + g.bottom_right);
+    }
+
+    double
+    height_of(const Kernels::CellGeometry &g)
+    {
+      return .5 * (g.height_left + g.height_right);
+    }
+  } // namespace
+
+  void
+  Mudline::initialize(const BackgroundGrid &grid, const BodyShape &body)
+  {
+    const GridLines &lines = grid.lines();
+    axisymmetric           = grid.axisymmetric();
+    left.resize(lines.n_columns());
+    width.resize(lines.n_columns());
+    sides.resize(lines.n_columns());
+    for (unsigned int c = 0; c < lines.n_columns(); ++c)
+      {
+        left[c]             = lines.node_start(c, 0)[0];
+        width[c]            = lines.node_start(c + 1, 0)[0] - left[c];
+        const double middle = left[c] + .5 * width[c];
+        sides[c] = !body.exists() || middle > body.right() ? Side::beyond :
+                   middle > body.left()                    ? Side::body :
+                                                             Side::plug;
+      }
+    std::vector<unsigned int> lowest_of_body(lines.n_columns(), lines.n_rows());
+    for (unsigned int i = 0; i < grid.n_global_cells(); ++i)
+      {
+        const auto       cell  = static_cast<GlobalCell>(i);
+        const CellBlock &block = lines.tree().block(cell);
+        if (lines.is_body_cell(cell))
+          for (unsigned int c = 0; c < block.size; ++c)
+            {
+              unsigned int &row = lowest_of_body[block.column + c];
+              row               = std::min(row, block.row);
+            }
+      }
+    first_column.resize(grid.n_cells());
+    n_columns.resize(grid.n_cells());
+    is_below_body.resize(grid.n_cells());
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      {
+        const CellBlock &block = lines.tree().block(grid.global_number(cell));
+        first_column[cell]     = block.column;
+        n_columns[cell]        = block.size;
+        is_below_body[cell]    = sides[block.column] == Side::body &&
+                              block.row < lowest_of_body[block.column];
+      }
+  }
+
+  std::vector<Mudline::Top>
+  Mudline::find_tops(const BackgroundGrid &grid,
+                     const MaterialPoints &points) const
+  {
+    // the highest cell of each column that this rank has, and the one below:
+    // points at the top may be in either
+    std::vector<int> highest(heights.size(), -1);
+    for (const unsigned int cell : points.cells_with_points())
+      {
+        const auto &g = grid.geometry(cell);
+        if (points.filled_volume_in(cell) <
+            least_share_of_soil * volume_of(g, axisymmetric))
+          continue;
+        for (unsigned int i = 0; i < n_columns[cell]; ++i)
+          {
+            int &other = highest[first_column[cell] + i];
+            if (other < 0 || bottom_of(g) > bottom_of(grid.geometry(other)))
+              other = cell;
+          }
+      }
+    std::vector<unsigned int> cells;
+    for (const int cell : highest)
+      if (cell >= 0)
+        {
+          cells.push_back(cell);
+          const int below = grid.neighbor(cell, 2);
+          if (below >= 0 && grid.is_owned(below) && !grid.is_rigid(below))
+            cells.push_back(below);
+        }
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+
+    std::vector<Top> tops;
+    for (const unsigned int cell : cells)
+      points.for_each_in(cell, [&](const MaterialPoint &p) {
+        tops.push_back({first_column[cell],
+                        n_columns[cell],
+                        p.position[vertical] + .5 * p.size[vertical],
+                        p.size[vertical],
+                        p.volume});
+      });
+    return tops;
+  }
+
+  void
+  Mudline::find(const BackgroundGrid &grid, const MaterialPoints &points)
+  {
+    heights.assign(sides.size(), nowhere);
+    const auto tops            = find_tops(grid, points);
+    const auto for_each_column = [](const Top &top, const auto &action) {
+      for (unsigned int i = 0; i < top.n_columns; ++i)
+        action(top.column + i);
+    };
+    for (const Top &top : tops)
+      for_each_column(top, [&](const unsigned int c) {
+        heights[c] = std::max(heights[c], top.height);
+      });
+    std::vector<double> highest(heights.size());
+    Utilities::MPI::max(heights, grid.communicator(), highest);
+
+    // the mean of those within half a point of the highest one
+    std::vector<double> sums(2 * heights.size(), 0.);
+    for (const Top &top : tops)
+      for_each_column(top, [&](const unsigned int c) {
+        if (top.height > highest[c] - .5 * top.size)
+          {
+            sums[2 * c] += top.volume * top.height;
+            sums[2 * c + 1] += top.volume;
+          }
+      });
+    Utilities::MPI::sum(sums, grid.communicator(), sums);
+    for (unsigned int c = 0; c < heights.size(); ++c)
+      if (sums[2 * c + 1] > 0.)
+        heights[c] = sums[2 * c] / sums[2 * c + 1];
+    fill_cells(grid);
+  }
+
+  void
+  Mudline::fill_cells(const BackgroundGrid &grid)
+  {
+    filled_.assign(grid.n_cells(), 0.);
+    top.assign(grid.n_cells(), 0);
+    cell_height.assign(heights.size(), std::numeric_limits<double>::max());
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      {
+        if (grid.is_rigid(cell))
+          continue;
+        const auto &g = grid.geometry(cell);
+        if (side_of(cell) == Side::body)
+          {
+            filled_[cell] = is_below_body[cell] ? 1. : 0.;
+            continue;
+          }
+        double mean = 0.;
+        for (unsigned int i = 0; i < n_columns[cell]; ++i)
+          mean += heights[first_column[cell] + i] / n_columns[cell];
+        const double share     = (mean - bottom_of(g)) / height_of(g);
+        const int    above     = grid.neighbor(cell, 3);
+        const bool   is_at_lid = above >= 0 && grid.is_rigid(above);
+        if (share > round_off)
+          {
+            filled_[cell] = std::clamp(share, least_filled, 1.);
+            top[cell]     = share <= 1. + round_off || is_at_lid;
+          }
+        if (top[cell])
+          for (unsigned int i = 0; i < n_columns[cell]; ++i)
+            cell_height[first_column[cell] + i] = height_of(g);
+      }
+  }
+
+  double
+  Mudline::mean_height(const Side side) const
+  {
+    double sum = 0., area = 0.;
+    for (unsigned int c = 0; c < sides.size(); ++c)
+      if (sides[c] == side)
+        {
+          const double own =
+            width[c] * (axisymmetric ? left[c] + .5 * width[c] : 1.);
+          sum += own * heights[c];
+          area += own;
+        }
+    return sum / area;
+  }
+
+  double
+  Mudline::height_at_wall(const Side side) const
+  {
+    return side == Side::plug ?
+             heights[std::find(sides.begin(), sides.end(), Side::body) -
+                     sides.begin() - 1] :
+             heights[std::find(sides.begin(), sides.end(), Side::beyond) -
+                     sides.begin()];
+  }
+
+  double
+  Mudline::largest_change(const Mudline &other) const
+  {
+    double change = 0.;
+    for (unsigned int c = 0; c < heights.size(); ++c)
+      if (sides[c] != Side::body)
+        change =
+          std::max(change,
+                   std::abs(heights[c] - other.heights[c]) / cell_height[c]);
+    return change;
+  }
+} // namespace CaissonMPM

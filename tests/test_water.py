@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Weight, suction and the flow of pore water around a caisson."""
+import math
+import unittest
+
+from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, history, scene
+
+INNER_RADIUS = 2.8  # m, of tests/jack.prm
+WEIGHT = 6e4  # N, of tests/suction.prm
+GAMMA_W = 9810.0  # N/m3
+AT_REST: Entries = {
+    "Rigid body/Velocity": 0,
+    "Rigid body/Ramp time": 0,
+    "Water/Suction control": "table",
+    "Water/Suction table": "0:0, 1:10000",
+    "Time/End penetration": "never",
+    "Time/End time": 0.5,
+    "Output/Record interval": 0.1,
+}
+
+
+class Suction(ProgramTest):
+    """A caisson that moves as prescribed; the suction is a result."""
+
+    def test_flow_and_equilibrium(self) -> None:
+        path = self.directory()
+        self.run_scene("suction", path, entries={"Output/Record interval": 0.1})
+        area = math.pi * INNER_RADIUS**2
+        rows = history(path)
+        self.assertGreater(rows[-1]["suction_Pa"], 5e3)
+        for row in rows:
+            self.assertAlmostEqual(
+                row["seepage_flow_m3_s"], row["seepage_inflow_m3_s"], delta=1e-11
+            )
+            self.assertAlmostEqual(
+                row["suction_force_N"], area * row["suction_Pa"], delta=1
+            )
+        # weight and suction bear the resistance, but for the delay
+        tail = rows[-5:]
+        loads = [
+            WEIGHT + row["suction_force_N"] - row["tip_water_force_N"] for row in tail
+        ]
+        forces = [row["total_force_N"] for row in tail]
+        self.assertAlmostEqual(sum(loads) / sum(forces), 1, delta=0.1)
+
+    def test_suction_reduces_the_resistance(self) -> None:
+        drained, drawn = self.directory("drained"), self.directory("drawn")
+        self.run_scene("suction", drained, entries={"Water/Level": "drained"})
+        self.run_scene("suction", drawn)
+        self.assertNotIn("suction_Pa", history(drained)[-1])
+        self.assertLess(
+            history(drawn)[-1]["tip_force_N"], 0.9 * history(drained)[-1]["tip_force_N"]
+        )
+
+    def test_piping_is_told(self) -> None:
+        path = self.directory()
+        entries = {**AT_REST, "Water/Suction table": "0:0, 1:3e4"}
+        text = self.run_scene("suction", path, entries=entries)
+        self.assert_words(["exit gradient", "critical", "piping"], text)
+        last = history(path)[-1]
+        self.assertGreater(last["exit_gradient_wall"], last["critical_gradient"])
+
+    def test_heavy_body_needs_no_suction(self) -> None:
+        path = self.directory()
+        self.run_scene("suction", path, entries={"Rigid body/Submerged weight": 1e7})
+        last = history(path)[-1]
+        self.assertEqual(last["suction_Pa"], 0)
+        self.assertLess(last["required_suction_Pa"], 0)
+
+    def test_pump_ends_the_run(self) -> None:
+        path = self.directory()
+        text = self.run_scene("suction", path, entries={"Water/Largest suction": 5e3})
+        self.assert_words(["ended at a penetration", "Largest suction", "pump"], text)
+        self.assertLess(history(path)[-1]["penetration_m"], 0.7)
+
+    def test_cavitation_ends_the_run(self) -> None:
+        path = self.directory()
+        entries = {
+            **AT_REST,
+            "Water/Suction table": "0:0, 1:1e6",
+            "Water/Water depth": 0,
+        }
+        text = self.run_scene("suction", path, entries=entries)
+        self.assert_words(["cavitation", "Water depth"], text)
+
+    def test_ranks(self) -> None:
+        rows = []
+        for ranks in (1, 3):
+            path = self.directory(f"of_{ranks}")
+            entries = {**AT_REST, "Time/End time": 0.05, "Output/Record interval": 0.05}
+            self.run_program(
+                SUCCESS,
+                scene("suction"),
+                "--output-directory",
+                path,
+                entries=entries,
+                ranks=ranks,
+            )
+            rows.append(history(path)[-1])
+        for name in (
+            "total_force_N",
+            "pore_pressure_factor",
+            "seepage_flow_m3_s",
+            "exit_gradient_wall",
+            "mudline_at_inner_wall_m",
+        ):
+            self.assertAlmostEqual(rows[1][name] / rows[0][name], 1, 6, name)
+
+    def test_restart(self) -> None:
+        """The flow is found anew, so that digits change, but not the curve."""
+        whole, parts = self.directory("whole"), self.directory("parts")
+        self.run_scene("suction", whole)
+        self.run_scene("suction", parts, entries={"Time/End penetration": 0.6})
+        self.run_scene("suction", parts, SUCCESS, "--restart")
+        self.assertAlmostEqual(
+            history(parts)[-1]["suction_Pa"] / history(whole)[-1]["suction_Pa"],
+            1,
+            delta=0.05,
+        )
+
+
+class Flow(ProgramTest):
+    """The steady flow around a skirt that does not move."""
+
+    def test_permeability(self) -> None:
+        """A uniform one scales the flow, and changes nothing else."""
+        rows = []
+        for k in (1e-3, 1e-9):
+            path = self.directory(f"k_{k}")
+            entries = {**AT_REST, "Soil/Layer 1/Permeability": k}
+            self.run_scene("suction", path, entries=entries)
+            rows.append(history(path)[-1])
+        self.assertAlmostEqual(
+            rows[0]["seepage_flow_m3_s"] / rows[1]["seepage_flow_m3_s"] / 1e6, 1, 9
+        )
+        self.assertAlmostEqual(
+            rows[0]["pore_pressure_factor"], rows[1]["pore_pressure_factor"], 9
+        )
+
+    def test_layers(self) -> None:
+        """A tight layer at the top takes the gradient of the plug; a tight one
+        below the tip hardly matters to it."""
+        factor = {}
+        for name, top, bottom in (("top", 1e-8, 1e-3), ("even", 1e-3, 1e-3)):
+            path = self.directory(name)
+            entries = {
+                **AT_REST,
+                "Soil/Number of layers": 2,
+                "Soil/Layer 2/Top depth": 0.3,
+                "Soil/Layer 1/Permeability": top,
+                "Soil/Layer 2/Permeability": bottom,
+                "Soil/Layer 1/Permeability ratio": 1,
+            }
+            self.run_scene("suction", path, entries=entries)
+            factor[name] = history(path)[-1]
+        self.assertAlmostEqual(
+            factor["top"]["seepage_flow_m3_s"], factor["top"]["seepage_inflow_m3_s"], 12
+        )
+        # half of the head is lost on either side, over the thickness of 0.3 m
+        gradient = 0.5 * factor["top"]["suction_Pa"] / GAMMA_W / 0.3
+        self.assertGreater(factor["top"]["exit_gradient_axis"], 0.3 * gradient)
+        self.assertGreater(
+            factor["top"]["exit_gradient_axis"], factor["even"]["exit_gradient_axis"]
+        )
+
+
+class Lowered(ProgramTest):
+    """A caisson that sinks by its loads."""
+
+    def test_weight_is_borne(self) -> None:
+        path = self.directory()
+        self.run_scene("lowered", path)
+        rows = history(path)
+        self.assertAlmostEqual(rows[-1]["total_force_N"] / 1e5, 1, delta=0.03)
+        depths = [row["penetration_m"] for row in rows]
+        self.assertEqual(depths, sorted(depths))
+        self.assertLess(depths[-1] - depths[-2], 0.1 * (depths[1] - depths[0]) + 0.01)
+
+
+class BadInput(ProgramTest):
+    """Scenes that have no flow, or no answer."""
+
+    def test_messages(self) -> None:
+        cases: list[tuple[Entries, list[str]]] = [
+            ({"Soil/Submerged": "false"}, ["Submerged", "dry"]),
+            ({"Rigid body/Kind": "none"}, ["Water/Level", "caisson"]),
+            ({"Rigid body/Initial penetration": 0}, ["Initial penetration"]),
+            ({"Water/Suction control": "table"}, ["Suction table", "empty"]),
+            (
+                {
+                    "Water/Suction control": "table",
+                    "Water/Suction table": "1:0, 1:5",
+                },
+                ["does not follow"],
+            ),
+            ({"Rigid body/Motion": "lowered"}, ["Suction control", "table"]),
+        ]
+        for entries, words in cases:
+            with self.subTest(entries=entries):
+                text = self.run_program(
+                    BAD_INPUT, scene("suction"), "--validate", entries=entries
+                )
+                self.assert_words(words, text)
+
+
+if __name__ == "__main__":
+    unittest.main()
