@@ -4,7 +4,7 @@
 import math
 import unittest
 
-from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, history, scene
+from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, history, scene, summary
 
 INNER_RADIUS = 2.8  # m, of tests/jack.prm
 WEIGHT = 6e4  # N, of tests/suction.prm
@@ -73,6 +73,7 @@ class Suction(ProgramTest):
         text = self.run_scene("suction", path, entries={"Water/Largest suction": 5e3})
         self.assert_words(["ended at a penetration", "Largest suction", "pump"], text)
         self.assertLess(history(path)[-1]["penetration_m"], 0.7)
+        self.assertIn("pump", summary(path)["end_reason"])
 
     def test_cavitation_ends_the_run(self) -> None:
         path = self.directory()

@@ -152,6 +152,9 @@ namespace CaissonMPM
               {"frame_penetrations_m", "[" + frames + "]"}});
       if (parts.water.acts())
         append(members, Json::numbers(parts.water.limits()));
+      if (const std::string reason = parts.water.reason_to_end();
+          !reason.empty())
+        append(members, {{"end_reason", Json::text(reason)}});
       if (const auto travel = parts.body.motion().travel_at_rest())
         append(members,
                {{"rest_penetration_m",
