@@ -73,7 +73,7 @@ class Suction(ProgramTest):
         text = self.run_scene("suction", path, entries={"Water/Largest suction": 5e3})
         self.assert_words(["ended at a penetration", "Largest suction", "pump"], text)
         self.assertLess(history(path)[-1]["penetration_m"], 0.7)
-        self.assertIn("pump", summary(path)["end_reason"])
+        self.assertIn("pump", summary(path)["scene"]["end_reason"])
 
     def test_cavitation_ends_the_run(self) -> None:
         path = self.directory()
