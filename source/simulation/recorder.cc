@@ -226,7 +226,8 @@ namespace CaissonMPM
       records->append(row, observed);
     print_record(row);
     warn_of_lid(row);
-    warn_of_piping();
+    for (const std::string &warning : parts.water.take_warnings())
+      console->warning(warning);
     tell_of_rest();
   }
 
@@ -317,20 +318,6 @@ namespace CaissonMPM
                      to_text(row.penetration, 6) +
                      " m: from here on the lid carries load, and the mesh "
                      "allows no more heave");
-  }
-
-  void
-  Recorder::warn_of_piping()
-  {
-    if (has_warned_of_piping || parts.water.piping_ratio() < 1.)
-      return;
-    has_warned_of_piping = true;
-    console->warning(
-      "the flow out of the plug carries the soil at the inner wall from a "
-      "penetration of " +
-      to_text(parts.body.penetration(), 5) +
-      " m on: its exit gradient exceeds the critical one. Piping may begin, "
-      "which the program does not follow");
   }
 
   void
@@ -435,6 +422,11 @@ namespace CaissonMPM
   Recorder::print_report()
   {
     print_run_report(*console, parts, facts(""));
+    if (parts.body.motion().follows_loads() &&
+        !parts.body.motion().travel_at_rest())
+      console->warning(
+        "the body has not come to rest, and a suction table, which begins then, "
+        "has not begun. Set a later Time/End time, or finer cells at the tip");
     print_result();
   }
 

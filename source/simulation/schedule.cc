@@ -120,6 +120,10 @@ namespace CaissonMPM
   void
   Schedule::check_parameters() const
   {
+    if (last_penetration && !last_time && body.motion().follows_loads())
+      throw BadInput("Rigid body/Motion is " + body.motion().name() +
+                     ": the body may rest before it has come to Time/End "
+                     "penetration. Set Time/End time, too.");
     if (std::isfinite(find_end()) || (last_penetration && !times_are_known()))
       return;
     const double depth = body.shape().initial_depth();

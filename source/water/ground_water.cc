@@ -74,6 +74,11 @@ namespace CaissonMPM
                      body.shape().name() +
                      ": only a caisson has a lid with suction beneath it. Set "
                      "Kind = caisson, or Level = drained.");
+    if (!grid.axisymmetric())
+      throw BadInput(
+        "Water/Level is seepage, but Grid/Geometry is plane strain: "
+        "the lid of a caisson is round. Set Geometry = "
+        "axisymmetric, or Level = drained.");
     if (body.shape().initial_depth() <= 0.)
       throw BadInput("Water/Level is seepage, and Rigid body/Initial "
                      "penetration is 0: water would flow in below the skirt. "
@@ -83,16 +88,28 @@ namespace CaissonMPM
   void
   GroundWater::name_unused_entries(ParameterOrigins &origins) const
   {
-    if (!acts())
-      origins.add_unused({"Water/Renewal",
-                          "Water/Drained outer side",
-                          "Water/Drained bottom",
-                          "Water/Suction control",
-                          "Water/Suction table",
-                          "Water/Suction delay",
-                          "Water/Largest suction",
-                          "Water/Water depth"},
-                         "Water/Level is drained");
+    if (acts())
+      return suction.name_unused_entries(origins);
+    const std::string why = "Water/Level is drained";
+    origins.add_unused({"Water/Renewal",
+                        "Water/Drained outer side",
+                        "Water/Drained bottom",
+                        "Water/Suction control",
+                        "Water/Suction table",
+                        "Water/Suction delay",
+                        "Water/Largest suction",
+                        "Water/Water depth"},
+                       why);
+    for (unsigned int i = 1; i <= soil.n_layers(); ++i)
+      {
+        const std::string layer = "Soil/Layer " + to_text(i) + "/Permeability";
+        origins.add_unused({layer, layer + " ratio", layer + " by void ratio"},
+                           why);
+      }
+    if (!body.motion().follows_loads())
+      origins.add_unused({"Rigid body/Submerged weight"},
+                         why + ", and Rigid body/Motion is " +
+                           body.motion().name());
   }
 
   void
@@ -204,7 +221,7 @@ namespace CaissonMPM
   GroundWater::lid_area() const
   {
     const double inner = body.shape().left();
-    return grid.axisymmetric() ? pi * inner * inner : inner;
+    return pi * inner * inner;
   }
 
   void
@@ -239,25 +256,36 @@ namespace CaissonMPM
   GroundWater::column_names() const
   {
     std::vector<std::string> names;
-    for (const auto &value : values())
+    for (const auto &value : values(mudline))
       names.push_back(value.first);
     return names;
   }
 
+  double
+  GroundWater::heave(const Mudline &mudline) const
+  {
+    return is_solved ? mudline.mean_height(Mudline::Side::plug) - plug_height :
+                       0.;
+  }
+
+  double
+  GroundWater::heave_by_wall() const
+  {
+    const double outer = body.shape().right(), area = pi * outer * outer;
+    return body.motion().travel() * (area - lid_area()) / lid_area();
+  }
+
   NamedNumbers
-  GroundWater::values() const
+  GroundWater::values(const Mudline &mudline) const
   {
     if (!acts())
       return {};
     // only the names are wanted before the flow is known
-    const auto height = [this](const Mudline::Side side) {
-      return is_solved ? mudline.mean_height(side) : 0.;
-    };
-    const auto at_wall = [this](const Mudline::Side side) {
+    const auto at_wall = [&](const Mudline::Side side) {
       return is_solved ? mudline.height_at_wall(side) : 0.;
     };
     const double s = suction.value(), gamma = soil.unit_weight_of_water(),
-                 heave = height(Mudline::Side::plug) - plug_height;
+                 rise = heave(mudline);
     return {{"suction_Pa", s},
             {"required_suction_Pa", suction.required()},
             {"suction_force_N", s * lid_area()},
@@ -265,14 +293,13 @@ namespace CaissonMPM
             {"pore_pressure_factor", tip_phi / tip_area},
             {"exit_gradient_wall", s / gamma * exit.wall},
             {"exit_gradient_axis", s / gamma * exit.axis},
-            {"exit_gradient_largest", s / gamma * exit.largest},
             {"critical_gradient", critical_gradient()},
             {"seepage_flow_m3_s", s / gamma * flow.out},
             {"seepage_inflow_m3_s", s / gamma * flow.in},
             {"seepage_volume_m3", seepage_volume},
             {"pumped_volume_m3",
-             seepage_volume + lid_area() * (body.motion().travel() + heave)},
-            {"plug_heave_m", heave},
+             seepage_volume + lid_area() * (body.motion().travel() + rise)},
+            {"plug_heave_m", rise},
             {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
             {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
             {"flow_iterations", 1. * seepage.n_iterations()}};
@@ -281,23 +308,47 @@ namespace CaissonMPM
   NamedNumbers
   GroundWater::columns()
   {
-    if (acts() && !is_solved)
+    if (!acts())
+      return {};
+    if (!is_solved)
       solve();
-    return values();
+    Mudline now = mudline;
+    now.find(grid, points);
+    return values(now);
+  }
+
+  std::vector<std::string>
+  GroundWater::take_warnings()
+  {
+    std::vector<std::string> warnings;
+    if (!acts())
+      return warnings;
+    const std::string where =
+      " at a penetration of " + to_text(body.penetration(), 5) + " m";
+    const double gradient =
+      suction.value() / soil.unit_weight_of_water() * exit.wall;
+    if (!has_warned_of_piping && gradient > critical_gradient())
+      {
+        has_warned_of_piping = true;
+        warnings.push_back(
+          "the exit gradient at the inner wall becomes critical" + where +
+          ": the flow carries the soil. Piping may begin, which the program "
+          "does not follow");
+      }
+    if (!has_warned_of_lift &&
+        heave(mudline) > heave_by_wall() + .02 * body.shape().right())
+      {
+        has_warned_of_lift = true;
+        warnings.push_back("the suction lifts the plug" + where +
+                           ": it rises by more than the wall displaces");
+      }
+    return warnings;
   }
 
   double
   GroundWater::critical_gradient() const
   {
     return soil.unit_weight(0) / soil.unit_weight_of_water();
-  }
-
-  double
-  GroundWater::piping_ratio() const
-  {
-    return acts() ? suction.value() / soil.unit_weight_of_water() * exit.wall /
-                      critical_gradient() :
-                    0.;
   }
 
   NamedNumbers
@@ -311,7 +362,16 @@ namespace CaissonMPM
   std::string
   GroundWater::reason_to_end() const
   {
-    return acts() ? suction.limit_reached(soil.unit_weight_of_water()) : "";
+    if (!acts())
+      return "";
+    const double travel = body.motion().travel();
+    if (body.penetration() <= 0.)
+      return "the caisson has left the soil, and water flows in below its skirt";
+    if (is_solved && mudline.mean_height(Mudline::Side::plug) >=
+                       body.shape().lower_face_of_lid() - travel)
+      return "the plug has reached the lid, or the top of the skirt where the "
+             "mesh has no lid (refusal)";
+    return suction.limit_reached(soil.unit_weight_of_water());
   }
 
   void

@@ -348,8 +348,6 @@ namespace CaissonMPM
       return result;
     result.axis = places.front().second;
     result.wall = places.back().second;
-    for (const Place &place : places)
-      result.largest = std::max(result.largest, place.second);
     return result;
   }
 } // namespace CaissonMPM

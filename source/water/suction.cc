@@ -87,6 +87,18 @@ namespace CaissonMPM
   }
 
   void
+  Suction::name_unused_entries(ParameterOrigins &origins) const
+  {
+    if (control == Control::required)
+      origins.add_unused({"Water/Suction table"},
+                         "Water/Suction control is required: the suction is a "
+                         "result");
+    else
+      origins.add_unused({"Water/Suction delay"},
+                         "Water/Suction control is table");
+  }
+
+  void
   Suction::advance(const double time, const double dt, const SuctionLoad &load)
   {
     required_ = (load.resistance - load.weight) / load.area;
@@ -121,11 +133,11 @@ namespace CaissonMPM
       return to_text(1e-3 * p, 4) + " kPa";
     };
     if (largest && suction > *largest)
-      return "the required suction exceeds Water/Largest suction = " +
+      return "the suction exceeds Water/Largest suction = " +
              kilopascals(*largest) + ", that of the pump";
     const double boiling = cavitation(unit_weight_of_water);
     if (suction > boiling)
-      return "the required suction exceeds " + kilopascals(boiling) +
+      return "the suction exceeds " + kilopascals(boiling) +
              ", where water boils beneath the lid (cavitation) at Water/Water "
              "depth = " +
              to_text(water_depth) + " m";

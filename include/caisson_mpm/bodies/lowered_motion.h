@@ -64,7 +64,7 @@ namespace CaissonMPM
     void
     look_for_rest(const double dt);
 
-    double largest_velocity = 0.1, delay = 0.1;
+    double largest_velocity = 0.1, delay = 0.02;
 
     double resistance    = 0.; // over the last moments, N
     double mean_speed    = 0.; // over a longer time, m/s

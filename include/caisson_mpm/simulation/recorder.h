@@ -124,9 +124,6 @@ namespace CaissonMPM
     observed_values() const;
     void
     warn_of_lid(const HistoryRow &row);
-    /** Warn once where the exit gradient becomes critical. */
-    void
-    warn_of_piping();
     /** Say once where a body that its loads move came to rest. */
     void
     tell_of_rest();
@@ -174,10 +171,9 @@ namespace CaissonMPM
     double        fraction_printed  = 0.;
     unsigned long first_step        = 0;
 
-    unsigned int max_in_body          = 0;
-    bool         at_lid               = false;
-    bool         has_told_of_rest     = false;
-    bool         has_warned_of_piping = false;
+    unsigned int max_in_body      = 0;
+    bool         at_lid           = false;
+    bool         has_told_of_rest = false;
   };
 } // namespace CaissonMPM
 

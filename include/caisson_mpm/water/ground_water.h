@@ -54,7 +54,7 @@ namespace CaissonMPM
     bool
     has_pressure() const
     {
-      return acts() && suction.value() > 0.;
+      return acts() && suction.value() != 0.;
     }
 
     /** Set up what knows the nodes of this rank. Collective. */
@@ -104,9 +104,10 @@ namespace CaissonMPM
     NamedNumbers
     limits() const;
 
-    /** Return the exit gradient at the inner wall over the critical one. */
-    double
-    piping_ratio() const;
+    /** Return warnings of what the water does to the plug, each once; after
+     * columns(). */
+    std::vector<std::string>
+    take_warnings();
 
     /** Return why the run cannot go on, or an empty text. */
     std::string
@@ -140,8 +141,15 @@ namespace CaissonMPM
     {
       return acts() ? lid_area() + tip_phi : 0.;
     }
+    /** Return the columns with the present @p mudline. */
     NamedNumbers
-    values() const;
+    values(const Mudline &mudline) const;
+    /** How far the plug has risen, and how far the soil that the wall displaces
+     * would make it rise. Units: m. */
+    double
+    heave(const Mudline &mudline) const;
+    double
+    heave_by_wall() const;
 
     BackgroundGrid       &grid;
     const MaterialPoints &points;
@@ -168,6 +176,7 @@ namespace CaissonMPM
     double                    seepage_volume  = 0.; // through the plug, m3
     double                    plug_height     = 0.; // at the start, m
     bool                      has_started     = false;
+    bool has_warned_of_piping = false, has_warned_of_lift = false;
   };
 } // namespace CaissonMPM
 

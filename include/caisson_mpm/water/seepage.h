@@ -83,10 +83,10 @@ namespace CaissonMPM
     flow(const BackgroundGrid &grid) const;
 
     /** Return the upward component of grad phi at the mudline of the plug: at
-     * the wall, at the axis, and the largest one. Units: 1/m. */
+     * the wall and at the axis. Units: 1/m. */
     struct ExitGradient
     {
-      double wall = 0., axis = 0., largest = 0.;
+      double wall = 0., axis = 0.;
     };
     ExitGradient
     exit_gradient(const BackgroundGrid            &grid,

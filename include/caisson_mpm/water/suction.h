@@ -5,6 +5,7 @@
 #ifndef caisson_mpm_water_suction_h
 #define caisson_mpm_water_suction_h
 
+#include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/base/run_totals.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -41,6 +42,10 @@ namespace CaissonMPM
     /** Throw BadInput where the entries contradict each other. */
     void
     check_parameters() const;
+
+    /** Tell which entries the control leaves without effect. */
+    void
+    name_unused_entries(ParameterOrigins &origins) const;
 
     /** Whether the motion of the body decides how large the suction is. */
     bool
@@ -93,7 +98,7 @@ namespace CaissonMPM
 
     Control                                control = Control::required;
     std::string                            table_text;
-    double                                 delay = 0.2;
+    double                                 delay = 0.02;
     std::optional<double>                  largest;
     double                                 water_depth = 30.;
     std::vector<std::pair<double, double>> table; // s, Pa
