@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/base/exceptions.h>
-#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/base/time_table.h>
 #include <caisson_mpm/bodies/prescribed_motion.h>
 
 #include <deal.II/base/patterns.h>
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,13 +51,7 @@ namespace CaissonMPM
   void
   PrescribedMotion::fill_table()
   {
-    velocity_table.clear();
-    for (const std::string &pair : Utilities::split_string_list(table_text))
-      {
-        const auto words = Utilities::split_string_list(pair, ':');
-        velocity_table.emplace_back(Utilities::string_to_double(words[0]),
-                                    Utilities::string_to_double(words[1]));
-      }
+    velocity_table = parse_time_table(table_text);
     if (velocity_table.empty() && ramp_time > 0.)
       velocity_table = {{0., 0.}, {ramp_time, constant_velocity}};
     else if (velocity_table.empty())
@@ -69,13 +61,7 @@ namespace CaissonMPM
   void
   PrescribedMotion::check_parameters() const
   {
-    for (unsigned int i = 1; i < velocity_table.size(); ++i)
-      if (velocity_table[i].first <= velocity_table[i - 1].first)
-        throw BadInput("Rigid body/Velocity table: time " +
-                       to_text(velocity_table[i].first) +
-                       " s does not follow " +
-                       to_text(velocity_table[i - 1].first) +
-                       " s. List the times in increasing order.");
+    check_time_table(velocity_table, "Rigid body/Velocity table");
   }
 
   void
@@ -95,16 +81,7 @@ namespace CaissonMPM
   double
   PrescribedMotion::velocity_at(const double t) const
   {
-    if (t <= velocity_table.front().first)
-      return velocity_table.front().second;
-    for (unsigned int i = 1; i < velocity_table.size(); ++i)
-      if (t < velocity_table[i].first)
-        {
-          const auto &a = velocity_table[i - 1], &b = velocity_table[i];
-          return a.second +
-                 (b.second - a.second) * (t - a.first) / (b.first - a.first);
-        }
-    return velocity_table.back().second;
+    return value_at(velocity_table, t);
   }
 
   double

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/kernels/cell_map.h>
 #include <caisson_mpm/water/mudline.h>
 
 #include <deal.II/base/mpi.h>
@@ -19,17 +20,6 @@ namespace CaissonMPM
     constexpr double least_share_of_soil = .05;
 
     constexpr double round_off = 1e-6; // of the height of a cell
-
-    double
-    volume_of(const Kernels::CellGeometry &g, const bool axisymmetric)
-    {
-      const double area = .5 * g.width * (g.height_left + g.height_right),
-                   moment =
-                     g.width *
-                     (g.left * .5 * (g.height_left + g.height_right) +
-                      g.width * (g.height_left + 2. * g.height_right) / 6.);
-      return axisymmetric ? moment : area;
-    }
 
     double
     bottom_of(const Kernels::CellGeometry &g)
@@ -97,7 +87,8 @@ namespace CaissonMPM
       {
         const auto &g = grid.geometry(cell);
         if (points.filled_volume_in(cell) <
-            least_share_of_soil * volume_of(g, axisymmetric))
+            least_share_of_soil *
+              Kernels::CellMap<>(g).volume(axisymmetric ? 1. : 0.))
           continue;
         for (unsigned int i = 0; i < n_columns[cell]; ++i)
           {

@@ -2,10 +2,10 @@
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
+#include <caisson_mpm/base/time_table.h>
 #include <caisson_mpm/water/suction.h>
 
 #include <deal.II/base/patterns.h>
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -64,13 +64,7 @@ namespace CaissonMPM
   void
   Suction::fill_table()
   {
-    table.clear();
-    for (const std::string &pair : Utilities::split_string_list(table_text))
-      {
-        const auto words = Utilities::split_string_list(pair, ':');
-        table.emplace_back(Utilities::string_to_double(words[0]),
-                           Utilities::string_to_double(words[1]));
-      }
+    table = parse_time_table(table_text);
   }
 
   void
@@ -79,11 +73,7 @@ namespace CaissonMPM
     if (control == Control::table && table.empty())
       throw BadInput("Water/Suction control is table, but Water/Suction table "
                      "is empty. List pairs time : suction.");
-    for (unsigned int i = 1; i < table.size(); ++i)
-      if (table[i].first <= table[i - 1].first)
-        throw BadInput("Water/Suction table: time " + to_text(table[i].first) +
-                       " s does not follow " + to_text(table[i - 1].first) +
-                       " s. List the times in increasing order.");
+    check_time_table(table, "Water/Suction table");
   }
 
   void
@@ -108,16 +98,7 @@ namespace CaissonMPM
         suction = std::max(suction, 0.);
         return;
       }
-    const auto next =
-      std::upper_bound(table.begin(), table.end(), std::make_pair(time, 0.));
-    if (next == table.begin() || next == table.end())
-      suction = next == table.end() ? table.back().second : next->second;
-    else
-      {
-        const auto  &from  = *(next - 1);
-        const double share = (time - from.first) / (next->first - from.first);
-        suction            = from.second + share * (next->second - from.second);
-      }
+    suction = value_at(table, time);
   }
 
   double
