@@ -34,8 +34,8 @@ namespace CaissonMPM
   Simulation::Simulation(const MPI_Comm communicator)
     : ParameterAcceptor("/")
     , grid(lines, communicator)
-    , points(grid)
     , water(grid, points, soil, body)
+    , points(grid)
     , schedule(body, clock)
     , recorder({clock,
                 schedule,
