@@ -139,7 +139,9 @@ struct Stepper
     motion.constrain(Vector2(), constraints);
     motion.prepare_transfer(constraints);
     const NodalWork work = motion.work_of_step(forces, constraints);
-    motion.update_points(scene.grid.next(), scene.points.update_result());
+    motion.update_points(scene.grid.next(),
+                         nullptr,
+                         scene.points.update_result());
     return work;
   }
 

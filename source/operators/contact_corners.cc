@@ -155,6 +155,9 @@ namespace CaissonMPM
     keep = share_that_points_keep;
     if (sums_.empty())
       return;
+    for (Corner &corner : corners)
+      for (Cell &cell : corner.cells)
+        cell.closed = cell.closed_next;
     std::fill(sums_.begin(), sums_.end(), 0.);
     Kernels::StepContext alone  = step; // a step in which one cell has points
     alone.points.n_active_cells = 1;
@@ -236,8 +239,6 @@ namespace CaissonMPM
         corner.has_soil       = node.mass > 0.;
         if (!corner.has_soil)
           continue;
-        for (Cell &cell : corner.cells)
-          cell.closed = cell.closed_next;
         Vector2 momentum = vector_of(node.momentum) - node.mass * velocity,
                 force    = vector_of(node.force);
         for (const Cell &cell : corner.cells)

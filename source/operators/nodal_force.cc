@@ -16,6 +16,19 @@ namespace CaissonMPM
         nodes[i].force[d] += force[i].value[d];
   }
 
+  void
+  NodalForce::correct(const ForceContext &context, Kernels::NodalVector *change)
+  {
+    if (!acts() || !is_corrected())
+      return;
+    const std::vector<Kernels::NodalVector> before = force;
+    force.assign(context.grid.n_nodes(), {{0., 0.}});
+    add(context, force.data());
+    for (std::size_t i = 0; i < force.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        change[i].value[d] += force[i].value[d] - before[i].value[d];
+  }
+
   double
   NodalForce::work(const double                dt,
                    const Kernels::NodalVector *start,

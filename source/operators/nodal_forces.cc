@@ -38,6 +38,14 @@ namespace CaissonMPM
       force->collect(context, nodes);
   }
 
+  void
+  NodalForces::correct(const ForceContext   &context,
+                       Kernels::NodalVector *change)
+  {
+    for (const auto &force : forces)
+      force->correct(context, change);
+  }
+
   double
   NodalForces::work(const double                dt,
                     const Kernels::NodalVector *start,

@@ -18,6 +18,7 @@ namespace CaissonMPM
     grid.reinit(old_velocity_, 2);
     grid.reinit(new_velocity_, 2);
     grid.reinit(filled_, 1);
+    grid.reinit(change, 2);
     mass_.assign(grid.n_nodes(), 0.);
     inertia_.assign(grid.n_nodes(), 0.);
     n_owned_nodes_ = grid.n_owned_nodes();
@@ -71,6 +72,21 @@ namespace CaissonMPM
   }
 
   void
+  NodalMomentum::correct(const ForceContext &context, NodalForces &forces)
+  {
+    change = 0.;
+    change.zero_out_ghost_values();
+    forces.correct(context, nodal_vectors(change));
+    hanging_nodes->distribute(change, 2);
+    change.compress(dealii::VectorOperation::add);
+    change.update_ghost_values();
+    auto *const nodes = reinterpret_cast<NodalSums *>(sums_.begin());
+    for (std::size_t i = 0; i < inertia_.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        nodes[i].force[d] += nodal_vectors(change)[i].value[d];
+  }
+
+  void
   NodalMomentum::accelerate(const double   dt,
                             const double   damping,
                             const Vector2 &body_velocity,
@@ -114,11 +130,10 @@ namespace CaissonMPM
   NodalReactions
   NodalMomentum::constrain(const double      dt,
                            const Vector2    &body_velocity,
-                           NodalConstraints &constraints)
+                           NodalConstraints &constraints,
+                           NodalData        &v) const
   {
-    constraints.contact.corners().apply(dt,
-                                        sums(),
-                                        nodal_vectors(new_velocity_));
-    return constraints.apply(body_velocity, dt, mass_, new_velocity_);
+    constraints.contact.corners().apply(dt, sums(), nodal_vectors(v));
+    return constraints.apply(body_velocity, dt, mass_, v);
   }
 } // namespace CaissonMPM

@@ -11,6 +11,7 @@ namespace CaissonMPM
     mass_floor.initialize(grid);
     transfer.initialize(grid);
     work.initialize(grid);
+    grid.reinit(predicted, 2);
     stage = Stage::points_updated;
   }
 
@@ -52,6 +53,12 @@ namespace CaissonMPM
     enter(Stage::accelerated);
     size = step_size;
     contact.corners().collect(*kernels, step, settings_.keep_velocity(size));
+    accelerate(body_velocity, contact);
+  }
+
+  void
+  NodalMotion::accelerate(const Vector2 &body_velocity, Contact &contact)
+  {
     momentum.accelerate(size.seconds,
                         settings_.local_damping(),
                         body_velocity,
@@ -60,12 +67,35 @@ namespace CaissonMPM
     step.n_corners = contact.corners().views().size();
   }
 
+  const NodalData &
+  NodalMotion::predict(const Vector2    &body_velocity,
+                       NodalConstraints &constraints)
+  {
+    predicted = momentum.new_velocity();
+    momentum.constrain(size.seconds, body_velocity, constraints, predicted);
+    return predicted;
+  }
+
+  void
+  NodalMotion::correct(const SoilOnGrid &soil,
+                       NodalForces      &forces,
+                       const double      time,
+                       const Vector2    &body_velocity,
+                       Contact          &contact)
+  {
+    momentum.correct({*kernels, step, soil.points, soil.grid, time}, forces);
+    accelerate(body_velocity, contact);
+  }
+
   void
   NodalMotion::constrain(const Vector2    &body_velocity,
                          NodalConstraints &constraints)
   {
     enter(Stage::constrained);
-    reactions_ = momentum.constrain(size.seconds, body_velocity, constraints);
+    reactions_ = momentum.constrain(size.seconds,
+                                    body_velocity,
+                                    constraints,
+                                    momentum.new_velocity());
     if (step.integration.floor_mass)
       mass_floor.distribute(*kernels, step, constraints, momentum, reactions_);
   }
@@ -95,11 +125,14 @@ namespace CaissonMPM
 
   void
   NodalMotion::update_points(const Kernels::GridView &moved,
+                             const double            *volume_rates,
                              Kernels::UpdateResult   &result)
   {
     enter(Stage::points_updated);
     kernels->grid_to_points(
-      step, {moved, settings_.update(size), transfer.fields(momentum)}, result);
+      step,
+      {moved, settings_.update(size), transfer.fields(momentum), volume_rates},
+      result);
   }
 
   std::array<double, 2>

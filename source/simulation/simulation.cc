@@ -5,7 +5,7 @@
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/simulation/physics_text.h>
 #include <caisson_mpm/simulation/simulation.h>
-#include <caisson_mpm/water/seepage_force.h>
+#include <caisson_mpm/water/pore_pressure_force.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
@@ -52,7 +52,7 @@ namespace CaissonMPM
                 totals,
                 water})
   {
-    nodal_forces.add(std::make_unique<SeepageForce>(water));
+    nodal_forces.add(std::make_unique<PorePressureForce>(water));
     enter_subsection("Method");
     add_parameter("Instruction set",
                   instruction_set,
@@ -307,7 +307,7 @@ namespace CaissonMPM
   {
     NodalWork work;
     timed("choose step", [&]() { choose_step(); });
-    timed("ground water", [&]() { water.update(); });
+    timed("ground water", [&]() { water.update(clock.step_size); });
     timed("move body", [&]() { move_body(); });
     const StepSize size = {clock.step_size,
                            time_step.courant_number(clock.step_size)};
@@ -319,11 +319,15 @@ namespace CaissonMPM
     timed("nodal motion", [&]() {
       nodal_motion.accelerate(size, body.mean_velocity(), contact);
     });
-    timed("contact", [&]() { constrain_nodes(); });
+    boundary_conditions.prepare(grid, clock.time, clock.step_size);
+    if (water.is_coupled())
+      timed("pore pressure", [&]() { find_pore_pressure(); });
+    timed("contact", [&]() {
+      NodalConstraints constraints = constraints_of_nodes();
+      nodal_motion.constrain(body.mean_velocity(), constraints);
+    });
     timed("transfer", [&]() {
-      const NodalConstraints constraints = {contact,
-                                            boundary_conditions,
-                                            grid.hanging_nodes()};
+      const NodalConstraints constraints = constraints_of_nodes();
       nodal_motion.prepare_transfer(constraints);
       work = nodal_motion.work_of_step(nodal_forces, constraints);
     });
@@ -405,14 +409,24 @@ namespace CaissonMPM
     points.adapt(wanted);
   }
 
-  void
-  Simulation::constrain_nodes()
+  NodalConstraints
+  Simulation::constraints_of_nodes()
   {
-    NodalConstraints constraints = {contact,
-                                    boundary_conditions,
-                                    grid.hanging_nodes()};
-    boundary_conditions.prepare(grid, clock.time, clock.step_size);
-    nodal_motion.constrain(body.mean_velocity(), constraints);
+    return {contact, boundary_conditions, grid.hanging_nodes()};
+  }
+
+  void
+  Simulation::find_pore_pressure()
+  {
+    NodalConstraints constraints = constraints_of_nodes();
+    const NodalData &predicted =
+      nodal_motion.predict(body.mean_velocity(), constraints);
+    water.correct(nodal_vectors(predicted), contact.corners().views());
+    nodal_motion.correct({*kernels, points, grid, materials},
+                         nodal_forces,
+                         clock.time,
+                         body.mean_velocity(),
+                         contact);
   }
 
   void
@@ -421,7 +435,10 @@ namespace CaissonMPM
     if (!nodal_motion.is_finite())
       report_not_finite();
     auto &result = points.update_result();
-    nodal_motion.update_points(grid.next(), result);
+    nodal_motion.update_points(grid.next(),
+                               water.volume_rates(nodal_motion.new_velocity(),
+                                                  contact.corners().views()),
+                               result);
     n_limited += result.n_limited;
   }
 

@@ -18,6 +18,9 @@ namespace CaissonMPM
   {
     // Heights of the mudline are looked at this many steps apart.
     constexpr unsigned int steps_between_looks = 10;
+
+    // Permeability and density of coupled soil are found this many steps apart.
+    constexpr unsigned int steps_between_properties = 20;
   } // namespace
 
   GroundWater::GroundWater(BackgroundGrid       &grid,
@@ -33,16 +36,38 @@ namespace CaissonMPM
     add_choice(*this,
                "Level",
                level,
-               {{"drained", Level::drained}, {"seepage", Level::seepage}},
-               "The pore water has no excess pressure (drained), or flows "
+               {{"drained", Level::drained},
+                {"seepage", Level::seepage},
+                {"coupled", Level::coupled}},
+               "The pore water has no excess pressure (drained), flows "
                "steadily under the suction beneath the lid of a caisson "
-               "(seepage). Units: none.");
+               "(seepage), or has the pressure that follows from the motion of "
+               "the soil (coupled). Units: none.");
     add_parameter("Renewal",
                   renewal,
                   "The flow is found anew when the body has moved, or the "
                   "mudline changed, by this share of a cell. Units: none.",
                   prm,
                   Patterns::Double(1e-6, 1.));
+    add_parameter("Kept pressure",
+                  kept_pressure,
+                  "A coupled step begins with this share of the old pressure. "
+                  "With less, soil that conducts badly drains by error; with "
+                  "1, the pressure oscillates from node to node. Units: none.",
+                  prm,
+                  Patterns::Double(0., 1.));
+    add_parameter("Time compression",
+                  time_compression,
+                  "The scene runs this many times faster than what it stands "
+                  "for, and a coupled run multiplies all permeabilities with "
+                  "it, so that as much water flows. Units: none.",
+                  prm,
+                  Patterns::Double(1e-9));
+    add_parameter("Drained surface",
+                  sides.surface,
+                  "The free surface of the soil outside keeps the pressure of "
+                  "the open water; otherwise nothing flows through it. Units: "
+                  "none.");
     add_parameter("Drained outer side",
                   sides.outer,
                   "The far side of the domain keeps the pressure of the open "
@@ -59,28 +84,33 @@ namespace CaissonMPM
     if (!acts())
       return;
     suction.check_parameters();
+    if (!soil.is_submerged() || soil.unit_weight_of_water() <= 0.)
+      throw BadInput("Water/Level is not drained, but the soil is dry: set "
+                     "Soil/Submerged = true, Soil/Fluid density and a Soil/"
+                     "Gravity that points downward.");
+    if (!has_lid())
+      {
+        if (!is_coupled())
+          throw BadInput(
+            "Water/Level is seepage, but Rigid body/Kind is " +
+            body.shape().name() +
+            ": only a caisson has a lid with suction beneath it. Set Kind = "
+            "caisson, or Level = drained or coupled.");
+        return;
+      }
     if (body.motion().follows_loads() && suction.is_result())
       throw BadInput(
         "Rigid body/Motion is " + body.motion().name() +
         ": the suction moves the body, and must be given. Set Water/Suction "
         "control = table, or Rigid body/Motion = prescribed, for which the "
         "suction is a result.");
-    if (!soil.is_submerged() || soil.unit_weight_of_water() <= 0.)
-      throw BadInput("Water/Level is seepage, but the soil is dry: set "
-                     "Soil/Submerged = true, Soil/Fluid density and a Soil/"
-                     "Gravity that points downward.");
-    if (body.shape().name() != "caisson")
-      throw BadInput("Water/Level is seepage, but Rigid body/Kind is " +
-                     body.shape().name() +
-                     ": only a caisson has a lid with suction beneath it. Set "
-                     "Kind = caisson, or Level = drained.");
     if (!grid.axisymmetric())
       throw BadInput(
-        "Water/Level is seepage, but Grid/Geometry is plane strain: "
-        "the lid of a caisson is round. Set Geometry = "
-        "axisymmetric, or Level = drained.");
+        "Water/Level is not drained, but Grid/Geometry is plane strain: the "
+        "lid of a caisson is round. Set Geometry = axisymmetric, or Level = "
+        "drained.");
     if (body.shape().initial_depth() <= 0.)
-      throw BadInput("Water/Level is seepage, and Rigid body/Initial "
+      throw BadInput("Water/Level is not drained, and Rigid body/Initial "
                      "penetration is 0: water would flow in below the skirt. "
                      "Begin with a penetration of some cells.");
   }
@@ -88,10 +118,20 @@ namespace CaissonMPM
   void
   GroundWater::name_unused_entries(ParameterOrigins &origins) const
   {
+    if (is_coupled())
+      origins.add_unused({"Water/Renewal"}, "Water/Level is coupled");
+    else if (acts())
+      origins.add_unused({"Water/Kept pressure",
+                          "Water/Time compression",
+                          "Water/Drained surface"},
+                         "Water/Level is seepage");
     if (acts())
       return suction.name_unused_entries(origins);
     const std::string why = "Water/Level is drained";
     origins.add_unused({"Water/Renewal",
+                        "Water/Kept pressure",
+                        "Water/Time compression",
+                        "Water/Drained surface",
                         "Water/Drained outer side",
                         "Water/Drained bottom",
                         "Water/Suction control",
@@ -117,16 +157,21 @@ namespace CaissonMPM
   {
     if (!acts())
       return;
-    seepage.initialize(grid);
+    if (is_coupled())
+      projection.initialize(grid);
+    else
+      seepage.initialize(grid);
     mudline.initialize(grid, body.shape());
     is_solved = false;
   }
 
   void
-  GroundWater::update()
+  GroundWater::update(const double dt)
   {
     if (!acts())
       return;
+    if (is_coupled())
+      return set_up_step(dt);
     const double moved = std::abs(body.motion().travel() - travel_at_solve);
     if (is_solved && moved < renewal * body.shape().cell_width())
       {
@@ -146,35 +191,111 @@ namespace CaissonMPM
   GroundWater::solve()
   {
     mudline.find(grid, points);
-    find_permeabilities();
-    grid.write_vertices();
+    find_properties();
     seepage.solve(grid, mudline, permeability, sides);
-    find_tip();
-    flow = seepage.flow(grid);
-    exit = seepage.exit_gradient(grid, mudline, permeability);
-    if (!has_started)
-      plug_height = mudline.mean_height(Mudline::Side::plug);
-    has_started      = true;
+    find_flow();
     is_solved        = true;
     travel_at_solve  = body.motion().travel();
     steps_since_look = 0;
   }
 
   void
-  GroundWater::find_permeabilities()
+  GroundWater::find_flow()
+  {
+    const auto over_tip = integrate_over_tip(
+      is_coupled() ? projection.pressure() : seepage.field());
+    tip_integral = over_tip[0];
+    tip_area     = over_tip[1];
+    flow_out     = solver().sum_at(outflow(), PressureSolver::plug);
+    flow_in      = -solver().sum_at(outflow(), PressureSolver::open);
+    if (has_lid() && !has_started)
+      plug_height = mudline.mean_height(Mudline::Side::plug);
+    has_started = true;
+  }
+
+  void
+  GroundWater::set_up_step(const double dt)
+  {
+    mudline.find(grid, points);
+    if (!is_solved || ++steps_since_look == steps_between_properties)
+      {
+        find_properties();
+        steps_since_look = 0;
+      }
+    projection.set_up(grid, mudline, properties, sides, dt);
+    if (!is_solved && !projection.solver().has_known_value())
+      throw RunFailure(
+        "the pore water has nowhere to drain to: its pressure is known nowhere. "
+        "Set Water/Drained surface, Drained outer side or Drained bottom.");
+    is_solved    = true;
+    is_corrected = false;
+    step         = dt;
+  }
+
+  void
+  GroundWater::correct(const Kernels::NodalVector             *velocity,
+                       const std::vector<Kernels::CornerView> &corners)
+  {
+    projection.solve(velocity, corners, kept_pressure, -suction.value());
+    is_corrected = true;
+    find_flow();
+    unbalanced +=
+      step * std::abs(solver().sum_at(outflow(), PressureSolver::unknown));
+    through_surfaces += step * (std::abs(flow_out) + std::abs(flow_in));
+  }
+
+  const double *
+  GroundWater::volume_rates(const Kernels::NodalVector             *velocity,
+                            const std::vector<Kernels::CornerView> &corners)
+  {
+    if (!is_coupled())
+      return nullptr;
+    projection.find_volume_rates(velocity, corners);
+    return projection.volume_rates().data();
+  }
+
+  const PressureSolver &
+  GroundWater::solver() const
+  {
+    return is_coupled() ? projection.solver() : seepage.solver();
+  }
+
+  const NodalData &
+  GroundWater::outflow() const
+  {
+    return is_coupled() ? projection.outflow() : seepage.residual();
+  }
+
+  double
+  GroundWater::flow_scale() const
+  {
+    return is_coupled() ? 1. : suction.value() / soil.unit_weight_of_water();
+  }
+
+  bool
+  GroundWater::has_lid() const
+  {
+    return body.shape().name() == "caisson";
+  }
+
+  void
+  GroundWater::find_properties()
   {
     // Flow along layers adds up, flow across them shares its gradient.
+    const double faster = is_coupled() ? time_compression : 1.;
     permeability.assign(grid.n_cells(), {});
+    properties.assign(grid.n_cells(), {});
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       {
         if (!grid.is_owned(cell) || grid.is_rigid(cell))
           continue;
-        double volume = 0., along = 0., across = 0.;
+        double volume = 0., mass = 0., along = 0., across = 0.;
         points.for_each_in(cell, [&](const MaterialPoint &p) {
           const SoilLayer &layer = soil.layer(p.material);
           const double     k =
-            layer.permeability_at(p.void_ratio(layer.void_ratio()));
+            faster * layer.permeability_at(p.void_ratio(layer.void_ratio()));
           volume += p.volume;
+          mass += p.mass;
           along += p.volume * k * layer.anisotropy;
           across += p.volume / k;
         });
@@ -182,19 +303,24 @@ namespace CaissonMPM
           permeability[cell] = {along / volume, volume / across};
         else // a gap
           {
-            const auto      &g = grid.geometry(cell);
-            const SoilLayer &layer =
-              soil.layer(soil.layer_at(std::min(0., g.bottom_left)));
-            permeability[cell] = {layer.permeability * layer.anisotropy,
-                                  layer.permeability};
+            const auto        &g = grid.geometry(cell);
+            const unsigned int i = soil.layer_at(std::min(0., g.bottom_left));
+            const double       k = faster * soil.layer(i).permeability;
+            permeability[cell]   = {k * soil.layer(i).anisotropy, k};
+            volume               = 1.;
+            mass                 = soil.inertial_density(i);
           }
+        const double gamma = soil.unit_weight_of_water();
+        properties[cell]   = {{permeability[cell].horizontal / gamma,
+                               permeability[cell].vertical / gamma},
+                              volume / mass};
       }
   }
 
-  void
-  GroundWater::find_tip()
+  std::array<double, 2>
+  GroundWater::integrate_over_tip(const NodalData &field) const
   {
-    tip_area = tip_phi = 0.;
+    std::array<double, 2> sums = {{0., 0.}};
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       {
         const int above = grid.neighbor(cell, 3);
@@ -206,22 +332,35 @@ namespace CaissonMPM
           areas_of_side(grid.geometry(cell), grid.axisymmetric());
         for (unsigned int i = 0; i < 2; ++i)
           {
-            tip_area += area[i];
-            tip_phi += area[i] * seepage.field().local_element(
-                                   grid.cell_nodes(cell).node[2 + i]);
+            sums[0] +=
+              area[i] * field.local_element(grid.cell_nodes(cell).node[2 + i]);
+            sums[1] += area[i];
           }
       }
-    tip_area =
-      grid.circumference() * Utilities::MPI::sum(tip_area, grid.communicator());
-    tip_phi =
-      grid.circumference() * Utilities::MPI::sum(tip_phi, grid.communicator());
+    for (double &sum : sums)
+      sum =
+        grid.circumference() * Utilities::MPI::sum(sum, grid.communicator());
+    return sums;
   }
 
   double
   GroundWater::lid_area() const
   {
+    if (!has_lid())
+      return 0.;
     const double inner = body.shape().left();
     return pi * inner * inner;
+  }
+
+  SuctionLoad
+  GroundWater::load_of_suction(const double force_on_body) const
+  {
+    // In seepage, the pressure at the tip grows with the suction.
+    if (is_coupled())
+      return {-force_on_body + tip_force(),
+              body.submerged_weight(),
+              lid_area()};
+    return {-force_on_body, body.submerged_weight(), lid_area() + tip_integral};
   }
 
   void
@@ -231,24 +370,36 @@ namespace CaissonMPM
   {
     if (!acts())
       return;
+    seepage_volume += dt * flow_scale() * flow_out;
+    if (!has_lid())
+      return;
     // A body that is lowered rests before the pump starts.
     if (body.motion().follows_loads())
       time_of_suction += body.motion().travel_at_rest() ? dt : 0.;
     else
       time_of_suction = time + dt;
-    suction.advance(time_of_suction,
-                    dt,
-                    {-force_on_body, body.submerged_weight(), loaded_area()});
-    seepage_volume +=
-      dt * suction.value() / soil.unit_weight_of_water() * flow.out;
+    suction.advance(time_of_suction, dt, load_of_suction(force_on_body));
   }
 
   const std::vector<double> &
   GroundWater::pressure()
   {
     pressure_.resize(grid.n_nodes());
+    const NodalData &field =
+      is_coupled() ? projection.pressure() : seepage.field();
+    const double factor = is_coupled() ? 1. : -suction.value();
     for (unsigned int node = 0; node < grid.n_nodes(); ++node)
-      pressure_[node] = -suction.value() * seepage.field().local_element(node);
+      pressure_[node] = factor * field.local_element(node);
+    return pressure_;
+  }
+
+  const std::vector<double> &
+  GroundWater::acting_pressure()
+  {
+    pressure();
+    if (is_coupled() && !is_corrected)
+      for (double &p : pressure_)
+        p *= kept_pressure;
     return pressure_;
   }
 
@@ -280,29 +431,64 @@ namespace CaissonMPM
   {
     if (!acts())
       return {};
+    const double scale = flow_scale();
+    NamedNumbers result;
+    if (is_coupled())
+      result = {{"pore_pressure_smallest_Pa", extremes().first},
+                {"pore_pressure_largest_Pa", extremes().second},
+                {"water_balance",
+                 through_surfaces > 0. ? unbalanced / through_surfaces : 0.}};
+    if (!has_lid())
+      {
+        result.insert(result.end(),
+                      {{"tip_water_force_N", tip_force()},
+                       {"surface_outflow_m3_s", -scale * flow_in},
+                       {"flow_iterations", 1. * solver().n_iterations()}});
+        return result;
+      }
     // only the names are wanted before the flow is known
     const auto at_wall = [&](const Mudline::Side side) {
       return is_solved ? mudline.height_at_wall(side) : 0.;
     };
-    const double s = suction.value(), gamma = soil.unit_weight_of_water(),
-                 rise = heave(mudline);
-    return {{"suction_Pa", s},
-            {"required_suction_Pa", suction.required()},
-            {"suction_force_N", s * lid_area()},
-            {"tip_water_force_N", -s * tip_phi},
-            {"pore_pressure_factor", tip_phi / tip_area},
-            {"exit_gradient_wall", s / gamma * exit.wall},
-            {"exit_gradient_axis", s / gamma * exit.axis},
-            {"critical_gradient", critical_gradient()},
-            {"seepage_flow_m3_s", s / gamma * flow.out},
-            {"seepage_inflow_m3_s", s / gamma * flow.in},
-            {"seepage_volume_m3", seepage_volume},
-            {"pumped_volume_m3",
-             seepage_volume + lid_area() * (body.motion().travel() + rise)},
-            {"plug_heave_m", rise},
-            {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
-            {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
-            {"flow_iterations", 1. * seepage.n_iterations()}};
+    const double       s = suction.value(), rise = heave(mudline);
+    const NamedNumbers of_lid = {
+      {"suction_Pa", s},
+      {"required_suction_Pa", suction.required()},
+      {"suction_force_N", s * lid_area()},
+      {"tip_water_force_N", tip_force()},
+      {"pore_pressure_factor",
+       is_coupled() ? (s > 0. ? -tip_integral / tip_area / s : 0.) :
+                      tip_integral / tip_area},
+      {"exit_gradient_wall", scale * exit.wall},
+      {"exit_gradient_axis", scale * exit.axis},
+      {"critical_gradient", critical_gradient()},
+      {"seepage_flow_m3_s", scale * flow_out},
+      {"seepage_inflow_m3_s", scale * flow_in},
+      {"seepage_volume_m3", seepage_volume},
+      {"pumped_volume_m3",
+       seepage_volume + lid_area() * (body.motion().travel() + rise)},
+      {"plug_heave_m", rise},
+      {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
+      {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
+      {"flow_iterations", 1. * solver().n_iterations()}};
+    result.insert(result.end(), of_lid.begin(), of_lid.end());
+    return result;
+  }
+
+  std::pair<double, double>
+  GroundWater::extremes() const
+  {
+    std::pair<double, double> result = {0., 0.};
+    if (!is_solved)
+      return result;
+    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
+      {
+        const double p = projection.pressure().local_element(node);
+        result.first   = std::min(result.first, p);
+        result.second  = std::max(result.second, p);
+      }
+    return {Utilities::MPI::min(result.first, grid.communicator()),
+            Utilities::MPI::max(result.second, grid.communicator())};
   }
 
   NamedNumbers
@@ -310,8 +496,10 @@ namespace CaissonMPM
   {
     if (!acts())
       return {};
-    if (!is_solved)
+    if (!is_solved && !is_coupled())
       solve();
+    if (is_solved && has_lid())
+      exit = exit_gradient(grid, mudline, permeability, outflow());
     Mudline now = mudline;
     now.find(grid, points);
     return values(now);
@@ -321,12 +509,11 @@ namespace CaissonMPM
   GroundWater::take_warnings()
   {
     std::vector<std::string> warnings;
-    if (!acts())
+    if (!acts() || !has_lid())
       return warnings;
     const std::string where =
       " at a penetration of " + to_text(body.penetration(), 5) + " m";
-    const double gradient =
-      suction.value() / soil.unit_weight_of_water() * exit.wall;
+    const double gradient = flow_scale() * exit.wall;
     if (!has_warned_of_piping && gradient > critical_gradient())
       {
         has_warned_of_piping = true;
@@ -362,7 +549,7 @@ namespace CaissonMPM
   std::string
   GroundWater::reason_to_end() const
   {
-    if (!acts())
+    if (!acts() || !has_lid())
       return "";
     const double travel = body.motion().travel();
     if (body.penetration() <= 0.)
@@ -382,5 +569,7 @@ namespace CaissonMPM
     totals.keep("seepage_volume", seepage_volume);
     totals.keep("plug_height_at_start", plug_height);
     totals.keep("water_has_started", has_started);
+    totals.keep("water_unbalanced", unbalanced);
+    totals.keep("water_through_surfaces", through_surfaces);
   }
 } // namespace CaissonMPM

@@ -419,6 +419,22 @@ namespace CaissonMPM
         find_bubbles(group, map, axisymmetric, update);
       }
 
+      /** Take the mean divergence of cells from the list @p rates [n_cells],
+       * where it has a value. */
+      template <typename Number>
+      CAISSON_INLINE void
+      take_volume_rates(const CellGroup<Number> &group,
+                        const double            *rates,
+                        CellUpdate              *update)
+      {
+        for (int i = 0; i < group.n; ++i)
+          {
+            const double rate = rates[group.cell[i]];
+            if (rate == rate)
+              update[i].mean_divergence = rate;
+          }
+      }
+
       /** Append the points of a block in the lanes @p outside to the list. */
       CAISSON_INLINE void
       list_leaving(const unsigned int cell,
@@ -548,6 +564,8 @@ namespace CaissonMPM
                                          map,
                                          step.grid.axisymmetric,
                                          update);
+            if (how.volume_rates != nullptr)
+              take_volume_rates(group, how.volume_rates, update);
 
             // 3. Stress, volume, velocity and place of the points.
             update_group(step, how, group, update, progress);

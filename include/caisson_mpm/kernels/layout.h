@@ -246,6 +246,9 @@ namespace CaissonMPM
       GridView       moved; // the grid at the end of the step
       UpdateSettings settings;
       NodalFields    fields;
+      // [n_cells], div v that strains the points, in the place of the mean of
+      // the field; NaN or no list: that mean (1/s)
+      const double *volume_rates = nullptr;
     };
 
     /** An MP that left its cell. */

@@ -64,6 +64,19 @@ namespace CaissonMPM
     void
     collect(const ForceContext &context, Kernels::NodalSums *nodes);
 
+    /** Return whether the force is found again in a step, when the nodes are
+     * known to accelerate with the first one. */
+    virtual bool
+    is_corrected() const
+    {
+      return false;
+    }
+
+    /** Find the force again, keep it, and add what it has changed by to @p
+     * change [n_nodes]. */
+    void
+    correct(const ForceContext &context, Kernels::NodalVector *change);
+
     /**
      * Return the work in a step of length @p dt, in which the nodes move with
      * the mean of the velocities @p start and @p end [n_nodes]. Units: J per

@@ -37,6 +37,11 @@ namespace CaissonMPM
     void
     collect(const ForceContext &context, Kernels::NodalSums *nodes);
 
+    /** Find those forces again that are corrected within the step, and add
+     * their change to @p change [n_nodes]. */
+    void
+    correct(const ForceContext &context, Kernels::NodalVector *change);
+
     /** Return the work of all forces, see NodalForce::work(). */
     double
     work(const double                dt,

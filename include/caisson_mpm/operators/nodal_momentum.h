@@ -35,6 +35,10 @@ namespace CaissonMPM
     void
     collect(const ForceContext &context, NodalForces &forces);
 
+    /** Find those @p forces again that are corrected within the step. */
+    void
+    correct(const ForceContext &context, NodalForces &forces);
+
     /** How full the soil cells at a node are on average [n_nodes], in a step
      * that collect() has begun. */
     const double *
@@ -52,11 +56,13 @@ namespace CaissonMPM
                const Vector2 &body_velocity,
                Contact       &contact);
 
-    /** Hold the new velocities to contact and boundary conditions. */
+    /** Hold the velocities @p v at the end of the step to contact and boundary
+     * conditions. */
     NodalReactions
     constrain(const double      dt,
               const Vector2    &body_velocity,
-              NodalConstraints &constraints);
+              NodalConstraints &constraints,
+              NodalData        &v) const;
 
     /** What the points brought [n_nodes]. */
     const Kernels::NodalSums *
@@ -124,7 +130,7 @@ namespace CaissonMPM
     double              added_inertia_ = 0.;
     bool                is_finite_     = true;
     std::vector<double> mass_, inertia_;
-    NodalData           sums_, old_velocity_, new_velocity_, filled_;
+    NodalData           sums_, old_velocity_, new_velocity_, filled_, change;
     // of soil cells at a node, those at hanging nodes by their masters
     NodalData n_soil_cells;
   };

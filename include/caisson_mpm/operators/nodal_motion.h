@@ -47,6 +47,19 @@ namespace CaissonMPM
                const Vector2  &body_velocity,
                Contact        &contact);
 
+    /** Return v+ held to contact and boundary conditions, before those forces
+     * are corrected that follow from it; see NodalForce::is_corrected(). */
+    const NodalData &
+    predict(const Vector2 &body_velocity, NodalConstraints &constraints);
+
+    /** Find these forces again, and v+ with them. After predict(). */
+    void
+    correct(const SoilOnGrid &soil,
+            NodalForces      &forces,
+            const double      time,
+            const Vector2    &body_velocity,
+            Contact          &contact);
+
     /** Hold v+ to contact and boundary conditions; see reactions(). */
     void
     constrain(const Vector2 &body_velocity, NodalConstraints &constraints);
@@ -60,10 +73,18 @@ namespace CaissonMPM
     work_of_step(const NodalForces      &forces,
                  const NodalConstraints &constraints);
 
+    /** The velocities at the end of the step, after constrain(). [n_nodes] */
+    const Kernels::NodalVector *
+    new_velocity() const
+    {
+      return nodal_vectors(momentum.new_velocity());
+    }
+
     /** Update the points, from the start of the step to its end, when the grid
-     * has @p moved. */
+     * has @p moved. @p volume_rates: see Kernels::PointUpdate. */
     void
     update_points(const Kernels::GridView &moved,
+                  const double            *volume_rates,
                   Kernels::UpdateResult   &result);
 
     const MethodSettings &
@@ -116,6 +137,9 @@ namespace CaissonMPM
     void
     enter(const Stage next);
 
+    void
+    accelerate(const Vector2 &body_velocity, Contact &contact);
+
     MethodSettings                    settings_;
     NodalMomentum                     momentum;
     MassFloor                         mass_floor;
@@ -126,6 +150,7 @@ namespace CaissonMPM
     Kernels::StepContext              step    = {};
     StepSize                          size    = {};
     NodalReactions                    reactions_;
+    NodalData                         predicted;
     Stage                             stage = Stage::points_updated;
   };
 } // namespace CaissonMPM

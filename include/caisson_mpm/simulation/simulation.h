@@ -117,8 +117,11 @@ namespace CaissonMPM
     choose_step();
     void
     move_body();
+    NodalConstraints
+    constraints_of_nodes();
+    /** Find the pressure of coupled pore water, and the velocities with it. */
     void
-    constrain_nodes();
+    find_pore_pressure();
     void
     update_points();
     void

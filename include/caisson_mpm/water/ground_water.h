@@ -8,11 +8,13 @@
 #include <caisson_mpm/base/named_numbers.h>
 #include <caisson_mpm/bodies/rigid_body.h>
 #include <caisson_mpm/materials/soil.h>
-#include <caisson_mpm/water/mudline.h>
+#include <caisson_mpm/water/pressure_projection.h>
 #include <caisson_mpm/water/seepage.h>
 #include <caisson_mpm/water/suction.h>
 
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CaissonMPM
@@ -21,7 +23,8 @@ namespace CaissonMPM
    * With Level = drained, water moves freely and its excess pressure is zero:
    * nothing here does or costs anything. With Level = seepage, the flow is
    * steady at each time: the field is found anew when the body or the mudline
-   * has moved, and the suction scales it in every step.
+   * has moved, and the suction scales it in every step. With Level = coupled,
+   * the pressure is found in every step, from the motion of the soil.
    *
    * The excess pressure is that beyond the hydrostatic one. Submerged soil has
    * its buoyant weight, so that nothing else of the water acts on it.
@@ -50,21 +53,43 @@ namespace CaissonMPM
       return level != Level::drained;
     }
 
+    /** Whether the pressure follows from the motion of the soil. */
+    bool
+    is_coupled() const
+    {
+      return level == Level::coupled;
+    }
+
     /** Whether there is an excess pressure now. */
     bool
     has_pressure() const
     {
-      return acts() && suction.value() != 0.;
+      return is_coupled() || (acts() && suction.value() != 0.);
     }
 
     /** Set up what knows the nodes of this rank. Collective. */
     void
     initialize();
 
-    /** Find the flow at the start of a step, where it is not known well enough
-     * from an earlier one. Collective. */
+    /** At the start of a step of length @p dt, find the flow where it is not
+     * known well enough from an earlier one, or prepare to find the pressure.
+     * Collective. Units: s. */
     void
-    update();
+    update(const double dt);
+
+    /** Find the pressure of a coupled step from the velocity that the soil
+     * would have with the force of the last one. Collective. See
+     * PressureProjection::solve(). */
+    void
+    correct(const Kernels::NodalVector             *velocity,
+            const std::vector<Kernels::CornerView> &corners);
+
+    /** Return the rates of volume change [n_cells] that strain the soil of a
+     * coupled step, whose nodes have this velocity in the end; null where the
+     * water is not coupled. Collective. */
+    const double *
+    volume_rates(const Kernels::NodalVector             *velocity,
+                 const std::vector<Kernels::CornerView> &corners);
 
     /** Continue to the end of a step. @p force_on_body is that of the soil in
      * this step, in the direction of the travel. Units: s, N. */
@@ -76,12 +101,17 @@ namespace CaissonMPM
     double
     load_on_body() const
     {
-      return suction.value() * loaded_area();
+      return suction.value() * lid_area() - tip_force();
     }
 
     /** Return the excess pore pressure at the nodes. [n_nodes], Pa */
     const std::vector<double> &
     pressure();
+
+    /** Return the pressure that acts on the soil now: within a coupled step,
+     * before correct(), a share of the last one. [n_nodes], Pa */
+    const std::vector<double> &
+    acting_pressure();
 
     /** Return the share of each cell below the mudline. [n_cells] */
     const std::vector<double> &
@@ -120,27 +150,47 @@ namespace CaissonMPM
     enum class Level
     {
       drained,
-      seepage
+      seepage,
+      coupled
     };
 
     void
     solve();
     void
-    find_permeabilities();
-    /** Find the share of the suction at the tip. */
+    set_up_step(const double dt);
     void
-    find_tip();
+    find_properties();
+    /** Return the integral of @p field [n_nodes] over the tip, looking down, and
+     * the area of the tip. Collective. */
+    std::array<double, 2>
+    integrate_over_tip(const NodalData &field) const;
+    bool
+    has_lid() const;
+    /** The area beneath the lid, 0 without one. Units: m2. */
     double
     lid_area() const;
+    /** What the excess pressure presses the tip up with. Units: N. */
+    double
+    tip_force() const
+    {
+      return is_coupled() ? tip_integral : -suction.value() * tip_integral;
+    }
+    /** What the solution of seepage is to be multiplied with. */
+    double
+    flow_scale() const;
+    const NodalData &
+    outflow() const;
+    const PressureSolver &
+    solver() const;
+    void
+    find_flow();
     double
     critical_gradient() const;
-    /** The area of the lid, and that of the tip as far as the suction has
-     * reached it. Units: m2. */
-    double
-    loaded_area() const
-    {
-      return acts() ? lid_area() + tip_phi : 0.;
-    }
+    SuctionLoad
+    load_of_suction(const double force_on_body) const;
+    /** The smallest and the largest pressure, 0 among them. Collective. */
+    std::pair<double, double>
+    extremes() const;
     /** Return the columns with the present @p mudline. */
     NamedNumbers
     values(const Mudline &mudline) const;
@@ -156,27 +206,36 @@ namespace CaissonMPM
     const Soil           &soil;
     const RigidBody      &body;
 
-    Level             level   = Level::drained;
-    double            renewal = 0.25;
-    Seepage::FarSides sides;
-    Suction           suction;
+    Level                     level            = Level::drained;
+    double                    renewal          = 0.25;
+    double                    kept_pressure    = 0.95;
+    double                    time_compression = 1.;
+    PressureSolver::OpenSides sides;
+    Suction                   suction;
 
-    Seepage                   seepage;
-    Mudline                   mudline;
-    std::vector<Permeability> permeability;  // [n_cells]
-    std::vector<double>       pressure_;     // [n_nodes]
-    double                    tip_area = 0.; // looking down, m2
-    double                    tip_phi  = 0.; // integral of phi over it, m2
-    double                    travel_at_solve  = 0.;
-    bool                      is_solved        = false;
-    unsigned int              steps_since_look = 0;
-    Seepage::Flow             flow;
-    Seepage::ExitGradient     exit;
-    double                    time_of_suction = 0.; // of its table, s
-    double                    seepage_volume  = 0.; // through the plug, m3
-    double                    plug_height     = 0.; // at the start, m
-    bool                      has_started     = false;
-    bool has_warned_of_piping = false, has_warned_of_lift = false;
+    Seepage                      seepage;
+    PressureProjection           projection;
+    Mudline                      mudline;
+    std::vector<Conductance>     permeability; // [n_cells], m/s
+    std::vector<WaterProperties> properties;   // [n_cells]
+    std::vector<double>          pressure_;    // [n_nodes]
+    // the integral over the tip of phi (m2), or coupled of the pressure (N)
+    double       tip_integral     = 0.;
+    double       tip_area         = 0.; // looking down, m2
+    double       travel_at_solve  = 0.;
+    bool         is_solved        = false; // since the last initialize()
+    bool         is_corrected     = false; // the pressure is that of this step
+    unsigned int steps_since_look = 0;
+    ExitGradient exit;
+    double flow_out = 0., flow_in = 0.; // of plug and open nodes, see outflow()
+    // of the equations at unknown nodes, and the flow, all steps; m3
+    double unbalanced = 0., through_surfaces = 0.;
+    double step                 = 0.; // coupled, s
+    double time_of_suction      = 0.; // of its table, s
+    double seepage_volume       = 0.; // through the plug, m3
+    double plug_height          = 0.; // at the start, m
+    bool   has_started          = false;
+    bool   has_warned_of_piping = false, has_warned_of_lift = false;
   };
 } // namespace CaissonMPM
 

@@ -2,8 +2,8 @@
 //
 // What flowing pore water does to the soil: minus the gradient of its excess
 // pressure, per volume.
-#ifndef caisson_mpm_water_seepage_force_h
-#define caisson_mpm_water_seepage_force_h
+#ifndef caisson_mpm_water_pore_pressure_force_h
+#define caisson_mpm_water_pore_pressure_force_h
 
 #include <caisson_mpm/operators/nodal_force.h>
 #include <caisson_mpm/water/ground_water.h>
@@ -12,18 +12,18 @@
 
 namespace CaissonMPM
 {
-  class SeepageForce : public NodalForce
+  class PorePressureForce : public NodalForce
   {
   public:
     /** @p water must outlive this object. */
-    explicit SeepageForce(GroundWater &water)
+    explicit PorePressureForce(GroundWater &water)
       : water(water)
     {}
 
     std::string
     name() const override
     {
-      return "seepage";
+      return "pore pressure";
     }
 
     bool
@@ -32,12 +32,18 @@ namespace CaissonMPM
       return water.has_pressure();
     }
 
+    bool
+    is_corrected() const override
+    {
+      return water.is_coupled();
+    }
+
   private:
     void
     add(const ForceContext &context, Kernels::NodalVector *force) override
     {
       context.kernels.pressure_gradient_force(context.step,
-                                              water.pressure().data(),
+                                              water.acting_pressure().data(),
                                               water.filled().data(),
                                               force);
     }

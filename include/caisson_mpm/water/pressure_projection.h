@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Pore pressure and motion of the soil together, in time:
+//   rho dv/dt = div sigma' - grad p + rho g,   div v = div(k / gamma_w grad p).
+//
+// Each step predicts the velocity with the share beta of the old pressure, and
+// projects it (Chorin 1968, doi:10.1090/S0025-5718-1968-0242392-2):
+//   (k / gamma_w + dt / rho) grad N . grad p =
+//       -N div v* + beta dt / rho grad N . grad p_old,
+// integrated over the soil below the mudline, with the density rho that mass
+// scaling has made larger. See doc/theory.md, section 16.
+#ifndef caisson_mpm_water_pressure_projection_h
+#define caisson_mpm_water_pressure_projection_h
+
+#include <caisson_mpm/water/cell_integrals.h>
+
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** What the soil of a cell is to the water. */
+  struct WaterProperties
+  {
+    Conductance mobility;             // k / gamma_w, m4/(N s)
+    double      specific_volume = 0.; // 1 / rho, m3/kg
+  };
+
+  /**
+   * Owns the pressure, which a step takes over from the one before. All
+   * functions are collective.
+   */
+  class PressureProjection
+  {
+  public:
+    /** Set up what knows the nodes of this rank; the pressure becomes zero. */
+    void
+    initialize(const BackgroundGrid &grid);
+
+    /** Find the equations at the start of a step. @p properties [n_cells] are
+     * read of the cells of this rank. */
+    void
+    set_up(const BackgroundGrid               &grid,
+           const Mudline                      &mudline,
+           const std::vector<WaterProperties> &properties,
+           const PressureSolver::OpenSides    &sides,
+           const double                        dt);
+
+    /**
+     * Solve for the pressure. @p velocity [n_nodes] is predicted with the share
+     * @p kept of the old pressure and held to all constraints, and cells at @p
+     * corners of the body see it as these say. At the mudline of the plug the
+     * pressure is @p at_plug. Units: Pa. Throws RunFailure where the solver
+     * does not converge.
+     */
+    void
+    solve(const Kernels::NodalVector             *velocity,
+          const std::vector<Kernels::CornerView> &corners,
+          const double                            kept,
+          const double                            at_plug);
+
+    /**
+     * Find the rate of volume change of the cells of this rank, as the pressure
+     * sees it: the mean over the cell of what the nodes have. A volume change
+     * that alternates from cell to cell meets no pressure, and must not strain
+     * the soil.
+     */
+    void
+    find_volume_rates(const Kernels::NodalVector             *velocity,
+                      const std::vector<Kernels::CornerView> &corners);
+
+    /** These rates, and NaN in cells without water. [n_cells], 1/s */
+    const std::vector<double> &
+    volume_rates() const
+    {
+      return volume_rates_;
+    }
+
+    /** The pressure, of all nodes that this rank knows. [n_nodes], Pa */
+    const NodalData &
+    pressure() const
+    {
+      return pressure_;
+    }
+    NodalData &
+    pressure()
+    {
+      return pressure_;
+    }
+
+    /** The water that leaves the soil at each node. [n_nodes], m3/s per radian
+     */
+    const NodalData &
+    outflow() const
+    {
+      return outflow_;
+    }
+
+    const PressureSolver &
+    solver() const
+    {
+      return solver_;
+    }
+
+  private:
+    /** The equations of a cell and what they were found for. */
+    struct Cell
+    {
+      double                     width = 0., left = 0., heights[2], rise = 0.;
+      double                     filled = 0.;
+      WaterProperties            properties;
+      PressureSolver::CellMatrix flow, inertia;
+      std::array<std::array<double, 8>, 4> divergence;
+      std::array<double, 4>                volumes;
+    };
+    void
+    find_equations(const Kernels::CellGeometry &geometry,
+                   const double                 filled,
+                   const WaterProperties       &properties,
+                   Cell                        &cell) const;
+    /** to_I = int N_I div v. */
+    void
+    find_divergence(const Kernels::NodalVector             *velocity,
+                    const std::vector<Kernels::CornerView> &corners,
+                    NodalData                              &to) const;
+
+    const BackgroundGrid *grid = nullptr;
+    PressureSolver        solver_;
+    std::vector<Cell>     equations; // [n_cells]
+    std::vector<double>   volume_rates_;
+    double                scale = 1., step = 0.;
+    NodalData             pressure_, outflow_, source, volume, rate;
+  };
+} // namespace CaissonMPM
+
+#endif
