@@ -72,6 +72,7 @@ namespace CaissonMPM
                        NodalConstraints &constraints)
   {
     predicted = momentum.new_velocity();
+    predicted.update_ghost_values();
     momentum.constrain(size.seconds, body_velocity, constraints, predicted);
     return predicted;
   }

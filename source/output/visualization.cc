@@ -30,12 +30,15 @@ namespace CaissonMPM
     class WrittenFields
     {
     public:
-      WrittenFields(const Soil &soil, const double circumference)
+      WrittenFields(const Soil  &soil,
+                    const double circumference,
+                    const bool   with_pore_pressure)
         : soil(soil)
         , circumference(circumference)
       {
         for (const NamedQuantity &quantity : all_point_quantities())
-          if (quantity.about.in_frames == InFrames::drawn)
+          if (quantity.about.in_frames == InFrames::drawn ||
+              (with_pore_pressure && quantity.about.name() == "pore_pressure"))
             {
               quantities.push_back(quantity.value);
               add_name(quantity.about);
@@ -330,6 +333,7 @@ namespace CaissonMPM
                              const RigidBody              &body,
                              const Soil                   &soil,
                              const std::vector<BodyPoint> &body_points,
+                             const bool                    with_pore_pressure,
                              const double                  time)
   {
     grid.write_vertices();
@@ -344,7 +348,7 @@ namespace CaissonMPM
       Utilities::MPI::max(static_cast<unsigned int>(
                             points.n_points() / points_per_piece + 1),
                           communicator);
-    const WrittenFields fields(soil, grid.circumference());
+    const WrittenFields fields(soil, grid.circumference(), with_pore_pressure);
     const std::string   point_file =
       write_vtu(directory,
                 numbered("points", number),

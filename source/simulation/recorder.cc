@@ -370,6 +370,7 @@ namespace CaissonMPM
                                parts.body,
                                parts.soil,
                                parts.body_points,
+                               parts.water.acts(),
                                parts.clock.time);
   }
 

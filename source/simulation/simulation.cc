@@ -255,6 +255,7 @@ namespace CaissonMPM
     std::vector<unsigned int> of_all_cells(costs.size());
     Utilities::MPI::sum(costs, grid.communicator(), of_all_cells);
     const auto traveling = points.take_all();
+    water.keep_field();
     grid.repartition(costs);
     set_up_part();
     points.redistribute(traveling);
@@ -285,6 +286,7 @@ namespace CaissonMPM
                      " lacks the entry " + missing +
                      ". Start the run anew in another directory.");
     grid.move_to(body.motion().travel());
+    water.resume_field(state);
     if (grid.n_ranks() > 1)
       cut_into_parts(points.cell_costs());
     schedule.resume();
@@ -479,6 +481,8 @@ namespace CaissonMPM
   {
     SectionTimer::Scope scope(timer, timer.section("output"));
     const Schedule::Due due = schedule.take_due();
+    if (due.record || due.frame)
+      water.write_pressure_to(points);
     if (due.record)
       recorder.record();
     if (due.frame)
@@ -508,8 +512,11 @@ namespace CaissonMPM
   Simulation::save_checkpoint()
   {
     totals.bring_to_first_rank(grid.communicator());
+    NamedNumbers       state    = totals.state();
+    const NamedNumbers of_water = water.field_state();
+    state.insert(state.end(), of_water.begin(), of_water.end());
     write_checkpoint(
-      recorder.output_directory(), grid, points, totals.state(), physics(prm));
+      recorder.output_directory(), grid, points, state, physics(prm));
   }
 
   std::string

@@ -137,6 +137,19 @@ namespace CaissonMPM
     void
     stretch(const Stretch &stretch_at, const WantedSize &wanted);
 
+    /** Set the pore pressure of all points to pressure(cell, position), in Pa.
+     */
+    template <typename Function>
+    void
+    set_pore_pressure(const Function &pressure)
+    {
+      for (const unsigned int cell : active_cells)
+        for_each_lane(cell, [&](const int b, const int lane) {
+          histories[b].pore_pressure[lane] = pressure(
+            cell, dealii::Point<2>(blocks[b].r[lane], blocks[b].z[lane]));
+        });
+    }
+
     /** Call action(position, velocity, mass, material) for every point: less
      * work than for_each(). */
     template <typename Action>

@@ -38,6 +38,7 @@
   FIELD(initial_volume, "m3/rad", sum, not_drawn, "")                      \
   FIELD(id, "none", smallest, not_drawn, "")                               \
   PART(size_r, size, 0, "m", by_mass, not_drawn, "as stretched")           \
-  PART(size_z, size, 1, "m", by_mass, not_drawn, "as stretched")
+  PART(size_z, size, 1, "m", by_mass, not_drawn, "as stretched")           \
+  FIELD(pore_pressure, "Pa", by_volume, not_drawn, "excess, at the last output")
 
 #endif

@@ -59,6 +59,7 @@ namespace CaissonMPM
                 const RigidBody              &body,
                 const Soil                   &soil,
                 const std::vector<BodyPoint> &body_points,
+                const bool                    with_pore_pressure,
                 const double                  time);
 
   private:

@@ -71,6 +71,23 @@ namespace CaissonMPM
     void
     initialize();
 
+    /** Keep the field at the nodes over the next initialize(), before the parts
+     * of the mesh change. Collective. */
+    void
+    keep_field();
+
+    /** Return the field at the nodes for a checkpoint. Collective. */
+    NamedNumbers
+    field_state() const;
+
+    /** Return to the field of a checkpoint. */
+    void
+    resume_field(const NamedNumbers &state);
+
+    /** Give the points the pressure at their places. */
+    void
+    write_pressure_to(MaterialPoints &points);
+
     /** At the start of a step of length @p dt, find the flow where it is not
      * known well enough from an earlier one, or prepare to find the pressure.
      * Collective. Units: s. */
@@ -154,6 +171,20 @@ namespace CaissonMPM
       coupled
     };
 
+    /** Call action(node, place in a list of all nodes of the lattice). */
+    template <typename Action>
+    void
+    for_each_place(const Action &action) const;
+    std::size_t
+    n_places() const;
+    /** The field that an equation is solved for. */
+    NodalData &
+    field();
+    /** Return its values [n_places()] on all ranks, NaN without a node. */
+    std::vector<double>
+    gather_field() const;
+    void
+    scatter_field(const std::vector<double> &values);
     void
     solve();
     void
@@ -219,6 +250,7 @@ namespace CaissonMPM
     std::vector<Conductance>     permeability; // [n_cells], m/s
     std::vector<WaterProperties> properties;   // [n_cells]
     std::vector<double>          pressure_;    // [n_nodes]
+    std::vector<double>          kept_field;   // of keep_field()
     // the integral over the tip of phi (m2), or coupled of the pressure (N)
     double       tip_integral     = 0.;
     double       tip_area         = 0.; // looking down, m2
