@@ -58,6 +58,15 @@ namespace CaissonMPM
       velocity_table = {{0., constant_velocity}};
   }
 
+  double
+  PrescribedMotion::usual_velocity() const
+  {
+    double largest = 0.;
+    for (const auto &row : velocity_table)
+      largest = std::max(largest, std::abs(row.second));
+    return largest;
+  }
+
   void
   PrescribedMotion::check_parameters() const
   {

@@ -172,16 +172,20 @@ namespace CaissonMPM
         std::string(kernels->name) + ", " + to_text(kernels->width) + " lanes"},
        {"ranks", to_text(parts.grid.n_ranks())},
        {"limit of the step", parts.time_step.reason()}});
-    console->summary({{"title", title},
-                      {"grid", parts.grid.lines().description()},
-                      {"material points",
-                       n_points + ", and " + n_body_points + " of the body (" +
-                         to_text(mass / 1000., 6) + " t)"},
-                      {"method", parts.nodal_motion.settings().description()},
-                      {"time step",
-                       to_text(parts.clock.step_size, 6) + " s, mass scaling " +
-                         to_text(parts.soil.mass_scaling(), 6)},
-                      {"end", parts.schedule.end_description()}});
+    std::vector<std::pair<std::string, std::string>> lines = {
+      {"title", title},
+      {"grid", parts.grid.lines().description()},
+      {"material points",
+       n_points + ", and " + n_body_points + " of the body (" +
+         to_text(mass / 1000., 6) + " t)"},
+      {"method", parts.nodal_motion.settings().description()},
+      {"time step",
+       to_text(parts.clock.step_size, 6) + " s, mass scaling " +
+         to_text(parts.soil.mass_scaling(), 6)},
+      {"end", parts.schedule.end_description()}};
+    const auto of_water = parts.water.description(parts.materials);
+    lines.insert(lines.end(), of_water.begin(), of_water.end());
+    console->summary(lines);
     if (!wrong_error_bar.empty())
       console->warning(wrong_error_bar);
     for (const std::string &limit : known_limits)

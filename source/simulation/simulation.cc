@@ -103,6 +103,10 @@ namespace CaissonMPM
     water.check_parameters();
     nodal_forces.check_parameters();
     nodal_motion.settings().check_parameters();
+    if (water.is_coupled() && !nodal_motion.settings().uses_mean_volume())
+      throw BadInput("Water/Level is coupled, but Method/Mean volume change is "
+                     "false: the points of a cell are strained with the volume "
+                     "change that the pressure sees. Set it to true.");
     recorder.check_parameters();
     schedule.check_parameters();
     if (Kernels::select_kernels(instruction_set.c_str()) == nullptr)
@@ -296,8 +300,9 @@ namespace CaissonMPM
   Simulation::known_limits() const
   {
     std::vector<std::string> result;
-    for (const auto &limits :
-         {soil.known_limits(), nodal_motion.settings().known_limits()})
+    for (const auto &limits : {soil.known_limits(),
+                               nodal_motion.settings().known_limits(),
+                               water.known_limits(materials)})
       result.insert(result.end(), limits.begin(), limits.end());
     return result;
   }

@@ -21,6 +21,10 @@ namespace CaissonMPM
     // Heights of the mudline are looked at this many steps apart.
     constexpr unsigned int steps_between_looks = 10;
 
+    // Above this, inertia changes the pressure of a transient by more than half
+    // a per cent.
+    constexpr double largest_inertia = .02;
+
     // Permeability and density of coupled soil are found this many steps apart.
     constexpr unsigned int steps_between_properties = 20;
   } // namespace
@@ -78,6 +82,10 @@ namespace CaissonMPM
                   sides.bottom,
                   "The bottom of the domain keeps the pressure of the open "
                   "water; otherwise nothing flows through it. Units: none.");
+    add_parameter("Bottom pressure",
+                  bottom_text,
+                  "A drained bottom has this excess pressure in a coupled run, "
+                  "as an expression in the time t. Units: Pa.");
   }
 
   void
@@ -86,6 +94,7 @@ namespace CaissonMPM
     if (!acts())
       return;
     suction.check_parameters();
+    bottom_expression();
     if (!soil.is_submerged() || soil.unit_weight_of_water() <= 0.)
       throw BadInput("Water/Level is not drained, but the soil is dry: set "
                      "Soil/Submerged = true, Soil/Fluid density and a Soil/"
@@ -124,6 +133,7 @@ namespace CaissonMPM
       origins.add_unused({"Water/Renewal"}, "Water/Level is coupled");
     else if (acts())
       origins.add_unused({"Water/Kept pressure",
+                          "Water/Bottom pressure",
                           "Water/Time compression",
                           "Water/Drained surface"},
                          "Water/Level is seepage");
@@ -132,6 +142,7 @@ namespace CaissonMPM
     const std::string why = "Water/Level is drained";
     origins.add_unused({"Water/Renewal",
                         "Water/Kept pressure",
+                        "Water/Bottom pressure",
                         "Water/Time compression",
                         "Water/Drained surface",
                         "Water/Drained outer side",
@@ -159,6 +170,7 @@ namespace CaissonMPM
   {
     if (!acts())
       return;
+    bottom_pressure = bottom_expression();
     if (is_coupled())
       projection.initialize(grid);
     else
@@ -168,6 +180,12 @@ namespace CaissonMPM
     if (!kept_field.empty())
       scatter_field(kept_field);
     kept_field.clear();
+  }
+
+  Expression
+  GroundWater::bottom_expression() const
+  {
+    return Expression(bottom_text, "Water/Bottom pressure = " + bottom_text);
   }
 
   NodalData &
@@ -354,7 +372,11 @@ namespace CaissonMPM
   GroundWater::correct(const Kernels::NodalVector             *velocity,
                        const std::vector<Kernels::CornerView> &corners)
   {
-    projection.solve(velocity, corners, kept_pressure, -suction.value());
+    projection.solve(velocity,
+                     corners,
+                     kept_pressure,
+                     {-suction.value(),
+                      bottom_pressure(Point<2>(), time + .5 * step)});
     is_corrected = true;
     find_flow();
     unbalanced +=
@@ -489,6 +511,8 @@ namespace CaissonMPM
     if (!acts())
       return;
     seepage_volume += dt * flow_scale() * flow_out;
+    last_force_on_body = force_on_body;
+    this->time         = time + dt;
     if (!has_lid())
       return;
     // A body that is lowered rests before the pump starts.
@@ -560,6 +584,8 @@ namespace CaissonMPM
       {
         result.insert(result.end(),
                       {{"tip_water_force_N", tip_force()},
+                       {"total_force_with_water_N",
+                        -last_force_on_body + tip_force()},
                        {"surface_outflow_m3_s", -scale * flow_in},
                        {"flow_iterations", 1. * solver().n_iterations()}});
         return result;
@@ -654,6 +680,63 @@ namespace CaissonMPM
   GroundWater::critical_gradient() const
   {
     return soil.unit_weight(0) / soil.unit_weight_of_water();
+  }
+
+  std::vector<GroundWater::Drainage>
+  GroundWater::drainage(const std::vector<Kernels::Material> &materials) const
+  {
+    std::vector<Drainage> result;
+    if (!is_coupled() || !body.shape().exists())
+      return result;
+    const double diameter = 2. * body.shape().right(),
+                 speed    = body.motion().usual_velocity();
+    for (unsigned int i = 0; i < soil.n_layers(); ++i)
+      {
+        const double modulus = materials[i].p_wave_modulus;
+        Drainage     d;
+        d.c_v = time_compression * soil.layer(i).permeability * modulus /
+                soil.unit_weight_of_water();
+        d.group = speed * diameter / d.c_v;
+        d.inertia =
+          d.c_v / (std::sqrt(modulus / soil.inertial_density(i)) * diameter);
+        result.push_back(d);
+      }
+    return result;
+  }
+
+  std::vector<std::pair<std::string, std::string>>
+  GroundWater::description(
+    const std::vector<Kernels::Material> &materials) const
+  {
+    std::vector<std::pair<std::string, std::string>> lines;
+    const auto of_layers = drainage(materials);
+    for (unsigned int i = 0; i < of_layers.size(); ++i)
+      lines.emplace_back(
+        "drainage of layer " + to_text(i + 1),
+        "c_v = " + to_text(of_layers[i].c_v, 3) +
+          " m2/s, v D / c_v = " + to_text(of_layers[i].group, 3) +
+          (time_compression != 1. ?
+             ", permeability times " + to_text(time_compression) +
+               " (Water/Time compression)" :
+             ""));
+    return lines;
+  }
+
+  std::vector<std::string>
+  GroundWater::known_limits(
+    const std::vector<Kernels::Material> &materials) const
+  {
+    std::vector<std::string> limits;
+    const auto               of_layers = drainage(materials);
+    for (unsigned int i = 0; i < of_layers.size(); ++i)
+      if (of_layers[i].inertia > largest_inertia)
+        limits.push_back(
+          "inertia delays the drainage of layer " + to_text(i + 1) +
+          ": c_v over wave speed and diameter is " +
+          to_text(of_layers[i].inertia, 2) + ", more than " +
+          to_text(largest_inertia) +
+          ". Reduce Time/Mass scaling if pressures that change fast matter");
+    return limits;
   }
 
   NamedNumbers

@@ -148,7 +148,7 @@ namespace CaissonMPM
   PressureProjection::solve(const Kernels::NodalVector             *velocity,
                             const std::vector<Kernels::CornerView> &corners,
                             const double                            kept,
-                            const double                            at_plug)
+                            const KnownPressures                   &known)
   {
     find_divergence(velocity, corners, outflow_);
     source = 0.;
@@ -173,9 +173,10 @@ namespace CaissonMPM
     pressure_.zero_out_ghost_values();
     for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
       if (solver_.state(node) == PressureSolver::plug)
-        pressure_.local_element(node) = at_plug;
+        pressure_.local_element(node) = known.plug;
       else if (solver_.state(node) == PressureSolver::open)
-        pressure_.local_element(node) = 0.;
+        pressure_.local_element(node) =
+          grid->is_at(node, GridLines::Side::bottom) ? known.bottom : 0.;
     solver_.solve(source, tolerance, pressure_);
     solver_.apply(pressure_, outflow_);
     outflow_.sadd(-1., 1., source);

@@ -60,6 +60,13 @@ namespace CaissonMPM
       load_ = load;
     }
 
+    /** Return how fast the body moves when nothing hinders it. Units: m/s. */
+    virtual double
+    usual_velocity() const
+    {
+      return 0.;
+    }
+
     /** Whether loads move the body, so that it can come to rest. */
     virtual bool
     follows_loads() const

@@ -38,6 +38,12 @@ namespace CaissonMPM
     void
     start() override;
 
+    double
+    usual_velocity() const override
+    {
+      return largest_velocity;
+    }
+
     bool
     needs_force() const override
     {

@@ -30,6 +30,9 @@ namespace CaissonMPM
       return "the velocity is a given function of time";
     }
 
+    double
+    usual_velocity() const override;
+
     void
     check_parameters() const override;
 

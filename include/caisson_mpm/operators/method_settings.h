@@ -86,6 +86,12 @@ namespace CaissonMPM
       return stress_update == StressUpdate::musl;
     }
 
+    bool
+    uses_mean_volume() const
+    {
+      return mean_volume;
+    }
+
     /** Share of the out-of-balance force that damping takes. */
     double
     local_damping() const

@@ -5,6 +5,7 @@
 #ifndef caisson_mpm_water_ground_water_h
 #define caisson_mpm_water_ground_water_h
 
+#include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/base/named_numbers.h>
 #include <caisson_mpm/bodies/rigid_body.h>
 #include <caisson_mpm/materials/soil.h>
@@ -151,6 +152,27 @@ namespace CaissonMPM
     NamedNumbers
     limits() const;
 
+    /** How a layer drains while the body moves. */
+    struct Drainage
+    {
+      double c_v     = 0.; // k (lambda + 2 mu) / gamma_w, m2/s
+      double group   = 0.; // v D / c_v
+      double inertia = 0.; // c_v over the wave speed and D, with mass scaling
+    };
+
+    /** Return it for each layer of a coupled run with a body; empty otherwise.
+     * @p materials are those of the layers. */
+    std::vector<Drainage>
+    drainage(const std::vector<Kernels::Material> &materials) const;
+
+    /** Return the same in words, for the beginning of a run. */
+    std::vector<std::pair<std::string, std::string>>
+    description(const std::vector<Kernels::Material> &materials) const;
+
+    /** Return warnings of what is known to change the drainage. */
+    std::vector<std::string>
+    known_limits(const std::vector<Kernels::Material> &materials) const;
+
     /** Return warnings of what the water does to the plug, each once; after
      * columns(). */
     std::vector<std::string>
@@ -171,6 +193,9 @@ namespace CaissonMPM
       coupled
     };
 
+    /** Throws BadInput where the text cannot be parsed. */
+    Expression
+    bottom_expression() const;
     /** Call action(node, place in a list of all nodes of the lattice). */
     template <typename Action>
     void
@@ -242,6 +267,8 @@ namespace CaissonMPM
     double                    kept_pressure    = 0.95;
     double                    time_compression = 1.;
     PressureSolver::OpenSides sides;
+    std::string               bottom_text = "0";
+    Expression                bottom_pressure; // Pa
     Suction                   suction;
 
     Seepage                      seepage;
@@ -262,7 +289,8 @@ namespace CaissonMPM
     double flow_out = 0., flow_in = 0.; // of plug and open nodes, see outflow()
     // of the equations at unknown nodes, and the flow, all steps; m3
     double unbalanced = 0., through_surfaces = 0.;
-    double step                 = 0.; // coupled, s
+    double step = 0., time = 0.;      // s
+    double last_force_on_body   = 0.; // N
     double time_of_suction      = 0.; // of its table, s
     double seepage_volume       = 0.; // through the plug, m3
     double plug_height          = 0.; // at the start, m

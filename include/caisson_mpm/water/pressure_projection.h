@@ -25,6 +25,13 @@ namespace CaissonMPM
     double      specific_volume = 0.; // 1 / rho, m3/kg
   };
 
+  /** The pressures that are known: at the mudline of the plug, and at an open
+   * bottom. Elsewhere that of the open water is 0. Units: Pa. */
+  struct KnownPressures
+  {
+    double plug = 0., bottom = 0.;
+  };
+
   /**
    * Owns the pressure, which a step takes over from the one before. All
    * functions are collective.
@@ -48,15 +55,14 @@ namespace CaissonMPM
     /**
      * Solve for the pressure. @p velocity [n_nodes] is predicted with the share
      * @p kept of the old pressure and held to all constraints, and cells at @p
-     * corners of the body see it as these say. At the mudline of the plug the
-     * pressure is @p at_plug. Units: Pa. Throws RunFailure where the solver
-     * does not converge.
+     * corners of the body see it as these say. Throws RunFailure where the
+     * solver does not converge.
      */
     void
     solve(const Kernels::NodalVector             *velocity,
           const std::vector<Kernels::CornerView> &corners,
           const double                            kept,
-          const double                            at_plug);
+          const KnownPressures                   &known);
 
     /**
      * Find the rate of volume change of the cells of this rank, as the pressure
