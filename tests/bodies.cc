@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The rigid body: its motion and its shape.
+#include <caisson_mpm/bodies/dropped_motion.h>
 #include <caisson_mpm/bodies/prescribed_motion.h>
 
 #include <deal.II/base/mpi.h>
@@ -106,10 +107,102 @@ check_shape()
   verdict("body density error", std::abs(mass / volume / 7850. - 1.), 1e-12);
 }
 
+constexpr double body_mass = 1000., weight = 9810.; // kg, N
+
+/** Set up a body of 1 t that begins to fall. */
+struct Falling : EmptyParameters
+{
+  Falling()
+  {
+    dealii::ParameterAcceptor::declare_all_parameters();
+    dealii::ParameterAcceptor::parse_all_parameters();
+    motion.start();
+    motion.set_mass(body_mass);
+    motion.set_load(weight);
+  }
+
+  DroppedMotion motion;
+};
+
+/** Without resistance the fall is exact, whatever the steps are. */
+void
+check_fall()
+{
+  Falling fall;
+  double  time = 0.;
+  for (unsigned int i = 0; i < 1000; ++i)
+    {
+      const double dt = 1e-3 * (1 + i % 7);
+      fall.motion.advance(dt, 0.);
+      time += dt;
+    }
+  const double g = weight / body_mass;
+  verdict("fall: travel error",
+          std::abs(fall.motion.travel() / (.5 * g * time * time) - 1.),
+          1e-12);
+  verdict("fall: velocity error",
+          std::abs(fall.motion.velocity() / (g * time) - 1.),
+          1e-12);
+}
+
+/** An impulse that was not foreseen is not lost. */
+void
+check_momentum()
+{
+  Falling          hit;
+  constexpr double dt = 1e-3, force = -5e4;
+  hit.motion.set_load(0.);
+  hit.motion.advance(dt, 0.);
+  hit.motion.advance(dt, force);
+  for (unsigned int i = 0; i < 1000; ++i)
+    hit.motion.advance(dt, 0.);
+  verdict("impulse: velocity error",
+          std::abs(hit.motion.velocity() * body_mass / (dt * force) - 1.),
+          1e-12);
+}
+
+/** On a spring the body swings between 0 and twice the travel at rest, with the
+ * frequency that its mass and that of the soil that it holds have. */
+void
+check_spring(const char *what, const double soil)
+{
+  const double   stiffness = 4e4, total = body_mass + soil, dt = 1e-3;
+  const double   period   = 2. * pi * std::sqrt(total / stiffness);
+  constexpr long n_swings = 20;
+  Falling        swing;
+  double         turn = 0., least = 0., most = 0., force = 0.;
+  for (long i = 0; i < std::lround(n_swings * period / dt); ++i)
+    {
+      const double before = swing.motion.velocity();
+      const double spring = -stiffness * swing.motion.travel(),
+                   last   = swing.motion.mean_velocity();
+      swing.motion.set_response({spring, soil});
+      swing.motion.advance(dt, force);
+      // the soil is accelerated with the body
+      force = spring - soil * (swing.motion.mean_velocity() - last) / dt;
+      if (before < 0. && swing.motion.velocity() >= 0.)
+        turn = i * dt; // the last return to the highest place
+      least = std::min(least, swing.motion.travel());
+      most  = std::max(most, swing.motion.travel());
+    }
+  std::printf("spring, %s\n", what);
+  verdict("  period error",
+          std::abs(std::remainder(turn / period, 1.)) / n_swings,
+          1e-3);
+  verdict("  amplitude error",
+          std::max(std::abs(most * stiffness / (2. * weight) - 1.),
+                   -least * stiffness / weight),
+          1e-3);
+}
+
 int
 main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   check_motion();
   check_shape();
+  check_fall();
+  check_momentum();
+  check_spring("heavy body", 0.);
+  check_spring("body that is light against the soil", 100. * body_mass);
 }

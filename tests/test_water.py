@@ -199,6 +199,77 @@ class Lowered(ProgramTest):
         self.assert_words(["has not come to rest", "End time"], text)
 
 
+class Dropped(ProgramTest):
+    """A caisson that its loads accelerate."""
+
+    def test_mass(self) -> None:
+        """However light the body is against the soil at its tip, it rests there,
+        and its weight does the work that the soil takes."""
+        for mass, delta in (("844", 0.02), ("auto", 0.01)):
+            with self.subTest(mass=mass):
+                path = self.directory(f"mass_{mass}")
+                entries = {"Rigid body/Inertia": mass, "Time/End time": 2}
+                text = self.run_scene("dropped", path, entries=entries)
+                self.assert_words(["came to rest"], text)
+                last = history(path)[-1]
+                travel = last["penetration_m"] - 0.5
+                self.assertAlmostEqual(travel, 5.3e-3, delta=1e-3)
+                self.assertAlmostEqual(
+                    last["external_work_J"] / (1e5 * travel), 1, delta=delta
+                )
+                self.assertAlmostEqual(last["total_force_N"] / 1e5, 1, delta=0.03)
+                self.assertLess(abs(last["energy_residual"]), 0.01)
+
+    def test_inertia_delays(self) -> None:
+        """A body of 84,400 t hardly moves, so that the soil below the tip bears no
+        more than it did at the start."""
+        path = self.directory()
+        entries = {
+            "Rigid body/Inertia": 8.44e7,
+            "Time/End time": 0.2,
+            "Output/Record interval": 0.05,
+        }
+        self.run_scene("dropped", path, entries=entries)
+        travel = history(path)[-1]["penetration_m"] - 0.5
+        load = 1e5 - 0.6 * 1500 * 9.81 * 0.5 * math.pi * (3**2 - INNER_RADIUS**2)
+        expected = 0.5 * load / 8.44e7 * 0.2**2
+        self.assertAlmostEqual(travel / expected, 1, delta=0.05)
+
+    def test_release(self) -> None:
+        """Weight that is let go slowly is borne as it comes."""
+        path = self.directory()
+        entries = {
+            "Rigid body/Release time": 2,
+            "Time/End time": 1,
+            "Output/Record interval": 0.25,
+        }
+        self.run_scene("dropped", path, entries=entries)
+        for row in history(path)[1:]:
+            released = 5e4 * (row["time_s"] - 0.125)  # the force is a mean
+            self.assertAlmostEqual(row["total_force_N"], released, delta=3e3)
+
+    def test_ranks_and_restart(self) -> None:
+        entries: Entries = {"Time/End time": 0.4, "Output/Record interval": 0.2}
+        whole, parts, ranks = [self.directory(n) for n in ("whole", "parts", "ranks")]
+        self.run_scene("dropped", whole, entries=entries)
+        self.run_scene("dropped", parts, entries={**entries, "Time/End time": 0.2})
+        self.run_scene("dropped", parts, SUCCESS, "--restart", entries=entries)
+        self.run_program(
+            SUCCESS,
+            scene("dropped"),
+            "--output-directory",
+            ranks,
+            entries=entries,
+            ranks=3,
+        )
+        for path in (parts, ranks):
+            self.assertAlmostEqual(
+                history(path)[-1]["penetration_m"],
+                history(whole)[-1]["penetration_m"],
+                delta=1e-7,
+            )
+
+
 class BadInput(ProgramTest):
     """Scenes that have no flow, or no answer."""
 

@@ -5,6 +5,7 @@
 #include <caisson_mpm/bodies/caisson.h>
 #include <caisson_mpm/bodies/cone.h>
 #include <caisson_mpm/bodies/cylinder.h>
+#include <caisson_mpm/bodies/dropped_motion.h>
 #include <caisson_mpm/bodies/lowered_motion.h>
 #include <caisson_mpm/bodies/prescribed_motion.h>
 #include <caisson_mpm/bodies/rigid_body.h>
@@ -134,8 +135,11 @@ namespace CaissonMPM
   RigidBody::RigidBody()
     : ParameterAcceptor("/Rigid body")
     , shapes(one_of_each<BodyShape, NoShape, Caisson, Box, Cone, Cylinder>())
-    , motions(
-        one_of_each<BodyMotion, NoMotion, PrescribedMotion, LoweredMotion>())
+    , motions(one_of_each<BodyMotion,
+                          NoMotion,
+                          PrescribedMotion,
+                          LoweredMotion,
+                          DroppedMotion>())
   {
     add_list(
       *this, "Kind", shapes, 0, chosen_shape, "The rigid body is one of these");
@@ -170,6 +174,7 @@ namespace CaissonMPM
     const double buoyancy = soil.unit_weight_of_water() * mass / density;
     submerged_weight_     = weight.value_or(-soil.gravity[vertical] * mass -
                                         (soil.is_submerged() ? buoyancy : 0.));
+    motion().set_mass(mass);
   }
 
 
@@ -182,6 +187,10 @@ namespace CaissonMPM
     for (std::size_t i = 0; i < shapes.size(); ++i)
       if (i != chosen_shape)
         shapes[i]->check_not_chosen();
+    if (shape().expands() && motion().follows_loads())
+      throw BadInput("Rigid body/Motion is " + motion().name() +
+                     ": the weight does not expand a cylinder. Set Motion = "
+                     "prescribed.");
     if (shape().expands() && surface().adhesion[outer_wall] > 0.)
       throw BadInput("Rigid body/Adhesion of the outer wall: the area of an "
                      "expanding cylinder changes, adhesion on it is not "

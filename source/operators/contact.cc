@@ -211,6 +211,37 @@ namespace CaissonMPM
     return sums;
   }
 
+  Contact::Response
+  Contact::respond(const Vector2              &body_velocity,
+                   const double                dt,
+                   const Kernels::NodalSums   *sums,
+                   const std::vector<double>  &mass,
+                   const Kernels::NodalVector *v)
+  {
+    velocity = body_velocity;
+    Response response;
+    for (const Node &node : nodes)
+      {
+        const double m = mass[node.node];
+        if (node.node >= n_owned_nodes || m <= 0.)
+          continue;
+        Kernels::NodalVector u      = v[node.node];
+        const NodeResult     result = apply_to_node(node, dt, m, u.value);
+        if (result.state == State::apart)
+          continue;
+        response.impulse += circumference * result.impulse;
+        for (unsigned int d = 0; d < 2; ++d)
+          response.mass[d] += circumference * m *
+                              (result.state == State::sticking ?
+                                 1. :
+                                 result.normal[d] * result.normal[d]);
+      }
+    const auto of_corners = corners_.respond(dt, sums, v);
+    response.impulse += circumference * of_corners.first;
+    response.mass += circumference * of_corners.second;
+    return response;
+  }
+
   void
   Contact::add_corners(ContactResult &sums, Vector2 &total) const
   {

@@ -285,47 +285,79 @@ namespace CaissonMPM
   {
     for (Corner &corner : corners)
       {
-        const NodalSums &node = sums[corner.node];
-        corner.reaction       = CornerReaction();
-        if (!corner.has_soil)
-          continue;
-        const Vector2 w    = corner.old - velocity,
-                      x    = vector_of(u[corner.node].value) - velocity;
-        const Vector2 mass = mass_of(corner, node.mass);
-        Vector2       inertia;
-        for (unsigned int d = 0; d < 2; ++d)
-          inertia[d] = mass[d] > 0. ? inertia_of(mass[d], dt, node) : 0.;
-        // what points have besides, and lose in this step
-        const Vector2 lost =
-          (1. - keep) * (vector_of(node.momentum) - node.mass * velocity -
-                         momentum_of(corner, node.mass, w));
-        const Vector2 given = dt * vector_of(node.force) + lost;
-        // what is left to the body when the velocity has changed by y
-        const auto remainder = [&](Vector2 y) {
-          for (unsigned int d = 0; d < 2; ++d)
-            y[d] *= mass[d] > 0. ? inertia[d] / mass[d] : 0.;
-          return given - momentum_of(corner, node.mass, y);
-        };
-        const Vector2 left =
-          slide(corner, dt, inertia, resolve(corner, remainder(x - w)), x);
-        Vector2 rest = remainder(left - w);
-        for (unsigned int i = 0; i < 2; ++i)
-          rest -= corner.reaction.impulse[i];
-        const auto pressed = resolve(corner, rest);
-        for (unsigned int i = 0; i < 2; ++i)
-          {
-            Cell &cell = corner.cells[i];
-            corner.reaction.impulse[i] -= pressed[i] * corner.normal[i];
-            // A face that advances or slides stays closed: whether soil presses
-            // on it changes from step to step, and what comes off for a step
-            // and back again loses energy and gets into the body.
-            cell.closed_next =
-              velocity * corner.normal[i] >= 0. ||
-              (cell.closed ? pressed[i] > 0. : left * corner.normal[i] < 0.);
-          }
-        for (unsigned int d = 0; d < 2; ++d)
-          u[corner.node].value[d] = velocity[d] + left[d];
+        corner.reaction = CornerReaction();
+        if (corner.has_soil)
+          apply_to_corner(corner, dt, sums[corner.node], u[corner.node]);
       }
+  }
+
+  void
+  ContactCorners::apply_to_corner(Corner          &corner,
+                                  const double     dt,
+                                  const NodalSums &node,
+                                  NodalVector     &u) const
+  {
+    const Vector2 w = corner.old - velocity, x = vector_of(u.value) - velocity;
+    const Vector2 mass = mass_of(corner, node.mass);
+    Vector2       inertia;
+    for (unsigned int d = 0; d < 2; ++d)
+      inertia[d] = mass[d] > 0. ? inertia_of(mass[d], dt, node) : 0.;
+    // what points have besides, and lose in this step
+    const Vector2 lost =
+      (1. - keep) * (vector_of(node.momentum) - node.mass * velocity -
+                     momentum_of(corner, node.mass, w));
+    const Vector2 given = dt * vector_of(node.force) + lost;
+    // what is left to the body when the velocity has changed by y
+    const auto remainder = [&](Vector2 y) {
+      for (unsigned int d = 0; d < 2; ++d)
+        y[d] *= mass[d] > 0. ? inertia[d] / mass[d] : 0.;
+      return given - momentum_of(corner, node.mass, y);
+    };
+    const Vector2 left =
+      slide(corner, dt, inertia, resolve(corner, remainder(x - w)), x);
+    Vector2 rest = remainder(left - w);
+    for (unsigned int i = 0; i < 2; ++i)
+      rest -= corner.reaction.impulse[i];
+    const auto pressed = resolve(corner, rest);
+    for (unsigned int i = 0; i < 2; ++i)
+      {
+        Cell &cell = corner.cells[i];
+        corner.reaction.impulse[i] -= pressed[i] * corner.normal[i];
+        // A face that advances or slides stays closed: whether soil presses
+        // on it changes from step to step, and what comes off for a step
+        // and back again loses energy and gets into the body.
+        cell.closed_next =
+          velocity * corner.normal[i] >= 0. ||
+          (cell.closed ? pressed[i] > 0. : left * corner.normal[i] < 0.);
+      }
+    for (unsigned int d = 0; d < 2; ++d)
+      u.value[d] = velocity[d] + left[d];
+  }
+
+  std::pair<Vector2, Vector2>
+  ContactCorners::respond(const double       dt,
+                          const NodalSums   *sums,
+                          const NodalVector *u) const
+  {
+    Vector2 impulse, mass;
+    for (const Corner &own : corners)
+      {
+        if (!own.has_soil || own.node >= n_owned_nodes)
+          continue;
+        Corner      corner = own; // it stays as it is
+        NodalVector moved  = u[own.node];
+        corner.reaction    = CornerReaction();
+        apply_to_corner(corner, dt, sums[own.node], moved);
+        impulse += corner.reaction.impulse[0] + corner.reaction.impulse[1];
+        for (unsigned int d = 0; d < 2; ++d)
+          if (corner.sticks[d])
+            mass[d] += sums[own.node].mass;
+          else
+            for (const Cell &cell : corner.cells)
+              mass[d] +=
+                cell.closed && d != cell.free ? contribution(cell).mass : 0.;
+      }
+    return {impulse, mass};
   }
 
   Vector2
@@ -333,7 +365,7 @@ namespace CaissonMPM
                         const double                 dt,
                         const Vector2               &inertia,
                         const std::array<double, 2> &pressed,
-                        const Vector2               &x)
+                        const Vector2               &x) const
   {
     std::array<double, 2> bearable = {{0., 0.}}; // by face
     Vector2               of_component;

@@ -122,9 +122,30 @@ namespace CaissonMPM
           }
       }
     is_finite_ = std::isfinite(sum);
-    contact.corners().accelerate(body_velocity, dt, sums(), v, u);
+    accelerate_corners(dt, body_velocity, contact);
+  }
+
+  void
+  NodalMomentum::accelerate_corners(const double   dt,
+                                    const Vector2 &body_velocity,
+                                    Contact       &contact)
+  {
+    contact.corners().accelerate(body_velocity,
+                                 dt,
+                                 sums(),
+                                 nodal_vectors(old_velocity_),
+                                 nodal_vectors(new_velocity_));
     // the new velocities follow when they are constrained
     hanging_nodes->interpolate(old_velocity_, 2);
+  }
+
+  Contact::Response
+  NodalMomentum::respond(const double   dt,
+                         const Vector2 &body_velocity,
+                         Contact       &contact) const
+  {
+    return contact.respond(
+      body_velocity, dt, sums(), mass_, nodal_vectors(new_velocity_));
   }
 
   NodalReactions

@@ -63,6 +63,13 @@ namespace CaissonMPM
                         settings_.local_damping(),
                         body_velocity,
                         contact);
+    velocity_of_body = body_velocity;
+    show_corners(contact);
+  }
+
+  void
+  NodalMotion::show_corners(const Contact &contact)
+  {
     step.corners   = contact.corners().views().data();
     step.n_corners = contact.corners().views().size();
   }
@@ -86,6 +93,20 @@ namespace CaissonMPM
   {
     momentum.correct({*kernels, step, soil.points, soil.grid, time}, forces);
     accelerate(body_velocity, contact);
+  }
+
+  Contact::Response
+  NodalMotion::respond(Contact &contact) const
+  {
+    return momentum.respond(size.seconds, velocity_of_body, contact);
+  }
+
+  void
+  NodalMotion::replace_body_velocity(const Vector2 &body_velocity,
+                                     Contact       &contact)
+  {
+    momentum.accelerate_corners(size.seconds, body_velocity, contact);
+    show_corners(contact);
   }
 
   void

@@ -315,7 +315,8 @@ namespace CaissonMPM
     NodalWork work;
     timed("choose step", [&]() { choose_step(); });
     timed("ground water", [&]() { water.update(clock.step_size); });
-    timed("move body", [&]() { move_body(); });
+    if (!body.motion().needs_response())
+      timed("move body", [&]() { move_body(); });
     const StepSize size = {clock.step_size,
                            time_step.courant_number(clock.step_size)};
     timed("points to grid", [&]() {
@@ -326,6 +327,8 @@ namespace CaissonMPM
     timed("nodal motion", [&]() {
       nodal_motion.accelerate(size, body.mean_velocity(), contact);
     });
+    if (body.motion().needs_response())
+      timed("move body", [&]() { move_body_with_soil(); });
     boundary_conditions.prepare(grid, clock.time, clock.step_size);
     if (water.is_coupled())
       timed("pore pressure", [&]() { find_pore_pressure(); });
@@ -376,6 +379,16 @@ namespace CaissonMPM
   {
     body.motion().set_load(body.submerged_weight() + water.load_on_body());
     body.motion().advance(clock.step_size, force_on_body);
+  }
+
+  void
+  Simulation::move_body_with_soil()
+  {
+    auto sums = nodal_motion.respond(contact).along(body.shape().direction());
+    Utilities::MPI::sum(sums, grid.communicator(), sums);
+    body.motion().set_response({sums[0] / clock.step_size, sums[1]});
+    move_body();
+    nodal_motion.replace_body_velocity(body.mean_velocity(), contact);
   }
 
   void

@@ -67,6 +67,36 @@ namespace CaissonMPM
       return 0.;
     }
 
+    /** Set the mass of the body. Units: kg. */
+    void
+    set_mass(const double mass)
+    {
+      mass_ = mass;
+    }
+
+    /** What the soil does to the body in a step, as far as that depends on the
+     * velocity of the body in this step alone. */
+    struct Response
+    {
+      double force = 0.; // if the body kept its velocity, as in advance(); N
+      double mass  = 0.; // of the soil that it would accelerate; kg
+    };
+
+    /** Whether advance() needs the response of the soil, which is known late in
+     * a step. */
+    virtual bool
+    needs_response() const
+    {
+      return false;
+    }
+
+    /** Set the response of the soil in the coming step, where it is needed. */
+    void
+    set_response(const Response &response)
+    {
+      response_ = response;
+    }
+
     /** Whether loads move the body, so that it can come to rest. */
     virtual bool
     follows_loads() const
@@ -165,11 +195,22 @@ namespace CaissonMPM
     {
       return load_;
     }
+    double
+    mass() const
+    {
+      return mass_;
+    }
+    const Response &
+    response() const
+    {
+      return response_;
+    }
 
-    double time_ = 0., travel_ = 0., velocity_ = 0.;
+    double time_ = 0., travel_ = 0., velocity_ = 0., mean_velocity_ = 0.;
 
   private:
-    double mean_velocity_ = 0., load_ = 0.;
+    double   load_ = 0., mass_ = 0.;
+    Response response_;
   };
 } // namespace CaissonMPM
 

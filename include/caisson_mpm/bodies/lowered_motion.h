@@ -5,6 +5,7 @@
 #define caisson_mpm_bodies_lowered_motion_h
 
 #include <caisson_mpm/bodies/body_motion.h>
+#include <caisson_mpm/bodies/rest.h>
 
 namespace CaissonMPM
 {
@@ -57,7 +58,10 @@ namespace CaissonMPM
     }
 
     std::optional<double>
-    travel_at_rest() const override;
+    travel_at_rest() const override
+    {
+      return rest.travel();
+    }
 
     void
     register_totals(RunTotals &totals) override;
@@ -67,15 +71,10 @@ namespace CaissonMPM
     move(const double dt, const double force) override;
 
   private:
-    void
-    look_for_rest(const double dt);
-
     double largest_velocity = 0.1, delay = 0.02;
 
-    double resistance    = 0.; // over the last moments, N
-    double mean_speed    = 0.; // over a longer time, m/s
-    bool   rests         = false;
-    double rested_travel = 0.; // when it rested first, m
+    RecentMean resistance; // of the soil, N
+    Rest       rest;
   };
 } // namespace CaissonMPM
 

@@ -74,7 +74,8 @@ namespace CaissonMPM
     }
 
     /** Find submerged_weight(), from the mass of the body's cells where the
-     * entry is auto. On the whole circumference. Units: kg. */
+     * entry is auto, and tell the motion this mass. On the whole circumference.
+     * Units: kg. */
     void
     find_weight(const double mass, const Soil &soil);
 

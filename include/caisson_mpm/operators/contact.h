@@ -65,6 +65,35 @@ namespace CaissonMPM
           const std::vector<double> &mass,
           Kernels::NodalVector      *v);
 
+    /** The impulse on the body and the mass that it moves, for a body that
+     * keeps its velocity; for the whole circumference. Units: N s, kg. */
+    struct Response
+    {
+      Vector2 impulse, mass;
+
+      /** Return both along a direction. */
+      std::vector<double>
+      along(const Vector2 &direction) const
+      {
+        double moved = 0.;
+        for (unsigned int d = 0; d < 2; ++d)
+          moved += mass[d] * direction[d] * direction[d];
+        return {impulse * direction, moved};
+      }
+    };
+
+    /** Return what apply() would do to a body that has the velocity
+     * @p body_velocity, and the mass of the soil that would move with it in r
+     * and z, at nodes that stick to it or are pressed by it. @p sums and the
+     * new velocities @p v [n_nodes] are those before apply(); the corners have
+     * been accelerated. */
+    Response
+    respond(const Vector2              &body_velocity,
+            const double                dt,
+            const Kernels::NodalSums   *sums,
+            const std::vector<double>  &mass,
+            const Kernels::NodalVector *v);
+
     /** The corners of the body at which each face has a velocity of its own. */
     ContactCorners &
     corners()

@@ -29,6 +29,7 @@
 #include <caisson_mpm/operators/contact_face.h>
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace CaissonMPM
@@ -81,6 +82,15 @@ namespace CaissonMPM
     apply(const double              dt,
           const Kernels::NodalSums *sums,
           Kernels::NodalVector     *u);
+
+    /** Return the impulse on the body that apply() would find, and the mass
+     * that would move with the body in r and z: that of cells at closed faces,
+     * but along them only if the corner sticks; of owned nodes. Units: N s and
+     * kg, per radian. */
+    std::pair<Vector2, Vector2>
+    respond(const double                dt,
+            const Kernels::NodalSums   *sums,
+            const Kernels::NodalVector *u) const;
 
     /** Hold a velocity field to what sticks to a body of this velocity. */
     void
@@ -222,7 +232,15 @@ namespace CaissonMPM
           const double                 dt,
           const Vector2               &inertia,
           const std::array<double, 2> &pressed,
-          const Vector2               &x);
+          const Vector2               &x) const;
+
+    /** Let friction act on the velocity @p x of a corner, and find its
+     * reaction. */
+    void
+    apply_to_corner(Corner                   &corner,
+                    const double              dt,
+                    const Kernels::NodalSums &node,
+                    Kernels::NodalVector     &u) const;
 
     void
     update_views();

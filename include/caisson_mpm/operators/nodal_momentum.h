@@ -56,6 +56,20 @@ namespace CaissonMPM
                const Vector2 &body_velocity,
                Contact       &contact);
 
+    /** Replace both velocities at the corners of the body by those of a body
+     * that has the given velocity. */
+    void
+    accelerate_corners(const double   dt,
+                       const Vector2 &body_velocity,
+                       Contact       &contact);
+
+    /** Return what the soil would do to a body that has the velocity with which
+     * its corners were accelerated. */
+    Contact::Response
+    respond(const double   dt,
+            const Vector2 &body_velocity,
+            Contact       &contact) const;
+
     /** Hold the velocities @p v at the end of the step to contact and boundary
      * conditions. */
     NodalReactions

@@ -59,6 +59,14 @@ namespace CaissonMPM
             const double      time,
             const Vector2    &body_velocity,
             Contact          &contact);
+    /** Return how the soil responds to a body that keeps the velocity which
+     * accelerate() was given. */
+    Contact::Response
+    respond(Contact &contact) const;
+
+    /** Replace the velocity of the body that accelerate() was given. */
+    void
+    replace_body_velocity(const Vector2 &body_velocity, Contact &contact);
 
     /** Hold v+ to contact and boundary conditions; see reactions(). */
     void
@@ -139,6 +147,9 @@ namespace CaissonMPM
 
     void
     accelerate(const Vector2 &body_velocity, Contact &contact);
+    /** Tell the kernels how cells see the corners of the body. */
+    void
+    show_corners(const Contact &contact);
 
     MethodSettings                    settings_;
     NodalMomentum                     momentum;
@@ -149,6 +160,7 @@ namespace CaissonMPM
     const Kernels::KernelTable       *kernels = nullptr; // of this step
     Kernels::StepContext              step    = {};
     StepSize                          size    = {};
+    Vector2                           velocity_of_body; // in accelerate()
     NodalReactions                    reactions_;
     NodalData                         predicted;
     Stage                             stage = Stage::points_updated;

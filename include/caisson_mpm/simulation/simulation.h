@@ -119,6 +119,9 @@ namespace CaissonMPM
     move_body();
     NodalConstraints
     constraints_of_nodes();
+    /** Move a body whose velocity depends on the soil in this step. */
+    void
+    move_body_with_soil();
     /** Find the pressure of coupled pore water, and the velocities with it. */
     void
     find_pore_pressure();
