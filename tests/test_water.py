@@ -20,6 +20,9 @@ AT_REST: Entries = {
 }
 
 
+PUMPED: Entries = {"Water/Level": "seepage", "Water/Suction control": "flow"}
+
+
 class Suction(ProgramTest):
     """A caisson that moves as prescribed; the suction is a result."""
 
@@ -193,6 +196,33 @@ class Lowered(ProgramTest):
         self.assertGreater(begin["time_s"], 0.5)
         self.assertGreater(rows[-1]["penetration_m"], begin["penetration_m"] + 0.02)
 
+    def test_pump_takes_its_flow(self) -> None:
+        """The pump takes 0.5 m3/s: what the lid, the plug and the seepage leave."""
+        path = self.directory()
+        entries: Entries = {
+            **PUMPED,
+            "Water/Pumped flow table": "0:0, 1:0.5",
+            "Time/End penetration": 0.75,
+            "Time/End time": 12,
+            "Output/Record interval": 1,
+        }
+        self.run_scene("lowered", path, entries=entries)
+        rows = history(path)[-5:]
+        pumped = rows[-1]["pumped_volume_m3"] - rows[0]["pumped_volume_m3"]
+        flow = pumped / (rows[-1]["time_s"] - rows[0]["time_s"])
+        self.assertAlmostEqual(flow / 0.5, 1, delta=0.1)
+        self.assertGreater(rows[-1]["suction_Pa"], rows[0]["suction_Pa"])
+
+    def test_pump_that_is_too_weak(self) -> None:
+        entries: Entries = {
+            **PUMPED,
+            "Water/Pumped flow table": "0:0.5",
+            "Water/Largest suction": 2e3,
+            "Time/End time": 20,
+        }
+        text = self.run_scene("lowered", self.directory(), entries=entries)
+        self.assert_words(["ended at a penetration", "Largest suction"], text)
+
     def test_no_rest_is_told(self) -> None:
         entries = {"Time/End time": 0.4}
         text = self.run_scene("lowered", self.directory(), entries=entries)
@@ -287,6 +317,14 @@ class BadInput(ProgramTest):
                 ["does not follow"],
             ),
             ({"Rigid body/Motion": "lowered"}, ["Suction control", "table"]),
+            ({"Water/Suction control": "flow"}, ["Pumped flow table", "no flow"]),
+            (
+                {
+                    "Water/Suction control": "flow",
+                    "Water/Pumped flow table": "0:0.5",
+                },
+                ["prescribed", "velocity of the body"],
+            ),
             ({"Grid/Geometry": "plane strain"}, ["Geometry", "axisymmetric"]),
             (
                 {

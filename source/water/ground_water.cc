@@ -27,6 +27,9 @@ namespace CaissonMPM
 
     // Permeability and density of coupled soil are found this many steps apart.
     constexpr unsigned int steps_between_properties = 20;
+
+    // The heave is known when the flow is found; the pump sees it smoothed.
+    constexpr double time_of_heave = 1.; // s
   } // namespace
 
   GroundWater::GroundWater(BackgroundGrid       &grid,
@@ -115,6 +118,12 @@ namespace CaissonMPM
         ": the suction moves the body, and must be given. Set Water/Suction "
         "control = table, or Rigid body/Motion = prescribed, for which the "
         "suction is a result.");
+    if (suction.moves_body() && !body.motion().follows_loads())
+      throw BadInput(
+        "Water/Suction control is flow, but Rigid body/Motion is " +
+        body.motion().name() +
+        ": the velocity of the body sets the flow. Set Motion = "
+        "lowered, or Suction control = required.");
     if (!grid.axisymmetric())
       throw BadInput(
         "Water/Level is not drained, but Grid/Geometry is plane strain: the "
@@ -150,6 +159,8 @@ namespace CaissonMPM
                         "Water/Suction control",
                         "Water/Suction table",
                         "Water/Suction delay",
+                        "Water/Pumped flow table",
+                        "Water/Pump delay",
                         "Water/Largest suction",
                         "Water/Water depth"},
                        why);
@@ -495,12 +506,13 @@ namespace CaissonMPM
   SuctionLoad
   GroundWater::load_of_suction(const double force_on_body) const
   {
+    const double weight = body.submerged_weight(), area = lid_area(),
+                 volume = seepage_volume + area * (body.motion().travel() +
+                                                   recent_heave.value());
     // In seepage, the pressure at the tip grows with the suction.
     if (is_coupled())
-      return {-force_on_body + tip_force(),
-              body.submerged_weight(),
-              lid_area()};
-    return {-force_on_body, body.submerged_weight(), lid_area() + tip_integral};
+      return {-force_on_body + tip_force(), weight, area, volume};
+    return {-force_on_body, weight, area + tip_integral, volume};
   }
 
   void
@@ -520,6 +532,7 @@ namespace CaissonMPM
       time_of_suction += body.motion().travel_at_rest() ? dt : 0.;
     else
       time_of_suction = time + dt;
+    recent_heave.add(dt, time_of_heave, heave(mudline));
     suction.advance(time_of_suction, dt, load_of_suction(force_on_body));
   }
 
@@ -767,6 +780,7 @@ namespace CaissonMPM
   {
     suction.register_totals(totals);
     totals.keep("time_of_suction", time_of_suction);
+    recent_heave.register_totals(totals, "recent_heave");
     totals.keep("seepage_volume", seepage_volume);
     totals.keep("plug_height_at_start", plug_height);
     totals.keep("water_has_started", has_started);

@@ -25,9 +25,13 @@ namespace CaissonMPM
     add_choice(*this,
                "Suction control",
                control,
-               {{"required", Control::required}, {"table", Control::table}},
+               {{"required", Control::required},
+                {"table", Control::table},
+                {"flow", Control::flow}},
                "The suction is the one that the body requires to move as "
-               "prescribed (required), or that of Suction table. Units: none.");
+               "prescribed (required), that of Suction table (table), or the "
+               "one at which the pump takes the flow of Pumped flow table "
+               "(flow). Units: none.");
     add_parameter("Suction table",
                   table_text,
                   "Pairs time : suction, separated by commas; linear in "
@@ -37,6 +41,21 @@ namespace CaissonMPM
                   Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"),
                                  0,
                                  10000));
+    add_parameter("Pumped flow table",
+                  flow_text,
+                  "Pairs time : flow of the water that the pump takes from "
+                  "beneath the lid, separated by commas; linear in between "
+                  "and constant beyond. The time of a body that weight and "
+                  "suction move begins when it rests. Units: s : m3/s.",
+                  prm,
+                  Patterns::List(
+                    Patterns::List(Patterns::Double(0.), 2, 2, ":"), 0, 10000));
+    add_parameter("Pump delay",
+                  pump_delay,
+                  "The suction changes by a tenth of weight and suction in "
+                  "this time where no water follows the pump. Units: s.",
+                  prm,
+                  Patterns::Double(1e-3));
     add_parameter("Suction delay",
                   delay,
                   "The suction follows the required one with this time "
@@ -58,13 +77,14 @@ namespace CaissonMPM
                   "m.",
                   prm,
                   Patterns::Double(0.));
-    parse_parameters_call_back.connect([this]() { fill_table(); });
+    parse_parameters_call_back.connect([this]() { fill_tables(); });
   }
 
   void
-  Suction::fill_table()
+  Suction::fill_tables()
   {
-    table = parse_time_table(table_text);
+    table      = parse_time_table(table_text);
+    flow_table = parse_time_table(flow_text);
   }
 
   void
@@ -74,18 +94,30 @@ namespace CaissonMPM
       throw BadInput("Water/Suction control is table, but Water/Suction table "
                      "is empty. List pairs time : suction.");
     check_time_table(table, "Water/Suction table");
+    check_time_table(flow_table, "Water/Pumped flow table");
+    double largest_flow = 0.;
+    for (const auto &entry : flow_table)
+      largest_flow = std::max(largest_flow, entry.second);
+    if (control == Control::flow && largest_flow <= 0.)
+      throw BadInput("Water/Suction control is flow, but Water/Pumped flow "
+                     "table has no flow. List pairs time : flow, in m3/s.");
   }
 
   void
   Suction::name_unused_entries(ParameterOrigins &origins) const
   {
-    if (control == Control::required)
-      origins.add_unused({"Water/Suction table"},
-                         "Water/Suction control is required: the suction is a "
-                         "result");
-    else
-      origins.add_unused({"Water/Suction delay"},
-                         "Water/Suction control is table");
+    const std::vector<std::pair<Control, std::vector<std::string>>> entries = {
+      {Control::required, {"Water/Suction delay"}},
+      {Control::table, {"Water/Suction table"}},
+      {Control::flow, {"Water/Pumped flow table", "Water/Pump delay"}}};
+    const std::string why[] = {"required: the suction is a result",
+                               "table",
+                               "flow"};
+    for (const auto &[other, names] : entries)
+      if (other != control)
+        origins.add_unused(names,
+                           "Water/Suction control is " +
+                             why[static_cast<int>(control)]);
   }
 
   void
@@ -98,7 +130,27 @@ namespace CaissonMPM
         suction = std::max(suction, 0.);
         return;
       }
-    suction = value_at(table, time);
+    if (control == Control::flow)
+      pump(time, dt, load);
+    else
+      suction = value_at(table, time);
+    last_volume = load.volume;
+  }
+
+  void
+  Suction::pump(const double time, const double dt, const SuctionLoad &load)
+  {
+    if (time <= 0.) // the vents are open
+      return;
+    double most = 0.;
+    for (const auto &entry : flow_table)
+      most = std::max(most, entry.second);
+    const double missing =
+      dt * value_at(flow_table, time) - (load.volume - last_volume);
+    constexpr double share = .1; // at which a body that is lowered is fastest
+    suction += share * (load.weight / load.area + suction) * missing /
+               (most * pump_delay);
+    suction = std::max(suction, 0.);
   }
 
   double
@@ -130,5 +182,6 @@ namespace CaissonMPM
   {
     totals.keep("suction", suction);
     totals.keep("required_suction", required_);
+    totals.keep("volume_of_last_step", last_volume);
   }
 } // namespace CaissonMPM

@@ -7,6 +7,7 @@
 
 #include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/base/named_numbers.h>
+#include <caisson_mpm/bodies/rest.h>
 #include <caisson_mpm/bodies/rigid_body.h>
 #include <caisson_mpm/materials/soil.h>
 #include <caisson_mpm/water/pressure_projection.h>
@@ -294,6 +295,7 @@ namespace CaissonMPM
     double time_of_suction      = 0.; // of its table, s
     double seepage_volume       = 0.; // through the plug, m3
     double plug_height          = 0.; // at the start, m
+    RecentMean recent_heave; // of the plug, m
     bool   has_started          = false;
     bool   has_warned_of_piping = false, has_warned_of_lift = false;
   };

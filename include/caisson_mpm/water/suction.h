@@ -24,6 +24,7 @@ namespace CaissonMPM
     double weight     = 0.; // submerged; N
     double area       = 0.; // of the lid, plus that of the tip times the share
                             // of the suction that has reached it; m2
+    double volume = 0.;     // of water that has left the caisson so far; m3
   };
 
   /**
@@ -32,7 +33,14 @@ namespace CaissonMPM
    * (R - W)/A, but never negative. The required suction is followed with a
    * delay, because suction weakens the soil: at depth, 1 kPa takes several
    * times as much resistance as it loads the lid, and following at once would
-   * swing. Not collective; the same on all ranks.
+   * swing.
+   *
+   * Or the pump takes a given flow Q, and the body must be free to follow: the
+   * suction grows while less water leaves the caisson than the pump takes, as
+   * if the water gave way a little. With the load F = W + s A and the largest
+   * flow Q_m of the table,
+   *   ds/dt = F / (10 A) (Q - dV/dt) / (Q_m T).
+   * Not collective; the same on all ranks.
    */
   class Suction : public dealii::ParameterAcceptor
   {
@@ -52,6 +60,13 @@ namespace CaissonMPM
     is_result() const
     {
       return control == Control::required;
+    }
+
+    /** Whether the body must follow its loads. */
+    bool
+    moves_body() const
+    {
+      return control == Control::flow;
     }
 
     /** Continue by a step of length @p dt to @p time, that of the table. Units:
@@ -90,20 +105,26 @@ namespace CaissonMPM
     enum class Control
     {
       required,
-      table
+      table,
+      flow
     };
 
     void
-    fill_table();
+    fill_tables();
+    /** Let the pump take its flow for a step. */
+    void
+    pump(const double time, const double dt, const SuctionLoad &load);
 
     Control                                control = Control::required;
-    std::string                            table_text;
-    double                                 delay = 0.02;
+    std::string                            table_text, flow_text;
+    double                                 delay = 0.02, pump_delay = 0.1;
     std::optional<double>                  largest;
     double                                 water_depth = 30.;
-    std::vector<std::pair<double, double>> table; // s, Pa
+    std::vector<std::pair<double, double>> table;      // s, Pa
+    std::vector<std::pair<double, double>> flow_table; // s, m3/s
 
     double suction = 0., required_ = 0.;
+    double last_volume = 0.; // m3
   };
 } // namespace CaissonMPM
 
