@@ -10,6 +10,10 @@ STUDY = "caisson.study_command"
 COMMANDS = {
     "run": ("caisson.launch", "run a scene and draw its pictures"),
     "plot": ("caisson.plot", "draw the pictures of runs"),
+    "compare": (
+        "caisson.plot.comparison",
+        "draw the forces of several runs in one picture",
+    ),
     "curve": ("caisson.curve", "print forces and other numbers of runs"),
     "study": (STUDY, "run any study and evaluate it"),
     "verify": (STUDY, "run the verification ladder"),
