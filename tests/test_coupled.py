@@ -12,7 +12,6 @@ from program import (
     Entries,
     ProgramTest,
     history,
-    scene,
     user_scene,
 )
 

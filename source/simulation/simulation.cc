@@ -90,223 +90,6 @@ namespace CaissonMPM
     recorder.register_totals(totals);
   }
 
-  // ------------------------------------------------------------ set-up
-
-  void
-  Simulation::check_parameters()
-  {
-    soil.check_parameters();
-    body.check_parameters();
-    lines.check_parameters();
-    generator.check_parameters();
-    boundary_conditions.check_parameters(lines);
-    water.check_parameters();
-    nodal_forces.check_parameters();
-    nodal_motion.settings().check_parameters();
-    if (water.is_coupled() && !nodal_motion.settings().uses_mean_volume())
-      throw BadInput("Water/Level is coupled, but Method/Mean volume change is "
-                     "false: the points of a cell are strained with the volume "
-                     "change that the pressure sees. Set it to true.");
-    recorder.check_parameters();
-    schedule.check_parameters();
-    if (Kernels::select_kernels(instruction_set.c_str()) == nullptr)
-      throw BadInput("Method/Instruction set = " + instruction_set +
-                     ": this CPU does not have it. Set auto.");
-    const auto travel = schedule.travel_to_hold();
-    lines.place(body.shape(), soil, travel.second, -travel.first);
-    kernels = Kernels::select_kernels(instruction_set.c_str());
-  }
-
-  void
-  Simulation::make_mesh()
-  {
-    body.motion().register_totals(totals);
-    body.motion().start();
-    grid.create_mesh();
-    set_up_part();
-    nodal_forces.initialize(soil.mass_scaling());
-    materials   = soil.kernel_materials();
-    double mass = 0.;
-    for (const BodyPoint &p : body_points)
-      mass += p.mass;
-    body.find_weight(Utilities::MPI::sum(mass, grid.communicator()), soil);
-  }
-
-  void
-  Simulation::validate()
-  {
-    check_parameters();
-    make_mesh();
-    start();
-    time_step.initialize(grid, points, soil, materials);
-  }
-
-  RunCost
-  Simulation::estimate_cost()
-  {
-    constexpr double       enough_seconds = .3;
-    constexpr unsigned int enough_steps   = 20;
-    RunCost                cost;
-    cost.grid      = lines.description();
-    cost.n_points  = Utilities::MPI::sum<unsigned long>(points.n_points(),
-                                                       grid.communicator());
-    cost.n_frames  = schedule.n_frames();
-    cost.step_size = time_step.step_size();
-    cost.limit     = time_step.reason();
-    cost.end_time  = schedule.end_time();
-
-    unsigned int  n = 0;
-    dealii::Timer timer(grid.communicator(), true);
-    const auto    seconds = [&]() {
-      return Utilities::MPI::max(timer.wall_time(), grid.communicator());
-    };
-    try
-      {
-        while (n < enough_steps && !schedule.is_finished() &&
-               seconds() < enough_seconds)
-          {
-            advance();
-            ++n;
-          }
-      }
-    catch (const RunFailure &)
-      {
-        n = 0; // run() will say why
-      }
-    if (n > 0)
-      cost.seconds_per_step = seconds() / n;
-    cost.peak_bytes =
-      Utilities::MPI::sum(peak_memory_bytes(), grid.communicator());
-    return cost;
-  }
-
-  void
-  Simulation::name_unused_entries(ParameterOrigins &origins) const
-  {
-    body.name_unused_entries(origins);
-    lines.name_unused_entries(origins);
-    soil.name_unused_entries(origins);
-    generator.name_unused_entries(origins);
-    boundary_conditions.name_unused_entries(origins);
-    water.name_unused_entries(origins);
-    nodal_motion.settings().name_unused_entries(origins);
-    schedule.name_unused_entries(origins);
-  }
-
-  void
-  Simulation::set_up(const std::string &scene_file,
-                     const std::string &output_directory,
-                     const bool         restart)
-  {
-    check_parameters();
-    recorder.open(scene_file,
-                  output_directory,
-                  fingerprint_of(changed_physics(prm)),
-                  *kernels);
-    stop_request.arm(recorder.output_directory());
-
-    make_mesh();
-    if (restart)
-      resume();
-    else
-      start();
-    // refuses a fixed step that is too large, before any file is written
-    time_step.initialize(grid, points, soil, materials);
-    clock.step_size = schedule.shorten(time_step.step_size());
-    if (restart)
-      recorder.resume();
-    else
-      recorder.start();
-  }
-
-  void
-  Simulation::set_up_part()
-  {
-    body_points = generate_body_points(grid, body);
-    contact.initialize(grid, body.surface());
-    water.initialize();
-    boundary_conditions.initialize(grid);
-    nodal_motion.initialize(grid);
-    grid.move_to(body.motion().travel());
-  }
-
-  double
-  Simulation::imbalance(const std::vector<unsigned int> &costs) const
-  {
-    double own = 0.;
-    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
-      if (grid.is_owned(cell))
-        own += costs[index_of(grid.global_number(cell))];
-    const auto work = Utilities::MPI::min_max_avg(own, grid.communicator());
-    return work.max / work.avg;
-  }
-
-  void
-  Simulation::balance()
-  {
-    const auto costs = points.cell_costs();
-    // A part is made of whole cells: it may be impossible to do better than
-    // after the last cut.
-    lost_steps +=
-      steps_between_balances * std::max(0., imbalance(costs) - least_imbalance);
-    if (lost_steps > steps_of_a_cut)
-      cut_into_parts(costs);
-  }
-
-  void
-  Simulation::cut_into_parts(const std::vector<unsigned int> &costs)
-  {
-    std::vector<unsigned int> of_all_cells(costs.size());
-    Utilities::MPI::sum(costs, grid.communicator(), of_all_cells);
-    const auto traveling = points.take_all();
-    water.keep_field();
-    grid.repartition(costs);
-    set_up_part();
-    points.redistribute(traveling);
-    ++recorder.n_repartitions;
-    // the points forget what moved and yielded: not by their costs now
-    least_imbalance = imbalance(of_all_cells);
-    lost_steps      = 0.;
-  }
-
-  void
-  Simulation::start()
-  {
-    generator.generate(grid, body.shape(), soil, points);
-    if (grid.n_ranks() > 1)
-      cut_into_parts(points.cell_costs());
-    energy.start(find_point_energies(points, materials, grid));
-    schedule.start();
-  }
-
-  void
-  Simulation::resume()
-  {
-    const NamedNumbers state =
-      read_checkpoint(recorder.output_directory(), grid, points, physics(prm));
-    const std::string missing = totals.resume(state, grid.is_first_rank());
-    if (!missing.empty())
-      throw BadInput("the checkpoint in " + recorder.output_directory() +
-                     " lacks the entry " + missing +
-                     ". Start the run anew in another directory.");
-    grid.move_to(body.motion().travel());
-    water.resume_field(state);
-    if (grid.n_ranks() > 1)
-      cut_into_parts(points.cell_costs());
-    schedule.resume();
-  }
-
-  std::vector<std::string>
-  Simulation::known_limits() const
-  {
-    std::vector<std::string> result;
-    for (const auto &limits : {soil.known_limits(),
-                               nodal_motion.settings().known_limits(),
-                               water.known_limits(materials)})
-      result.insert(result.end(), limits.begin(), limits.end());
-    return result;
-  }
-
   // ------------------------------------------------------------ one step
 
   void
@@ -493,6 +276,18 @@ namespace CaissonMPM
   }
 
   // ------------------------------------------------------------ the run
+
+  void
+  Simulation::balance()
+  {
+    const auto costs = points.cell_costs();
+    // A part is made of whole cells: it may be impossible to do better than
+    // after the last cut.
+    lost_steps +=
+      steps_between_balances * std::max(0., imbalance(costs) - least_imbalance);
+    if (lost_steps > steps_of_a_cut)
+      cut_into_parts(costs);
+  }
 
   void
   Simulation::output()

@@ -145,8 +145,9 @@ namespace CaissonMPM
     {
       for (const unsigned int cell : active_cells)
         for_each_lane(cell, [&](const int b, const int lane) {
-          histories[b].pore_pressure[lane] = pressure(
-            cell, dealii::Point<2>(blocks[b].r[lane], blocks[b].z[lane]));
+          histories[b].pore_pressure[lane] =
+            pressure(cell,
+                     dealii::Point<2>(blocks[b].r[lane], blocks[b].z[lane]));
         });
     }
 

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the pore water says of itself: columns, warnings, reasons.
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/water/ground_water.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Above this, inertia changes the pressure of a transient by more than half
+    // a per cent.
+    constexpr double largest_inertia = .02;
+  } // namespace
+
+  std::vector<std::string>
+  GroundWater::column_names() const
+  {
+    std::vector<std::string> names;
+    for (const auto &value : values(mudline))
+      names.push_back(value.first);
+    return names;
+  }
+
+  double
+  GroundWater::heave(const Mudline &mudline) const
+  {
+    return is_solved ? mudline.mean_height(Mudline::Side::plug) - plug_height :
+                       0.;
+  }
+
+  double
+  GroundWater::heave_by_wall() const
+  {
+    const double outer = body.shape().right(), area = pi * outer * outer;
+    return body.motion().travel() * (area - lid_area()) / lid_area();
+  }
+
+  NamedNumbers
+  GroundWater::values(const Mudline &mudline) const
+  {
+    if (!acts())
+      return {};
+    const double scale = flow_scale();
+    NamedNumbers result;
+    if (is_coupled())
+      result = {{"pore_pressure_smallest_Pa", extremes().first},
+                {"pore_pressure_largest_Pa", extremes().second},
+                {"water_balance",
+                 through_surfaces > 0. ? unbalanced / through_surfaces : 0.}};
+    if (!has_lid())
+      {
+        result.insert(result.end(),
+                      {{"tip_water_force_N", tip_force()},
+                       {"total_force_with_water_N",
+                        -last_force_on_body + tip_force()},
+                       {"surface_outflow_m3_s", -scale * flow_in},
+                       {"flow_iterations", 1. * solver().n_iterations()}});
+        return result;
+      }
+    // only the names are wanted before the flow is known
+    const auto at_wall = [&](const Mudline::Side side) {
+      return is_solved ? mudline.height_at_wall(side) : 0.;
+    };
+    const double       s = suction.value(), rise = heave(mudline);
+    const NamedNumbers of_lid = {
+      {"suction_Pa", s},
+      {"required_suction_Pa", suction.required()},
+      {"suction_force_N", s * lid_area()},
+      {"tip_water_force_N", tip_force()},
+      {"pore_pressure_factor",
+       is_coupled() ? (s > 0. ? -tip_integral / tip_area / s : 0.) :
+                      tip_integral / tip_area},
+      {"exit_gradient_wall", scale * exit.wall},
+      {"exit_gradient_axis", scale * exit.axis},
+      {"critical_gradient", critical_gradient()},
+      {"seepage_flow_m3_s", scale * flow_out},
+      {"seepage_inflow_m3_s", scale * flow_in},
+      {"seepage_volume_m3", seepage_volume},
+      {"pumped_volume_m3",
+       seepage_volume + lid_area() * (body.motion().travel() + rise)},
+      {"plug_heave_m", rise},
+      {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
+      {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
+      {"flow_iterations", 1. * solver().n_iterations()}};
+    result.insert(result.end(), of_lid.begin(), of_lid.end());
+    return result;
+  }
+
+  std::pair<double, double>
+  GroundWater::extremes() const
+  {
+    std::pair<double, double> result = {0., 0.};
+    if (!is_solved)
+      return result;
+    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
+      {
+        const double p = projection.pressure().local_element(node);
+        result.first   = std::min(result.first, p);
+        result.second  = std::max(result.second, p);
+      }
+    return {Utilities::MPI::min(result.first, grid.communicator()),
+            Utilities::MPI::max(result.second, grid.communicator())};
+  }
+
+  NamedNumbers
+  GroundWater::columns()
+  {
+    if (!acts())
+      return {};
+    if (!is_solved && !is_coupled())
+      solve();
+    if (is_solved && has_lid())
+      exit = exit_gradient(grid, mudline, permeability, outflow());
+    Mudline now = mudline;
+    now.find(grid, points);
+    return values(now);
+  }
+
+  std::vector<std::string>
+  GroundWater::take_warnings()
+  {
+    std::vector<std::string> warnings;
+    if (!acts() || !has_lid())
+      return warnings;
+    const std::string where =
+      " at a penetration of " + to_text(body.penetration(), 5) + " m";
+    const double gradient = flow_scale() * exit.wall;
+    if (!has_warned_of_piping && gradient > critical_gradient())
+      {
+        has_warned_of_piping = true;
+        warnings.push_back(
+          "the exit gradient at the inner wall becomes critical" + where +
+          ": the flow carries the soil. Piping may begin, which the program "
+          "does not follow");
+      }
+    if (!has_warned_of_lift &&
+        heave(mudline) > heave_by_wall() + .02 * body.shape().right())
+      {
+        has_warned_of_lift = true;
+        warnings.push_back("the suction lifts the plug" + where +
+                           ": it rises by more than the wall displaces");
+      }
+    return warnings;
+  }
+
+  double
+  GroundWater::critical_gradient() const
+  {
+    return soil.unit_weight(0) / soil.unit_weight_of_water();
+  }
+
+  std::vector<GroundWater::Drainage>
+  GroundWater::drainage(const std::vector<Kernels::Material> &materials) const
+  {
+    std::vector<Drainage> result;
+    if (!is_coupled() || !body.shape().exists())
+      return result;
+    const double diameter = 2. * body.shape().right(),
+                 speed    = body.motion().usual_velocity();
+    for (unsigned int i = 0; i < soil.n_layers(); ++i)
+      {
+        const double modulus = materials[i].p_wave_modulus;
+        Drainage     d;
+        d.c_v = time_compression * soil.layer(i).permeability * modulus /
+                soil.unit_weight_of_water();
+        d.group = speed * diameter / d.c_v;
+        d.inertia =
+          d.c_v / (std::sqrt(modulus / soil.inertial_density(i)) * diameter);
+        result.push_back(d);
+      }
+    return result;
+  }
+
+  std::vector<std::pair<std::string, std::string>>
+  GroundWater::description(
+    const std::vector<Kernels::Material> &materials) const
+  {
+    std::vector<std::pair<std::string, std::string>> lines;
+    const auto of_layers = drainage(materials);
+    for (unsigned int i = 0; i < of_layers.size(); ++i)
+      lines.emplace_back(
+        "drainage of layer " + to_text(i + 1),
+        "c_v = " + to_text(of_layers[i].c_v, 3) +
+          " m2/s, v D / c_v = " + to_text(of_layers[i].group, 3) +
+          (time_compression != 1. ?
+             ", permeability times " + to_text(time_compression) +
+               " (Water/Time compression)" :
+             ""));
+    return lines;
+  }
+
+  std::vector<std::string>
+  GroundWater::known_limits(
+    const std::vector<Kernels::Material> &materials) const
+  {
+    std::vector<std::string> limits;
+    const auto               of_layers = drainage(materials);
+    for (unsigned int i = 0; i < of_layers.size(); ++i)
+      if (of_layers[i].inertia > largest_inertia)
+        limits.push_back(
+          "inertia delays the drainage of layer " + to_text(i + 1) +
+          ": c_v over wave speed and diameter is " +
+          to_text(of_layers[i].inertia, 2) + ", more than " +
+          to_text(largest_inertia) +
+          ". Reduce Time/Mass scaling if pressures that change fast matter");
+    return limits;
+  }
+
+  NamedNumbers
+  GroundWater::limits() const
+  {
+    return {{"submerged_weight_N", body.submerged_weight()},
+            {"cavitation_suction_Pa",
+             suction.cavitation(soil.unit_weight_of_water())}};
+  }
+
+  std::string
+  GroundWater::reason_to_end() const
+  {
+    if (!acts() || !has_lid())
+      return "";
+    const double travel = body.motion().travel();
+    if (body.penetration() <= 0.)
+      return "the caisson has left the soil, and water flows in below its skirt";
+    if (is_solved && mudline.mean_height(Mudline::Side::plug) >=
+                       body.shape().lower_face_of_lid() - travel)
+      return "the plug has reached the lid, or the top of the skirt where the "
+             "mesh has no lid (refusal)";
+    return suction.limit_reached(soil.unit_weight_of_water());
+  }
+} // namespace CaissonMPM
