@@ -12,9 +12,10 @@ def draw(directory: Path) -> list[Path]:
 
     forces.png, with suction also suction.png and design.csv, and where there are
     frames stress.png, displacement.png and, where the soil changes its volume,
-    void_ratio.png. Raises ResultsError.
+    void_ratio.png, and with excess pore pressure pore_pressure.png. Raises
+    ResultsError.
     """
-    from caisson.plot import fields, forces, suction
+    from caisson.plot import fields, forces, pore_pressure, suction
 
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
@@ -22,7 +23,11 @@ def draw(directory: Path) -> list[Path]:
     pictures = [forces.draw(directory / "forces.png", run, run.title)]
     pictures += suction.draw(directory, run)
     if run.has_frames:
-        pictures += fields.draw(run)
+        frames = fields.frames_of(run)
+        if frames:
+            window = fields.window_of(frames[0], frames[-1], run.scene)
+            pictures += fields.draw(run, frames, window)
+            pictures.append(pore_pressure.draw(run, frames, window))
     else:
         print(f"plot: no points.pvd in {directory}, so forces only")
     return [picture for picture in pictures if picture is not None]

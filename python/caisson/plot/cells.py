@@ -66,6 +66,7 @@ class CellMeans:
             rigid[self.cell[self.cell >= 0]], -1, self.cell[self.cell >= 0]
         )  # written in single precision
         self.known = self.cell >= 0
+        self.position = position
         self.volume = volume
         self.total = self._sum(volume, n)
         width = corners[:, 1, 0] - corners[:, 0, 0]
@@ -76,6 +77,7 @@ class CellMeans:
         length = per_point_length(self.total, width * height, radius)
         self.area = volume / np.where(self.known, length[self.cell], 1)
         self.used = np.flatnonzero(self.total > 0)
+        self.row = np.searchsorted(self.used, self.cell).clip(max=len(self.used) - 1)
         fill = self.total / (width * height * length)
         self.polygons = self._cut_surface(corners, rigid, fill)[self.used]
 
@@ -102,3 +104,22 @@ class CellMeans:
         """Return the means of a field [n_points] over the polygons, by volume."""
         sums = self._sum(self.volume * values, len(self.total))
         return sums[self.used] / self.total[self.used]
+
+    def gradients(self, values: np.ndarray) -> np.ndarray:
+        """Return the gradients [n_used, 2] of the affine fit of a field [n_points] to
+        the points of each cell; nan where too few of them, or a line, tell none."""
+        place = [self.of(x)[self.row] for x in self.position.T]
+        off_r, off_z = (x - mean for x, mean in zip(self.position.T, place))
+        rr, rz, zz, fr, fz = (
+            self.of(product)
+            for product in (
+                *(off_r * off_r, off_r * off_z, off_z * off_z),
+                *(off_r * values, off_z * values),
+            )
+        )
+        determinant = rr * zz - rz * rz
+        told = determinant > 1e-6 * rr * zz
+        determinant[~told] = np.nan
+        return np.column_stack([zz * fr - rz * fz, rr * fz - rz * fr]) / (
+            determinant[:, np.newaxis]
+        )

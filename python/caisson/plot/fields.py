@@ -47,6 +47,7 @@ class Frame:
         self.means = CellMeans(
             self.soil["position"], self.soil["whole_volume"], corners, material == 1
         )
+        self.time = time
         self.label = f"t = {time:.3g} s"
         if penetration(history) is not None:
             self.label = f"penetration {depth_at(time, history):.2f} m"
@@ -133,8 +134,14 @@ def draw_mirrored(
     axes: Axes, frame: Frame, values: np.ndarray, window: Window, style: Style
 ) -> PolyCollection:
     """Draw cell means on both sides of the axis, and the body."""
-    radius, bottom, top = window
     painted = paint_cells(axes, frame.means.polygons, values, style)
+    draw_about(axes, frame, window)
+    return painted
+
+
+def draw_about(axes: Axes, frame: Frame, window: Window) -> None:
+    """Draw what is about a field: the body, the axis and the frame of the panel."""
+    radius, bottom, top = window
     draw_body(axes, frame)
     axes.axvline(0, color="0.4", linewidth=0.5, dashes=(8, 4, 2, 4))
     axes.set_aspect("equal")
@@ -144,7 +151,6 @@ def draw_mirrored(
         axes.set_xticks([0, radius])
     axes.set_xlabel("r (m)")
     axes.set_title(frame.label, fontsize=10)
-    return painted
 
 
 def nice_above(value: float) -> float:
@@ -209,11 +215,19 @@ def shown_values(
     )
 
 
-def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
-    """Draw the vertical effective stress at each frame."""
+def stress_of(
+    frames: Sequence[Frame], window: Window
+) -> tuple[list[np.ndarray], Style]:
+    """Return the vertical effective stress of each frame in kPa, compression
+    positive, and its colors."""
     fields = [frame.means.of(-frame.soil["stress_zz"] / 1e3) for frame in frames]
     highest = np.percentile(shown_values(frames, fields, window), 99)
-    style = {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
+    return fields, {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
+
+
+def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
+    """Draw the vertical effective stress at each frame."""
+    fields, style = stress_of(frames, window)
     return draw_frames(
         path,
         frames,
@@ -324,23 +338,26 @@ def draw_displacement(
     return path
 
 
-def draw(run: Results) -> list[Path | None]:
-    """Write stress.png, displacement.png and, where volume changes,
-    void_ratio.png; return their paths, None for none."""
-    directory, scene = run.directory, run.scene
+def frames_of(run: Results) -> list[Frame]:
+    """Return the frames to draw, none where their files are gone."""
     series, grids = run.frames("points"), run.frames("grid")
     if not series or not grids:
         print(
-            f"plot: points.pvd or grid.pvd of {directory} names no file that is there,"
-            " so forces only"
+            f"plot: points.pvd or grid.pvd of {run.directory} names no file that is"
+            " there, so forces only"
         )
         return []
-    wanted = scene.get("frame_penetrations_m") or []
-    frames = [
+    wanted = run.scene.get("frame_penetrations_m") or []
+    return [
         Frame(time, files, grids, run.history)
         for time, files in chosen(series, run.history, wanted)
     ]
-    window = window_of(frames[0], frames[-1], scene)
+
+
+def draw(run: Results, frames: Sequence[Frame], window: Window) -> list[Path | None]:
+    """Write stress.png, displacement.png and, where volume changes,
+    void_ratio.png; return their paths, None for none."""
+    directory, scene = run.directory, run.scene
     return [
         draw_stress(directory / "stress.png", frames, window),
         draw_displacement(directory / "displacement.png", frames[-1], window, scene),

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Excess pore pressure with flow lines, beside the vertical effective stress."""
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+
+from caisson.plot import fields
+from caisson.plot.flow import Flow
+from caisson.results import Results, Table
+
+N_LINES = 12
+LEAST = 0.03  # of the largest pressure; flow lines of less are not drawn
+LEFT, RIGHT = (-1,), (1,)  # sides of the axis
+CAPTION = (
+    f"Between two flow lines flows 1/{N_LINES} of the water that rises at half the"
+    " depth of the tip; the permeability is taken to be the same in all directions."
+)
+LINE = {"color": "0.1", "linewidth": 0.9, "zorder": 2}
+
+
+def style_of(low: float, high: float) -> fields.Style:
+    """Return colors for pressures from low to high: blue below that of the open
+    water, red above it, and white where both are the same."""
+    most = max(-low, high)
+    low = -fields.nice_above(-low) if -low > 0.02 * most else 0.0
+    high = fields.nice_above(high) if high > 0.02 * most or low == 0 else 0.0
+    shares = 0.5 + np.linspace(low, high, 256) / (2 * max(-low, high))
+    colors = ListedColormap(colormaps["RdBu_r"](shares))
+    return {"cmap": colors, "vmin": low, "vmax": high}
+
+
+def title_of(frame: fields.Frame, history: Table) -> str:
+    """Return where the frame is, and the suction there."""
+    if "suction_Pa" not in history:
+        return frame.label
+    suction = np.interp(frame.time, history["time_s"], history["suction_Pa"]) / 1e3
+    return f"{frame.label}, suction {suction:.1f} kPa"
+
+
+def level_of(frame: fields.Frame, window: fields.Window) -> float:
+    """Return the height at which flow lines share the water: half the embedment."""
+    surface = frame.means.polygons[..., 1].max()
+    tip = frame.body[..., 1].min() if len(frame.body) else surface
+    return min((surface + tip) / 2, surface - 0.05 * (surface - window[1]))
+
+
+def draw_arrows(axes: Axes, line: np.ndarray, window: fields.Window) -> None:
+    """Draw the direction of the flow on the part that is shown."""
+    radius, bottom, _ = window
+    shown = line[(line[:, 0] < radius) & (line[:, 1] > bottom)]
+    along = np.cumsum(np.linalg.norm(np.diff(shown, axis=0), axis=1))
+    if len(along) == 0 or along[-1] < 0.1 * radius:
+        return
+    for share in (0.2, 0.85):
+        place = int(np.searchsorted(along, share * along[-1]))
+        start, end = shown[[place, place + 1]] * [-1, 1]
+        arrow = {"arrowstyle": "-|>", "mutation_scale": 8, **LINE}
+        axes.annotate("", xy=end, xytext=start, arrowprops=arrow)
+
+
+def draw_flow(
+    axes: Axes, flow: Flow, frame: fields.Frame, window: fields.Window
+) -> None:
+    """Draw flow lines to the left of the axis."""
+    starts = flow.starts(N_LINES, level_of(frame, window), window[0])
+    for line in flow.lines(starts):
+        axes.plot(-line[:, 0], line[:, 1], **LINE)
+        draw_arrows(axes, line, window)
+
+
+def draw_mudline(axes: Axes, flow: Flow, body: np.ndarray) -> None:
+    """Draw where the soil ends, on both sides of the axis."""
+    for part in flow.mudline(body):
+        for side in (-1, 1):
+            axes.plot(side * part[:, 0], part[:, 1], color="0.3", linewidth=0.8)
+
+
+def draw_panel(
+    axes: Axes, frame: fields.Frame, window: fields.Window, halves: Sequence
+) -> list:
+    """Draw a field, with its colors, on each side of the axis."""
+    painted = [
+        fields.paint_cells(axes, frame.means.polygons, values, style, side)
+        for (values, style), side in zip(halves, (LEFT, RIGHT))
+    ]
+    flow = Flow(frame.means, frame.soil["pore_pressure"])
+    of_pressure = halves[0][1]
+    largest = np.abs(frame.soil["pore_pressure"]).max() / 1e3
+    if largest > LEAST * max(-of_pressure["vmin"], of_pressure["vmax"]):
+        draw_flow(axes, flow, frame, window)
+    else:
+        place = (-window[0] / 2, window[1] / 2)
+        axes.text(*place, "hardly any flow", ha="center", fontsize=9)
+    draw_mudline(axes, flow, frame.body)
+    fields.draw_about(axes, frame, window)
+    axes.label_outer()
+    return painted
+
+
+def draw(
+    run: Results, frames: Sequence[fields.Frame], window: fields.Window
+) -> Path | None:
+    """Write pore_pressure.png; return its path, None where there is no pressure."""
+    if any("pore_pressure" not in frame.soil for frame in frames):
+        return None
+    pressures = [frame.means.of(frame.soil["pore_pressure"] / 1e3) for frame in frames]
+    low, high = np.percentile(
+        fields.shown_values(frames, pressures, window), [0.2, 99.8]
+    )
+    if max(-low, high) < 1e-3:
+        return None
+    stresses, of_stress = fields.stress_of(frames, window)
+    of_pressure = style_of(low, high)
+    figure, axes = fields.panels(len(frames), window)
+    figure.set_figheight(figure.get_figheight() + 1.5)
+    for panel, frame, p, stress in zip(axes.flat, frames, pressures, stresses):
+        halves = [(p, of_pressure), (stress, of_stress)]
+        painted = draw_panel(panel, frame, window, halves)
+        panel.set_title(title_of(frame, run.history), fontsize=10)
+    for panel in axes[:, 0]:
+        panel.set_ylabel("z (m)")
+    bars = (
+        ("left halves: excess pore pressure (kPa)", axes[:, 0]),
+        ("right halves: vertical effective stress (kPa)", axes[:, -1]),
+    )
+    for artist, (label, above) in zip(painted, bars):
+        figure.colorbar(
+            artist, ax=above, location="bottom", aspect=35, extend="both", label=label
+        )
+    inches = figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, 0.3 / inches, 1, 1 - 0.3 / inches))
+    figure.text(0.5, 0.1 / inches, CAPTION, ha="center", fontsize=8, color="0.3")
+    path = run.directory / "pore_pressure.png"
+    figure.savefig(path, dpi=150)
+    return path

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Flow lines of fields with known ones, and pore_pressure.png."""
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+import numpy as np
+
+from caisson import plot
+from caisson.plot.cells import CellMeans
+from caisson.plot.flow import Flow
+from caisson.plot.pore_pressure import style_of
+
+TINY = Path(__file__).resolve().parent / "tiny_run"
+SIZE, RADIUS, DEPTH = 0.125, 4.0, 3.0  # m
+N, LEVEL = 8, -1.0
+
+
+def soil(points: int = 2) -> CellMeans:
+    """Return square cells with points * points points in each, from the axis to RADIUS
+    and from z = -DEPTH to 0."""
+    r, z = np.meshgrid(np.arange(0, RADIUS, SIZE), np.arange(-DEPTH, 0, SIZE))
+    lower = np.column_stack([r.ravel(), z.ravel()])
+    corners = lower[:, None] + SIZE * np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    share = (np.arange(points) + 0.5) / points
+    places = SIZE * np.stack(np.meshgrid(share, share), axis=-1).reshape(-1, 2)
+    position = (lower[:, None] + places).reshape(-1, 2)
+    volume = 2 * np.pi * position[:, 0] * (SIZE / points) ** 2
+    return CellMeans(position, volume, corners, np.zeros(len(corners), dtype=bool))
+
+
+class Gradients(unittest.TestCase):
+    """The affine fit in a cell."""
+
+    def test_affine_field_is_exact(self) -> None:
+        means = soil()
+        r, z = means.position.T
+        found = means.gradients(7 + 3 * r - 5 * z)
+        np.testing.assert_allclose(found, np.tile([3, -5], (len(found), 1)), atol=1e-8)
+
+    def test_one_point_tells_none(self) -> None:
+        means = soil(points=1)
+        self.assertTrue(np.isnan(means.gradients(means.position[:, 0])).all())
+
+
+class Lines(unittest.TestCase):
+    """Lines and the water between them."""
+
+    def test_uniform_upward_flow(self) -> None:
+        means = soil()
+        flow = Flow(means, -2.0 * means.position[:, 1])
+        np.testing.assert_allclose(
+            flow.at(np.array([[1.3, -2]]))[0], [[0, 2]], atol=1e-9
+        )
+        lines = flow.lines(flow.starts(N, LEVEL, RADIUS))
+        self.assertEqual(len(lines), N)
+        for i, line in enumerate(lines):
+            wanted = RADIUS * np.sqrt((i + 0.5) / N)  # rings of the same area
+            np.testing.assert_allclose(line[:, 0], wanted, atol=SIZE / 2)
+            np.testing.assert_allclose(line[:, 0], line[0, 0], atol=1e-6)
+            self.assertLess(line[0, 1], -DEPTH + SIZE, "comes from the bottom")
+            self.assertGreater(line[-1, 1], -SIZE, "goes to the mudline")
+
+    def test_downward_flow(self) -> None:
+        means = soil()
+        flow = Flow(means, 2.0 * means.position[:, 1])
+        line = flow.lines(flow.starts(N, LEVEL, RADIUS))[0]
+        self.assertGreater(line[0, 1], line[-1, 1])
+
+    def test_radial_flow_has_no_line_that_rises(self) -> None:
+        means = soil()
+        flow = Flow(means, -np.log(means.position[:, 0]))
+        lines = flow.lines(np.array([[1.0, LEVEL]]))
+        np.testing.assert_allclose(lines[0][:, 1], LEVEL, atol=1e-6)
+        self.assertGreater(np.ptp(lines[0][:, 0]), RADIUS - 3 * SIZE)
+        self.assertTrue((np.diff(lines[0][:, 0]) > 0).all(), "outward")
+        self.assertLess(abs(flow.at(np.array([[2.0, LEVEL]]))[0][0, 0] - 0.5), 0.005)
+
+    def test_stream_function(self) -> None:
+        """p = 2 z^2 - r^2 has the stream function -2 z r^2."""
+        means = soil()
+        r, z = means.position.T
+        flow = Flow(means, 2 * z**2 - r**2)
+        found = flow.at(np.array([[1.26, -1.01], [1.36, -1.11]]))[0]
+        wanted = [[2.52, 4.04], [2.72, 4.44]]
+        np.testing.assert_allclose(found, wanted, rtol=3e-3)
+        lines = flow.lines(flow.starts(N, LEVEL, RADIUS))
+        total = -2 * LEVEL * RADIUS**2
+        for i, line in enumerate(lines):
+            psi = -2 * line[:, 1] * line[:, 0] ** 2
+            well = (line[:, 1] < -2 * SIZE) & (line[:, 0] > 2 * SIZE)
+            np.testing.assert_allclose(psi[well], (i + 0.5) / N * total, rtol=0.07)
+            self.assertLess(np.ptp(psi[well]), 0.02 * total)
+
+    def test_no_flow_has_no_lines(self) -> None:
+        means = soil()
+        flow = Flow(means, np.zeros(len(means.position)))
+        starts = flow.starts(N, LEVEL, RADIUS)
+        self.assertEqual((len(starts), flow.lines(starts)), (0, []))
+
+    def test_skirt_parts_the_mudline(self) -> None:
+        full = soil()
+        middle = full.polygons.mean(axis=1)
+        skirt = (abs(middle[:, 0] - 2.125) < 0.125) & (middle[:, 1] > -1.5)
+        means = CellMeans(full.position, full.volume, full.polygons, skirt)
+        flow = Flow(means, -2.0 * means.position[:, 1])
+        inner, outer = flow.mudline(full.polygons[skirt])
+        self.assertTrue(1.9 < inner[:, 0].max() < 2.0)
+        self.assertTrue(2.25 < outer[:, 0].min() < 2.35)
+        np.testing.assert_allclose(inner[:, 1], 0, atol=1e-9)
+        places = np.array([[2.1, -1.0], [2.1, -2.0], [1.9, -1.0], [1.9, 0.1]])
+        outside = np.isnan(flow.at(places)[0][:, 1])
+        self.assertEqual(list(outside), [True, False, False, True])
+
+
+class Picture(unittest.TestCase):
+    """pore_pressure.png of the stored tiny run."""
+
+    def test_colors(self) -> None:
+        for low, high, expected in (
+            (-9.4, 0.0, (-10, 0)),
+            (-0.01, 12.9, (0, 15)),
+            (-3.4, 12.9, (-4, 15)),
+        ):
+            style = style_of(low, high)
+            self.assertEqual((style["vmin"], style["vmax"]), expected)
+            low, high = expected
+            white = style["cmap"](-low / (high - low))
+            self.assertGreater(min(white[:3]), 0.93, "white is 0")
+
+    def test_drawn_where_points_have_the_field(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        path = Path(shutil.copytree(TINY, Path(temporary.name) / "run"))
+        for file in path.glob("points_*.vtu"):
+            text = file.read_text(encoding="utf-8")
+            file.write_text(text.replace('"stress_rr"', '"pore_pressure"'))
+        with mock.patch("builtins.print"):
+            pictures = plot.draw(path)
+        self.assertIn("pore_pressure.png", [picture.name for picture in pictures])
+        self.assertGreater((path / "pore_pressure.png").stat().st_size, 10_000)
+
+
+if __name__ == "__main__":
+    unittest.main()
