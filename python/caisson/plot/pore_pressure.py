@@ -55,7 +55,7 @@ def draw_arrows(axes: Axes, line: np.ndarray, window: fields.Window) -> None:
     along = np.cumsum(np.linalg.norm(np.diff(shown, axis=0), axis=1))
     if len(along) == 0 or along[-1] < 0.1 * radius:
         return
-    for share in (0.2, 0.85):
+    for share in (0.4, 0.85):
         place = int(np.searchsorted(along, share * along[-1]))
         start, end = shown[[place, place + 1]] * [-1, 1]
         arrow = {"arrowstyle": "-|>", "mutation_scale": 8, **LINE}
@@ -116,7 +116,7 @@ def draw(
     stresses, of_stress = fields.stress_of(frames, window)
     of_pressure = style_of(low, high)
     figure, axes = fields.panels(len(frames), window)
-    figure.set_figheight(figure.get_figheight() + 1.5)
+    figure.set_figheight(figure.get_figheight() + 1.2)
     for panel, frame, p, stress in zip(axes.flat, frames, pressures, stresses):
         halves = [(p, of_pressure), (stress, of_stress)]
         painted = draw_panel(panel, frame, window, halves)
