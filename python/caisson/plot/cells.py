@@ -75,6 +75,7 @@ class CellMeans:
         ) / 2
         radius = (corners[:, 0, 0] + corners[:, 1, 0]) / 2
         length = per_point_length(self.total, width * height, radius)
+        self.axisymmetric = bool(np.any(length != 1))
         self.area = volume / np.where(self.known, length[self.cell], 1)
         self.used = np.flatnonzero(self.total > 0)
         self.row = np.searchsorted(self.used, self.cell).clip(max=len(self.used) - 1)

@@ -22,7 +22,7 @@ class Flow:
 
     def __init__(self, means: CellMeans, pressure: np.ndarray) -> None:
         """pressure: excess at the points."""
-        self.corners = means.polygons
+        self.corners, self.axisymmetric = means.polygons, means.axisymmetric
         flow = -means.gradients(pressure)
         corner = np.round(self.corners.reshape(-1, 2), 6)
         node = np.unique(corner, axis=0, return_inverse=True)[1].ravel()
@@ -88,13 +88,16 @@ class Flow:
         r, width = self.pieces()
         r, width = r[r < radius], width[r < radius]
         place = np.column_stack([r, np.full(len(r), level)])
-        rising = np.nan_to_num(self.at(place)[0][:, 1]) * r * width
+        rising = np.nan_to_num(self.at(place)[0][:, 1]) * width
+        rising *= r if self.axisymmetric else 1
         up, down = np.maximum(rising, 0), np.maximum(-rising, 0)
-        through = np.cumsum(up if up.sum() >= 0.9 * down.sum() else down)
-        if len(r) == 0 or through[-1] <= 0:
+        most = up if up.sum() >= 0.9 * down.sum() else down
+        if most.sum() <= 0:
             return np.empty((0, 2))
+        through = np.append(0, np.cumsum(most))
+        ends = np.append(r - width / 2, r[-1] + width[-1] / 2)
         goals = (np.arange(n) + 0.5) / n * through[-1]
-        return place[np.searchsorted(through, goals)]
+        return np.column_stack([np.interp(goals, through, ends), np.full(n, level)])
 
     def lines(self, starts: np.ndarray) -> list[np.ndarray]:
         """Return the flow line through each start [n, 2] as [points, 2], downstream."""

@@ -15,10 +15,6 @@ from caisson.results import Results, Table
 N_LINES = 12
 LEAST = 0.03  # of the largest pressure; flow lines of less are not drawn
 LEFT, RIGHT = (-1,), (1,)  # sides of the axis
-CAPTION = (
-    f"Between two flow lines flows 1/{N_LINES} of the water that rises at half the"
-    " depth of the tip; the permeability is taken to be the same in all directions."
-)
 LINE = {"color": "0.1", "linewidth": 0.9, "zorder": 2}
 
 
@@ -72,11 +68,23 @@ def draw_flow(
         draw_arrows(axes, line, window)
 
 
-def draw_mudline(axes: Axes, flow: Flow, body: np.ndarray) -> None:
-    """Draw where the soil ends, on both sides of the axis."""
-    for part in flow.mudline(body):
+def draw_mudline(
+    axes: Axes, flow: Flow, body: np.ndarray, window: fields.Window
+) -> None:
+    """Draw where the soil ends, on both sides of the axis, and white above it."""
+    for r, z in (part.T for part in flow.mudline(body)):
         for side in (-1, 1):
-            axes.plot(side * part[:, 0], part[:, 1], color="0.3", linewidth=0.8)
+            axes.fill_between(side * r, z, window[2], facecolor="white", zorder=2.2)
+            axes.plot(side * r, z, color="0.3", linewidth=0.8, zorder=2.3)
+
+
+def caption(frames: Sequence[fields.Frame]) -> str:
+    """Return what the lines mean."""
+    level = "half the depth of the tip" if len(frames[-1].body) else "the mudline"
+    return (
+        f"Between two flow lines flows 1/{N_LINES} of the water that rises at {level};"
+        " the permeability is taken to be the same in all directions."
+    )
 
 
 def draw_panel(
@@ -94,8 +102,8 @@ def draw_panel(
         draw_flow(axes, flow, frame, window)
     else:
         place = (-window[0] / 2, window[1] / 2)
-        axes.text(*place, "hardly any flow", ha="center", fontsize=9)
-    draw_mudline(axes, flow, frame.body)
+        axes.text(*place, "hardly\nany flow", ha="center", fontsize=9)
+    draw_mudline(axes, flow, frame.body, window)
     fields.draw_about(axes, frame, window)
     axes.label_outer()
     return painted
@@ -133,7 +141,9 @@ def draw(
         )
     inches = figure.get_figheight()
     figure.get_layout_engine().set(rect=(0, 0.3 / inches, 1, 1 - 0.3 / inches))
-    figure.text(0.5, 0.1 / inches, CAPTION, ha="center", fontsize=8, color="0.3")
+    figure.text(
+        0.5, 0.1 / inches, caption(frames), ha="center", fontsize=8, color="0.3"
+    )
     path = run.directory / "pore_pressure.png"
-    figure.savefig(path, dpi=150)
+    figure.savefig(path, dpi=150, bbox_inches="tight")
     return path
