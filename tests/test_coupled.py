@@ -11,6 +11,7 @@ from program import (
     SUCCESS,
     Entries,
     ProgramTest,
+    Status,
     history,
     user_scene,
 )
@@ -34,7 +35,7 @@ NO_SUCTION: Entries = {
 class Column(ProgramTest):
     """Columns of soil that have a known answer."""
 
-    def run_column(self, name: str, entries: Entries, status: int = SUCCESS) -> Path:
+    def run_column(self, name: str, entries: Entries, status: Status = SUCCESS) -> Path:
         path = self.directory()
         self.run_program(
             status,

@@ -148,6 +148,22 @@ namespace CaissonMPM
       body_velocity, dt, sums(), mass_, nodal_vectors(new_velocity_));
   }
 
+  void
+  NodalMomentum::predict(NodalData &v) const
+  {
+    v = new_velocity_;
+    v.update_ghost_values();
+    const NodalVector *const old = nodal_vectors(old_velocity_);
+    for (std::size_t i = 0; i < inertia_.size(); ++i)
+      if (inertia_[i] > mass_[i])
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            double &own = nodal_vectors(v)[i].value[d];
+            own         = old[i].value[d] +
+                  mass_[i] / inertia_[i] * (own - old[i].value[d]);
+          }
+  }
+
   NodalReactions
   NodalMomentum::constrain(const double      dt,
                            const Vector2    &body_velocity,

@@ -78,8 +78,7 @@ namespace CaissonMPM
   NodalMotion::predict(const Vector2    &body_velocity,
                        NodalConstraints &constraints)
   {
-    predicted = momentum.new_velocity();
-    predicted.update_ghost_values();
+    momentum.predict(predicted);
     momentum.constrain(size.seconds, body_velocity, constraints, predicted);
     return predicted;
   }

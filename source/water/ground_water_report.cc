@@ -110,6 +110,20 @@ namespace CaissonMPM
             Utilities::MPI::max(result.second, grid.communicator())};
   }
 
+  void
+  GroundWater::find_exit_gradient()
+  {
+    if (!is_coupled())
+      {
+        exit = exit_gradient(grid, mudline, permeability, outflow());
+        return;
+      }
+    // what the soil at the mudline gives off in a step is noise to the gradient
+    NodalData flux;
+    projection.find_flux(flux);
+    exit = exit_gradient(grid, mudline, permeability, flux);
+  }
+
   NamedNumbers
   GroundWater::columns()
   {
@@ -118,7 +132,7 @@ namespace CaissonMPM
     if (!is_solved && !is_coupled())
       solve();
     if (is_solved && has_lid())
-      exit = exit_gradient(grid, mudline, permeability, outflow());
+      find_exit_gradient();
     Mudline now = mudline;
     now.find(grid, points);
     return values(now);

@@ -184,6 +184,23 @@ namespace CaissonMPM
   }
 
   void
+  PressureProjection::find_flux(NodalData &flux) const
+  {
+    grid->reinit(flux, 1);
+    for (const unsigned int cell : solver_.cells())
+      {
+        const unsigned int *const node = grid->cell_nodes(cell).node;
+        const auto               &k    = equations[cell].flow;
+        for (unsigned int i = 0; i < 4; ++i)
+          for (unsigned int j = 0; j < 4; ++j)
+            flux.local_element(node[i]) -=
+              k[4 * i + j] * pressure_.local_element(node[j]);
+      }
+    grid->hanging_nodes().distribute(flux, 1);
+    flux.compress(VectorOperation::add);
+  }
+
+  void
   PressureProjection::find_volume_rates(
     const Kernels::NodalVector             *velocity,
     const std::vector<Kernels::CornerView> &corners)

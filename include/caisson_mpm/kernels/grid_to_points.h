@@ -420,14 +420,14 @@ namespace CaissonMPM
       }
 
       /** Take the mean divergence of cells from the list @p rates [n_cells],
-       * where it has a value. */
+       * if there is one, where it has a value. */
       template <typename Number>
       CAISSON_INLINE void
       take_volume_rates(const CellGroup<Number> &group,
                         const double            *rates,
                         CellUpdate              *update)
       {
-        for (int i = 0; i < group.n; ++i)
+        for (int i = 0; rates != nullptr && i < group.n; ++i)
           {
             const double rate = rates[group.cell[i]];
             if (rate == rate)
@@ -564,8 +564,7 @@ namespace CaissonMPM
                                          map,
                                          step.grid.axisymmetric,
                                          update);
-            if (how.volume_rates != nullptr)
-              take_volume_rates(group, how.volume_rates, update);
+            take_volume_rates(group, how.volume_rates, update);
 
             // 3. Stress, volume, velocity and place of the points.
             update_group(step, how, group, update, progress);

@@ -70,6 +70,11 @@ namespace CaissonMPM
             const Vector2 &body_velocity,
             Contact       &contact) const;
 
+    /** Set @p v to the new velocities, as if each node had the mass that the
+     * time step needs. */
+    void
+    predict(NodalData &v) const;
+
     /** Hold the velocities @p v at the end of the step to contact and boundary
      * conditions. */
     NodalReactions

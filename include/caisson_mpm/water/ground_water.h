@@ -241,6 +241,8 @@ namespace CaissonMPM
     solver() const;
     void
     find_flow();
+    void
+    find_exit_gradient();
     double
     critical_gradient() const;
     SuctionLoad

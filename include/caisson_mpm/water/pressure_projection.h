@@ -101,6 +101,12 @@ namespace CaissonMPM
       return outflow_;
     }
 
+    /** Find what the gradient of the pressure drives out at each node: the
+     * outflow() less what the soil around the node gives off. [n_nodes], m3/s
+     * per radian */
+    void
+    find_flux(NodalData &flux) const;
+
     const PressureSolver &
     solver() const
     {
