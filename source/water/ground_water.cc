@@ -22,6 +22,9 @@ namespace CaissonMPM
     // Permeability and density of coupled soil are found this many steps apart.
     constexpr unsigned int steps_between_properties = 20;
 
+    // In this many steps, the soil moves by a small part of a cell.
+    constexpr unsigned int steps_between_set_ups = 4;
+
     // The heave is known when the flow is found; the pump sees it smoothed.
     constexpr double time_of_heave = 1.; // s
   }                                      // namespace
@@ -244,13 +247,16 @@ namespace CaissonMPM
   void
   GroundWater::set_up_step(const double dt)
   {
-    mudline.find(grid, points);
     if (!is_solved || ++steps_since_look == steps_between_properties)
       {
         find_properties();
         steps_since_look = 0;
       }
-    projection.set_up(grid, mudline, properties, sides, dt);
+    if (dt != step || steps_since_look % steps_between_set_ups == 0)
+      {
+        mudline.find(grid, points);
+        projection.set_up(grid, mudline, properties, sides, dt);
+      }
     if (!is_solved && !projection.solver().has_known_value())
       throw RunFailure(
         "the pore water has nowhere to drain to: its pressure is known nowhere. "

@@ -56,8 +56,9 @@ namespace CaissonMPM
                                                own,
                                                grid->communicator(),
                                                known);
-    matrix.reinit(own, own, pattern, grid->communicator());
+    multigrid.clear(); // it refers to the matrix
     n_at_setup = 0;
+    matrix.reinit(own, own, pattern, grid->communicator());
 
     for (NodalData *v :
          {&states, &right_side, &correction, &product, &with_ghosts})

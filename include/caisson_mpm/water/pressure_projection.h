@@ -129,6 +129,9 @@ namespace CaissonMPM
                    const double                 filled,
                    const WaterProperties       &properties,
                    Cell                        &cell) const;
+    /** Let the equations at unknown nodes add up to zero. */
+    void
+    close_balance();
     /** to_I = int N_I div v. */
     void
     find_divergence(const Kernels::NodalVector             *velocity,
