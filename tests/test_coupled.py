@@ -93,7 +93,7 @@ class Column(ProgramTest):
             "Output/Record interval": 1,
         }
         path = self.run_column("updraft", entries)
-        self.assertGreater(history(path, "observations")[-1]["bottom"], 0.01)
+        self.assertGreater(history(path, "observations")[-1]["bottom"], 1e-3)
 
 
 class Rest(ProgramTest):
