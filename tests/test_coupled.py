@@ -159,20 +159,38 @@ class Caisson(ProgramTest):
 class BadInput(ProgramTest):
     """Scenes without an answer."""
 
-    def test_nowhere_to_drain(self) -> None:
-        text = self.run_program(
-            FAILURE,
-            user_scene("verification/consolidation"),
-            "--output-directory",
-            self.directory(),
-            entries={"Water/Drained surface": "false"},
-        )
-        self.assert_words(["nowhere", "Drained surface", "Drained bottom"], text)
+    def test_warnings(self) -> None:
+        """What is known to be wrong is told, and only where it is."""
+        cases: list[tuple[Entries, list[str]]] = [
+            ({"Soil/Layer 1/Permeability": 1e-8}, ["drains by error", "0.99"]),
+            ({"Water/Kept pressure": 1}, ["alternate", "Kept pressure"]),
+            ({"Water/Bottom pressure": "1e4"}, ["Drained bottom is false"]),
+            ({"Water/Suction table": "0:0, 1:1"}, ["no caisson"]),
+        ]
+        for entries, words in cases:
+            with self.subTest(entries=entries):
+                text = self.run_program(
+                    SUCCESS,
+                    user_scene("verification/consolidation"),
+                    "--output-directory",
+                    self.directory(),
+                    entries={
+                        **COARSE,
+                        **entries,
+                        "Time/End time": 0.01,
+                        "Verification/Checks": "",
+                    },
+                )
+                self.assert_words(words, text)
+                self.assertEqual(
+                    "drains by error" in text, "Soil/Layer 1/Permeability" in entries
+                )
 
     def test_messages(self) -> None:
         cases: list[tuple[Entries, list[str]]] = [
             ({"Soil/Submerged": "false"}, ["Submerged", "dry"]),
             ({"Water/Level": "seepage"}, ["caisson", "coupled"]),
+            ({"Water/Drained surface": "false"}, ["nowhere", "Drained bottom"]),
             ({"Water/Bottom pressure": "1e4*x"}, ["Water/Bottom pressure", "x"]),
             ({"Method/Mean volume change": "false"}, ["Mean volume change"]),
         ]

@@ -214,7 +214,7 @@ namespace CaissonMPM
     std::vector<std::string> result;
     for (const auto &limits : {soil.known_limits(),
                                nodal_motion.settings().known_limits(),
-                               water.known_limits(materials)})
+                               water.known_limits(materials, clock.step_size)})
       result.insert(result.end(), limits.begin(), limits.end());
     return result;
   }

@@ -107,6 +107,10 @@ namespace CaissonMPM
             body.shape().name() +
             ": only a caisson has a lid with suction beneath it. Set Kind = "
             "caisson, or Level = drained or coupled.");
+        if (!sides.surface && !sides.outer && !sides.bottom)
+          throw BadInput(
+            "the pore water has nowhere to drain to. Set Water/Drained "
+            "surface, Drained outer side or Drained bottom = true.");
         return;
       }
     if (body.motion().follows_loads() && suction.is_result())
@@ -143,6 +147,16 @@ namespace CaissonMPM
                           "Water/Time compression",
                           "Water/Drained surface"},
                          "Water/Level is seepage");
+    if (is_coupled() && !sides.bottom)
+      origins.add_unused({"Water/Bottom pressure"},
+                         "Water/Drained bottom is false");
+    if (acts() && !has_lid())
+      return origins.add_unused({"Water/Suction control",
+                                 "Water/Suction table",
+                                 "Water/Suction delay",
+                                 "Water/Largest suction",
+                                 "Water/Water depth"},
+                                "there is no caisson");
     if (acts())
       return suction.name_unused_entries(origins);
     const std::string why = "Water/Level is drained";
@@ -454,6 +468,7 @@ namespace CaissonMPM
     totals.keep("seepage_volume", seepage_volume);
     totals.keep("plug_height_at_start", plug_height);
     totals.keep("water_has_started", has_started);
+    totals.keep("water_time", time);
     totals.keep("water_unbalanced", unbalanced);
     totals.keep("water_through_surfaces", through_surfaces);
   }

@@ -18,6 +18,9 @@ namespace CaissonMPM
     // Above this, inertia changes the pressure of a transient by more than half
     // a per cent.
     constexpr double largest_inertia = .02;
+
+    // Above this, the loss of old pressure acts as permeability does.
+    constexpr double largest_leak = .5;
   } // namespace
 
   std::vector<std::string>
@@ -32,8 +35,9 @@ namespace CaissonMPM
   double
   GroundWater::heave(const Mudline &mudline) const
   {
-    return is_solved ? mudline.mean_height(Mudline::Side::plug) - plug_height :
-                       0.;
+    return has_started && mudline.is_found() ?
+             mudline.mean_height(Mudline::Side::plug) - plug_height :
+             0.;
   }
 
   double
@@ -61,13 +65,13 @@ namespace CaissonMPM
                       {{"tip_water_force_N", tip_force()},
                        {"total_force_with_water_N",
                         -last_force_on_body + tip_force()},
-                       {"surface_outflow_m3_s", -scale * flow_in},
+                       {"net_outflow_m3_s", -scale * flow_in},
                        {"flow_iterations", 1. * solver().n_iterations()}});
         return result;
       }
     // only the names are wanted before the flow is known
     const auto at_wall = [&](const Mudline::Side side) {
-      return is_solved ? mudline.height_at_wall(side) : 0.;
+      return mudline.is_found() ? mudline.height_at_wall(side) : 0.;
     };
     const double       s = suction.value(), rise = heave(mudline);
     const NamedNumbers of_lid = {
@@ -98,7 +102,7 @@ namespace CaissonMPM
   GroundWater::extremes() const
   {
     std::pair<double, double> result = {0., 0.};
-    if (!is_solved)
+    if (!has_started)
       return result;
     for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
       {
@@ -212,8 +216,8 @@ namespace CaissonMPM
   }
 
   std::vector<std::string>
-  GroundWater::known_limits(
-    const std::vector<Kernels::Material> &materials) const
+  GroundWater::known_limits(const std::vector<Kernels::Material> &materials,
+                            const double                          dt) const
   {
     std::vector<std::string> limits;
     const auto               of_layers = drainage(materials);
@@ -225,6 +229,27 @@ namespace CaissonMPM
           to_text(of_layers[i].inertia, 2) + ", more than " +
           to_text(largest_inertia) +
           ". Reduce Time/Mass scaling if pressures that change fast matter");
+    if (!is_coupled())
+      return limits;
+    for (unsigned int i = 0; i < soil.n_layers(); ++i)
+      {
+        const double leak = (1. - kept_pressure) * dt *
+                            soil.unit_weight_of_water() /
+                            (soil.inertial_density(i) * time_compression *
+                             soil.layer(i).permeability);
+        if (leak > largest_leak)
+          limits.push_back(
+            "layer " + to_text(i + 1) +
+            " conducts so badly that it drains by error: the share of the old "
+            "pressure that a step gives up weighs " +
+            to_text(leak, 2) + " times the permeability, more than " +
+            to_text(largest_leak) +
+            ". Water leaks through thin layers, and steep pressures fade. Set "
+            "Water/Kept pressure = 0.99, and look at what that changes");
+      }
+    if (kept_pressure == 1.)
+      limits.push_back("with Water/Kept pressure = 1, pressures that alternate "
+                       "from node to node may grow and end a run");
     return limits;
   }
 

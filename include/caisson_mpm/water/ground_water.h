@@ -170,9 +170,11 @@ namespace CaissonMPM
     std::vector<std::pair<std::string, std::string>>
     description(const std::vector<Kernels::Material> &materials) const;
 
-    /** Return warnings of what is known to change the drainage. */
+    /** Return warnings of what is known to change the drainage, with steps of
+     * length @p dt. Units: s. */
     std::vector<std::string>
-    known_limits(const std::vector<Kernels::Material> &materials) const;
+    known_limits(const std::vector<Kernels::Material> &materials,
+                 const double                          dt) const;
 
     /** Return warnings of what the water does to the plug, each once; after
      * columns(). */

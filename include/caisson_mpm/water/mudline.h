@@ -41,6 +41,13 @@ namespace CaissonMPM
     void
     find(const BackgroundGrid &grid, const MaterialPoints &points);
 
+    /** Whether the heights are known. */
+    bool
+    is_found() const
+    {
+      return !heights.empty();
+    }
+
     /** Return the share of the height of a cell that is below the mudline, 0
      * for cells above it and for those of the body, at least least_filled for
      * all others. [n_cells] */
