@@ -247,12 +247,11 @@ namespace CaissonMPM
   void
   GroundWater::find_flow()
   {
-    const auto over_tip = integrate_over_tip(
-      is_coupled() ? projection.pressure() : seepage.field());
-    tip_integral = over_tip[0];
-    tip_area     = over_tip[1];
-    flow_out     = solver().sum_at(outflow(), PressureSolver::plug);
-    flow_in      = -solver().sum_at(outflow(), PressureSolver::open);
+    const auto over_tip = integrate_over_tip(field());
+    tip_integral        = over_tip[0];
+    tip_area            = over_tip[1];
+    flow_out            = solver().sum_at(outflow(), PressureSolver::plug);
+    flow_in             = -solver().sum_at(outflow(), PressureSolver::open);
     if (has_lid() && !has_started)
       plug_height = mudline.mean_height(Mudline::Side::plug);
     has_started = true;
@@ -441,11 +440,9 @@ namespace CaissonMPM
   GroundWater::pressure()
   {
     pressure_.resize(grid.n_nodes());
-    const NodalData &field =
-      is_coupled() ? projection.pressure() : seepage.field();
     const double factor = is_coupled() ? 1. : -suction.value();
     for (unsigned int node = 0; node < grid.n_nodes(); ++node)
-      pressure_[node] = factor * field.local_element(node);
+      pressure_[node] = factor * field().local_element(node);
     return pressure_;
   }
 

@@ -21,6 +21,12 @@ namespace CaissonMPM
     return is_coupled() ? projection.pressure() : seepage.field();
   }
 
+  const NodalData &
+  GroundWater::field() const
+  {
+    return is_coupled() ? projection.pressure() : seepage.field();
+  }
+
   std::size_t
   GroundWater::n_places() const
   {
@@ -49,11 +55,9 @@ namespace CaissonMPM
   {
     constexpr double    none = std::numeric_limits<double>::lowest();
     std::vector<double> values(n_places(), none);
-    const NodalData    &field =
-      is_coupled() ? projection.pressure() : seepage.field();
     for_each_place([&](const unsigned int node, const std::size_t place) {
       if (node < grid.n_owned_nodes())
-        values[place] = field.local_element(node);
+        values[place] = field().local_element(node);
     });
     Utilities::MPI::max(values, grid.communicator(), values);
     for (double &value : values)

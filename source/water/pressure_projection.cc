@@ -26,7 +26,13 @@ namespace CaissonMPM
   {
     grid = &grid_of_run;
     solver_.initialize(*grid);
-    for (NodalData *v : {&pressure_, &outflow_, &source, &volume, &rate})
+    for (NodalData *v : {&pressure_,
+                         &outflow_,
+                         &source,
+                         &volume,
+                         &rate,
+                         &uniform,
+                         &of_uniform})
       grid->reinit(*v, 1);
     equations.assign(grid->n_cells(), Cell());
     volume_rates_.assign(grid->n_cells(),
@@ -106,6 +112,8 @@ namespace CaissonMPM
         for (std::size_t k = 0; k < matrix.size(); ++k)
           matrix[k] = (cell.flow[k] + dt * cell.inertia[k]) / scale;
       }
+    find_volumes();
+    find_uniform();
   }
 
   void
@@ -151,24 +159,8 @@ namespace CaissonMPM
                             const KnownPressures                   &known)
   {
     find_divergence(velocity, corners, outflow_);
-    source = 0.;
-    source.zero_out_ghost_values();
-    for (const unsigned int cell : solver_.cells())
-      {
-        const unsigned int *const node = grid->cell_nodes(cell).node;
-        const auto               &k    = equations[cell].inertia;
-        for (unsigned int i = 0; i < 4; ++i)
-          {
-            double sum = 0.;
-            for (unsigned int j = 0; j < 4; ++j)
-              sum += k[4 * i + j] * pressure_.local_element(node[j]);
-            source.local_element(node[i]) += kept * step * sum;
-          }
-      }
-    grid->hanging_nodes().distribute(source, 1);
-    source.compress(VectorOperation::add);
-    source.add(-1., outflow_);
-    source *= 1. / scale;
+    find_product(&Cell::inertia, source);
+    source.sadd(kept * step / scale, -1. / scale, outflow_);
 
     pressure_.zero_out_ghost_values();
     for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
@@ -189,47 +181,50 @@ namespace CaissonMPM
   {
     // What the solver left of each equation is small, but adds up. A uniform
     // pressure where it is not known takes the sum away.
-    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
-      rate.local_element(node) =
-        solver_.state(node) == PressureSolver::unknown ? 1. : 0.;
-    rate.update_ghost_values();
-    grid->hanging_nodes().interpolate(rate, 1);
-    solver_.apply(rate, volume);
-    const double conductance = solver_.sum_at(volume, PressureSolver::unknown);
     if (conductance <= 0.)
       return;
-    const double uniform =
+    const double rise =
       solver_.sum_at(outflow_, PressureSolver::unknown) / conductance;
     pressure_.zero_out_ghost_values();
-    pressure_.add(uniform, rate);
+    pressure_.add(rise, uniform);
     pressure_.update_ghost_values();
     grid->hanging_nodes().interpolate(pressure_, 1);
-    outflow_.add(-uniform, volume);
+    outflow_.add(-rise, of_uniform);
   }
 
   void
   PressureProjection::find_flux(NodalData &flux) const
   {
     grid->reinit(flux, 1);
-    for (const unsigned int cell : solver_.cells())
-      {
-        const unsigned int *const node = grid->cell_nodes(cell).node;
-        const auto               &k    = equations[cell].flow;
-        for (unsigned int i = 0; i < 4; ++i)
-          for (unsigned int j = 0; j < 4; ++j)
-            flux.local_element(node[i]) -=
-              k[4 * i + j] * pressure_.local_element(node[j]);
-      }
-    grid->hanging_nodes().distribute(flux, 1);
-    flux.compress(VectorOperation::add);
+    find_product(&Cell::flow, flux);
+    flux *= -1.;
   }
 
   void
-  PressureProjection::find_volume_rates(
-    const Kernels::NodalVector             *velocity,
-    const std::vector<Kernels::CornerView> &corners)
+  PressureProjection::find_product(PressureSolver::CellMatrix Cell::*matrix,
+                                   NodalData                        &to) const
   {
-    find_divergence(velocity, corners, rate);
+    to = 0.;
+    to.zero_out_ghost_values();
+    for (const unsigned int cell : solver_.cells())
+      {
+        const unsigned int *const node = grid->cell_nodes(cell).node;
+        const auto               &k    = equations[cell].*matrix;
+        for (unsigned int i = 0; i < 4; ++i)
+          {
+            double sum = 0.;
+            for (unsigned int j = 0; j < 4; ++j)
+              sum += k[4 * i + j] * pressure_.local_element(node[j]);
+            to.local_element(node[i]) += sum;
+          }
+      }
+    grid->hanging_nodes().distribute(to, 1);
+    to.compress(VectorOperation::add);
+  }
+
+  void
+  PressureProjection::find_volumes()
+  {
     volume = 0.;
     volume.zero_out_ghost_values();
     for (const unsigned int cell : solver_.cells())
@@ -238,6 +233,26 @@ namespace CaissonMPM
           equations[cell].volumes[i];
     grid->hanging_nodes().distribute(volume, 1);
     volume.compress(VectorOperation::add);
+  }
+
+  void
+  PressureProjection::find_uniform()
+  {
+    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
+      uniform.local_element(node) =
+        solver_.state(node) == PressureSolver::unknown ? 1. : 0.;
+    uniform.update_ghost_values();
+    grid->hanging_nodes().interpolate(uniform, 1);
+    solver_.apply(uniform, of_uniform);
+    conductance = solver_.sum_at(of_uniform, PressureSolver::unknown);
+  }
+
+  void
+  PressureProjection::find_volume_rates(
+    const Kernels::NodalVector             *velocity,
+    const std::vector<Kernels::CornerView> &corners)
+  {
+    find_divergence(velocity, corners, rate);
     for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
       if (volume.local_element(node) > 0.)
         rate.local_element(node) /= volume.local_element(node);

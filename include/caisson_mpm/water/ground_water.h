@@ -208,6 +208,8 @@ namespace CaissonMPM
     /** The field that an equation is solved for. */
     NodalData &
     field();
+    const NodalData &
+    field() const;
     /** Return its values [n_places()] on all ranks, NaN without a node. */
     std::vector<double>
     gather_field() const;

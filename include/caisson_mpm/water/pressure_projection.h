@@ -129,6 +129,14 @@ namespace CaissonMPM
                    const double                 filled,
                    const WaterProperties       &properties,
                    Cell                        &cell) const;
+    /** to_I = sum_J K_IJ p_J with these matrices of the cells. */
+    void
+    find_product(PressureSolver::CellMatrix Cell::*matrix, NodalData &to) const;
+    /** Find the volume of each node, and what a uniform pressure does. */
+    void
+    find_volumes();
+    void
+    find_uniform();
     /** Let the equations at unknown nodes add up to zero. */
     void
     close_balance();
@@ -144,6 +152,9 @@ namespace CaissonMPM
     std::vector<double>   volume_rates_;
     double                scale = 1., step = 0.;
     NodalData             pressure_, outflow_, source, volume, rate;
+    // 1 at unknown nodes; K times it, and the sum of that
+    NodalData uniform, of_uniform;
+    double    conductance = 0.;
   };
 } // namespace CaissonMPM
 
