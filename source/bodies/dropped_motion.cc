@@ -21,7 +21,7 @@ namespace CaissonMPM
   }                                        // namespace
 
   DroppedMotion::DroppedMotion()
-    : BodyMotion("/Rigid body")
+    : LoadedMotion("/Rigid body")
   {
     add_word_or_number(*this,
                        "Inertia",
@@ -45,10 +45,8 @@ namespace CaissonMPM
   void
   DroppedMotion::start()
   {
-    BodyMotion::start();
+    LoadedMotion::start();
     last_step = expected_force = unforeseen = 0.;
-    resistance                              = RecentMean();
-    rest                                    = Rest();
   }
 
   void
@@ -77,12 +75,10 @@ namespace CaissonMPM
   void
   DroppedMotion::register_totals(RunTotals &totals)
   {
-    BodyMotion::register_totals(totals);
+    LoadedMotion::register_totals(totals);
     totals.keep("dropped_mean_velocity", mean_velocity_);
     totals.keep("dropped_expected_force", expected_force);
     totals.keep("dropped_unforeseen_impulse", unforeseen);
     totals.keep("dropped_last_step", last_step);
-    resistance.register_totals(totals, "dropped_resistance");
-    rest.register_totals(totals, "dropped");
   }
 } // namespace CaissonMPM

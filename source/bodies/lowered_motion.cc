@@ -19,7 +19,7 @@ namespace CaissonMPM
   }                                       // namespace
 
   LoweredMotion::LoweredMotion()
-    : BodyMotion("/Rigid body")
+    : LoadedMotion("/Rigid body")
   {
     add_parameter("Lowering velocity",
                   largest_velocity,
@@ -32,14 +32,6 @@ namespace CaissonMPM
                   "resistance of the soil with this time constant. Units: s.",
                   prm,
                   Patterns::Double(1e-6));
-  }
-
-  void
-  LoweredMotion::start()
-  {
-    BodyMotion::start();
-    resistance = RecentMean();
-    rest       = Rest();
   }
 
   void
@@ -56,13 +48,5 @@ namespace CaissonMPM
     rest.look(dt,
               {load(), resistance.value(), velocity_, travel_},
               share_at_rest * largest_velocity);
-  }
-
-  void
-  LoweredMotion::register_totals(RunTotals &totals)
-  {
-    BodyMotion::register_totals(totals);
-    resistance.register_totals(totals, "lowered_resistance");
-    rest.register_totals(totals, "lowered");
   }
 } // namespace CaissonMPM

@@ -5,8 +5,7 @@
 #ifndef caisson_mpm_bodies_dropped_motion_h
 #define caisson_mpm_bodies_dropped_motion_h
 
-#include <caisson_mpm/bodies/body_motion.h>
-#include <caisson_mpm/bodies/rest.h>
+#include <caisson_mpm/bodies/loaded_motion.h>
 
 namespace CaissonMPM
 {
@@ -25,7 +24,7 @@ namespace CaissonMPM
    * changes in R acts over the next twenty steps or so, so that no momentum is
    * lost.
    */
-  class DroppedMotion : public BodyMotion
+  class DroppedMotion : public LoadedMotion
   {
   public:
     DroppedMotion();
@@ -47,27 +46,9 @@ namespace CaissonMPM
     start() override;
 
     bool
-    needs_force() const override
-    {
-      return true;
-    }
-
-    bool
     needs_response() const override
     {
       return true;
-    }
-
-    bool
-    follows_loads() const override
-    {
-      return true;
-    }
-
-    std::optional<double>
-    travel_at_rest() const override
-    {
-      return rest.travel();
     }
 
     void
@@ -81,11 +62,9 @@ namespace CaissonMPM
     std::optional<double> inertia; // or the mass of the body's cells
     double                release = 0.;
 
-    double     last_step      = 0.; // its length, s
-    double     expected_force = 0.; // of the soil, in the last step; N
-    double     unforeseen     = 0.; // impulse that has not acted yet, N s
-    RecentMean resistance;          // of the soil, N
-    Rest       rest;
+    double last_step      = 0.; // its length, s
+    double expected_force = 0.; // of the soil, in the last step; N
+    double unforeseen     = 0.; // impulse that has not acted yet, N s
   };
 } // namespace CaissonMPM
 

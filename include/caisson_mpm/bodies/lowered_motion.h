@@ -4,8 +4,7 @@
 #ifndef caisson_mpm_bodies_lowered_motion_h
 #define caisson_mpm_bodies_lowered_motion_h
 
-#include <caisson_mpm/bodies/body_motion.h>
-#include <caisson_mpm/bodies/rest.h>
+#include <caisson_mpm/bodies/loaded_motion.h>
 
 namespace CaissonMPM
 {
@@ -19,7 +18,7 @@ namespace CaissonMPM
    * scaling of the soil matters, and the body rests where R = F: it does not
    * overshoot as one that is dropped would.
    */
-  class LoweredMotion : public BodyMotion
+  class LoweredMotion : public LoadedMotion
   {
   public:
     LoweredMotion();
@@ -36,35 +35,11 @@ namespace CaissonMPM
       return "weight and suction let the body sink until the soil holds it";
     }
 
-    void
-    start() override;
-
     double
     usual_velocity() const override
     {
       return largest_velocity;
     }
-
-    bool
-    needs_force() const override
-    {
-      return true;
-    }
-
-    bool
-    follows_loads() const override
-    {
-      return true;
-    }
-
-    std::optional<double>
-    travel_at_rest() const override
-    {
-      return rest.travel();
-    }
-
-    void
-    register_totals(RunTotals &totals) override;
 
   protected:
     void
@@ -72,9 +47,6 @@ namespace CaissonMPM
 
   private:
     double largest_velocity = 0.1, delay = 0.02;
-
-    RecentMean resistance; // of the soil, N
-    Rest       rest;
   };
 } // namespace CaissonMPM
 

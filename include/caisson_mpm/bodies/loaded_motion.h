@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What motions have in common in which loads move the body until it rests.
+#ifndef caisson_mpm_bodies_loaded_motion_h
+#define caisson_mpm_bodies_loaded_motion_h
+
+#include <caisson_mpm/bodies/body_motion.h>
+#include <caisson_mpm/bodies/rest.h>
+
+namespace CaissonMPM
+{
+  /** Follows the loads, and knows the resistance of the soil and the rest. */
+  class LoadedMotion : public BodyMotion
+  {
+  public:
+    using BodyMotion::BodyMotion;
+
+    void
+    start() override
+    {
+      BodyMotion::start();
+      resistance = RecentMean();
+      rest       = Rest();
+    }
+
+    bool
+    needs_force() const override
+    {
+      return true;
+    }
+
+    bool
+    follows_loads() const override
+    {
+      return true;
+    }
+
+    std::optional<double>
+    travel_at_rest() const override
+    {
+      return rest.travel();
+    }
+
+    void
+    register_totals(RunTotals &totals) override
+    {
+      BodyMotion::register_totals(totals);
+      resistance.register_totals(totals, name() + "_resistance");
+      rest.register_totals(totals, name());
+    }
+
+  protected:
+    RecentMean resistance; // of the soil, N
+    Rest       rest;
+  };
+} // namespace CaissonMPM
+
+#endif
