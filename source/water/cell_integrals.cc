@@ -49,19 +49,33 @@ namespace CaissonMPM
     return result;
   }
 
-  std::array<std::array<double, 8>, 4>
+  std::array<std::array<double, 4>, 8>
   CellIntegrals::divergence() const
   {
-    std::array<std::array<double, 8>, 4> result = {};
+    std::array<std::array<double, 4>, 8> result = {};
     for (const GaussPoint &g : points)
       for (unsigned int i = 0; i < 4; ++i)
         for (unsigned int j = 0; j < 4; ++j)
           {
             const double weight = g.weight * g.shape[i];
-            result[i][2 * j] +=
+            result[2 * j][i] +=
               weight * (g.gradient[j][0] + g.hoop * g.shape[j]);
-            result[i][2 * j + 1] += weight * g.gradient[j][1];
+            result[2 * j + 1][i] += weight * g.gradient[j][1];
           }
+    return result;
+  }
+
+  std::array<std::array<double, 4>, 2>
+  CellIntegrals::mean_gradient() const
+  {
+    std::array<std::array<double, 4>, 2> result = {};
+    double                               volume = 0.;
+    for (const GaussPoint &g : points)
+      volume += g.weight;
+    for (const GaussPoint &g : points)
+      for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int i = 0; i < 4; ++i)
+          result[d][i] += g.weight / volume * g.gradient[i][d];
     return result;
   }
 

@@ -55,11 +55,12 @@ namespace CaissonMPM
                   "mudline changed, by this share of a cell. Units: none.",
                   prm,
                   Patterns::Double(1e-6, 1.));
-    add_parameter("Kept pressure",
-                  kept_pressure,
-                  "A coupled step begins with this share of the old pressure. "
-                  "With less, soil that conducts badly drains by error; with "
-                  "1, the pressure oscillates from node to node. Units: none.",
+    add_parameter("Pressure smoothing",
+                  smoothing,
+                  "A coupled step begins with the old pressure, of which it "
+                  "takes away this share of what oscillates from node to node. "
+                  "With 0, the oscillation grows; with much, steep pressures "
+                  "fade in soil that conducts badly. Units: none.",
                   prm,
                   Patterns::Double(0., 1.));
     add_parameter("Time compression",
@@ -142,7 +143,7 @@ namespace CaissonMPM
     if (is_coupled())
       origins.add_unused({"Water/Renewal"}, "Water/Level is coupled");
     else if (acts())
-      origins.add_unused({"Water/Kept pressure",
+      origins.add_unused({"Water/Pressure smoothing",
                           "Water/Bottom pressure",
                           "Water/Time compression",
                           "Water/Drained surface"},
@@ -161,7 +162,7 @@ namespace CaissonMPM
       return suction.name_unused_entries(origins);
     const std::string why = "Water/Level is drained";
     origins.add_unused({"Water/Renewal",
-                        "Water/Kept pressure",
+                        "Water/Pressure smoothing",
                         "Water/Bottom pressure",
                         "Water/Time compression",
                         "Water/Drained surface",
@@ -194,14 +195,15 @@ namespace CaissonMPM
       return;
     bottom_pressure = bottom_expression();
     if (is_coupled())
-      projection.initialize(grid);
+      projection.initialize(grid, soil.n_layers());
     else
       seepage.initialize(grid);
     mudline.initialize(grid, body.shape());
-    is_solved = false;
-    if (!kept_field.empty())
-      scatter_field(kept_field);
-    kept_field.clear();
+    is_solved         = false;
+    const auto fields = kept_fields();
+    for (std::size_t i = 0; i < kept_values.size(); ++i)
+      scatter(kept_values[i], *fields[i].field);
+    kept_values.clear();
   }
 
   Expression
@@ -274,6 +276,7 @@ namespace CaissonMPM
       throw RunFailure(
         "the pore water has nowhere to drain to: its pressure is known nowhere. "
         "Set Water/Drained surface, Drained outer side or Drained bottom.");
+    projection.find_kept(smoothing);
     is_solved    = true;
     is_corrected = false;
     step         = dt;
@@ -285,7 +288,6 @@ namespace CaissonMPM
   {
     projection.solve(velocity,
                      corners,
-                     kept_pressure,
                      {-suction.value(),
                       bottom_pressure(Point<2>(), time + .5 * step)});
     is_corrected = true;
@@ -336,15 +338,18 @@ namespace CaissonMPM
     const double faster = is_coupled() ? time_compression : 1.;
     permeability.assign(grid.n_cells(), {});
     properties.assign(grid.n_cells(), {});
+    std::vector<double> of_layers(soil.n_layers());
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       {
         if (!grid.is_owned(cell) || grid.is_rigid(cell))
           continue;
         double volume = 0., mass = 0., along = 0., across = 0.;
+        std::fill(of_layers.begin(), of_layers.end(), 0.);
         points.for_each_in(cell, [&](const MaterialPoint &p) {
           const SoilLayer &layer = soil.layer(p.material);
           const double     k =
             faster * layer.permeability_at(p.void_ratio(layer.void_ratio()));
+          of_layers[p.material] += p.volume;
           volume += p.volume;
           mass += p.mass;
           along += p.volume * k * layer.anisotropy;
@@ -356,7 +361,8 @@ namespace CaissonMPM
           {
             const auto        &g = grid.geometry(cell);
             const unsigned int i = soil.layer_at(std::min(0., g.bottom_left));
-            const double       k = faster * soil.layer(i).permeability;
+            of_layers[i]         = 1.;
+            const double k       = faster * soil.layer(i).permeability;
             permeability[cell]   = {k * soil.layer(i).anisotropy, k};
             volume               = 1.;
             mass                 = soil.inertial_density(i);
@@ -364,7 +370,11 @@ namespace CaissonMPM
         const double gamma = soil.unit_weight_of_water();
         properties[cell]   = {{permeability[cell].horizontal / gamma,
                                permeability[cell].vertical / gamma},
-                              volume / mass};
+                              volume / mass,
+                              static_cast<unsigned int>(
+                              std::max_element(of_layers.begin(),
+                                               of_layers.end()) -
+                              of_layers.begin())};
       }
   }
 
@@ -449,10 +459,10 @@ namespace CaissonMPM
   const std::vector<double> &
   GroundWater::acting_pressure()
   {
-    pressure();
-    if (is_coupled() && !is_corrected)
-      for (double &p : pressure_)
-        p *= kept_pressure;
+    if (!is_coupled() || is_corrected)
+      return pressure();
+    pressure_.assign(projection.kept().begin(),
+                     projection.kept().begin() + grid.n_nodes());
     return pressure_;
   }
 

@@ -15,12 +15,6 @@ namespace CaissonMPM
 {
   using namespace dealii;
 
-  NodalData &
-  GroundWater::field()
-  {
-    return is_coupled() ? projection.pressure() : seepage.field();
-  }
-
   const NodalData &
   GroundWater::field() const
   {
@@ -50,14 +44,23 @@ namespace CaissonMPM
       }
   }
 
+  std::vector<GroundWater::KeptField>
+  GroundWater::kept_fields()
+  {
+    if (is_coupled())
+      return {{"water_at_", &projection.pressure()},
+              {"water_left_at_", &projection.remainder()}};
+    return {{"water_at_", &seepage.field()}};
+  }
+
   std::vector<double>
-  GroundWater::gather_field() const
+  GroundWater::gather(const NodalData &field) const
   {
     constexpr double    none = std::numeric_limits<double>::lowest();
     std::vector<double> values(n_places(), none);
     for_each_place([&](const unsigned int node, const std::size_t place) {
       if (node < grid.n_owned_nodes())
-        values[place] = field().local_element(node);
+        values[place] = field.local_element(node);
     });
     Utilities::MPI::max(values, grid.communicator(), values);
     for (double &value : values)
@@ -67,38 +70,38 @@ namespace CaissonMPM
   }
 
   void
-  GroundWater::scatter_field(const std::vector<double> &values)
+  GroundWater::scatter(const std::vector<double> &values,
+                       NodalData                 &field) const
   {
-    field().zero_out_ghost_values();
+    field.zero_out_ghost_values();
     for_each_place([&](const unsigned int node, const std::size_t place) {
       if (node < grid.n_owned_nodes())
-        field().local_element(node) = values[place];
+        field.local_element(node) = values[place];
     });
-    field().update_ghost_values();
+    field.update_ghost_values();
   }
 
   void
   GroundWater::keep_field()
   {
     if (acts() && has_started)
-      kept_field = gather_field();
-  }
-
-  namespace
-  {
-    const std::string name_of_place = "water_at_";
+      for (const KeptField &kept : kept_fields())
+        kept_values.push_back(gather(*kept.field));
   }
 
   NamedNumbers
-  GroundWater::field_state() const
+  GroundWater::field_state()
   {
     NamedNumbers state;
     if (!acts())
       return state;
-    const std::vector<double> values = gather_field();
-    for (std::size_t place = 0; place < values.size(); ++place)
-      if (!std::isnan(values[place]))
-        state.emplace_back(name_of_place + to_text(place), values[place]);
+    for (const KeptField &kept : kept_fields())
+      {
+        const std::vector<double> values = gather(*kept.field);
+        for (std::size_t place = 0; place < values.size(); ++place)
+          if (!std::isnan(values[place]))
+            state.emplace_back(kept.name + to_text(place), values[place]);
+      }
     return state;
   }
 
@@ -107,11 +110,14 @@ namespace CaissonMPM
   {
     if (!acts())
       return;
-    std::vector<double> values(n_places(), 0.);
-    for (const auto &[name, value] : state)
-      if (name.compare(0, name_of_place.size(), name_of_place) == 0)
-        values[std::stoul(name.substr(name_of_place.size()))] = value;
-    scatter_field(values);
+    for (const KeptField &kept : kept_fields())
+      {
+        std::vector<double> values(n_places(), 0.);
+        for (const auto &[name, value] : state)
+          if (name.compare(0, kept.name.size(), kept.name) == 0)
+            values[std::stoul(name.substr(kept.name.size()))] = value;
+        scatter(values, *kept.field);
+      }
   }
 
   void

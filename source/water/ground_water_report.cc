@@ -233,23 +233,22 @@ namespace CaissonMPM
       return limits;
     for (unsigned int i = 0; i < soil.n_layers(); ++i)
       {
-        const double leak = (1. - kept_pressure) * dt *
-                            soil.unit_weight_of_water() /
+        const double leak = smoothing * dt * soil.unit_weight_of_water() /
                             (soil.inertial_density(i) * time_compression *
                              soil.layer(i).permeability);
         if (leak > largest_leak)
           limits.push_back(
             "layer " + to_text(i + 1) +
-            " conducts so badly that it drains by error: the share of the old "
-            "pressure that a step gives up weighs " +
+            " conducts so badly that pressures which change within two cells "
+            "fade by error: what smoothing conducts weighs " +
             to_text(leak, 2) + " times the permeability, more than " +
             to_text(largest_leak) +
-            ". Water leaks through thin layers, and steep pressures fade. Set "
-            "Water/Kept pressure = 0.99, and look at what that changes");
+            ". Make the cells smaller there, or set Water/Pressure smoothing = "
+            "0.01, and look at what that changes");
       }
-    if (kept_pressure == 1.)
-      limits.push_back("with Water/Kept pressure = 1, pressures that alternate "
-                       "from node to node may grow and end a run");
+    if (smoothing == 0.)
+      limits.push_back("with Water/Pressure smoothing = 0, pressures that "
+                       "alternate from node to node may grow and end a run");
     return limits;
   }
 

@@ -14,26 +14,46 @@ namespace CaissonMPM
 
   namespace
   {
-    constexpr double tolerance = 1e-6;
+    // What is left is made good in the next step.
+    constexpr PressureSolver::Accuracy accuracy = {1e-8, 1e-2};
 
     // The equations of a cell are found anew when its shape or its filled share
     // have changed by this.
     constexpr double largest_change = 1e-3;
+
+    /** Return what the cell at a corner adds to the velocity of the node. */
+    std::array<double, 2>
+    change_at(const Kernels::CornerView &corner, const Kernels::NodalVector &v)
+    {
+      const double free = v.value[corner.free] - corner.velocity[corner.free];
+      std::array<double, 2> change;
+      for (unsigned int d = 0; d < 2; ++d)
+        change[d] = corner.velocity[d] + free * corner.q[d] - v.value[d];
+      return change;
+    }
   } // namespace
 
   void
-  PressureProjection::initialize(const BackgroundGrid &grid_of_run)
+  PressureProjection::initialize(const BackgroundGrid &grid_of_run,
+                                 const unsigned int    n_layers_of_run)
   {
-    grid = &grid_of_run;
+    grid     = &grid_of_run;
+    n_layers = n_layers_of_run;
     solver_.initialize(*grid);
     for (NodalData *v : {&pressure_,
+                         &kept_,
                          &outflow_,
+                         &remainder_,
                          &source,
                          &volume,
+                         &stiffness,
                          &rate,
                          &uniform,
                          &of_uniform})
       grid->reinit(*v, 1);
+    grid->reinit(volume_in_layer, n_layers);
+    grid->reinit(gradient, 2 * n_layers);
+    step = 0.;
     equations.assign(grid->n_cells(), Cell());
     volume_rates_.assign(grid->n_cells(),
                          std::numeric_limits<double>::quiet_NaN());
@@ -58,7 +78,8 @@ namespace CaissonMPM
         !differs(cell.rise, rise, geometry.height_left) &&
         !differs(cell.filled, filled, filled) &&
         cell.properties.mobility == properties.mobility &&
-        cell.properties.specific_volume == properties.specific_volume)
+        cell.properties.specific_volume == properties.specific_volume &&
+        cell.properties.layer == properties.layer)
       return;
     cell.width      = geometry.width;
     cell.left       = geometry.left;
@@ -74,12 +95,14 @@ namespace CaissonMPM
     cell.inertia =
       integrals.stiffness(of_lower_part({per_mass, per_mass}, filled));
     cell.divergence = integrals.divergence();
+    cell.gradient   = integrals.mean_gradient();
     cell.volumes    = integrals.volumes();
     for (unsigned int i = 0; i < 4; ++i)
       {
         cell.volumes[i] *= filled;
-        for (double &b : cell.divergence[i])
-          b *= filled;
+        cell.gradient[1][i] /= filled;
+        for (auto &b : cell.divergence)
+          b[i] *= filled;
       }
   }
 
@@ -90,6 +113,8 @@ namespace CaissonMPM
                              const PressureSolver::OpenSides    &sides,
                              const double                        dt)
   {
+    if (step > 0.)
+      remainder_ *= step / dt; // the same volume
     step = dt;
     solver_.find_states(grid, mudline, sides);
     double largest = 0.;
@@ -116,51 +141,124 @@ namespace CaissonMPM
     find_uniform();
   }
 
+  template <typename Action>
+  void
+  PressureProjection::sum_cells(NodalData         &to,
+                                const unsigned int n_components,
+                                const Action      &add) const
+  {
+    to = 0.;
+    to.zero_out_ghost_values();
+    for (const unsigned int cell : solver_.cells())
+      add(cell, grid->cell_nodes(cell).node, to.begin());
+    grid->hanging_nodes().distribute(to, n_components);
+    to.compress(VectorOperation::add);
+  }
+
   void
   PressureProjection::find_divergence(
     const Kernels::NodalVector             *velocity,
     const std::vector<Kernels::CornerView> &corners,
     NodalData                              &to) const
   {
-    to = 0.;
-    to.zero_out_ghost_values();
-    for (const unsigned int cell : solver_.cells())
-      {
-        const unsigned int *const node = grid->cell_nodes(cell).node;
-        double                    v[8];
-        for (unsigned int j = 0; j < 4; ++j)
-          for (unsigned int d = 0; d < 2; ++d)
-            v[2 * j + d] = velocity[node[j]].value[d];
-        for (const Kernels::CornerView &corner : corners)
-          if (corner.cell == cell)
-            {
-              double *const at_corner = v + 2 * corner.corner;
-              const double  free =
-                at_corner[corner.free] - corner.velocity[corner.free];
-              for (unsigned int d = 0; d < 2; ++d)
-                at_corner[d] = corner.velocity[d] + free * corner.q[d];
-            }
-        for (unsigned int i = 0; i < 4; ++i)
-          {
-            double sum = 0.;
-            for (unsigned int k = 0; k < 8; ++k)
-              sum += equations[cell].divergence[i][k] * v[k];
-            to.local_element(node[i]) += sum;
-          }
-      }
-    grid->hanging_nodes().distribute(to, 1);
-    to.compress(VectorOperation::add);
+    sum_cells(to,
+              1,
+              [&](const unsigned int        cell,
+                  const unsigned int *const node,
+                  double *const             sums) {
+                const Cell &of         = equations[cell];
+                double      of_cell[4] = {};
+                const auto  add = [&](const unsigned int j, const double *v) {
+                  for (unsigned int i = 0; i < 4; ++i)
+                    of_cell[i] += of.divergence[2 * j][i] * v[0] +
+                                  of.divergence[2 * j + 1][i] * v[1];
+                };
+                for (unsigned int j = 0; j < 4; ++j)
+                  add(j, velocity[node[j]].value);
+                for (const Kernels::CornerView &corner : corners)
+                  if (corner.cell == cell)
+                    add(
+                      corner.corner,
+                      change_at(corner, velocity[node[corner.corner]]).data());
+                for (unsigned int i = 0; i < 4; ++i)
+                  sums[node[i]] += of_cell[i];
+              });
+  }
+
+  void
+  PressureProjection::find_gradient()
+  {
+    sum_cells(gradient,
+              2 * n_layers,
+              [&](const unsigned int        cell,
+                  const unsigned int *const node,
+                  double *const             sums) {
+                const Cell        &of    = equations[cell];
+                const unsigned int layer = of.properties.layer;
+                for (unsigned int d = 0; d < 2; ++d)
+                  {
+                    double mean = 0.;
+                    for (unsigned int j = 0; j < 4; ++j)
+                      mean +=
+                        of.gradient[d][j] * pressure_.local_element(node[j]);
+                    for (unsigned int j = 0; j < 4; ++j)
+                      sums[2 * (node[j] * n_layers + layer) + d] +=
+                        of.volumes[j] * mean;
+                  }
+              });
+    for (unsigned int i = 0; i < n_layers * grid->n_owned_nodes(); ++i)
+      if (volume_in_layer.local_element(i) > 0.)
+        for (unsigned int d = 0; d < 2; ++d)
+          gradient.local_element(2 * i + d) /= volume_in_layer.local_element(i);
+    gradient.update_ghost_values();
+    grid->hanging_nodes().interpolate(gradient, 2 * n_layers);
+  }
+
+  void
+  PressureProjection::find_kept(const double smoothing)
+  {
+    find_gradient();
+    find_product(&Cell::inertia, pressure_, source);
+    sum_cells(rate,
+              1,
+              [&](const unsigned int        cell,
+                  const unsigned int *const node,
+                  double *const             sums) {
+                const Cell        &of    = equations[cell];
+                const unsigned int layer = of.properties.layer;
+                for (unsigned int d = 0; d < 2; ++d)
+                  {
+                    double mean = 0.;
+                    for (unsigned int j = 0; j < 4; ++j)
+                      mean +=
+                        of.volumes[j] * gradient.local_element(
+                                          2 * (node[j] * n_layers + layer) + d);
+                    mean *= of.properties.specific_volume;
+                    for (unsigned int i = 0; i < 4; ++i)
+                      sums[node[i]] += of.gradient[d][i] * mean;
+                  }
+              });
+    kept_.zero_out_ghost_values();
+    kept_.copy_locally_owned_data_from(pressure_);
+    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
+      if (solver_.state(node) == PressureSolver::unknown &&
+          stiffness.local_element(node) > 0.)
+        kept_.local_element(node) -=
+          smoothing * (source.local_element(node) - rate.local_element(node)) /
+          stiffness.local_element(node);
+    kept_.update_ghost_values();
+    grid->hanging_nodes().interpolate(kept_, 1);
   }
 
   void
   PressureProjection::solve(const Kernels::NodalVector             *velocity,
                             const std::vector<Kernels::CornerView> &corners,
-                            const double                            kept,
                             const KnownPressures                   &known)
   {
-    find_divergence(velocity, corners, outflow_);
-    find_product(&Cell::inertia, source);
-    source.sadd(kept * step / scale, -1. / scale, outflow_);
+    find_divergence(velocity, corners, rate);
+    find_product(&Cell::inertia, kept_, source);
+    source.sadd(step / scale, -1. / scale, rate);
+    source.add(1. / scale, remainder_);
 
     pressure_.zero_out_ghost_values();
     for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
@@ -169,11 +267,13 @@ namespace CaissonMPM
       else if (solver_.state(node) == PressureSolver::open)
         pressure_.local_element(node) =
           grid->is_at(node, GridLines::Side::bottom) ? known.bottom : 0.;
-    solver_.solve(source, tolerance, pressure_);
+    solver_.solve(source, accuracy, pressure_);
     solver_.apply(pressure_, outflow_);
     outflow_.sadd(-1., 1., source);
     close_balance();
     outflow_ *= scale;
+    remainder_.copy_locally_owned_data_from(outflow_);
+    solver_.keep_unknown(remainder_);
   }
 
   void
@@ -196,43 +296,59 @@ namespace CaissonMPM
   PressureProjection::find_flux(NodalData &flux) const
   {
     grid->reinit(flux, 1);
-    find_product(&Cell::flow, flux);
+    find_product(&Cell::flow, pressure_, flux);
     flux *= -1.;
   }
 
   void
   PressureProjection::find_product(PressureSolver::CellMatrix Cell::*matrix,
+                                   const NodalData                  &p,
                                    NodalData                        &to) const
   {
-    to = 0.;
-    to.zero_out_ghost_values();
-    for (const unsigned int cell : solver_.cells())
-      {
-        const unsigned int *const node = grid->cell_nodes(cell).node;
-        const auto               &k    = equations[cell].*matrix;
-        for (unsigned int i = 0; i < 4; ++i)
-          {
-            double sum = 0.;
-            for (unsigned int j = 0; j < 4; ++j)
-              sum += k[4 * i + j] * pressure_.local_element(node[j]);
-            to.local_element(node[i]) += sum;
-          }
-      }
-    grid->hanging_nodes().distribute(to, 1);
-    to.compress(VectorOperation::add);
+    sum_cells(to,
+              1,
+              [&](const unsigned int        cell,
+                  const unsigned int *const node,
+                  double *const             sums) {
+                const auto &k          = equations[cell].*matrix;
+                double      of_cell[4] = {};
+                for (unsigned int j = 0; j < 4; ++j)
+                  for (unsigned int i = 0; i < 4; ++i)
+                    of_cell[i] += k[4 * j + i] * p.local_element(node[j]);
+                for (unsigned int i = 0; i < 4; ++i)
+                  sums[node[i]] += of_cell[i];
+              });
   }
 
   void
   PressureProjection::find_volumes()
   {
-    volume = 0.;
-    volume.zero_out_ghost_values();
-    for (const unsigned int cell : solver_.cells())
-      for (unsigned int i = 0; i < 4; ++i)
-        volume.local_element(grid->cell_nodes(cell).node[i]) +=
-          equations[cell].volumes[i];
-    grid->hanging_nodes().distribute(volume, 1);
-    volume.compress(VectorOperation::add);
+    sum_cells(volume,
+              1,
+              [&](const unsigned int        cell,
+                  const unsigned int *const node,
+                  double *const             sums) {
+                for (unsigned int i = 0; i < 4; ++i)
+                  sums[node[i]] += equations[cell].volumes[i];
+              });
+    sum_cells(stiffness,
+              1,
+              [&](const unsigned int        cell,
+                  const unsigned int *const node,
+                  double *const             sums) {
+                for (unsigned int i = 0; i < 4; ++i)
+                  sums[node[i]] += equations[cell].inertia[5 * i];
+              });
+    sum_cells(volume_in_layer,
+              n_layers,
+              [&](const unsigned int        cell,
+                  const unsigned int *const node,
+                  double *const             sums) {
+                const Cell &of = equations[cell];
+                for (unsigned int i = 0; i < 4; ++i)
+                  sums[node[i] * n_layers + of.properties.layer] +=
+                    of.volumes[i];
+              });
   }
 
   void

@@ -210,7 +210,7 @@ namespace CaissonMPM
 
   void
   PressureSolver::solve(const NodalData &source,
-                        const double     tolerance,
+                        const Accuracy  &accuracy,
                         NodalData       &field)
   {
     // f - K p, and its norm for the known values alone
@@ -231,19 +231,20 @@ namespace CaissonMPM
         else if (state(node) == no_water)
           correction.local_element(node) = field.local_element(node) = 0.;
       }
-    const double scale = find_residual(correction);
-    find_residual(field);
+    double tolerance = accuracy.of_known_values * find_residual(correction);
+    tolerance =
+      std::max(tolerance, accuracy.of_first_guess * find_residual(field));
 
     // The multigrid of an earlier matrix serves as long as it costs only some
     // more iterations than a new one.
     if (n_at_setup == 0 || !iterate(n_at_setup + n_at_setup / 2 + 2,
-                                    tolerance * scale,
+                                    tolerance,
                                     right_side,
                                     correction))
       {
         assemble();
         multigrid.initialize(matrix, multigrid_settings());
-        if (!iterate(max_iterations, tolerance * scale, right_side, correction))
+        if (!iterate(max_iterations, tolerance, right_side, correction))
           throw RunFailure(
             "the pressure of the pore water was not found in " +
             to_text(max_iterations) +

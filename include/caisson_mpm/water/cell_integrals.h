@@ -36,9 +36,13 @@ namespace CaissonMPM
     PressureSolver::CellMatrix
     stiffness(const Conductance &c) const;
 
-    /** int N_i div v for the nodal velocities v_r and v_z in turn. [i][2 j] */
-    std::array<std::array<double, 8>, 4>
+    /** int N_i div v for the nodal velocities v_r and v_z in turn. [2 j][i] */
+    std::array<std::array<double, 4>, 8>
     divergence() const;
+
+    /** The means of dN_i/dr and dN_i/dz over the volume of the cell. [d][i] */
+    std::array<std::array<double, 4>, 2>
+    mean_gradient() const;
 
     /** int N_i. */
     std::array<double, 4>

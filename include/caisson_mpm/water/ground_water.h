@@ -73,16 +73,16 @@ namespace CaissonMPM
     void
     initialize();
 
-    /** Keep the field at the nodes over the next initialize(), before the parts
-     * of the mesh change. Collective. */
+    /** Keep the fields at the nodes over the next initialize(), before the
+     * parts of the mesh change. Collective. */
     void
     keep_field();
 
-    /** Return the field at the nodes for a checkpoint. Collective. */
+    /** Return the fields at the nodes for a checkpoint. Collective. */
     NamedNumbers
-    field_state() const;
+    field_state();
 
-    /** Return to the field of a checkpoint. */
+    /** Return to the fields of a checkpoint. */
     void
     resume_field(const NamedNumbers &state);
 
@@ -128,7 +128,7 @@ namespace CaissonMPM
     pressure();
 
     /** Return the pressure that acts on the soil now: within a coupled step,
-     * before correct(), a share of the last one. [n_nodes], Pa */
+     * before correct(), what is kept of the last one. [n_nodes], Pa */
     const std::vector<double> &
     acting_pressure();
 
@@ -206,15 +206,21 @@ namespace CaissonMPM
     std::size_t
     n_places() const;
     /** The field that an equation is solved for. */
-    NodalData &
-    field();
     const NodalData &
     field() const;
-    /** Return its values [n_places()] on all ranks, NaN without a node. */
+    /** A field that the water goes on from, and its name in a checkpoint. */
+    struct KeptField
+    {
+      std::string name;
+      NodalData  *field;
+    };
+    std::vector<KeptField>
+    kept_fields();
+    /** Return the values [n_places()] on all ranks, NaN without a node. */
     std::vector<double>
-    gather_field() const;
+    gather(const NodalData &field) const;
     void
-    scatter_field(const std::vector<double> &values);
+    scatter(const std::vector<double> &values, NodalData &field) const;
     void
     solve();
     void
@@ -271,20 +277,20 @@ namespace CaissonMPM
 
     Level                     level            = Level::drained;
     double                    renewal          = 0.25;
-    double                    kept_pressure    = 0.95;
+    double                    smoothing        = 0.05;
     double                    time_compression = 1.;
     PressureSolver::OpenSides sides;
     std::string               bottom_text = "0";
     Expression                bottom_pressure; // Pa
     Suction                   suction;
 
-    Seepage                      seepage;
-    PressureProjection           projection;
-    Mudline                      mudline;
-    std::vector<Conductance>     permeability; // [n_cells], m/s
-    std::vector<WaterProperties> properties;   // [n_cells]
-    std::vector<double>          pressure_;    // [n_nodes]
-    std::vector<double>          kept_field;   // of keep_field()
+    Seepage                          seepage;
+    PressureProjection               projection;
+    Mudline                          mudline;
+    std::vector<Conductance>         permeability; // [n_cells], m/s
+    std::vector<WaterProperties>     properties;   // [n_cells]
+    std::vector<double>              pressure_;    // [n_nodes]
+    std::vector<std::vector<double>> kept_values;  // of keep_field()
     // the integral over the tip of phi (m2), or coupled of the pressure (N)
     double       tip_integral     = 0.;
     double       tip_area         = 0.; // looking down, m2

@@ -87,7 +87,7 @@ namespace CaissonMPM
     largest_change(const Mudline &other) const;
 
     /** Below this share, the conductance of a cut cell grows no more. */
-    static constexpr double least_filled = .02;
+    static constexpr double least_filled = .002;
 
   private:
     /** Points at the top of the soil. */

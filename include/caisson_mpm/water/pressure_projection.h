@@ -3,12 +3,13 @@
 // Pore pressure and motion of the soil together, in time:
 //   rho dv/dt = div sigma' - grad p + rho g,   div v = div(k / gamma_w grad p).
 //
-// Each step predicts the velocity with the share beta of the old pressure, and
-// projects it (Chorin 1968, doi:10.1090/S0025-5718-1968-0242392-2):
+// Each step predicts the velocity with a pressure p_kept, and projects it
+// (Chorin 1968, doi:10.1090/S0025-5718-1968-0242392-2):
 //   (k / gamma_w + dt / rho) grad N . grad p =
-//       -N div v* + beta dt / rho grad N . grad p_old,
+//       -N div v* + dt / rho grad N . grad p_kept,
 // integrated over the soil below the mudline, with the density rho that mass
-// scaling has made larger. See doc/theory.md, section 16.
+// scaling has made larger. p_kept is the old pressure without a share of its
+// oscillation from node to node. See doc/theory.md, section 16.
 #ifndef caisson_mpm_water_pressure_projection_h
 #define caisson_mpm_water_pressure_projection_h
 
@@ -21,8 +22,9 @@ namespace CaissonMPM
   /** What the soil of a cell is to the water. */
   struct WaterProperties
   {
-    Conductance mobility;             // k / gamma_w, m4/(N s)
-    double      specific_volume = 0.; // 1 / rho, m3/kg
+    Conductance  mobility;             // k / gamma_w, m4/(N s)
+    double       specific_volume = 0.; // 1 / rho, m3/kg
+    unsigned int layer           = 0;  // where the permeability may jump
   };
 
   /** The pressures that are known: at the mudline of the plug, and at an open
@@ -41,7 +43,7 @@ namespace CaissonMPM
   public:
     /** Set up what knows the nodes of this rank; the pressure becomes zero. */
     void
-    initialize(const BackgroundGrid &grid);
+    initialize(const BackgroundGrid &grid, const unsigned int n_layers);
 
     /** Find the equations at the start of a step. @p properties [n_cells] are
      * read of the cells of this rank. */
@@ -53,15 +55,31 @@ namespace CaissonMPM
            const double                        dt);
 
     /**
-     * Solve for the pressure. @p velocity [n_nodes] is predicted with the share
-     * @p kept of the old pressure and held to all constraints, and cells at @p
-     * corners of the body see it as these say. Throws RunFailure where the
-     * solver does not converge.
+     * Find the kept() pressure: the present one, less the share @p smoothing of
+     * its oscillation. At each unknown node this is what the gradient in the
+     * cells drives out, less what the mean gradient at the nodes would, in
+     * pressure of this node alone. Each layer has gradients of its own, so that
+     * it is zero for pressures that are linear in each layer.
+     */
+    void
+    find_kept(const double smoothing);
+
+    /** The pressure with which the step predicts. [n_nodes], Pa */
+    const NodalData &
+    kept() const
+    {
+      return kept_;
+    }
+
+    /**
+     * Solve for the pressure. @p velocity [n_nodes] is predicted with the
+     * kept() pressure and held to all constraints, and cells at @p corners of
+     * the body see it as these say. What the solver leaves of an equation is
+     * made good in the next step. Throws RunFailure where it does not converge.
      */
     void
     solve(const Kernels::NodalVector             *velocity,
           const std::vector<Kernels::CornerView> &corners,
-          const double                            kept,
           const KnownPressures                   &known);
 
     /**
@@ -93,6 +111,14 @@ namespace CaissonMPM
       return pressure_;
     }
 
+    /** What the solver left of the equations at unknown nodes, which the next
+     * step begins with as with the pressure. [n_nodes], m3/s per radian */
+    NodalData &
+    remainder()
+    {
+      return remainder_;
+    }
+
     /** The water that leaves the soil at each node. [n_nodes], m3/s per radian
      */
     const NodalData &
@@ -121,7 +147,8 @@ namespace CaissonMPM
       double                     filled = 0.;
       WaterProperties            properties;
       PressureSolver::CellMatrix flow, inertia;
-      std::array<std::array<double, 8>, 4> divergence;
+      std::array<std::array<double, 4>, 8> divergence;
+      std::array<std::array<double, 4>, 2> gradient;
       std::array<double, 4>                volumes;
     };
     void
@@ -131,8 +158,20 @@ namespace CaissonMPM
                    Cell                        &cell) const;
     /** to_I = sum_J K_IJ p_J with these matrices of the cells. */
     void
-    find_product(PressureSolver::CellMatrix Cell::*matrix, NodalData &to) const;
-    /** Find the volume of each node, and what a uniform pressure does. */
+    find_product(PressureSolver::CellMatrix Cell::*matrix,
+                 const NodalData                  &p,
+                 NodalData                        &to) const;
+    /** Let @p add put in what each cell gives to the nodes, and add it up. */
+    template <typename Action>
+    void
+    sum_cells(NodalData         &to,
+              const unsigned int n_components,
+              const Action      &add) const;
+    /** Find the mean gradient of the pressure at each node in each layer. */
+    void
+    find_gradient();
+    /** Find the volume and the stiffness of each node, and what a uniform
+     * pressure does. */
     void
     find_volumes();
     void
@@ -151,7 +190,11 @@ namespace CaissonMPM
     std::vector<Cell>     equations; // [n_cells]
     std::vector<double>   volume_rates_;
     double                scale = 1., step = 0.;
-    NodalData             pressure_, outflow_, source, volume, rate;
+    NodalData             pressure_, kept_, outflow_, remainder_, source, rate;
+    NodalData             volume, stiffness;
+    unsigned int          n_layers = 1;
+    NodalData             volume_in_layer; // [n_nodes][n_layers]
+    NodalData             gradient;        // [n_nodes][n_layers][2]
     // 1 at unknown nodes; K times it, and the sum of that
     NodalData uniform, of_uniform;
     double    conductance = 0.;

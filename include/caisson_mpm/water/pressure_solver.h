@@ -45,6 +45,13 @@ namespace CaissonMPM
       bool outer = false, bottom = false, surface = true;
     };
 
+    /** The residual may be as large as the larger of these shares: of the
+     * residual of the known values alone, and of that of the first guess. */
+    struct Accuracy
+    {
+      double of_known_values, of_first_guess;
+    };
+
     /** Set up what knows the nodes of this rank. */
     void
     initialize(const BackgroundGrid &grid);
@@ -82,11 +89,11 @@ namespace CaissonMPM
      * Solve for @p field [n_nodes], which is the first guess, and has the known
      * values at open and plug; the rest but hanging nodes is set to zero where
      * there is no water. @p source [n_nodes] is f, with hanging nodes already
-     * at their masters. The residual is brought below @p tolerance times that
-     * of the known values alone. Throws RunFailure where that fails.
+     * at their masters. Throws RunFailure where the solver does not reach the
+     * @p accuracy.
      */
     void
-    solve(const NodalData &source, const double tolerance, NodalData &field);
+    solve(const NodalData &source, const Accuracy &accuracy, NodalData &field);
 
     /** The iterations of the last solution. */
     unsigned int
@@ -108,12 +115,13 @@ namespace CaissonMPM
     double
     sum_at(const NodalData &of_nodes, const State where) const;
 
-  private:
-    void
-    assemble();
     /** Take away what is not at unknown nodes of this rank. */
     void
     keep_unknown(NodalData &field) const;
+
+  private:
+    void
+    assemble();
     /** Iterate with the present multigrid; return whether that converged. */
     bool
     iterate(const unsigned int max_iterations,
