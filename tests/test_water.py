@@ -88,6 +88,50 @@ class Suction(ProgramTest):
         text = self.run_scene("suction", path, entries=entries)
         self.assert_words(["cavitation", "Water depth"], text)
 
+    def test_plug_balance(self) -> None:
+        """The mudline rises by the soil that comes in and its dilation. A part of
+        what the wall displaces comes in, and suction draws in more."""
+        path = self.directory()
+        entries = {"Time/End penetration": 1.5}
+        self.run_scene("suction", path, entries=entries)
+        rows = [row for row in history(path) if row["penetration_m"] > 1.24]
+        self.assertGreater(len(rows), 3)
+        area = math.pi * INNER_RADIUS**2
+        for row in rows:
+            self.assertLess(abs(row["plug_balance_error"]), 0.02)
+            rise, inflow, growth = (
+                row[f"plug_{name}_m3"]
+                for name in ("heave_volume", "inflow", "dilation")
+            )
+            self.assertAlmostEqual(rise, area * row["plug_heave_m"], 8)
+            self.assertAlmostEqual(
+                row["plug_balance_error"], (rise - inflow - growth) / rise, 9
+            )
+            wall = math.pi * (3**2 - INNER_RADIUS**2) * (row["penetration_m"] - 0.5)
+            self.assertGreater(inflow, 0.8 * wall)
+            self.assertLess(inflow, wall)
+
+    def test_plug_of_ranks_and_restart(self) -> None:
+        """The soil of all ranks counts, from the start of the first run on."""
+        rows = []
+        for ranks, ends in ((1, [0.6]), (3, [0.6]), (1, [0.55, 0.6])):
+            path = self.directory(f"{ranks}_{len(ends)}")
+            for end in ends:
+                self.run_scene(
+                    "suction",
+                    path,
+                    SUCCESS,
+                    *(["--restart"] if end != ends[0] else []),
+                    entries={"Time/End penetration": end},
+                    ranks=ranks,
+                )
+            rows.append(history(path)[-1])
+        self.assertGreater(rows[0]["plug_inflow_m3"], 0.1)
+        for row, delta in zip(rows[1:], (1e-4, 0.05)):
+            self.assertAlmostEqual(
+                row["plug_inflow_m3"] / rows[0]["plug_inflow_m3"], 1, delta=delta
+            )
+
     def test_ranks(self) -> None:
         rows = []
         for ranks in (1, 3):

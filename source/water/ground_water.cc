@@ -38,6 +38,7 @@ namespace CaissonMPM
     , points(points)
     , soil(soil)
     , body(body)
+    , plug_balance(grid, points, body)
   {
     add_choice(*this,
                "Level",
@@ -255,7 +256,10 @@ namespace CaissonMPM
     flow_out            = solver().sum_at(outflow(), PressureSolver::plug);
     flow_in             = -solver().sum_at(outflow(), PressureSolver::open);
     if (has_lid() && !has_started)
-      plug_height = mudline.mean_height(Mudline::Side::plug);
+      {
+        plug_height = mudline.mean_height(Mudline::Side::plug);
+        plug_balance.start();
+      }
     has_started = true;
   }
 
@@ -472,6 +476,7 @@ namespace CaissonMPM
     suction.register_totals(totals);
     totals.keep("time_of_suction", time_of_suction);
     recent_heave.register_totals(totals, "recent_heave");
+    plug_balance.register_totals(totals);
     totals.keep("seepage_volume", seepage_volume);
     totals.keep("plug_height_at_start", plug_height);
     totals.keep("water_has_started", has_started);

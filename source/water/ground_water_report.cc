@@ -95,6 +95,8 @@ namespace CaissonMPM
       {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
       {"flow_iterations", 1. * solver().n_iterations()}};
     result.insert(result.end(), of_lid.begin(), of_lid.end());
+    const auto of_plug = plug_balance.columns(lid_area() * rise);
+    result.insert(result.end(), of_plug.begin(), of_plug.end());
     return result;
   }
 

@@ -10,6 +10,7 @@
 #include <caisson_mpm/bodies/rest.h>
 #include <caisson_mpm/bodies/rigid_body.h>
 #include <caisson_mpm/materials/soil.h>
+#include <caisson_mpm/water/plug_balance.h>
 #include <caisson_mpm/water/pressure_projection.h>
 #include <caisson_mpm/water/seepage.h>
 #include <caisson_mpm/water/suction.h>
@@ -287,6 +288,7 @@ namespace CaissonMPM
     Seepage                          seepage;
     PressureProjection               projection;
     Mudline                          mudline;
+    PlugBalance                      plug_balance;
     std::vector<Conductance>         permeability; // [n_cells], m/s
     std::vector<WaterProperties>     properties;   // [n_cells]
     std::vector<double>              pressure_;    // [n_nodes]
