@@ -241,6 +241,11 @@ namespace CaissonMPM
             if (n_rigid[node] == 1)
               flags[c] |= Kernels::at_corner_of_body;
           }
+    for (unsigned int c = 0; c < n_cells(); ++c)
+      for (unsigned int face = 0; !rigid[c] && face < 4; ++face)
+        if (const int beyond = neighbor(c, face);
+            beyond >= 0 && rigid[beyond] && !is_lid(beyond))
+          flags[c] |= Kernels::body_to_the_left << face;
   }
 
   void

@@ -289,7 +289,8 @@ namespace CaissonMPM
                  const Stress            &stress,
                  const double             void_ratio)
   {
-    return Kernels::law_table.law[material.law].p_wave_modulus(material,
+    return material.water_modulus +
+           Kernels::law_table.law[material.law].p_wave_modulus(material,
                                                                stress.data(),
                                                                void_ratio);
   }

@@ -41,7 +41,8 @@ namespace CaissonMPM
                moments.data(),
                momentum.filled(),
                nullptr,
-               0};
+               0,
+               soil.pore_pressure};
     momentum.collect({*kernels, step, soil.points, soil.grid, time}, forces);
   }
 

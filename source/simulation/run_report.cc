@@ -150,7 +150,7 @@ namespace CaissonMPM
       append(members,
              {{"layers", "[" + layers + "]"},
               {"frame_penetrations_m", "[" + frames + "]"}});
-      if (parts.water.acts())
+      if (parts.water.flows())
         append(members, Json::numbers(parts.water.limits()));
       if (const std::string reason = parts.water.reason_to_end();
           !reason.empty())

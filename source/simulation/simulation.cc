@@ -103,9 +103,7 @@ namespace CaissonMPM
     const StepSize size = {clock.step_size,
                            time_step.courant_number(clock.step_size)};
     timed("points to grid", [&]() {
-      nodal_motion.collect({*kernels, points, grid, materials},
-                           nodal_forces,
-                           clock.time);
+      nodal_motion.collect(soil_on_grid(), nodal_forces, clock.time);
     });
     timed("nodal motion", [&]() {
       nodal_motion.accelerate(size, body.mean_velocity(), contact);
@@ -175,8 +173,11 @@ namespace CaissonMPM
   }
 
   void
-  Simulation::add_step(const NodalWork &work)
+  Simulation::add_step(NodalWork work)
   {
+    if (grid.is_first_rank())
+      work.load += water.work_at_tip(
+        body.mean_velocity() * body.shape().direction() * clock.step_size);
     energy.add(work, grid.circumference() * points.update_result().stress_work);
     const NodalReactions &reactions = nodal_motion.reactions();
     const SurfaceForces  &on_body   = reactions.contact.impulse;
@@ -218,6 +219,12 @@ namespace CaissonMPM
     return {contact, boundary_conditions, grid.hanging_nodes()};
   }
 
+  SoilOnGrid
+  Simulation::soil_on_grid()
+  {
+    return {*kernels, points, grid, materials, water.cell_pressure()};
+  }
+
   void
   Simulation::find_pore_pressure()
   {
@@ -225,11 +232,8 @@ namespace CaissonMPM
     const NodalData &predicted =
       nodal_motion.predict(body.mean_velocity(), constraints);
     water.correct(nodal_vectors(predicted), contact.corners().views());
-    nodal_motion.correct({*kernels, points, grid, materials},
-                         nodal_forces,
-                         clock.time,
-                         body.mean_velocity(),
-                         contact);
+    nodal_motion.correct(
+      soil_on_grid(), nodal_forces, clock.time, body.mean_velocity(), contact);
   }
 
   void
@@ -295,7 +299,7 @@ namespace CaissonMPM
     SectionTimer::Scope scope(timer, timer.section("output"));
     const Schedule::Due due = schedule.take_due();
     if (due.record || due.frame)
-      water.write_pressure_to(points);
+      water.write_pressure_to_points();
     if (due.record)
       recorder.record();
     if (due.frame)

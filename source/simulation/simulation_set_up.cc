@@ -27,10 +27,12 @@ namespace CaissonMPM
     water.check_parameters();
     nodal_forces.check_parameters();
     nodal_motion.settings().check_parameters();
-    if (water.is_coupled() && !nodal_motion.settings().uses_mean_volume())
-      throw BadInput("Water/Level is coupled, but Method/Mean volume change is "
-                     "false: the points of a cell are strained with the volume "
-                     "change that the pressure sees. Set it to true.");
+    if ((water.is_coupled() || water.is_undrained()) &&
+        !nodal_motion.settings().uses_mean_volume())
+      throw BadInput("Water/Level is coupled or undrained, but Method/Mean "
+                     "volume change is false: the points of a cell are "
+                     "strained with the volume change that the pressure sees. "
+                     "Set it to true.");
     recorder.check_parameters();
     schedule.check_parameters();
     if (Kernels::select_kernels(instruction_set.c_str()) == nullptr)
@@ -49,7 +51,8 @@ namespace CaissonMPM
     grid.create_mesh();
     set_up_part();
     nodal_forces.initialize(soil.mass_scaling());
-    materials   = soil.kernel_materials();
+    materials = soil.kernel_materials();
+    water.stiffen(materials);
     double mass = 0.;
     for (const BodyPoint &p : body_points)
       mass += p.mass;

@@ -29,10 +29,10 @@ namespace CaissonMPM
     constexpr double time_of_heave = 1.; // s
   }                                      // namespace
 
-  GroundWater::GroundWater(BackgroundGrid       &grid,
-                           const MaterialPoints &points,
-                           const Soil           &soil,
-                           const RigidBody      &body)
+  GroundWater::GroundWater(BackgroundGrid  &grid,
+                           MaterialPoints  &points,
+                           const Soil      &soil,
+                           const RigidBody &body)
     : ParameterAcceptor("/Water")
     , grid(grid)
     , points(points)
@@ -40,16 +40,19 @@ namespace CaissonMPM
     , body(body)
     , plug_balance(grid, points, body)
   {
-    add_choice(*this,
-               "Level",
-               level,
-               {{"drained", Level::drained},
-                {"seepage", Level::seepage},
-                {"coupled", Level::coupled}},
-               "The pore water has no excess pressure (drained), flows "
-               "steadily under the suction beneath the lid of a caisson "
-               "(seepage), or has the pressure that follows from the motion of "
-               "the soil (coupled). Units: none.");
+    add_choice(
+      *this,
+      "Level",
+      level,
+      {{"drained", Level::drained},
+       {"undrained", Level::undrained},
+       {"seepage", Level::seepage},
+       {"coupled", Level::coupled}},
+      "The pore water has no excess pressure (drained), stays where it "
+      "is and resists any change of volume (undrained), flows "
+      "steadily under the suction beneath the lid of a caisson "
+      "(seepage), or has the pressure that follows from the motion of "
+      "the soil (coupled). Units: none.");
     add_parameter("Renewal",
                   renewal,
                   "The flow is found anew when the body has moved, or the "
@@ -69,6 +72,14 @@ namespace CaissonMPM
                   "The scene runs this many times faster than what it stands "
                   "for, and a coupled run multiplies all permeabilities with "
                   "it, so that as much water flows. Units: none.",
+                  prm,
+                  Patterns::Double(1e-9));
+    add_parameter("Bulk modulus",
+                  bulk_modulus,
+                  "Bulk modulus of the water in undrained soil over the "
+                  "porosity: the excess pressure is this times the decrease of "
+                  "volume. 20 to 60 times the bulk modulus of the soil leaves "
+                  "hardly any change of volume. Units: Pa.",
                   prm,
                   Patterns::Double(1e-9));
     add_parameter("Drained surface",
@@ -95,6 +106,13 @@ namespace CaissonMPM
   {
     if (!acts())
       return;
+    if (is_undrained())
+      {
+        if (!soil.is_submerged())
+          throw BadInput("Water/Level is undrained, but the soil is dry: set "
+                         "Soil/Submerged = true.");
+        return;
+      }
     suction.check_parameters();
     bottom_expression();
     if (!soil.is_submerged() || soil.unit_weight_of_water() <= 0.)
@@ -141,9 +159,12 @@ namespace CaissonMPM
   void
   GroundWater::name_unused_entries(ParameterOrigins &origins) const
   {
+    if (!flows())
+      return name_unused_without_flow(origins);
+    origins.add_unused({"Water/Bulk modulus"}, "Water/Level is not undrained");
     if (is_coupled())
       origins.add_unused({"Water/Renewal"}, "Water/Level is coupled");
-    else if (acts())
+    else
       origins.add_unused({"Water/Pressure smoothing",
                           "Water/Bottom pressure",
                           "Water/Time compression",
@@ -152,16 +173,23 @@ namespace CaissonMPM
     if (is_coupled() && !sides.bottom)
       origins.add_unused({"Water/Bottom pressure"},
                          "Water/Drained bottom is false");
-    if (acts() && !has_lid())
+    if (!has_lid())
       return origins.add_unused({"Water/Suction control",
                                  "Water/Suction table",
                                  "Water/Suction delay",
                                  "Water/Largest suction",
                                  "Water/Water depth"},
                                 "there is no caisson");
-    if (acts())
-      return suction.name_unused_entries(origins);
-    const std::string why = "Water/Level is drained";
+    suction.name_unused_entries(origins);
+  }
+
+  void
+  GroundWater::name_unused_without_flow(ParameterOrigins &origins) const
+  {
+    const std::string why =
+      is_undrained() ? "Water/Level is undrained" : "Water/Level is drained";
+    if (!is_undrained())
+      origins.add_unused({"Water/Bulk modulus"}, why);
     origins.add_unused({"Water/Renewal",
                         "Water/Pressure smoothing",
                         "Water/Bottom pressure",
@@ -194,12 +222,15 @@ namespace CaissonMPM
   {
     if (!acts())
       return;
+    mudline.initialize(grid, body.shape());
+    undrained.forget();
+    if (!flows())
+      return;
     bottom_pressure = bottom_expression();
     if (is_coupled())
       projection.initialize(grid, soil.n_layers());
     else
       seepage.initialize(grid);
-    mudline.initialize(grid, body.shape());
     is_solved         = false;
     const auto fields = kept_fields();
     for (std::size_t i = 0; i < kept_values.size(); ++i)
@@ -218,6 +249,8 @@ namespace CaissonMPM
   {
     if (!acts())
       return;
+    if (is_undrained())
+      return find_undrained_pressure();
     if (is_coupled())
       return set_up_step(dt);
     const double moved = std::abs(body.motion().travel() - travel_at_solve);
@@ -247,14 +280,64 @@ namespace CaissonMPM
     steps_since_look = 0;
   }
 
+  template <typename Function>
+  std::array<double, 2>
+  GroundWater::integrate_over_tip(const Function &value) const
+  {
+    std::array<double, 2> sums = {{0., 0.}};
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      {
+        const int above = grid.neighbor(cell, 3);
+        if (!grid.is_owned(cell) || grid.is_rigid(cell) || above < 0 ||
+            !grid.is_rigid(above) ||
+            mudline.side_of(cell) != Mudline::Side::body)
+          continue;
+        const auto area =
+          areas_of_side(grid.geometry(cell), grid.axisymmetric());
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            sums[0] += area[i] * value(cell, 2 + i);
+            sums[1] += area[i];
+          }
+      }
+    for (double &sum : sums)
+      sum =
+        grid.circumference() * Utilities::MPI::sum(sum, grid.communicator());
+    return sums;
+  }
+
+  void
+  GroundWater::find_undrained_pressure()
+  {
+    undrained.find(bulk_modulus, points);
+    tip_integral =
+      integrate_over_tip([this](const unsigned int cell, const unsigned int) {
+        return undrained.pressure()[cell];
+      })[0];
+  }
+
+  void
+  GroundWater::stiffen(std::vector<Kernels::Material> &materials) const
+  {
+    for (Kernels::Material &material : materials)
+      if (is_undrained())
+        {
+          material.water_modulus = bulk_modulus;
+          material.p_wave_modulus += bulk_modulus;
+        }
+  }
+
   void
   GroundWater::find_flow()
   {
-    const auto over_tip = integrate_over_tip(field());
-    tip_integral        = over_tip[0];
-    tip_area            = over_tip[1];
-    flow_out            = solver().sum_at(outflow(), PressureSolver::plug);
-    flow_in             = -solver().sum_at(outflow(), PressureSolver::open);
+    const auto over_tip = integrate_over_tip(
+      [this](const unsigned int cell, const unsigned int corner) {
+        return field().local_element(grid.cell_nodes(cell).node[corner]);
+      });
+    tip_integral = over_tip[0];
+    tip_area     = over_tip[1];
+    flow_out     = solver().sum_at(outflow(), PressureSolver::plug);
+    flow_in      = -solver().sum_at(outflow(), PressureSolver::open);
     if (has_lid() && !has_started)
       {
         plug_height = mudline.mean_height(Mudline::Side::plug);
@@ -382,32 +465,6 @@ namespace CaissonMPM
       }
   }
 
-  std::array<double, 2>
-  GroundWater::integrate_over_tip(const NodalData &field) const
-  {
-    std::array<double, 2> sums = {{0., 0.}};
-    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
-      {
-        const int above = grid.neighbor(cell, 3);
-        if (!grid.is_owned(cell) || grid.is_rigid(cell) || above < 0 ||
-            !grid.is_rigid(above) ||
-            mudline.side_of(cell) != Mudline::Side::body)
-          continue;
-        const auto area =
-          areas_of_side(grid.geometry(cell), grid.axisymmetric());
-        for (unsigned int i = 0; i < 2; ++i)
-          {
-            sums[0] +=
-              area[i] * field.local_element(grid.cell_nodes(cell).node[2 + i]);
-            sums[1] += area[i];
-          }
-      }
-    for (double &sum : sums)
-      sum =
-        grid.circumference() * Utilities::MPI::sum(sum, grid.communicator());
-    return sums;
-  }
-
   double
   GroundWater::lid_area() const
   {
@@ -436,9 +493,11 @@ namespace CaissonMPM
   {
     if (!acts())
       return;
-    seepage_volume += dt * flow_scale() * flow_out;
     last_force_on_body = force_on_body;
     this->time         = time + dt;
+    if (is_undrained())
+      return;
+    seepage_volume += dt * flow_scale() * flow_out;
     if (!has_lid())
       return;
     // A body that is lowered rests before the pump starts.

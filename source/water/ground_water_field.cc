@@ -84,7 +84,7 @@ namespace CaissonMPM
   void
   GroundWater::keep_field()
   {
-    if (acts() && has_started)
+    if (flows() && has_started)
       for (const KeptField &kept : kept_fields())
         kept_values.push_back(gather(*kept.field));
   }
@@ -93,7 +93,7 @@ namespace CaissonMPM
   GroundWater::field_state()
   {
     NamedNumbers state;
-    if (!acts())
+    if (!flows())
       return state;
     for (const KeptField &kept : kept_fields())
       {
@@ -108,7 +108,7 @@ namespace CaissonMPM
   void
   GroundWater::resume_field(const NamedNumbers &state)
   {
-    if (!acts())
+    if (!flows())
       return;
     for (const KeptField &kept : kept_fields())
       {
@@ -121,13 +121,18 @@ namespace CaissonMPM
   }
 
   void
-  GroundWater::write_pressure_to(MaterialPoints &of_points)
+  GroundWater::write_pressure_to_points()
   {
-    if (!acts() || !is_solved)
+    if (undrained.is_found())
+      points.set_pore_pressure(
+        [this](const unsigned int cell, const Point<2> &) {
+          return undrained.pressure()[cell];
+        });
+    if (!flows() || !is_solved)
       return;
     const std::vector<double> &p = pressure();
-    of_points.set_pore_pressure([&](const unsigned int cell,
-                                    const Point<2>    &place) {
+    points.set_pore_pressure([&](const unsigned int cell,
+                                 const Point<2>    &place) {
       const Kernels::CellMap<> map(grid.geometry(cell));
       double                   at_corner[4], field[4];
       for (unsigned int k = 0; k < 4; ++k)

@@ -21,6 +21,16 @@ namespace CaissonMPM
 
     // Above this, the loss of old pressure acts as permeability does.
     constexpr double largest_leak = .5;
+
+    // Below this, undrained soil changes its volume noticeably.
+    constexpr double least_share = .9;
+
+    /** What the water bears of a load on confined undrained soil. */
+    double
+    share_of_load(const Kernels::Material &material)
+    {
+      return material.water_modulus / material.p_wave_modulus;
+    }
   } // namespace
 
   std::vector<std::string>
@@ -52,6 +62,11 @@ namespace CaissonMPM
   {
     if (!acts())
       return {};
+    if (is_undrained())
+      return {{"pore_pressure_smallest_Pa", extremes().first},
+              {"pore_pressure_largest_Pa", extremes().second},
+              {"tip_water_force_N", tip_force()},
+              {"total_force_with_water_N", -last_force_on_body + tip_force()}};
     const double scale = flow_scale();
     NamedNumbers result;
     if (is_coupled())
@@ -103,15 +118,17 @@ namespace CaissonMPM
   std::pair<double, double>
   GroundWater::extremes() const
   {
-    std::pair<double, double> result = {0., 0.};
-    if (!has_started)
-      return result;
-    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
-      {
-        const double p = projection.pressure().local_element(node);
-        result.first   = std::min(result.first, p);
-        result.second  = std::max(result.second, p);
-      }
+    std::pair<double, double> result  = {0., 0.};
+    const auto                include = [&](const double p) {
+      result.first  = std::min(result.first, p);
+      result.second = std::max(result.second, p);
+    };
+    for (const double p : undrained.pressure())
+      include(p);
+    for (unsigned int node = 0;
+         is_coupled() && has_started && node < grid.n_owned_nodes();
+         ++node)
+      include(projection.pressure().local_element(node));
     return {Utilities::MPI::min(result.first, grid.communicator()),
             Utilities::MPI::max(result.second, grid.communicator())};
   }
@@ -133,8 +150,8 @@ namespace CaissonMPM
   NamedNumbers
   GroundWater::columns()
   {
-    if (!acts())
-      return {};
+    if (!flows())
+      return values(mudline);
     if (!is_solved && !is_coupled())
       solve();
     if (is_solved && has_lid())
@@ -148,7 +165,7 @@ namespace CaissonMPM
   GroundWater::take_warnings()
   {
     std::vector<std::string> warnings;
-    if (!acts() || !has_lid())
+    if (!flows() || !has_lid())
       return warnings;
     const std::string where =
       " at a penetration of " + to_text(body.penetration(), 5) + " m";
@@ -204,6 +221,12 @@ namespace CaissonMPM
     const std::vector<Kernels::Material> &materials) const
   {
     std::vector<std::pair<std::string, std::string>> lines;
+    if (is_undrained())
+      for (unsigned int i = 0; i < materials.size(); ++i)
+        lines.emplace_back("water in layer " + to_text(i + 1),
+                           "undrained, bears " +
+                             to_text(share_of_load(materials[i]), 3) +
+                             " of a load on confined soil");
     const auto of_layers = drainage(materials);
     for (unsigned int i = 0; i < of_layers.size(); ++i)
       lines.emplace_back(
@@ -222,7 +245,16 @@ namespace CaissonMPM
                             const double                          dt) const
   {
     std::vector<std::string> limits;
-    const auto               of_layers = drainage(materials);
+    for (unsigned int i = 0; is_undrained() && i < materials.size(); ++i)
+      if (share_of_load(materials[i]) < least_share)
+        limits.push_back(
+          "the water of layer " + to_text(i + 1) +
+          " is so soft that the soil is not undrained: it bears " +
+          to_text(share_of_load(materials[i]), 2) +
+          " of a load on confined soil, less than " + to_text(least_share) +
+          ". Set Water/Bulk modulus = " +
+          to_text(20. * (materials[i].p_wave_modulus - bulk_modulus), 2));
+    const auto of_layers = drainage(materials);
     for (unsigned int i = 0; i < of_layers.size(); ++i)
       if (of_layers[i].inertia > largest_inertia)
         limits.push_back(
@@ -265,7 +297,7 @@ namespace CaissonMPM
   std::string
   GroundWater::reason_to_end() const
   {
-    if (!acts() || !has_lid())
+    if (!flows() || !has_lid())
       return "";
     const double travel = body.motion().travel();
     if (body.penetration() <= 0.)

@@ -151,6 +151,12 @@ namespace CaissonMPM
         });
     }
 
+    /** Give all points of a cell the same ratio of volume to initial volume,
+     * that of their sums, and write it to @p ratio [n_cells]; 1 where there is
+     * no point. Volumes stay, and so does the sum of the initial ones. */
+    void
+    level_volume_ratio(std::vector<double> &ratio);
+
     /** Call action(position, velocity, mass, material) for every point: less
      * work than for_each(). */
     template <typename Action>

@@ -79,7 +79,13 @@ namespace CaissonMPM
     enum CellFlags : unsigned char
     {
       next_to_body      = 1,
-      at_corner_of_body = 2 // where just one cell of the body meets a node
+      at_corner_of_body = 2, // where just one cell of the body meets a node
+      // sides that are faces of the body, but for the lid, in the order of
+      // GridView::neighbors
+      body_to_the_left  = 4,
+      body_to_the_right = 8,
+      body_below        = 16,
+      body_above        = 32
     };
 
     /** What plastic shear does to the volume of a soil. */
@@ -97,8 +103,10 @@ namespace CaissonMPM
     struct Material
     {
       int    law;
-      double body_force[2];  // acceleration of the scaled mass (m/s2)
-      double p_wave_modulus; // lambda + 2 mu, the largest of all points (Pa)
+      double body_force[2]; // acceleration of the scaled mass (m/s2)
+      // lambda + 2 mu, the largest of all points, and water_modulus (Pa)
+      double        p_wave_modulus;
+      double        water_modulus = 0.; // of the water in undrained soil (Pa)
       VolumeInShear volume_in_shear;
       double        initial_void_ratio;
       double        initial_density; // of the scaled mass, kg/m3
@@ -219,6 +227,8 @@ namespace CaissonMPM
       // [n_corners], for grid_to_points
       const CornerView *corners   = nullptr;
       unsigned int      n_corners = 0;
+      // [n_cells], excess pore pressure of undrained soil; null: none (Pa)
+      const double *pore_pressure = nullptr;
     };
 
     /** How grid_to_points updates the points. */

@@ -13,7 +13,7 @@
 #ifndef caisson_mpm_kernels_points_to_grid_h
 #define caisson_mpm_kernels_points_to_grid_h
 
-#include <caisson_mpm/kernels/cell_sums.h>
+#include <caisson_mpm/kernels/cell_pressure.h>
 #include <caisson_mpm/kernels/laws.h>
 
 namespace CaissonMPM
@@ -414,13 +414,19 @@ namespace CaissonMPM
             // 3. f_I -= int (sigma . grad N_I + e_r kappa sigma_tt N_I/r) dV,
             //    over Gauss points and points.
             integrate_stress(step, group, map, sums, internal_rows, internal);
+            if (step.pore_pressure != nullptr)
+              add_cell_pressure(step, group, map, internal);
             contribution.add_forces(internal);
 
             // 4. Add to the nodes, cell by cell, because cells share nodes.
             contribution.scatter(group, step.grid.nodes, nodes);
             for (int i = 0; i < group.n; ++i)
-              if (step.moments[group.cell[i]].several_materials)
-                add_other_body_forces<Number>(step, group.cell[i], nodes);
+              {
+                if (step.moments[group.cell[i]].several_materials)
+                  add_other_body_forces<Number>(step, group.cell[i], nodes);
+                if (step.pore_pressure != nullptr)
+                  add_pressure_of_body(step, group.cell[i], nodes);
+              }
           }
       }
     } // namespace CAISSON_KERNEL_ISA

@@ -114,7 +114,8 @@ namespace CaissonMPM
     law_values() const;
   };
 
-  /** lambda + 2 mu of a material in this state. Units: Pa. */
+  /** lambda + 2 mu of a material in this state, and the bulk modulus of its
+   * water if it is undrained. Units: Pa. */
   double
   p_wave_modulus(const Kernels::Material &material,
                  const Stress            &stress,

@@ -21,6 +21,7 @@ namespace CaissonMPM
     MaterialPoints                       &points;
     const BackgroundGrid                 &grid;
     const std::vector<Kernels::Material> &materials;
+    const double                         *pore_pressure; // see StepContext
   };
 
   /**

@@ -119,6 +119,8 @@ namespace CaissonMPM
     move_body();
     NodalConstraints
     constraints_of_nodes();
+    SoilOnGrid
+    soil_on_grid();
     /** Move a body whose velocity depends on the soil in this step. */
     void
     move_body_with_soil();
@@ -131,7 +133,7 @@ namespace CaissonMPM
     adapt_points(const double interval);
     /** Hand the sums of this step to those who keep them. */
     void
-    add_step(const NodalWork &work);
+    add_step(NodalWork work);
     void
     report_not_finite() const;
 

@@ -14,6 +14,7 @@
 #include <caisson_mpm/water/pressure_projection.h>
 #include <caisson_mpm/water/seepage.h>
 #include <caisson_mpm/water/suction.h>
+#include <caisson_mpm/water/undrained_pressure.h>
 
 #include <array>
 #include <string>
@@ -24,7 +25,9 @@ namespace CaissonMPM
 {
   /**
    * With Level = drained, water moves freely and its excess pressure is zero:
-   * nothing here does or costs anything. With Level = seepage, the flow is
+   * nothing here does or costs anything. With Level = undrained, it stays where
+   * it is, and its pressure resists the change of volume of the soil. With
+   * Level = seepage, the flow is
    * steady at each time: the field is found anew when the body or the mudline
    * has moved, and the suction scales it in every step. With Level = coupled,
    * the pressure is found in every step, from the motion of the soil.
@@ -36,10 +39,10 @@ namespace CaissonMPM
   {
   public:
     /** All must outlive this object. */
-    GroundWater(BackgroundGrid       &grid,
-                const MaterialPoints &points,
-                const Soil           &soil,
-                const RigidBody      &body);
+    GroundWater(BackgroundGrid  &grid,
+                MaterialPoints  &points,
+                const Soil      &soil,
+                const RigidBody &body);
 
     /** Throw BadInput where the entries contradict each other, or the scene. */
     void
@@ -49,11 +52,26 @@ namespace CaissonMPM
     void
     name_unused_entries(ParameterOrigins &origins) const;
 
-    /** Whether water flows. */
+    /** Whether the water may have an excess pressure. */
     bool
     acts() const
     {
       return level != Level::drained;
+    }
+
+    /** Whether water flows. */
+    bool
+    flows() const
+    {
+      return level == Level::seepage || is_coupled();
+    }
+
+    /** Whether no water flows, so that its pressure resists the change of
+     * volume. */
+    bool
+    is_undrained() const
+    {
+      return level == Level::undrained;
     }
 
     /** Whether the pressure follows from the motion of the soil. */
@@ -63,11 +81,31 @@ namespace CaissonMPM
       return level == Level::coupled;
     }
 
-    /** Whether there is an excess pressure now. */
+    /** Whether the gradient of an excess pressure at the nodes acts now. */
     bool
     has_pressure() const
     {
-      return is_coupled() || (acts() && suction.value() != 0.);
+      return is_coupled() || (flows() && suction.value() != 0.);
+    }
+
+    /** Add the bulk modulus of the water to undrained materials. */
+    void
+    stiffen(std::vector<Kernels::Material> &materials) const;
+
+    /** Return the pressure of undrained soil in each cell, for
+     * Kernels::StepContext; null unless the soil is undrained. [n_cells], Pa */
+    const double *
+    cell_pressure() const
+    {
+      return is_undrained() ? undrained.pressure().data() : nullptr;
+    }
+
+    /** Return the work of the undrained water at the tip on the soil, if the
+     * body moves by @p travel. Units: m, J. */
+    double
+    work_at_tip(const double travel) const
+    {
+      return is_undrained() ? tip_integral * travel : 0.;
     }
 
     /** Set up what knows the nodes of this rank. Collective. */
@@ -89,7 +127,7 @@ namespace CaissonMPM
 
     /** Give the points the pressure at their places. */
     void
-    write_pressure_to(MaterialPoints &points);
+    write_pressure_to_points();
 
     /** At the start of a step of length @p dt, find the flow where it is not
      * known well enough from an earlier one, or prepare to find the pressure.
@@ -193,10 +231,14 @@ namespace CaissonMPM
     enum class Level
     {
       drained,
+      undrained,
       seepage,
       coupled
     };
 
+    /** The part of name_unused_entries() for Level = drained or undrained. */
+    void
+    name_unused_without_flow(ParameterOrigins &origins) const;
     /** Throws BadInput where the text cannot be parsed. */
     Expression
     bottom_expression() const;
@@ -228,10 +270,13 @@ namespace CaissonMPM
     set_up_step(const double dt);
     void
     find_properties();
-    /** Return the integral of @p field [n_nodes] over the tip, looking down, and
-     * the area of the tip. Collective. */
+    /** Return the integral over the tip, looking down, of value(cell, corner)
+     * of the cells below it, and the area of the tip. Collective. */
+    template <typename Function>
     std::array<double, 2>
-    integrate_over_tip(const NodalData &field) const;
+    integrate_over_tip(const Function &value) const;
+    void
+    find_undrained_pressure();
     bool
     has_lid() const;
     /** The area beneath the lid, 0 without one. Units: m2. */
@@ -241,7 +286,8 @@ namespace CaissonMPM
     double
     tip_force() const
     {
-      return is_coupled() ? tip_integral : -suction.value() * tip_integral;
+      return level == Level::seepage ? -suction.value() * tip_integral :
+                                       tip_integral;
     }
     /** What the solution of seepage is to be multiplied with. */
     double
@@ -271,20 +317,22 @@ namespace CaissonMPM
     double
     heave_by_wall() const;
 
-    BackgroundGrid       &grid;
-    const MaterialPoints &points;
-    const Soil           &soil;
-    const RigidBody      &body;
+    BackgroundGrid  &grid;
+    MaterialPoints  &points;
+    const Soil      &soil;
+    const RigidBody &body;
 
     Level                     level            = Level::drained;
     double                    renewal          = 0.25;
     double                    smoothing        = 0.05;
     double                    time_compression = 1.;
+    double                    bulk_modulus     = 1e8; // Pa
     PressureSolver::OpenSides sides;
     std::string               bottom_text = "0";
     Expression                bottom_pressure; // Pa
     Suction                   suction;
 
+    UndrainedPressure                undrained;
     Seepage                          seepage;
     PressureProjection               projection;
     Mudline                          mudline;
@@ -293,7 +341,8 @@ namespace CaissonMPM
     std::vector<WaterProperties>     properties;   // [n_cells]
     std::vector<double>              pressure_;    // [n_nodes]
     std::vector<std::vector<double>> kept_values;  // of keep_field()
-    // the integral over the tip of phi (m2), or coupled of the pressure (N)
+    // the integral over the tip of phi (m2) in seepage, else of the pressure
+    // (N)
     double       tip_integral     = 0.;
     double       tip_area         = 0.; // looking down, m2
     double       travel_at_solve  = 0.;
