@@ -22,6 +22,7 @@ OWN = {
     "stability": SCENES / "stability/stability.toml",
     "error-bar": SCENES / "jack_study.toml",
     "tip": SCENES / "tip_study.toml",
+    "drainage": SCENES / "drainage_study.toml",
     "speed": SCENES / "speed.toml",
 }
 KINDS = {
@@ -30,6 +31,7 @@ KINDS = {
     "stability": "caisson.stability",
     "error bar": "caisson.error_bar",
     "forces": "caisson.forces",
+    "drainage": "caisson.drainage",
     "speed": "caisson.speed",
 }
 

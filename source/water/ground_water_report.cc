@@ -112,6 +112,9 @@ namespace CaissonMPM
     result.insert(result.end(), of_lid.begin(), of_lid.end());
     const auto of_plug = plug_balance.columns(lid_area() * rise);
     result.insert(result.end(), of_plug.begin(), of_plug.end());
+    if (is_coupled())
+      result.emplace_back("total_force_with_water_N",
+                          -last_force_on_body + tip_force());
     return result;
   }
 
