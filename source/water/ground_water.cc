@@ -82,6 +82,12 @@ namespace CaissonMPM
                   "hardly any change of volume. Units: Pa.",
                   prm,
                   Patterns::Double(1e-9));
+    declare_open_sides();
+  }
+
+  void
+  GroundWater::declare_open_sides()
+  {
     add_parameter("Drained surface",
                   sides.surface,
                   "The free surface of the soil outside keeps the pressure of "

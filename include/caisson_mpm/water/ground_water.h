@@ -236,6 +236,8 @@ namespace CaissonMPM
       coupled
     };
 
+    void
+    declare_open_sides();
     /** The part of name_unused_entries() for Level = drained or undrained. */
     void
     name_unused_without_flow(ParameterOrigins &origins) const;
