@@ -114,7 +114,9 @@ read(Scene &s, const std::string &current = parameters)
 {
   try
     {
-      read_checkpoint(directory, s.grid, s.points, current);
+      const Checkpoint checkpoint(directory);
+      checkpoint.check_fingerprint(current);
+      checkpoint.read_points(s.grid, s.points);
       return "read";
     }
   catch (const BadInput &error)
@@ -144,15 +146,16 @@ check_contents(Scene &s)
   write(s, .7);
   std::printf("written: %s\n", valid_file().c_str());
   s.points.take_all();
-  const auto state = read_checkpoint(directory, s.grid, s.points, parameters);
+  const Checkpoint checkpoint(directory);
+  checkpoint.read_points(s.grid, s.points);
   std::printf("the same points: %s\n",
               numbers_of(s) == before && s.points.n_points() == before.size() ?
                 "yes" :
                 "no");
   std::printf("the same state: %s\n",
-              state == NamedNumbers{{"time", .7},
-                                    {"third", 1. / 3.},
-                                    {"large", 1e300}} ?
+              checkpoint.state() == NamedNumbers{{"time", .7},
+                                                 {"third", 1. / 3.},
+                                                 {"large", 1e300}} ?
                 "yes" :
                 "no");
   std::printf("%s\n", read(s, "a = 1\nb = 3\n").c_str());

@@ -253,10 +253,10 @@ namespace CaissonMPM
      */
     template <typename Action>
     std::optional<std::uint64_t>
-    read_points(const std::string  &path,
-                const unsigned long n_points,
-                const MPI_Comm      communicator,
-                const Action       &action)
+    read_all_points(const std::string  &path,
+                    const unsigned long n_points,
+                    const MPI_Comm      communicator,
+                    const Action       &action)
     {
       PointFile  file(path, PointFile::Access::read, n_points, communicator);
       const auto n_ranks = Utilities::MPI::n_mpi_processes(communicator),
@@ -282,27 +282,6 @@ namespace CaissonMPM
     {
       std::string line;
       return std::getline(in, line) ? line : "(no further entry)";
-    }
-
-    void
-    check_fingerprint(const std::string &directory,
-                      const std::string &written,
-                      const std::string &current)
-    {
-      if (written == current)
-        return;
-      std::istringstream then(written), now(current);
-      std::string        a, b;
-      while (a == b && (then || now))
-        {
-          a = next_line(then);
-          b = next_line(now);
-        }
-      throw BadInput("the checkpoint in " + directory +
-                     " was written with\n  " + a +
-                     "\nand cannot be used with\n  " + b +
-                     "\nSet it back, or start the run anew, without --restart, "
-                     "in another directory.");
     }
 
     [[noreturn]] void
@@ -370,7 +349,7 @@ namespace CaissonMPM
 
     // see that all is there: a full disk is not always reported
     const auto found =
-      read_points(path, info.n_points, communicator, [](const auto &) {});
+      read_all_points(path, info.n_points, communicator, [](const auto &) {});
     on_first_rank(communicator, directory, [&]() {
       if (found != written)
         return on_failure();
@@ -382,20 +361,55 @@ namespace CaissonMPM
 
 
 
-  NamedNumbers
-  read_checkpoint(const std::string    &directory,
-                  const BackgroundGrid &grid,
-                  MaterialPoints       &points,
-                  const std::string    &fingerprint)
+  bool
+  Checkpoint::is_in(const std::string &directory)
+  {
+    return !read_text(info_file(directory)).empty();
+  }
+
+
+
+  Checkpoint::Checkpoint(const std::string &directory)
+    : directory(directory)
   {
     const Info info = read_info(directory);
-    check_fingerprint(directory, info.fingerprint, fingerprint);
+    file            = info.file;
+    n_points        = info.n_points;
+    checksum        = info.checksum;
+    state_          = info.state;
+    fingerprint_    = info.fingerprint;
+  }
+
+
+
+  void
+  Checkpoint::check_fingerprint(const std::string &fingerprint) const
+  {
+    if (fingerprint_ == fingerprint)
+      return;
+    std::istringstream then(fingerprint_), now(fingerprint);
+    std::string        a, b;
+    while (a == b && (then || now))
+      {
+        a = next_line(then);
+        b = next_line(now);
+      }
+    throw BadInput("the checkpoint in " + directory + " was written with\n  " +
+                   a + "\nand cannot be used with\n  " + b +
+                   "\nSet it back, or start the run anew, without --restart, "
+                   "in another directory.");
+  }
+
+
+
+  void
+  Checkpoint::read_points(const BackgroundGrid &grid,
+                          MaterialPoints       &points) const
+  {
     const MPI_Comm communicator   = grid.communicator();
     const auto     for_each_piece = [&](const auto &action) {
-      if (read_points(directory + "/" + info.file,
-                      info.n_points,
-                      communicator,
-                      action) != info.checksum)
+      if (read_all_points(
+            directory + "/" + file, n_points, communicator, action) != checksum)
         report_damaged(directory);
     };
 
@@ -407,8 +421,7 @@ namespace CaissonMPM
           ++n_in_cell[index_of(p.cell)];
     });
     Utilities::MPI::sum(n_in_cell, communicator, n_in_cell);
-    if (std::accumulate(n_in_cell.begin(), n_in_cell.end(), 0ul) !=
-        info.n_points)
+    if (std::accumulate(n_in_cell.begin(), n_in_cell.end(), 0ul) != n_points)
       report_damaged(directory);
 
     points.reset(n_in_cell);
@@ -417,6 +430,5 @@ namespace CaissonMPM
         points.add(grid.local_number(p.cell), p.point);
     });
     points.settle();
-    return info.state;
   }
 } // namespace CaissonMPM

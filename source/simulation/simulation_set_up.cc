@@ -197,9 +197,11 @@ namespace CaissonMPM
   void
   Simulation::resume()
   {
-    const NamedNumbers state =
-      read_checkpoint(recorder.output_directory(), grid, points, physics(prm));
-    const std::string missing = totals.resume(state, grid.is_first_rank());
+    const Checkpoint checkpoint(recorder.output_directory());
+    checkpoint.check_fingerprint(physics(prm));
+    checkpoint.read_points(grid, points);
+    const NamedNumbers &state   = checkpoint.state();
+    const std::string   missing = totals.resume(state, grid.is_first_rank());
     if (!missing.empty())
       throw BadInput("the checkpoint in " + recorder.output_directory() +
                      " lacks the entry " + missing +

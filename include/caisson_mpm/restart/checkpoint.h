@@ -16,6 +16,7 @@
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_points.h>
 
+#include <cstdint>
 #include <string>
 
 namespace CaissonMPM
@@ -34,20 +35,54 @@ namespace CaissonMPM
                    const NamedNumbers   &state,
                    const std::string    &fingerprint);
 
-  /**
-   * Bring the points to the state of the checkpoint, and return the rest of it,
-   * from which the caller moves the grid. The mesh of the same scene must have
-   * been created, on as many ranks as you like; @p points are replaced. Points
-   * of a cell keep their order. Throws
-   * BadInput where there is no checkpoint, it is damaged, or @p fingerprint
-   * differs from the one it was written with, naming the first line that
-   * differs. Collective.
-   */
-  NamedNumbers
-  read_checkpoint(const std::string    &directory,
-                  const BackgroundGrid &grid,
-                  MaterialPoints       &points,
-                  const std::string    &fingerprint);
+  /** A checkpoint in a directory, which is only read. */
+  class Checkpoint
+  {
+  public:
+    /** Whether the directory has one, which may be damaged. */
+    static bool
+    is_in(const std::string &directory);
+
+    /** Read all but the points. Throws BadInput where there is no checkpoint,
+     * or its text is damaged. */
+    explicit Checkpoint(const std::string &directory);
+
+    /** Return what was written besides the points. */
+    const NamedNumbers &
+    state() const
+    {
+      return state_;
+    }
+
+    /** Return the fingerprint that it was written with. */
+    const std::string &
+    fingerprint() const
+    {
+      return fingerprint_;
+    }
+
+    /** Throw BadInput, with the first line that differs, where @p fingerprint
+     * is not the one it was written with. */
+    void
+    check_fingerprint(const std::string &fingerprint) const;
+
+    /**
+     * Bring the points to the state of the checkpoint; from the rest of it, the
+     * caller moves the grid. The mesh of the same scene must have been created,
+     * on as many ranks as you like; @p points are replaced. Points of a cell
+     * keep their order. Throws BadInput where the points are damaged.
+     * Collective.
+     */
+    void
+    read_points(const BackgroundGrid &grid, MaterialPoints &points) const;
+
+  private:
+    std::string   directory, file;
+    unsigned long n_points = 0;
+    std::uint64_t checksum = 0; // of the points
+    NamedNumbers  state_;
+    std::string   fingerprint_;
+  };
 } // namespace CaissonMPM
 
 #endif
