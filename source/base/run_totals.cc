@@ -25,7 +25,7 @@ namespace CaissonMPM
   {
     std::vector<std::string> names;
     for (const Total &total : totals)
-      if (total.is_count)
+      if (total.kind == Kind::count)
         names.push_back(total.name);
     return names;
   }
@@ -37,7 +37,7 @@ namespace CaissonMPM
   {
     NamedNumbers result;
     for (const Total &total : totals)
-      if (total.is_count)
+      if (total.kind == Kind::count)
         result.emplace_back(total.name, total.get());
     return result;
   }
@@ -51,14 +51,14 @@ namespace CaissonMPM
       return;
     std::vector<double> values;
     for (const Total &total : totals)
-      if (total.is_sum)
+      if (total.is_sum())
         values.push_back(total.get());
     dealii::Utilities::MPI::sum(values, communicator, values);
     const bool is_first =
       dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
     auto value = values.begin();
     for (const Total &total : totals)
-      if (total.is_sum)
+      if (total.is_sum())
         total.set(is_first ? *value++ : 0.);
   }
 
@@ -80,14 +80,22 @@ namespace CaissonMPM
   {
     for (const Total &total : totals)
       {
-        const auto found =
-          std::find_if(state.begin(), state.end(), [&](const auto &entry) {
-            return entry.first == total.name;
-          });
-        if (found == state.end())
+        const auto value = number_named(total.name, state);
+        if (!value)
           return total.name;
-        total.set(total.is_sum && !is_first_rank ? 0. : found->second);
+        total.set(total.is_sum() && !is_first_rank ? 0. : *value);
       }
     return "";
+  }
+
+
+
+  void
+  RunTotals::take_over(const NamedNumbers &state)
+  {
+    for (const Total &total : totals)
+      if (total.kind == Kind::carried_state)
+        if (const auto value = number_named(total.name, state))
+          total.set(*value);
   }
 } // namespace CaissonMPM

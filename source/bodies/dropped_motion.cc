@@ -36,8 +36,9 @@ namespace CaissonMPM
     add_parameter("Release time",
                   release,
                   "The weight of a body that is dropped, and the suction, act "
-                  "in full from this time on, and grow linearly until then. "
-                  "Units: s.",
+                  "in full from this time on, and grow linearly until then: "
+                  "from 0, or after an installation from the load that the "
+                  "soil bore at its end. Units: s.",
                   prm,
                   Patterns::Double(0.));
   }
@@ -55,11 +56,12 @@ namespace CaissonMPM
     unforeseen += last_step * (force - expected_force);
     const double between  = .5 * (last_step + dt), // the middles of both steps
       impulse             = share_of_unforeseen * unforeseen,
-                 released = release > 0. ? std::min(time_ / release, 1.) : 1.,
+                 share    = release > 0. ? std::min(time_ / release, 1.) : 1.,
+                 before   = beginning().load,
+                 released = before + share * (load() - before),
                  soil     = response().mass * between / dt,
-                 a =
-                   (released * load() + response().force + impulse / between) /
-                   (inertia.value_or(mass()) + soil),
+                 a        = (released + response().force + impulse / between) /
+                     (inertia.value_or(mass()) + soil),
                  middle = mean_velocity_ + between * a;
     unforeseen -= impulse;
     travel_ += dt * middle;
@@ -76,9 +78,9 @@ namespace CaissonMPM
   DroppedMotion::register_totals(RunTotals &totals)
   {
     LoadedMotion::register_totals(totals);
-    totals.keep("dropped_mean_velocity", mean_velocity_);
-    totals.keep("dropped_expected_force", expected_force);
-    totals.keep("dropped_unforeseen_impulse", unforeseen);
-    totals.keep("dropped_last_step", last_step);
+    totals.carry("dropped_mean_velocity", mean_velocity_);
+    totals.carry("dropped_expected_force", expected_force);
+    totals.carry("dropped_unforeseen_impulse", unforeseen);
+    totals.carry("dropped_last_step", last_step);
   }
 } // namespace CaissonMPM

@@ -35,6 +35,20 @@ namespace CaissonMPM
   }
 
   void
+  LoweredMotion::start()
+  {
+    LoadedMotion::start();
+    velocity_ = 0.;
+  }
+
+  void
+  LoweredMotion::register_totals(RunTotals &totals)
+  {
+    LoadedMotion::register_totals(totals);
+    totals.carry("lowered_velocity", velocity_);
+  }
+
+  void
   LoweredMotion::move(const double dt, const double force)
   {
     resistance.add(dt, delay, -force);

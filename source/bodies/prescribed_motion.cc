@@ -24,8 +24,9 @@ namespace CaissonMPM
                   Patterns::Double());
     add_parameter("Ramp time",
                   ramp_time,
-                  "The time in which the velocity grows linearly from 0 to "
-                  "Velocity. Units: s.",
+                  "The time in which the velocity changes linearly to "
+                  "Velocity: from 0, or after an installation from the "
+                  "velocity at its end. Units: s.",
                   prm,
                   Patterns::Double(0.));
     add_parameter("Velocity table",
@@ -53,7 +54,8 @@ namespace CaissonMPM
   {
     velocity_table = parse_time_table(table_text);
     if (velocity_table.empty() && ramp_time > 0.)
-      velocity_table = {{0., 0.}, {ramp_time, constant_velocity}};
+      velocity_table = {{0., beginning().velocity},
+                        {ramp_time, constant_velocity}};
     else if (velocity_table.empty())
       velocity_table = {{0., constant_velocity}};
   }
@@ -71,6 +73,13 @@ namespace CaissonMPM
   PrescribedMotion::check_parameters() const
   {
     check_time_table(velocity_table, "Rigid body/Velocity table");
+  }
+
+  void
+  PrescribedMotion::begin_at(const Start &start)
+  {
+    BodyMotion::begin_at(start);
+    fill_table();
   }
 
   void
@@ -97,7 +106,7 @@ namespace CaissonMPM
   PrescribedMotion::travel_at(const double t) const
   {
     // exact: the velocity is linear between the times of the table
-    double distance = 0., from = 0.;
+    double distance = beginning().travel, from = 0.;
     for (const auto &entry : velocity_table)
       if (entry.first > from && entry.first < t)
         {
@@ -112,7 +121,7 @@ namespace CaissonMPM
   PrescribedMotion::time_of_travel(const double d) const
   {
     constexpr double never = std::numeric_limits<double>::infinity();
-    if (d == 0.)
+    if (d == beginning().travel)
       return 0.;
     const double end  = std::max(velocity_table.back().first, 0.);
     double       from = 0.;
@@ -167,7 +176,7 @@ namespace CaissonMPM
   std::optional<std::pair<double, double>>
   PrescribedMotion::travel_range(const double t) const
   {
-    std::pair<double, double> range(0., 0.);
+    std::pair<double, double> range(beginning().travel, beginning().travel);
     for (const double turn : turning_times(t))
       {
         range.first  = std::min(range.first, travel_at(turn));

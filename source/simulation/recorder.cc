@@ -49,6 +49,7 @@ namespace CaissonMPM
         totals.sum("impulse_on_" + surface + "_r", impulse_on_body[s][radial]);
         totals.sum("impulse_on_" + surface + "_z",
                    impulse_on_body[s][vertical]);
+        totals.carry("recorded_force_on_" + surface, recorded_forces[s]);
       }
     totals.sum("impulse_on_soil_r", impulse_on_soil[radial]);
     totals.sum("impulse_on_soil_z", impulse_on_soil[vertical]);
@@ -90,13 +91,15 @@ namespace CaissonMPM
   Recorder::open(const std::string          &scene_file,
                  const std::string          &output_directory,
                  const std::string          &fingerprint,
+                 const std::string          &installation,
                  const Kernels::KernelTable &kernels)
   {
-    start_time        = std::chrono::steady_clock::now();
-    scene             = scene_file;
-    this->fingerprint = fingerprint;
-    this->kernels     = &kernels;
-    wrong_error_bar   = error_bar.read(scene, fingerprint);
+    start_time         = std::chrono::steady_clock::now();
+    scene              = scene_file;
+    this->fingerprint  = fingerprint;
+    this->installation = installation;
+    this->kernels      = &kernels;
+    wrong_error_bar    = error_bar.read(scene, fingerprint);
     if (!output_directory.empty())
       directory = output_directory;
     locked_directory =
@@ -163,15 +166,17 @@ namespace CaissonMPM
     };
     const std::string n_points      = sum(parts.points.n_points()),
                       n_body_points = sum(parts.body_points.size());
-    console->header(
-      {{"caisson_mpm",
-        CAISSON_MPM_VERSION ", deal.II " DEAL_II_PACKAGE_VERSION},
-       {"scene", scene},
-       {"output", directory},
-       {"kernels",
-        std::string(kernels->name) + ", " + to_text(kernels->width) + " lanes"},
-       {"ranks", to_text(parts.grid.n_ranks())},
-       {"limit of the step", parts.time_step.reason()}});
+    Console::Lines first            = {
+                 {"caisson_mpm", CAISSON_MPM_VERSION ", deal.II " DEAL_II_PACKAGE_VERSION},
+                 {"scene", scene},
+                 {"output", directory},
+                 {"kernels",
+                  std::string(kernels->name) + ", " + to_text(kernels->width) + " lanes"},
+                 {"ranks", to_text(parts.grid.n_ranks())},
+                 {"limit of the step", parts.time_step.reason()}};
+    if (!installation.empty())
+      first.emplace_back("installation", installation);
+    console->header(first);
     std::vector<std::pair<std::string, std::string>> lines = {
       {"title", title},
       {"grid", parts.grid.lines().description()},
@@ -241,9 +246,11 @@ namespace CaissonMPM
     const double  interval = parts.clock.time - last_record;
     double *const forces[] = {
       &row.tip, &row.inner, &row.outer, &row.top, &row.lid};
-    for (unsigned int s = 0; s < n_surfaces && interval > 0.; ++s)
+    for (unsigned int s = 0; s < n_surfaces; ++s)
       {
-        *forces[s] = impulse_on_body[s][vertical] / interval;
+        if (interval > 0.)
+          recorded_forces[s] = impulse_on_body[s][vertical] / interval;
+        *forces[s] = recorded_forces[s];
         row.total += *forces[s];
       }
     if (interval > 0.)
@@ -404,6 +411,7 @@ namespace CaissonMPM
     result.scene_file     = scene;
     result.title          = title;
     result.fingerprint    = fingerprint;
+    result.installation   = installation;
     result.kernels        = kernels->name;
     result.n_repartitions = n_repartitions;
     result.max_in_body    = max_in_body;

@@ -37,6 +37,18 @@ namespace CaissonMPM
               {"status", Json::text(facts.status)}};
     }
 
+    /** The run after which this one goes on, and where it begins. */
+    Json::Members
+    about_installation(const RecordedParts &parts, const RunFacts &facts)
+    {
+      if (facts.installation.empty())
+        return {};
+      return {{"installation", Json::text(facts.installation)},
+              {"start_penetration_m",
+               Json::number(parts.body.shape().initial_depth() +
+                            parts.body.motion().beginning().travel)}};
+    }
+
     Json::Members
     about_size(const RecordedParts &parts, const RunFacts &facts)
     {
@@ -239,6 +251,7 @@ namespace CaissonMPM
                     const RunFacts      &facts)
   {
     Json::Members members = about_program(facts);
+    append(members, about_installation(parts, facts));
     append(members, about_size(parts, facts));
     append(members, counts(parts, facts));
     append(members, about_speed(parts, facts));

@@ -93,7 +93,8 @@ namespace CaissonMPM
   Schedule::has_reached(const double depth) const
   {
     const double travel = body.motion().travel(), wanted = travel_at(depth);
-    return wanted >= 0. ? travel >= wanted : travel <= wanted;
+    return wanted >= body.motion().beginning().travel ? travel >= wanted :
+                                                        travel <= wanted;
   }
 
 
@@ -120,6 +121,14 @@ namespace CaissonMPM
   void
   Schedule::check_parameters() const
   {
+    constexpr double same_place = 1e-6; // m
+    const double     start      = body.motion().beginning().travel;
+    if (last_penetration && start != 0. &&
+        std::abs(travel_at(*last_penetration) - start) < same_place)
+      throw BadInput("Time/End penetration = " + to_text(*last_penetration) +
+                     " m is where the body is at the end of the run in "
+                     "Installation/Directory. Set the depth at which this run "
+                     "ends, or never and Time/End time.");
     if (last_penetration && !last_time && body.motion().follows_loads())
       throw BadInput("Rigid body/Motion is " + body.motion().name() +
                      ": the body may rest before it has come to Time/End "
@@ -127,7 +136,7 @@ namespace CaissonMPM
     if (std::isfinite(find_end()) || (last_penetration && !times_are_known()))
       return;
     const double depth = body.shape().initial_depth();
-    if (last_penetration && *last_penetration < depth)
+    if (last_penetration && *last_penetration < depth && start == 0.)
       throw BadInput(
         "Time/End penetration = " + to_text(*last_penetration) +
         " m is less than Rigid body/Initial penetration = " + to_text(depth) +
@@ -153,8 +162,9 @@ namespace CaissonMPM
       throw BadInput("Time/End penetration must be set: the motion of the body "
                      "is not known in advance, and the mesh must be made for "
                      "all of it.");
-    const double travel = travel_at(*last_penetration);
-    return {std::min(0., travel), std::max(0., travel)};
+    const double travel = travel_at(*last_penetration),
+                 start  = body.motion().beginning().travel;
+    return {std::min(start, travel), std::max(start, travel)};
   }
 
 
@@ -272,10 +282,12 @@ namespace CaissonMPM
     double fraction = clock.time / end; // 0 where the end is not known
     if (last_penetration && !times_are_known())
       {
-        const double travel = travel_at(*last_penetration);
+        const double start  = body.motion().beginning().travel,
+                     travel = travel_at(*last_penetration) - start;
         fraction =
           std::max(fraction,
-                   travel != 0. ? body.motion().travel() / travel : 1.);
+                   travel != 0. ? (body.motion().travel() - start) / travel :
+                                  1.);
       }
     return std::min(1., fraction);
   }

@@ -79,8 +79,8 @@ namespace CaissonMPM
   {
     totals.keep("time", clock.time);
     totals.keep("step", clock.step);
-    totals.keep("force_on_body", force_on_body);
-    totals.keep("since_adaptation", since_adaptation);
+    totals.carry("force_on_body", force_on_body);
+    totals.carry("since_adaptation", since_adaptation);
     totals.count("limiter_count", n_limited);
     totals.count("soil_into_body_m3", inflow);
     points.register_totals(totals);
@@ -183,15 +183,20 @@ namespace CaissonMPM
     const SurfaceForces  &on_body   = reactions.contact.impulse;
     inflow += reactions.contact.inflow;
     recorder.add_step(on_body, reactions.prescribed.impulse);
-    if (body.motion().needs_force() || water.acts())
-      {
-        const Vector2 impulse =
-          std::accumulate(on_body.begin(), on_body.end(), Vector2());
-        force_on_body = Utilities::MPI::sum(impulse * body.shape().direction(),
-                                            grid.communicator()) /
-                        clock.step_size;
-      }
+    if (needs_force_on_body())
+      force_on_body = find_force_on_body();
     water.advance(clock.time, clock.step_size, force_on_body);
+  }
+
+  double
+  Simulation::find_force_on_body() const
+  {
+    const SurfaceForces &on_body = nodal_motion.reactions().contact.impulse;
+    const Vector2        impulse =
+      std::accumulate(on_body.begin(), on_body.end(), Vector2());
+    return Utilities::MPI::sum(impulse * body.shape().direction(),
+                               grid.communicator()) /
+           clock.step_size;
   }
 
   void
@@ -328,10 +333,14 @@ namespace CaissonMPM
   void
   Simulation::save_checkpoint()
   {
+    if (!needs_force_on_body()) // but a run that goes on after this one may
+      force_on_body = find_force_on_body();
     totals.bring_to_first_rank(grid.communicator());
     NamedNumbers       state    = totals.state();
     const NamedNumbers of_water = water.field_state();
     state.insert(state.end(), of_water.begin(), of_water.end());
+    state.emplace_back("mesh_uplift", lines.total_uplift());
+    state.emplace_back("mesh_travel", lines.total_travel());
     write_checkpoint(
       recorder.output_directory(), grid, points, state, physics(prm));
   }
@@ -396,6 +405,10 @@ namespace CaissonMPM
     recorder.print_header(known_limits());
     if (!restart)
       {
+        if (installation.is_given())
+          recorder.message("goes on at a penetration of " +
+                           to_text(body.penetration(), 6) + " m" +
+                           installation.changes_in_words());
         recorder.write_frame();
         recorder.record();
       }

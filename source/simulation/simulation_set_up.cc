@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // From the parameters of a scene, or a checkpoint, to the first step.
+#include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/fingerprint.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/restart/checkpoint.h>
@@ -15,6 +16,39 @@
 namespace CaissonMPM
 {
   using namespace dealii;
+
+  void
+  Simulation::find_beginning(const std::string &output_directory,
+                             const bool         restart)
+  {
+    if (restart)
+      {
+        const Checkpoint checkpoint(output_directory);
+        checkpoint.check_fingerprint(physics(prm));
+        const auto number = [&](const std::string &name) {
+          return number_named(name, checkpoint.state()).value_or(0.);
+        };
+        begin_at({number("travel_at_start"),
+                  number("velocity_at_start"),
+                  number("load_at_start")},
+                 checkpoint.state());
+      }
+    else if (installation.is_given())
+      {
+        installation.open(output_directory, physics(prm));
+        begin_at(installation.end_of_motion(),
+                 installation.checkpoint().state());
+      }
+  }
+
+  void
+  Simulation::begin_at(const BodyMotion::Start &start,
+                       const NamedNumbers      &state)
+  {
+    body.motion().begin_at(start);
+    travel_of_mesh.emplace(-number_named("mesh_uplift", state).value_or(0.),
+                           number_named("mesh_travel", state).value_or(0.));
+  }
 
   void
   Simulation::check_parameters()
@@ -38,9 +72,27 @@ namespace CaissonMPM
     if (Kernels::select_kernels(instruction_set.c_str()) == nullptr)
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");
-    const auto travel = schedule.travel_to_hold();
-    lines.place(body.shape(), soil, travel.second, -travel.first);
+    place_lines();
     kernels = Kernels::select_kernels(instruction_set.c_str());
+  }
+
+  void
+  Simulation::place_lines()
+  {
+    auto [up, down] = schedule.travel_to_hold();
+    if (travel_of_mesh)
+      {
+        const auto &[mesh_up, mesh_down] = *travel_of_mesh;
+        if (mesh_up == mesh_down && up != down)
+          throw BadInput(
+            "the body rested in the run that wrote the checkpoint, and its mesh "
+            "has no row that ends at Grid/Moving zone below tip: it cannot move "
+            "with the body. Begin without the checkpoint, with a Rigid body/"
+            "Velocity table that rests at first.");
+        up   = std::min(up, mesh_up);
+        down = std::max(down, mesh_down);
+      }
+    lines.place(body.shape(), soil, down, -up);
   }
 
   void
@@ -62,6 +114,7 @@ namespace CaissonMPM
   void
   Simulation::validate()
   {
+    find_beginning(recorder.output_directory(), false);
     check_parameters();
     make_mesh();
     start();
@@ -125,10 +178,14 @@ namespace CaissonMPM
                      const std::string &output_directory,
                      const bool         restart)
   {
+    find_beginning(output_directory.empty() ? recorder.output_directory() :
+                                              output_directory,
+                   restart);
     check_parameters();
     recorder.open(scene_file,
                   output_directory,
                   fingerprint_of(changed_physics(prm)),
+                  installation.directory(),
                   *kernels);
     stop_request.arm(recorder.output_directory());
 
@@ -187,6 +244,8 @@ namespace CaissonMPM
   void
   Simulation::start()
   {
+    if (installation.is_given())
+      return go_on_after_installation();
     generator.generate(grid, body.shape(), soil, points);
     if (grid.n_ranks() > 1)
       cut_into_parts(points.cell_costs());
@@ -198,7 +257,6 @@ namespace CaissonMPM
   Simulation::resume()
   {
     const Checkpoint checkpoint(recorder.output_directory());
-    checkpoint.check_fingerprint(physics(prm));
     checkpoint.read_points(grid, points);
     const NamedNumbers &state   = checkpoint.state();
     const std::string   missing = totals.resume(state, grid.is_first_rank());
@@ -211,6 +269,19 @@ namespace CaissonMPM
     if (grid.n_ranks() > 1)
       cut_into_parts(points.cell_costs());
     schedule.resume();
+  }
+
+  void
+  Simulation::go_on_after_installation()
+  {
+    const Checkpoint &checkpoint = installation.checkpoint();
+    checkpoint.read_points(grid, points);
+    totals.take_over(checkpoint.state());
+    if (grid.n_ranks() > 1)
+      cut_into_parts(points.cell_costs());
+    water.go_on_after(installation.water_level(), checkpoint.state());
+    energy.start(find_point_energies(points, materials, grid));
+    schedule.start();
   }
 
   std::vector<std::string>

@@ -543,8 +543,9 @@ namespace CaissonMPM
     recent_heave.register_totals(totals, "recent_heave");
     plug_balance.register_totals(totals);
     totals.keep("seepage_volume", seepage_volume);
-    totals.keep("plug_height_at_start", plug_height);
-    totals.keep("water_has_started", has_started);
+    totals.keep("volume_at_start", volume_at_start);
+    totals.carry("plug_height_at_start", plug_height);
+    totals.carry("water_has_started", has_started);
     totals.keep("water_time", time);
     totals.keep("water_unbalanced", unbalanced);
     totals.keep("water_through_surfaces", through_surfaces);

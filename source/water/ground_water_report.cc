@@ -104,7 +104,8 @@ namespace CaissonMPM
       {"seepage_inflow_m3_s", scale * flow_in},
       {"seepage_volume_m3", seepage_volume},
       {"pumped_volume_m3",
-       seepage_volume + lid_area() * (body.motion().travel() + rise)},
+       seepage_volume + lid_area() * (body.motion().travel() + rise) -
+         volume_at_start},
       {"plug_heave_m", rise},
       {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
       {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},

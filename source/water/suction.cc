@@ -180,8 +180,8 @@ namespace CaissonMPM
   void
   Suction::register_totals(RunTotals &totals)
   {
-    totals.keep("suction", suction);
-    totals.keep("required_suction", required_);
+    totals.carry("suction", suction);
+    totals.carry("required_suction", required_);
     totals.keep("volume_of_last_step", last_volume);
   }
 } // namespace CaissonMPM

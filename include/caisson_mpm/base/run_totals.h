@@ -37,7 +37,7 @@ namespace CaissonMPM
     void
     count(const std::string &name, Number &value)
     {
-      add(name, value, true, true);
+      add(name, value, Kind::count);
     }
 
     /** Register a sum that continues after a restart. */
@@ -45,7 +45,7 @@ namespace CaissonMPM
     void
     sum(const std::string &name, Number &value)
     {
-      add(name, value, true, false);
+      add(name, value, Kind::sum);
     }
 
     /** Register a state that continues after a restart. */
@@ -53,7 +53,16 @@ namespace CaissonMPM
     void
     keep(const std::string &name, Number &value)
     {
-      add(name, value, false, false);
+      add(name, value, Kind::state);
+    }
+
+    /** Register a state that continues after a restart, and in a run that goes
+     * on after this one with another motion. */
+    template <typename Number>
+    void
+    carry(const std::string &name, Number &value)
+    {
+      add(name, value, Kind::carried_state);
     }
 
     /** The names of the counts, in the order of their registration. */
@@ -81,25 +90,41 @@ namespace CaissonMPM
     std::string
     resume(const NamedNumbers &state, const bool is_first_rank);
 
+    /** Set what carry() has registered to the values in the checkpoint of
+     * another run, as far as it has them; all else begins anew. Every rank
+     * passes the same state; not collective. */
+    void
+    take_over(const NamedNumbers &state);
+
   private:
+    enum class Kind
+    {
+      count,
+      sum,
+      state,
+      carried_state
+    };
+
     struct Total
     {
+      bool
+      is_sum() const
+      {
+        return kind == Kind::count || kind == Kind::sum;
+      }
+
       std::string                 name;
-      bool                        is_sum, is_count;
+      Kind                        kind;
       std::function<double()>     get;
       std::function<void(double)> set;
     };
 
     template <typename Number>
     void
-    add(const std::string &name,
-        Number            &value,
-        const bool         is_sum,
-        const bool         is_count)
+    add(const std::string &name, Number &value, const Kind kind)
     {
       insert({name,
-              is_sum,
-              is_count,
+              kind,
               [&value]() { return static_cast<double>(value); },
               [&value](const double x) { value = static_cast<Number>(x); }});
     }

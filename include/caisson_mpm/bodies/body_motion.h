@@ -45,11 +45,37 @@ namespace CaissonMPM
     check_parameters() const
     {}
 
-    /** Return to the start: no travel at time 0. */
+    /** How a motion begins: at rest where nothing has moved the body before, or
+     * as another motion has left it. */
+    struct Start
+    {
+      double travel   = 0.; // m
+      double velocity = 0.; // m/s
+      double load     = 0.; // that the soil bears, as in set_load(); N
+    };
+
+    /** Let the motion begin like this; before the future is asked for, and
+     * before start(). */
+    virtual void
+    begin_at(const Start &start)
+    {
+      start_ = start;
+    }
+
+    /** Return how the motion begins. */
+    const Start &
+    beginning() const
+    {
+      return start_;
+    }
+
+    /** Go to the beginning, at time 0. */
     virtual void
     start()
     {
-      time_ = travel_ = mean_velocity_ = velocity_ = 0.;
+      time_          = 0.;
+      travel_        = start_.travel;
+      mean_velocity_ = velocity_ = start_.velocity;
     }
 
     /** Set what presses the body in the direction of a positive travel besides
@@ -157,9 +183,8 @@ namespace CaissonMPM
       return mean_velocity_;
     }
 
-    /** Return the first time at which the body has moved by @p travel:
-     * infinity if that never happens, and no value where the motion cannot know
-     * it. Units: s. */
+    /** Return the first time at which the travel is @p travel: infinity if that
+     * never happens, and no value where the motion cannot know it. Units: s. */
     virtual std::optional<double>
     time_of_travel(const double /*travel*/) const
     {
@@ -179,9 +204,12 @@ namespace CaissonMPM
     virtual void
     register_totals(RunTotals &totals)
     {
-      totals.keep(name() + "_motion_time", time_);
-      totals.keep(name() + "_motion_travel", travel_);
-      totals.keep(name() + "_motion_velocity", velocity_);
+      totals.keep("motion_time", time_);
+      totals.keep("motion_travel", travel_);
+      totals.keep("motion_velocity", velocity_);
+      totals.keep("travel_at_start", start_.travel);
+      totals.keep("velocity_at_start", start_.velocity);
+      totals.keep("load_at_start", start_.load);
     }
 
   protected:
@@ -211,6 +239,7 @@ namespace CaissonMPM
   private:
     double   load_ = 0., mass_ = 0.;
     Response response_;
+    Start    start_;
   };
 } // namespace CaissonMPM
 

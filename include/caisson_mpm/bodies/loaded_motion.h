@@ -19,7 +19,7 @@ namespace CaissonMPM
     start() override
     {
       BodyMotion::start();
-      resistance = RecentMean();
+      resistance = RecentMean(beginning().load);
       rest       = Rest();
     }
 
@@ -45,8 +45,8 @@ namespace CaissonMPM
     register_totals(RunTotals &totals) override
     {
       BodyMotion::register_totals(totals);
-      resistance.register_totals(totals, name() + "_resistance");
-      rest.register_totals(totals, name());
+      resistance.register_totals(totals, "resistance_to_loads");
+      rest.register_totals(totals);
     }
 
   protected:

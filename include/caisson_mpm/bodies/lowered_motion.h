@@ -16,7 +16,8 @@ namespace CaissonMPM
    *   v = v0 clamp((F - R) / (F / 10), -1/5, 1).
    * The mass of the body does not enter, so that neither the step nor the mass
    * scaling of the soil matters, and the body rests where R = F: it does not
-   * overshoot as one that is dropped would.
+   * overshoot as one that is dropped would. After another motion, it therefore
+   * begins at rest.
    */
   class LoweredMotion : public LoadedMotion
   {
@@ -34,6 +35,12 @@ namespace CaissonMPM
     {
       return "weight and suction let the body sink until the soil holds it";
     }
+
+    void
+    start() override;
+
+    void
+    register_totals(RunTotals &totals) override;
 
     double
     usual_velocity() const override

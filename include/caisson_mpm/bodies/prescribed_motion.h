@@ -40,6 +40,9 @@ namespace CaissonMPM
     name_unused_entries(ParameterOrigins &origins) const override;
 
     void
+    begin_at(const Start &start) override;
+
+    void
     start() override;
 
     std::optional<double>
@@ -52,7 +55,7 @@ namespace CaissonMPM
     double
     velocity_at(const double time) const;
 
-    /** Return the travel at any time. Units: m. */
+    /** Return the travel at any time, with that at the beginning. Units: m. */
     double
     travel_at(const double time) const;
 

@@ -17,6 +17,11 @@ namespace CaissonMPM
   class RecentMean
   {
   public:
+    /** The mean at the start is @p value. */
+    explicit RecentMean(const double value = 0.)
+      : mean(value)
+    {}
+
     /** Add the @p value of a step. Units of both times: s. */
     void
     add(const double dt, const double time_constant, const double value)
@@ -33,11 +38,11 @@ namespace CaissonMPM
     void
     register_totals(RunTotals &totals, const std::string &name)
     {
-      totals.keep(name, mean);
+      totals.carry(name, mean);
     }
 
   private:
-    double mean = 0.;
+    double mean;
   };
 
   /**
@@ -79,14 +84,13 @@ namespace CaissonMPM
                      std::optional<double>();
     }
 
-    /** Register the state, with the @p name of the motion. */
     void
-    register_totals(RunTotals &totals, const std::string &name)
+    register_totals(RunTotals &totals)
     {
-      mean_speed.register_totals(totals, name + "_mean_speed");
-      totals.keep(name + "_time_of_rest", time);
-      totals.keep(name + "_rests", rests);
-      totals.keep(name + "_rested_travel", rested_travel);
+      mean_speed.register_totals(totals, "rest_mean_speed");
+      totals.carry("rest_time", time);
+      totals.carry("rests", rests);
+      totals.carry("rested_travel", rested_travel);
     }
 
   private:

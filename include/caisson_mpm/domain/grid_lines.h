@@ -215,10 +215,17 @@ namespace CaissonMPM
       return -bottom;
     }
 
+    /** Return the largest travel of the body down that the lines have been
+     * placed for, and the largest one up. Units: m. */
     double
     total_travel() const
     {
       return travel_to_hold;
+    }
+    double
+    total_uplift() const
+    {
+      return uplift_to_hold;
     }
 
     /** Return a line for the header of the terminal output. */

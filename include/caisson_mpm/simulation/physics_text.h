@@ -7,6 +7,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
+#include <vector>
 
 namespace CaissonMPM
 {
@@ -20,6 +21,29 @@ namespace CaissonMPM
    * another order of declaration does not change the text. */
   std::string
   changed_physics(const dealii::ParameterHandler &prm);
+
+  /** An entry that differs between two texts of physics(). */
+  struct ChangedEntry
+  {
+    std::string path, before, now;
+  };
+
+  /** Return the entries that differ between two texts of physics(), in the
+   * order of the second; an entry that one of them lacks has an empty value
+   * there. */
+  std::vector<ChangedEntry>
+  changes_between(const std::string &before, const std::string &now);
+
+  /** Return the value of an entry in a text of physics(), empty where it is not
+   * there. */
+  std::string
+  value_of(const std::string &path, const std::string &physics);
+
+  /** Whether an entry of physics() decides neither the state of the ground nor
+   * the mesh in which it is, so that a run that goes on after an installation
+   * may have another value. */
+  bool
+  may_change_after_installation(const std::string &path);
 } // namespace CaissonMPM
 
 #endif

@@ -41,13 +41,15 @@ namespace CaissonMPM
     /**
      * Prepare the directory and the terminal. @p scene_file is for messages; a
      * non-empty @p output_directory replaces the parameter. @p fingerprint is
-     * that of the physics. Throws BadInput where the directory or the file of
-     * the error bar cannot be used.
+     * that of the physics, and @p installation the directory of the run after
+     * which this one goes on, or empty. Throws BadInput where the directory or
+     * the file of the error bar cannot be used.
      */
     void
     open(const std::string          &scene_file,
          const std::string          &output_directory,
          const std::string          &fingerprint,
+         const std::string          &installation,
          const Kernels::KernelTable &kernels);
 
     /** Begin new files. */
@@ -154,7 +156,7 @@ namespace CaissonMPM
     std::unique_ptr<Console>              console;
     std::unique_ptr<Records>              records;
     std::unique_ptr<Visualization>        visualization;
-    std::string                           scene, fingerprint;
+    std::string                           scene, fingerprint, installation;
     std::string                           wrong_error_bar;
     const Kernels::KernelTable           *kernels = nullptr;
     std::chrono::steady_clock::time_point start_time;
@@ -164,6 +166,8 @@ namespace CaissonMPM
     Vector2       impulse_on_soil  = Vector2();
     double        last_record      = 0.;
     double        travel_at_record = 0.;
+
+    std::array<double, n_surfaces> recorded_forces = {}; // N, positive upward
 
     // since the start of this process
     double        point_steps       = 0.; // of this rank

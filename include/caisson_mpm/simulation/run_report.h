@@ -17,7 +17,8 @@ namespace CaissonMPM
     std::string   status; // how the run ended, for instance "finished"
     std::string   scene_file;
     std::string   title;
-    std::string   fingerprint; // of all parameters that are not defaults
+    std::string   fingerprint;  // of all parameters that are not defaults
+    std::string   installation; // directory of the run before, or empty
     std::string   kernels;
     unsigned int  n_repartitions = 0;
     unsigned int  max_in_body    = 0;  // points at any record

@@ -23,6 +23,7 @@
 #include <caisson_mpm/operators/nodal_motion.h>
 #include <caisson_mpm/operators/time_step.h>
 #include <caisson_mpm/simulation/clock.h>
+#include <caisson_mpm/simulation/installation.h>
 #include <caisson_mpm/simulation/recorder.h>
 #include <caisson_mpm/simulation/run_cost.h>
 #include <caisson_mpm/simulation/schedule.h>
@@ -32,6 +33,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CaissonMPM
@@ -78,9 +80,18 @@ namespace CaissonMPM
   private:
     void
     register_totals();
+    /** Find out how the motion begins, and which travel the mesh was made for,
+     * if the run goes on from a checkpoint. */
+    void
+    find_beginning(const std::string &output_directory, const bool restart);
+    /** Let the motion begin like this, in the mesh of a checkpoint. */
+    void
+    begin_at(const BodyMotion::Start &start, const NamedNumbers &state);
     /** Check all parameters and place the lines of the mesh. */
     void
     check_parameters();
+    void
+    place_lines();
     void
     make_mesh();
     void
@@ -105,6 +116,9 @@ namespace CaissonMPM
     start();
     void
     resume();
+    /** Start with the state of the installation. */
+    void
+    go_on_after_installation();
     std::vector<std::string>
     known_limits() const;
 
@@ -139,6 +153,16 @@ namespace CaissonMPM
 
     void
     output();
+    /** Return the force of the soil on the body in the last step, in the
+     * direction of its travel. Collective. Units: N. */
+    double
+    find_force_on_body() const;
+    /** Whether anything needs that force in each step. */
+    bool
+    needs_force_on_body() const
+    {
+      return body.motion().needs_force() || water.acts();
+    }
     bool
     checkpoint_is_due();
     void
@@ -158,6 +182,7 @@ namespace CaissonMPM
     finish();
 
     // in the order of their sections in a .prm file
+    Installation       installation;
     GridLines          lines;
     BackgroundGrid     grid;
     Soil               soil;
@@ -181,7 +206,10 @@ namespace CaissonMPM
     unsigned long                  n_limited = 0;  // velocities of points
     double                         inflow    = 0.; // of soil into the body, m3
     double since_adaptation = 0.; // of points, in steps of reference
-    double force_on_body    = 0.; // in the last step, if the motion needs it; N
+    // in the last step, or that before the last checkpoint; N
+    double force_on_body = 0.;
+    // from up to down, for which a mesh that a checkpoint needs was made; m
+    std::optional<std::pair<double, double>> travel_of_mesh;
 
     // parameters
     std::string           instruction_set     = "auto";

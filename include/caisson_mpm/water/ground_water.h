@@ -125,6 +125,11 @@ namespace CaissonMPM
     void
     resume_field(const NamedNumbers &state);
 
+    /** Go on after another run, with its totals and from its checkpoint, in
+     * which Water/Level was @p level. Collective. */
+    void
+    go_on_after(const std::string &level, const NamedNumbers &state);
+
     /** Give the points the pressure at their places. */
     void
     write_pressure_to_points();
@@ -354,13 +359,15 @@ namespace CaissonMPM
     ExitGradient exit;
     double flow_out = 0., flow_in = 0.; // of plug and open nodes, see outflow()
     // of the equations at unknown nodes, and the flow, all steps; m3
-    double     unbalanced = 0., through_surfaces = 0.;
-    double     step = 0., time = 0.;    // s
-    double     last_force_on_body = 0.; // N
-    double     time_of_suction    = 0.; // of its table, s
-    double     seepage_volume     = 0.; // through the plug, m3
-    double     plug_height        = 0.; // at the start, m
-    RecentMean recent_heave;            // of the plug, m
+    double unbalanced = 0., through_surfaces = 0.;
+    double step = 0., time = 0.;    // s
+    double last_force_on_body = 0.; // N
+    double time_of_suction    = 0.; // of its table, s
+    double seepage_volume     = 0.; // through the plug, m3
+    double plug_height        = 0.; // before the installation, m
+    // the volume that body and plug had displaced when this run began, m3
+    double     volume_at_start = 0.;
+    RecentMean recent_heave; // of the plug, m
     bool       has_started          = false;
     bool       has_warned_of_piping = false, has_warned_of_lift = false;
   };

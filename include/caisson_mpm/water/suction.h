@@ -69,6 +69,21 @@ namespace CaissonMPM
       return control == Control::flow;
     }
 
+    /** Go on after another run with its suction, while this @p volume of water
+     * has left the caisson. Units: m3. */
+    void
+    go_on_at(const double volume)
+    {
+      last_volume = volume;
+    }
+
+    /** Let the water beneath the lid have no excess pressure. */
+    void
+    release()
+    {
+      suction = required_ = 0.;
+    }
+
     /** Continue by a step of length @p dt to @p time, that of the table. Units:
      * s. */
     void

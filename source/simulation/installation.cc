@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/simulation/installation.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+namespace CaissonMPM
+{
+  namespace
+  {
+    std::string
+    line_of(const ChangedEntry &entry)
+    {
+      const auto word = [](const std::string &value) {
+        return value.empty() ? "empty" : value;
+      };
+      return "\n  " + entry.path + " = " + word(entry.now) + ", there " +
+             word(entry.before);
+    }
+  } // namespace
+
+  Installation::Installation()
+    : ParameterAcceptor("/Installation")
+  {
+    add_parameter("Directory",
+                  directory_,
+                  "The run begins with the ground, the body and the water in "
+                  "the last checkpoint of another run, which has this output "
+                  "directory. Its motion may be another one; time and sums "
+                  "begin at 0. With an empty one, the run begins with soil in "
+                  "its initial stress. Units: none.");
+  }
+
+  void
+  Installation::open(const std::string &output_directory,
+                     const std::string &physics)
+  {
+    const std::string entry = "Installation/Directory = " + directory_;
+    std::error_code   is_missing;
+    if (std::filesystem::equivalent(directory_, output_directory, is_missing))
+      throw BadInput(entry +
+                     " is the output directory of this run, too, whose results "
+                     "would replace those of the installation. Choose another "
+                     "one with Output/Directory or --output-directory.");
+    if (!Checkpoint::is_in(directory_))
+      throw BadInput(entry +
+                     " has no checkpoint (no file checkpoint.info). Run the "
+                     "installation first: it writes one at its end.");
+    checkpoint_.emplace(directory_);
+    changes = changes_between(checkpoint_->fingerprint(), physics);
+    refuse_changes();
+  }
+
+  void
+  Installation::refuse_changes() const
+  {
+    std::string lines;
+    for (const ChangedEntry &entry : changes)
+      if (!may_change_after_installation(entry.path))
+        lines += line_of(entry);
+    if (lines.empty())
+      return;
+    throw BadInput(
+      "Installation/Directory = " + directory_ +
+      " has the checkpoint of a run with other entries, which decide the state "
+      "of the ground:" +
+      lines +
+      "\nSet them back, or run the installation anew with them. Only the motion "
+      "of the body, its weight and friction, water, permeabilities, loads, the "
+      "time step, the end and the output may differ.");
+  }
+
+  BodyMotion::Start
+  Installation::end_of_motion() const
+  {
+    const auto number = [this](const std::string &name) {
+      return number_named(name, checkpoint_->state()).value_or(0.);
+    };
+    return {number("motion_travel"),
+            number("motion_velocity"),
+            -number("force_on_body")};
+  }
+
+  std::string
+  Installation::water_level() const
+  {
+    return value_of("Water/Level", checkpoint_->fingerprint());
+  }
+
+  std::string
+  Installation::changes_in_words() const
+  {
+    std::string lines;
+    for (const ChangedEntry &entry : changes)
+      if (entry.path != "Title" && entry.path != "Installation/Directory")
+        lines += line_of(entry);
+    return lines.empty() ? " with the entries of the installation" :
+                           " with other entries than the installation:" + lines;
+  }
+} // namespace CaissonMPM
