@@ -153,6 +153,26 @@ class Installation(ProgramTest):
         for key in ("seepage_volume_m3", "pumped_volume_m3"):
             self.assertAlmostEqual(last[key] / (end[key] - start[key]), 1, 5, key)
 
+    def test_coupled_pressure_goes_on(self) -> None:
+        before, whole = self.directory("before"), self.directory("whole")
+        coupled = {
+            **SHORT,
+            "Water/Level": "coupled",
+            "Soil/Layer 1/Permeability": 1e-5,
+            DEPTH: 0.55,
+        }
+        self.run_scene("suction", before, entries=coupled)
+        shutil.copytree(before, whole)
+        longer = {**coupled, DEPTH: 0.57}
+        self.run_scene("suction", whole, SUCCESS, "--restart", entries=longer)
+        path = self.directory("after")
+        longer[INSTALLATION] = before
+        self.run_scene("suction", path, entries=longer, ranks=2)
+        self.assert_same_end(whole, path, 1e-6)
+        last, end = history(path)[-1], history(whole)[-1]
+        for key in ("tip_water_force_N", "pore_pressure_smallest_Pa"):
+            self.assertAlmostEqual(last[key] / end[key], 1, 6, key)
+
     def test_refused(self) -> None:
         """What decides the state may not differ, and files are kept."""
         before = self.directory("before")

@@ -360,7 +360,9 @@ namespace CaissonMPM
         find_properties();
         steps_since_look = 0;
       }
-    if (dt != step || steps_since_look % steps_between_set_ups == 0)
+    // steps that end at a record differ by rounding alone
+    const bool is_new_step = std::abs(dt - step) > 1e-9 * step;
+    if (is_new_step || steps_since_look % steps_between_set_ups == 0)
       {
         mudline.find(grid, points);
         projection.set_up(grid, mudline, properties, sides, dt);
