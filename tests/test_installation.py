@@ -155,7 +155,7 @@ class Installation(ProgramTest):
 
     def test_coupled_pressure_goes_on(self) -> None:
         before, whole = self.directory("before"), self.directory("whole")
-        coupled = {
+        coupled: Entries = {
             **SHORT,
             "Water/Level": "coupled",
             "Soil/Layer 1/Permeability": 1e-5,
@@ -163,7 +163,7 @@ class Installation(ProgramTest):
         }
         self.run_scene("suction", before, entries=coupled)
         shutil.copytree(before, whole)
-        longer = {**coupled, DEPTH: 0.57}
+        longer: Entries = {**coupled, DEPTH: 0.57}
         self.run_scene("suction", whole, SUCCESS, "--restart", entries=longer)
         path = self.directory("after")
         longer[INSTALLATION] = before

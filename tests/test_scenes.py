@@ -6,6 +6,7 @@ import unittest
 from program import (
     SCENES,
     SUCCESS,
+    Entries,
     ProgramTest,
     checks,
     history,
@@ -50,7 +51,7 @@ class UserScenes(ProgramTest):
     def test_pull_out_after_is_valid(self) -> None:
         """After a short piece of its installation; some steps pull."""
         before, after = self.directory("before"), self.directory("after")
-        short = {"Time/End penetration": "never", "Time/End time": 0.02}
+        short: Entries = {"Time/End penetration": "never", "Time/End time": 0.02}
         words = ("--output-directory", before)
         self.run_program(SUCCESS, user_scene("jack"), *words, entries=short)
         entries = {**short, "Installation/Directory": before}
