@@ -152,6 +152,7 @@ namespace CaissonMPM
                      (body.motion().travel() + recent_heave.value()));
   }
 
+  void
   GroundWater::write_pressure_to_points()
   {
     if (undrained.is_found())
