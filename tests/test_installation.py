@@ -148,7 +148,7 @@ class Installation(ProgramTest):
         self.run_scene("suction", path, entries={**longer, INSTALLATION: before})
         self.assert_same_end(whole, path, 1e-6)
         last, end, start = history(path)[-1], history(whole)[-1], history(before)[-1]
-        for key in ("suction_Pa", "plug_heave_m"):
+        for key in ("suction_Pa", "plug_heave_m", "plug_inflow_m3"):
             self.assertAlmostEqual(last[key] / end[key], 1, 5, key)
         for key in ("seepage_volume_m3", "pumped_volume_m3"):
             self.assertAlmostEqual(last[key] / (end[key] - start[key]), 1, 5, key)
@@ -172,6 +172,9 @@ class Installation(ProgramTest):
         last, end = history(path)[-1], history(whole)[-1]
         for key in ("tip_water_force_N", "pore_pressure_smallest_Pa"):
             self.assertAlmostEqual(last[key] / end[key], 1, 6, key)
+        first, end = history(path)[0], history(before)[-1]
+        for key in ("tip_water_force_N", "total_force_with_water_N"):
+            self.assertAlmostEqual(first[key] / end[key], 1, 6, key)
 
     def test_refused(self) -> None:
         """What decides the state may not differ, and files are kept."""
@@ -186,6 +189,7 @@ class Installation(ProgramTest):
             (["Wall thickness = 0.1, there 0.2"], {"Rigid body/Wall thickness": 0.1}),
             (["no checkpoint", "the installation first"], {INSTALLATION: "nowhere"}),
             (["where the body is"], {DEPTH: 0.52}),
+            (["Water/Level was drained", "coupled"], {"Water/Level": "undrained"}),
         ]
         for words, entries in cases:
             self.refused(words, entries={INSTALLATION: before, DEPTH: 0.6, **entries})

@@ -107,7 +107,9 @@ namespace CaissonMPM
     Utilities::MPI::max(found, communicator, found);
     for (unsigned int i = 0; i < materials.size(); ++i)
       if (found[i] > 0.) // else no point is of this material
-        materials[i].p_wave_modulus = margin * found[i];
+        materials[i].p_wave_modulus =
+          materials[i].water_modulus +
+          margin * (found[i] - materials[i].water_modulus);
   }
 
   namespace

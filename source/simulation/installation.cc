@@ -58,8 +58,25 @@ namespace CaissonMPM
   {
     std::string lines;
     for (const ChangedEntry &entry : changes)
-      if (!may_change_after_installation(entry.path))
-        lines += line_of(entry);
+      {
+        if (!may_change_after_installation(entry.path))
+          lines += line_of(entry);
+        if (entry.path == "Water/Level" &&
+            (entry.now == "undrained" ||
+             (entry.before == "undrained" && entry.now != "drained")))
+          throw BadInput(
+            "Water/Level was " + entry.before + " in the installation and is " +
+            entry.now +
+            ": the pressure of undrained soil follows from all of its volume "
+            "change, and is no pressure at the nodes. Set Level = coupled and a "
+            "low permeability of the layers in both runs.");
+        if (entry.path == "Water/Bulk modulus" && water_level() == "undrained")
+          throw BadInput("Water/Bulk modulus was " + entry.before +
+                         " Pa in the undrained installation and is " +
+                         entry.now +
+                         ": all excess pressures would change with it. Set it "
+                         "back.");
+      }
     if (lines.empty())
       return;
     throw BadInput(

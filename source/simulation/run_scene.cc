@@ -44,7 +44,7 @@ namespace CaissonMPM
           return simulation.run(command_line.parameter_file,
                                 command_line.output_directory,
                                 command_line.restart);
-        simulation.validate();
+        simulation.validate(command_line.output_directory);
         out << command_line.parameter_file << " is valid\n"
             << describe(simulation.estimate_cost()) << std::flush;
         return ExitStatus::success;

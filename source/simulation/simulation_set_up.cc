@@ -112,9 +112,11 @@ namespace CaissonMPM
   }
 
   void
-  Simulation::validate()
+  Simulation::validate(const std::string &output_directory)
   {
-    find_beginning(recorder.output_directory(), false);
+    find_beginning(output_directory.empty() ? recorder.output_directory() :
+                                              output_directory,
+                   false);
     check_parameters();
     make_mesh();
     start();

@@ -183,6 +183,8 @@ namespace CaissonMPM
       return origins.add_unused({"Water/Suction control",
                                  "Water/Suction table",
                                  "Water/Suction delay",
+                                 "Water/Pumped flow table",
+                                 "Water/Pump delay",
                                  "Water/Largest suction",
                                  "Water/Water depth"},
                                 "there is no caisson");
@@ -334,7 +336,7 @@ namespace CaissonMPM
   }
 
   void
-  GroundWater::find_flow()
+  GroundWater::find_tip_integral()
   {
     const auto over_tip = integrate_over_tip(
       [this](const unsigned int cell, const unsigned int corner) {
@@ -342,8 +344,14 @@ namespace CaissonMPM
       });
     tip_integral = over_tip[0];
     tip_area     = over_tip[1];
-    flow_out     = solver().sum_at(outflow(), PressureSolver::plug);
-    flow_in      = -solver().sum_at(outflow(), PressureSolver::open);
+  }
+
+  void
+  GroundWater::find_flow()
+  {
+    find_tip_integral();
+    flow_out = solver().sum_at(outflow(), PressureSolver::plug);
+    flow_in  = -solver().sum_at(outflow(), PressureSolver::open);
     if (has_lid() && !has_started)
       {
         plug_height = mudline.mean_height(Mudline::Side::plug);
@@ -549,6 +557,7 @@ namespace CaissonMPM
     totals.carry("plug_height_at_start", plug_height);
     totals.carry("water_has_started", has_started);
     totals.keep("water_time", time);
+    totals.carry("water_force_on_body", last_force_on_body);
     totals.keep("water_unbalanced", unbalanced);
     totals.keep("water_through_surfaces", through_surfaces);
   }

@@ -2,7 +2,6 @@
 //
 // The field of the pore water at the nodes: over a change of parts, in a
 // checkpoint, and at the points.
-#include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/kernels/cell_map.h>
 #include <caisson_mpm/water/ground_water.h>
@@ -124,13 +123,8 @@ namespace CaissonMPM
   void
   GroundWater::go_on_after(const std::string &level, const NamedNumbers &state)
   {
-    if (is_undrained() && level != "undrained")
-      throw BadInput("Water/Level is undrained, and that of the installation "
-                     "was " +
-                     level +
-                     ": the pressure of undrained soil follows from all of its "
-                     "volume change. Set Level = coupled and a low Soil/Layer "
-                     "1/Permeability.");
+    if (is_undrained())
+      find_undrained_pressure();
     if (!flows())
       return suction.release();
     // Seepage has the pressure over the suction as its field.
@@ -143,11 +137,12 @@ namespace CaissonMPM
         projection.pressure() *= -suction.value();
         projection.pressure().update_ghost_values();
       }
+    mudline.find(grid, points);
+    if (is_coupled())
+      find_tip_integral();
     if (!has_lid())
       return;
-    Mudline now = mudline;
-    now.find(grid, points);
-    volume_at_start = lid_area() * (body.motion().travel() + heave(now));
+    volume_at_start = lid_area() * (body.motion().travel() + heave(mudline));
     suction.go_on_at(lid_area() *
                      (body.motion().travel() + recent_heave.value()));
   }

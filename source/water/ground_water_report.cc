@@ -62,16 +62,17 @@ namespace CaissonMPM
   {
     if (!acts())
       return {};
+    const auto [smallest, largest] = extremes();
     if (is_undrained())
-      return {{"pore_pressure_smallest_Pa", extremes().first},
-              {"pore_pressure_largest_Pa", extremes().second},
+      return {{"pore_pressure_smallest_Pa", smallest},
+              {"pore_pressure_largest_Pa", largest},
               {"tip_water_force_N", tip_force()},
               {"total_force_with_water_N", -last_force_on_body + tip_force()}};
     const double scale = flow_scale();
     NamedNumbers result;
     if (is_coupled())
-      result = {{"pore_pressure_smallest_Pa", extremes().first},
-                {"pore_pressure_largest_Pa", extremes().second},
+      result = {{"pore_pressure_smallest_Pa", smallest},
+                {"pore_pressure_largest_Pa", largest},
                 {"water_balance",
                  through_surfaces > 0. ? unbalanced / through_surfaces : 0.}};
     if (!has_lid())
@@ -95,8 +96,9 @@ namespace CaissonMPM
       {"suction_force_N", s * lid_area()},
       {"tip_water_force_N", tip_force()},
       {"pore_pressure_factor",
-       is_coupled() ? (s > 0. ? -tip_integral / tip_area / s : 0.) :
-                      tip_integral / tip_area},
+       is_coupled() ?
+         (s > 0. && tip_area > 0. ? -tip_integral / tip_area / s : 0.) :
+         tip_integral / tip_area},
       {"exit_gradient_wall", scale * exit.wall},
       {"exit_gradient_axis", scale * exit.axis},
       {"critical_gradient", critical_gradient()},

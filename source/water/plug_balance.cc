@@ -71,8 +71,8 @@ namespace CaissonMPM
   void
   PlugBalance::register_totals(RunTotals &totals)
   {
-    totals.keep("plug_has_started", has_started);
-    totals.keep("plug_soil_at_start", soil_at_start.initial);
-    totals.keep("plug_volume_at_start", soil_at_start.present);
+    totals.carry("plug_has_started", has_started);
+    totals.carry("plug_soil_at_start", soil_at_start.initial);
+    totals.carry("plug_volume_at_start", soil_at_start.present);
   }
 } // namespace CaissonMPM

@@ -65,9 +65,10 @@ namespace CaissonMPM
         const bool         restart);
 
     /** Check all parameters and set up the mesh and the points, without
-     * writing a file; run() does not go on from there. Throws BadInput. */
+     * writing a file; run() does not go on from there. An @p output_directory
+     * that is not empty takes the place of the entry. Throws BadInput. */
     void
-    validate();
+    validate(const std::string &output_directory);
 
     /** Find out how large the run is; after validate(). Takes some steps. */
     RunCost

@@ -304,6 +304,8 @@ namespace CaissonMPM
     const PressureSolver &
     solver() const;
     void
+    find_tip_integral();
+    void
     find_flow();
     void
     find_exit_gradient();
