@@ -62,35 +62,53 @@ namespace CaissonMPM
   {
     if (!acts())
       return {};
-    const auto [smallest, largest] = extremes();
-    if (is_undrained())
-      return {{"pore_pressure_smallest_Pa", smallest},
-              {"pore_pressure_largest_Pa", largest},
-              {"tip_water_force_N", tip_force()},
-              {"total_force_with_water_N", -last_force_on_body + tip_force()}};
-    const double scale = flow_scale();
+    const double total_with_water = -last_force_on_body + tip_force();
     NamedNumbers result;
+    if (level != Level::seepage)
+      {
+        const auto [smallest, largest] = extremes();
+        result = {{"pore_pressure_smallest_Pa", smallest},
+                  {"pore_pressure_largest_Pa", largest}};
+      }
+    if (is_undrained())
+      {
+        result.insert(result.end(),
+                      {{"tip_water_force_N", tip_force()},
+                       {"total_force_with_water_N", total_with_water}});
+        return result;
+      }
+    const double scale = flow_scale();
     if (is_coupled())
-      result = {{"pore_pressure_smallest_Pa", smallest},
-                {"pore_pressure_largest_Pa", largest},
-                {"water_balance",
-                 through_surfaces > 0. ? unbalanced / through_surfaces : 0.}};
+      result.emplace_back("water_balance",
+                          through_surfaces > 0. ?
+                            unbalanced / through_surfaces :
+                            0.);
     if (!has_lid())
       {
         result.insert(result.end(),
                       {{"tip_water_force_N", tip_force()},
-                       {"total_force_with_water_N",
-                        -last_force_on_body + tip_force()},
+                       {"total_force_with_water_N", total_with_water},
                        {"net_outflow_m3_s", -scale * flow_in},
                        {"flow_iterations", 1. * solver().n_iterations()}});
         return result;
       }
+    const NamedNumbers of_lid = values_of_lid(mudline);
+    result.insert(result.end(), of_lid.begin(), of_lid.end());
+    if (is_coupled())
+      result.emplace_back("total_force_with_water_N", total_with_water);
+    return result;
+  }
+
+  NamedNumbers
+  GroundWater::values_of_lid(const Mudline &mudline) const
+  {
     // only the names are wanted before the flow is known
     const auto at_wall = [&](const Mudline::Side side) {
       return mudline.is_found() ? mudline.height_at_wall(side) : 0.;
     };
-    const double       s = suction.value(), rise = heave(mudline);
-    const NamedNumbers of_lid = {
+    const double s = suction.value(), rise = heave(mudline),
+                 scale  = flow_scale();
+    NamedNumbers result = {
       {"suction_Pa", s},
       {"required_suction_Pa", suction.required()},
       {"suction_force_N", s * lid_area()},
@@ -112,12 +130,8 @@ namespace CaissonMPM
       {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
       {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
       {"flow_iterations", 1. * solver().n_iterations()}};
-    result.insert(result.end(), of_lid.begin(), of_lid.end());
     const auto of_plug = plug_balance.columns(lid_area() * rise);
     result.insert(result.end(), of_plug.begin(), of_plug.end());
-    if (is_coupled())
-      result.emplace_back("total_force_with_water_N",
-                          -last_force_on_body + tip_force());
     return result;
   }
 

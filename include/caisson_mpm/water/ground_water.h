@@ -319,6 +319,9 @@ namespace CaissonMPM
     /** Return the columns with the present @p mudline. */
     NamedNumbers
     values(const Mudline &mudline) const;
+    /** The part of values() for a caisson in water that flows. */
+    NamedNumbers
+    values_of_lid(const Mudline &mudline) const;
     /** How far the plug has risen, and how far the soil that the wall displaces
      * would make it rise. Units: m. */
     double
