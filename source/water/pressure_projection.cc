@@ -53,7 +53,6 @@ namespace CaissonMPM
       grid->reinit(*v, 1);
     grid->reinit(volume_in_layer, n_layers);
     grid->reinit(gradient, 2 * n_layers);
-    step = 0.;
     equations.assign(grid->n_cells(), Cell());
     volume_rates_.assign(grid->n_cells(),
                          std::numeric_limits<double>::quiet_NaN());
@@ -113,8 +112,6 @@ namespace CaissonMPM
                              const PressureSolver::OpenSides    &sides,
                              const double                        dt)
   {
-    if (step > 0.)
-      remainder_ *= step / dt; // the same volume
     step = dt;
     solver_.find_states(grid, mudline, sides);
     double largest = 0.;
@@ -258,7 +255,7 @@ namespace CaissonMPM
     find_divergence(velocity, corners, rate);
     find_product(&Cell::inertia, kept_, source);
     source.sadd(step / scale, -1. / scale, rate);
-    source.add(1. / scale, remainder_);
+    source.add(1. / (step * scale), remainder_);
 
     pressure_.zero_out_ghost_values();
     for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
@@ -274,6 +271,7 @@ namespace CaissonMPM
     outflow_ *= scale;
     remainder_.copy_locally_owned_data_from(outflow_);
     solver_.keep_unknown(remainder_);
+    remainder_ *= step;
   }
 
   void

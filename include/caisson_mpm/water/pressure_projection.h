@@ -112,7 +112,7 @@ namespace CaissonMPM
     }
 
     /** What the solver left of the equations at unknown nodes, which the next
-     * step begins with as with the pressure. [n_nodes], m3/s per radian */
+     * step begins with as with the pressure. [n_nodes], m3 per radian */
     NodalData &
     remainder()
     {
