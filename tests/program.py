@@ -174,6 +174,26 @@ class ProgramTest(unittest.TestCase):
         self.assertFalse((path / "history.csv").exists(), "there are results")
         return text
 
+    def assert_invalid(self, words: list[str], name: str, entries: Entries) -> None:
+        """Ask that a scene of prm does not validate, with a message that has all the
+        words."""
+        text = self.run_program(
+            BAD_INPUT, user_scene(name), "--validate", entries=entries
+        )
+        self.assert_words(words, text)
+
+    def assert_told(self, words: list[str], name: str, entries: Entries) -> str:
+        """Ask that a run of a scene of prm says all the words; return all it says."""
+        text = self.run_program(
+            SUCCESS,
+            user_scene(name),
+            "--output-directory",
+            self.directory(),
+            entries=entries,
+        )
+        self.assert_words(words, text)
+        return text
+
     def assert_words(self, words: list[str], text: str) -> None:
         """Ask for all the words, whatever their case."""
         for word in words:

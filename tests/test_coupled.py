@@ -6,7 +6,6 @@ import unittest
 from pathlib import Path
 
 from program import (
-    BAD_INPUT,
     FAILURE,
     SUCCESS,
     Entries,
@@ -199,19 +198,16 @@ class BadInput(ProgramTest):
         ]
         for entries, words in cases:
             with self.subTest(entries=entries):
-                text = self.run_program(
-                    SUCCESS,
-                    user_scene("verification/consolidation"),
-                    "--output-directory",
-                    self.directory(),
-                    entries={
+                text = self.assert_told(
+                    words,
+                    "verification/consolidation",
+                    {
                         **COARSE,
                         **entries,
                         "Time/End time": 0.01,
                         "Verification/Checks": "",
                     },
                 )
-                self.assert_words(words, text)
                 self.assertEqual(
                     "fade by error" in text, "Soil/Layer 1/Permeability" in entries
                 )
@@ -226,13 +222,7 @@ class BadInput(ProgramTest):
         ]
         for entries, words in cases:
             with self.subTest(entries=entries):
-                text = self.run_program(
-                    BAD_INPUT,
-                    user_scene("verification/consolidation"),
-                    "--validate",
-                    entries=entries,
-                )
-                self.assert_words(words, text)
+                self.assert_invalid(words, "verification/consolidation", entries)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@ import unittest
 from pathlib import Path
 
 from program import (
-    BAD_INPUT,
     FAILURE,
     SUCCESS,
     Entries,
@@ -139,13 +138,9 @@ class BadInput(ProgramTest):
         ]
         for entries, words in cases:
             with self.subTest(entries=entries):
-                text = self.run_program(
-                    BAD_INPUT,
-                    user_scene("verification/consolidation"),
-                    "--validate",
-                    entries={**UNDRAINED, **entries},
+                self.assert_invalid(
+                    words, "verification/consolidation", {**UNDRAINED, **entries}
                 )
-                self.assert_words(words, text)
 
     def test_warnings(self) -> None:
         cases: list[tuple[Entries, list[str]]] = [
@@ -158,12 +153,10 @@ class BadInput(ProgramTest):
         ]
         for entries, words in cases:
             with self.subTest(entries=entries):
-                text = self.run_program(
-                    SUCCESS,
-                    user_scene("verification/consolidation"),
-                    "--output-directory",
-                    self.directory(),
-                    entries={
+                self.assert_told(
+                    words,
+                    "verification/consolidation",
+                    {
                         "Grid/Cell width": 0.1,
                         "Grid/Cell height": 0.1,
                         "Time/End time": 0.01,
@@ -171,7 +164,6 @@ class BadInput(ProgramTest):
                         **entries,
                     },
                 )
-                self.assert_words(words, text)
 
 
 if __name__ == "__main__":

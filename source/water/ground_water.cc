@@ -180,14 +180,7 @@ namespace CaissonMPM
       origins.add_unused({"Water/Bottom pressure"},
                          "Water/Drained bottom is false");
     if (!has_lid())
-      return origins.add_unused({"Water/Suction control",
-                                 "Water/Suction table",
-                                 "Water/Suction delay",
-                                 "Water/Pumped flow table",
-                                 "Water/Pump delay",
-                                 "Water/Largest suction",
-                                 "Water/Water depth"},
-                                "there is no caisson");
+      return Suction::name_all_unused(origins, "there is no caisson");
     suction.name_unused_entries(origins);
   }
 
@@ -204,15 +197,9 @@ namespace CaissonMPM
                         "Water/Time compression",
                         "Water/Drained surface",
                         "Water/Drained outer side",
-                        "Water/Drained bottom",
-                        "Water/Suction control",
-                        "Water/Suction table",
-                        "Water/Suction delay",
-                        "Water/Pumped flow table",
-                        "Water/Pump delay",
-                        "Water/Largest suction",
-                        "Water/Water depth"},
+                        "Water/Drained bottom"},
                        why);
+    Suction::name_all_unused(origins, why);
     for (unsigned int i = 1; i <= soil.n_layers(); ++i)
       {
         const std::string layer = "Soil/Layer " + to_text(i) + "/Permeability";

@@ -121,6 +121,19 @@ namespace CaissonMPM
   }
 
   void
+  Suction::name_all_unused(ParameterOrigins &origins, const std::string &why)
+  {
+    origins.add_unused({"Water/Suction control",
+                        "Water/Suction table",
+                        "Water/Suction delay",
+                        "Water/Pumped flow table",
+                        "Water/Pump delay",
+                        "Water/Largest suction",
+                        "Water/Water depth"},
+                       why);
+  }
+
+  void
   Suction::advance(const double time, const double dt, const SuctionLoad &load)
   {
     required_ = (load.resistance - load.weight) / load.area;

@@ -55,6 +55,10 @@ namespace CaissonMPM
     void
     name_unused_entries(ParameterOrigins &origins) const;
 
+    /** Tell that no entry of the suction has an effect, and why. */
+    static void
+    name_all_unused(ParameterOrigins &origins, const std::string &why);
+
     /** Whether the motion of the body decides how large the suction is. */
     bool
     is_result() const
