@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace CaissonMPM
 {
@@ -45,62 +46,70 @@ namespace CaissonMPM
                          &outflow_,
                          &remainder_,
                          &source,
-                         &volume,
-                         &stiffness,
                          &rate,
                          &uniform,
                          &of_uniform})
       grid->reinit(*v, 1);
-    grid->reinit(volume_in_layer, n_layers);
+    grid->reinit(of_nodes, n_layers + 1);
     grid->reinit(gradient, 2 * n_layers);
-    equations.assign(grid->n_cells(), Cell());
+    const unsigned int n_cells = grid->n_cells();
+    shapes.assign(n_cells, Shape());
+    flow.resize(n_cells);
+    inertia.resize(n_cells);
+    divergence.resize(n_cells);
+    gradients.resize(n_cells);
     volume_rates_.assign(grid->n_cells(),
                          std::numeric_limits<double>::quiet_NaN());
   }
 
   void
-  PressureProjection::find_equations(const Kernels::CellGeometry &geometry,
+  PressureProjection::find_equations(const unsigned int           cell,
+                                     const Kernels::CellGeometry &geometry,
                                      const double                 filled,
-                                     const WaterProperties       &properties,
-                                     Cell                        &cell) const
+                                     const WaterProperties       &properties)
   {
+    Shape       &shape   = shapes[cell];
     const double rise    = geometry.bottom_right - geometry.bottom_left;
     const auto   differs = [](const double a, const double b, const double of) {
       return std::abs(a - b) > largest_change * of;
     };
-    if (!differs(cell.width, geometry.width, geometry.width) &&
-        !differs(cell.left, geometry.left, geometry.width) &&
-        !differs(cell.heights[0], geometry.height_left, geometry.height_left) &&
-        !differs(cell.heights[1],
+    if (!differs(shape.width, geometry.width, geometry.width) &&
+        !differs(shape.left, geometry.left, geometry.width) &&
+        !differs(shape.heights[0],
+                 geometry.height_left,
+                 geometry.height_left) &&
+        !differs(shape.heights[1],
                  geometry.height_right,
                  geometry.height_right) &&
-        !differs(cell.rise, rise, geometry.height_left) &&
-        !differs(cell.filled, filled, filled) &&
-        cell.properties.mobility == properties.mobility &&
-        cell.properties.specific_volume == properties.specific_volume &&
-        cell.properties.layer == properties.layer)
+        !differs(shape.rise, rise, geometry.height_left) &&
+        !differs(shape.filled, filled, filled) &&
+        shape.properties.mobility == properties.mobility &&
+        shape.properties.specific_volume == properties.specific_volume &&
+        shape.properties.layer == properties.layer)
       return;
-    cell.width      = geometry.width;
-    cell.left       = geometry.left;
-    cell.heights[0] = geometry.height_left;
-    cell.heights[1] = geometry.height_right;
-    cell.rise       = rise;
-    cell.filled     = filled;
-    cell.properties = properties;
+    shape = {geometry.width,
+             geometry.left,
+             {geometry.height_left, geometry.height_right},
+             rise,
+             filled,
+             properties};
 
     const CellIntegrals integrals(geometry, grid->axisymmetric() ? 1. : 0.);
     const double        per_mass = properties.specific_volume;
-    cell.flow = integrals.stiffness(of_lower_part(properties.mobility, filled));
-    cell.inertia =
+    flow[cell] =
+      integrals.stiffness(of_lower_part(properties.mobility, filled));
+    inertia[cell] =
       integrals.stiffness(of_lower_part({per_mass, per_mass}, filled));
-    cell.divergence = integrals.divergence();
-    cell.gradient   = integrals.mean_gradient();
-    cell.volumes    = integrals.volumes();
+    divergence[cell] = integrals.divergence();
+    gradients[cell]  = {integrals.mean_gradient(),
+                        integrals.volumes(),
+                        per_mass,
+                        properties.layer};
     for (unsigned int i = 0; i < 4; ++i)
       {
-        cell.volumes[i] *= filled;
-        cell.gradient[1][i] /= filled;
-        for (auto &b : cell.divergence)
+        gradients[cell].volumes[i] *= filled;
+        gradients[cell].mean[1][i] /= filled;
+        for (auto &b : divergence[cell])
           b[i] *= filled;
       }
   }
@@ -115,13 +124,12 @@ namespace CaissonMPM
     step = dt;
     solver_.find_states(grid, mudline, sides);
     double largest = 0.;
+    has_water.assign(grid.n_cells(), 0);
     for (const unsigned int cell : solver_.cells())
       {
         const WaterProperties &p = properties[cell];
-        find_equations(grid.geometry(cell),
-                       mudline.filled()[cell],
-                       p,
-                       equations[cell]);
+        has_water[cell]          = 1;
+        find_equations(cell, grid.geometry(cell), mudline.filled()[cell], p);
         largest = std::max({largest,
                             p.mobility.horizontal + dt * p.specific_volume,
                             p.mobility.vertical + dt * p.specific_volume});
@@ -129,10 +137,10 @@ namespace CaissonMPM
     scale = Utilities::MPI::max(largest, grid.communicator());
     for (std::size_t i = 0; i < solver_.cells().size(); ++i)
       {
-        const Cell &cell   = equations[solver_.cells()[i]];
-        auto       &matrix = solver_.matrices()[i];
+        const unsigned int cell   = solver_.cells()[i];
+        auto              &matrix = solver_.matrices()[i];
         for (std::size_t k = 0; k < matrix.size(); ++k)
-          matrix[k] = (cell.flow[k] + dt * cell.inertia[k]) / scale;
+          matrix[k] = (flow[cell][k] + dt * inertia[cell][k]) / scale;
       }
     find_volumes();
     find_uniform();
@@ -148,8 +156,15 @@ namespace CaissonMPM
     to.zero_out_ghost_values();
     for (const unsigned int cell : solver_.cells())
       add(cell, grid->cell_nodes(cell).node, to.begin());
-    grid->hanging_nodes().distribute(to, n_components);
-    to.compress(VectorOperation::add);
+    add_up(to, n_components);
+  }
+
+  void
+  PressureProjection::add_up(NodalData         &of_cells,
+                             const unsigned int n_components) const
+  {
+    grid->hanging_nodes().distribute(of_cells, n_components);
+    of_cells.compress(VectorOperation::add);
   }
 
   void
@@ -158,55 +173,69 @@ namespace CaissonMPM
     const std::vector<Kernels::CornerView> &corners,
     NodalData                              &to) const
   {
-    sum_cells(to,
-              1,
-              [&](const unsigned int        cell,
-                  const unsigned int *const node,
-                  double *const             sums) {
-                const Cell &of         = equations[cell];
-                double      of_cell[4] = {};
-                const auto  add = [&](const unsigned int j, const double *v) {
-                  for (unsigned int i = 0; i < 4; ++i)
-                    of_cell[i] += of.divergence[2 * j][i] * v[0] +
-                                  of.divergence[2 * j + 1][i] * v[1];
-                };
-                for (unsigned int j = 0; j < 4; ++j)
-                  add(j, velocity[node[j]].value);
-                for (const Kernels::CornerView &corner : corners)
-                  if (corner.cell == cell)
-                    add(
-                      corner.corner,
-                      change_at(corner, velocity[node[corner.corner]]).data());
-                for (unsigned int i = 0; i < 4; ++i)
-                  sums[node[i]] += of_cell[i];
-              });
+    // what velocity v at the corner j of a cell drives out at its nodes
+    const auto add = [this](const unsigned int cell,
+                            const unsigned int j,
+                            const double      *v,
+                            double            *of_cell) {
+      const Divergence &of = divergence[cell];
+      for (unsigned int i = 0; i < 4; ++i)
+        of_cell[i] += of[2 * j][i] * v[0] + of[2 * j + 1][i] * v[1];
+    };
+    to = 0.;
+    to.zero_out_ghost_values();
+    double *const sums = to.begin();
+    for (const unsigned int cell : solver_.cells())
+      {
+        const unsigned int *const node       = grid->cell_nodes(cell).node;
+        double                    of_cell[4] = {};
+        for (unsigned int j = 0; j < 4; ++j)
+          add(cell, j, velocity[node[j]].value, of_cell);
+        for (unsigned int i = 0; i < 4; ++i)
+          sums[node[i]] += of_cell[i];
+      }
+    for (const Kernels::CornerView &corner : corners)
+      if (has_water[corner.cell])
+        {
+          const unsigned int *const node = grid->cell_nodes(corner.cell).node;
+          double                    of_cell[4] = {};
+          add(corner.cell,
+              corner.corner,
+              change_at(corner, velocity[node[corner.corner]]).data(),
+              of_cell);
+          for (unsigned int i = 0; i < 4; ++i)
+            sums[node[i]] += of_cell[i];
+        }
+    add_up(to, 1);
   }
 
   void
   PressureProjection::find_gradient()
   {
+    const double *const p = pressure_.begin();
     sum_cells(gradient,
               2 * n_layers,
               [&](const unsigned int        cell,
                   const unsigned int *const node,
                   double *const             sums) {
-                const Cell        &of    = equations[cell];
-                const unsigned int layer = of.properties.layer;
+                const Gradient &of = gradients[cell];
                 for (unsigned int d = 0; d < 2; ++d)
                   {
                     double mean = 0.;
                     for (unsigned int j = 0; j < 4; ++j)
-                      mean +=
-                        of.gradient[d][j] * pressure_.local_element(node[j]);
+                      mean += of.mean[d][j] * p[node[j]];
                     for (unsigned int j = 0; j < 4; ++j)
-                      sums[2 * (node[j] * n_layers + layer) + d] +=
+                      sums[2 * (node[j] * n_layers + of.layer) + d] +=
                         of.volumes[j] * mean;
                   }
               });
-    for (unsigned int i = 0; i < n_layers * grid->n_owned_nodes(); ++i)
-      if (volume_in_layer.local_element(i) > 0.)
-        for (unsigned int d = 0; d < 2; ++d)
-          gradient.local_element(2 * i + d) /= volume_in_layer.local_element(i);
+    double       *values = gradient.begin();
+    const double *volume = of_nodes.begin();
+    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node, ++volume)
+      for (unsigned int layer = 0; layer < n_layers; ++layer, ++volume)
+        for (unsigned int d = 0; d < 2; ++d, ++values)
+          if (*volume > 0.)
+            *values /= *volume;
     gradient.update_ghost_values();
     grid->hanging_nodes().interpolate(gradient, 2 * n_layers);
   }
@@ -215,34 +244,36 @@ namespace CaissonMPM
   PressureProjection::find_kept(const double smoothing)
   {
     find_gradient();
-    find_product(&Cell::inertia, pressure_, source);
+    find_product(inertia, pressure_, source);
+    const double *const at_nodes = gradient.begin();
     sum_cells(rate,
               1,
               [&](const unsigned int        cell,
                   const unsigned int *const node,
                   double *const             sums) {
-                const Cell        &of    = equations[cell];
-                const unsigned int layer = of.properties.layer;
+                const Gradient &of = gradients[cell];
                 for (unsigned int d = 0; d < 2; ++d)
                   {
                     double mean = 0.;
                     for (unsigned int j = 0; j < 4; ++j)
-                      mean +=
-                        of.volumes[j] * gradient.local_element(
-                                          2 * (node[j] * n_layers + layer) + d);
-                    mean *= of.properties.specific_volume;
+                      mean += of.volumes[j] *
+                              at_nodes[2 * (node[j] * n_layers + of.layer) + d];
+                    mean *= of.specific_volume;
                     for (unsigned int i = 0; i < 4; ++i)
-                      sums[node[i]] += of.gradient[d][i] * mean;
+                      sums[node[i]] += of.mean[d][i] * mean;
                   }
               });
     kept_.zero_out_ghost_values();
     kept_.copy_locally_owned_data_from(pressure_);
     for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
-      if (solver_.state(node) == PressureSolver::unknown &&
-          stiffness.local_element(node) > 0.)
-        kept_.local_element(node) -=
-          smoothing * (source.local_element(node) - rate.local_element(node)) /
-          stiffness.local_element(node);
+      {
+        const double diagonal =
+          of_nodes.local_element(node * (n_layers + 1) + n_layers);
+        if (solver_.state(node) == PressureSolver::unknown && diagonal > 0.)
+          kept_.local_element(node) -=
+            smoothing *
+            (source.local_element(node) - rate.local_element(node)) / diagonal;
+      }
     kept_.update_ghost_values();
     grid->hanging_nodes().interpolate(kept_, 1);
   }
@@ -253,7 +284,7 @@ namespace CaissonMPM
                             const KnownPressures                   &known)
   {
     find_divergence(velocity, corners, rate);
-    find_product(&Cell::inertia, kept_, source);
+    find_product(inertia, kept_, source);
     source.sadd(step / scale, -1. / scale, rate);
     source.add(1. / (step * scale), remainder_);
 
@@ -294,25 +325,27 @@ namespace CaissonMPM
   PressureProjection::find_flux(NodalData &flux) const
   {
     grid->reinit(flux, 1);
-    find_product(&Cell::flow, pressure_, flux);
+    find_product(flow, pressure_, flux);
     flux *= -1.;
   }
 
   void
-  PressureProjection::find_product(PressureSolver::CellMatrix Cell::*matrix,
-                                   const NodalData                  &p,
-                                   NodalData                        &to) const
+  PressureProjection::find_product(
+    const std::vector<PressureSolver::CellMatrix> &matrices,
+    const NodalData                               &p,
+    NodalData                                     &to) const
   {
+    const double *const value = p.begin();
     sum_cells(to,
               1,
               [&](const unsigned int        cell,
                   const unsigned int *const node,
                   double *const             sums) {
-                const auto &k          = equations[cell].*matrix;
+                const auto &k          = matrices[cell];
                 double      of_cell[4] = {};
                 for (unsigned int j = 0; j < 4; ++j)
                   for (unsigned int i = 0; i < 4; ++i)
-                    of_cell[i] += k[4 * j + i] * p.local_element(node[j]);
+                    of_cell[i] += k[4 * j + i] * value[node[j]];
                 for (unsigned int i = 0; i < 4; ++i)
                   sums[node[i]] += of_cell[i];
               });
@@ -321,31 +354,18 @@ namespace CaissonMPM
   void
   PressureProjection::find_volumes()
   {
-    sum_cells(volume,
-              1,
+    sum_cells(of_nodes,
+              n_layers + 1,
               [&](const unsigned int        cell,
                   const unsigned int *const node,
                   double *const             sums) {
                 for (unsigned int i = 0; i < 4; ++i)
-                  sums[node[i]] += equations[cell].volumes[i];
-              });
-    sum_cells(stiffness,
-              1,
-              [&](const unsigned int        cell,
-                  const unsigned int *const node,
-                  double *const             sums) {
-                for (unsigned int i = 0; i < 4; ++i)
-                  sums[node[i]] += equations[cell].inertia[5 * i];
-              });
-    sum_cells(volume_in_layer,
-              n_layers,
-              [&](const unsigned int        cell,
-                  const unsigned int *const node,
-                  double *const             sums) {
-                const Cell &of = equations[cell];
-                for (unsigned int i = 0; i < 4; ++i)
-                  sums[node[i] * n_layers + of.properties.layer] +=
-                    of.volumes[i];
+                  {
+                    double *const of_node = sums + node[i] * (n_layers + 1);
+                    of_node[gradients[cell].layer] +=
+                      gradients[cell].volumes[i];
+                    of_node[n_layers] += inertia[cell][5 * i];
+                  }
               });
   }
 
@@ -367,9 +387,14 @@ namespace CaissonMPM
     const std::vector<Kernels::CornerView> &corners)
   {
     find_divergence(velocity, corners, rate);
+    const double *of_node = of_nodes.begin();
     for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
-      if (volume.local_element(node) > 0.)
-        rate.local_element(node) /= volume.local_element(node);
+      {
+        const double volume = std::accumulate(of_node, of_node + n_layers, 0.);
+        if (volume > 0.)
+          rate.local_element(node) /= volume;
+        of_node += n_layers + 1;
+      }
     rate.update_ghost_values();
     grid->hanging_nodes().interpolate(rate, 1);
 
@@ -380,7 +405,7 @@ namespace CaissonMPM
         double sum = 0., of_cell = 0.;
         for (unsigned int i = 0; i < 4; ++i)
           {
-            const double own = equations[cell].volumes[i];
+            const double own = gradients[cell].volumes[i];
             sum += own * rate.local_element(grid->cell_nodes(cell).node[i]);
             of_cell += own;
           }

@@ -140,33 +140,41 @@ namespace CaissonMPM
     }
 
   private:
-    /** The equations of a cell and what they were found for. */
-    struct Cell
+    /** What the equations of a cell were found for. */
+    struct Shape
     {
-      double                     width = 0., left = 0., heights[2], rise = 0.;
-      double                     filled = 0.;
-      WaterProperties            properties;
-      PressureSolver::CellMatrix flow, inertia;
-      std::array<std::array<double, 4>, 8> divergence;
-      std::array<std::array<double, 4>, 2> gradient;
-      std::array<double, 4>                volumes;
+      double          width = 0., left = 0., heights[2], rise = 0.;
+      double          filled = 0.;
+      WaterProperties properties;
     };
+    using Divergence = std::array<std::array<double, 4>, 8>;
+    struct Gradient
+    {
+      std::array<std::array<double, 4>, 2> mean;
+      std::array<double, 4>                volumes;
+      double                               specific_volume = 0.;
+      unsigned int                         layer           = 0;
+    };
+    /** Find the equations of a cell whose shape or soil has changed. */
     void
-    find_equations(const Kernels::CellGeometry &geometry,
+    find_equations(const unsigned int           cell,
+                   const Kernels::CellGeometry &geometry,
                    const double                 filled,
-                   const WaterProperties       &properties,
-                   Cell                        &cell) const;
+                   const WaterProperties       &properties);
     /** to_I = sum_J K_IJ p_J with these matrices of the cells. */
     void
-    find_product(PressureSolver::CellMatrix Cell::*matrix,
-                 const NodalData                  &p,
-                 NodalData                        &to) const;
+    find_product(const std::vector<PressureSolver::CellMatrix> &matrices,
+                 const NodalData                               &p,
+                 NodalData                                     &to) const;
     /** Let @p add put in what each cell gives to the nodes, and add it up. */
     template <typename Action>
     void
     sum_cells(NodalData         &to,
               const unsigned int n_components,
               const Action      &add) const;
+    /** Add what cells gave to hanging nodes and to nodes of other ranks. */
+    void
+    add_up(NodalData &of_cells, const unsigned int n_components) const;
     /** Find the mean gradient of the pressure at each node in each layer. */
     void
     find_gradient();
@@ -187,14 +195,20 @@ namespace CaissonMPM
 
     const BackgroundGrid *grid = nullptr;
     PressureSolver        solver_;
-    std::vector<Cell>     equations; // [n_cells]
-    std::vector<double>   volume_rates_;
-    double                scale = 1., step = 0.;
-    NodalData             pressure_, kept_, outflow_, remainder_, source, rate;
-    NodalData             volume, stiffness;
-    unsigned int          n_layers = 1;
-    NodalData             volume_in_layer; // [n_nodes][n_layers]
-    NodalData             gradient;        // [n_nodes][n_layers][2]
+    // Each in an array of its own, because a step reads one after the other.
+    // [n_cells]
+    std::vector<Shape>                      shapes;
+    std::vector<PressureSolver::CellMatrix> flow, inertia;
+    std::vector<Divergence>                 divergence;
+    std::vector<Gradient>                   gradients;
+    std::vector<char>                       has_water;
+    std::vector<double>                     volume_rates_;
+    double                                  scale = 1., step = 0.;
+    NodalData    pressure_, kept_, outflow_, remainder_, source, rate;
+    unsigned int n_layers = 1;
+    // the volumes of the layers at a node, and the diagonal of the inertia
+    NodalData of_nodes; // [n_nodes][n_layers + 1]
+    NodalData gradient; // [n_nodes][n_layers][2]
     // 1 at unknown nodes; K times it, and the sum of that
     NodalData uniform, of_uniform;
     double    conductance = 0.;
