@@ -218,6 +218,7 @@ namespace CaissonMPM
     if (!acts())
       return;
     mudline.initialize(grid, body.shape());
+    find_cells_below_tip();
     undrained.forget();
     if (!flows())
       return;
@@ -280,13 +281,8 @@ namespace CaissonMPM
   GroundWater::integrate_over_tip(const Function &value) const
   {
     std::array<double, 2> sums = {{0., 0.}};
-    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+    for (const unsigned int cell : cells_below_tip)
       {
-        const int above = grid.neighbor(cell, 3);
-        if (!grid.is_owned(cell) || grid.is_rigid(cell) || above < 0 ||
-            !grid.is_rigid(above) ||
-            mudline.side_of(cell) != Mudline::Side::body)
-          continue;
         const auto area =
           areas_of_side(grid.geometry(cell), grid.axisymmetric());
         for (unsigned int i = 0; i < 2; ++i)
@@ -295,10 +291,26 @@ namespace CaissonMPM
             sums[1] += area[i];
           }
       }
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                        grid.communicator(),
+                        ArrayView<double>(sums.data(), sums.size()));
     for (double &sum : sums)
-      sum =
-        grid.circumference() * Utilities::MPI::sum(sum, grid.communicator());
+      sum *= grid.circumference();
     return sums;
+  }
+
+  void
+  GroundWater::find_cells_below_tip()
+  {
+    cells_below_tip.clear();
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      {
+        const int above = grid.neighbor(cell, 3);
+        if (grid.is_owned(cell) && !grid.is_rigid(cell) && above >= 0 &&
+            grid.is_rigid(above) &&
+            mudline.side_of(cell) == Mudline::Side::body)
+          cells_below_tip.push_back(cell);
+      }
   }
 
   void
@@ -337,8 +349,10 @@ namespace CaissonMPM
   GroundWater::find_flow()
   {
     find_tip_integral();
-    flow_out = solver().sum_at(outflow(), PressureSolver::plug);
-    flow_in  = -solver().sum_at(outflow(), PressureSolver::open);
+    const auto sums = solver().sums_by_state(outflow());
+    flow_out        = sums[PressureSolver::plug];
+    flow_in         = -sums[PressureSolver::open];
+    flow_remaining  = sums[PressureSolver::unknown];
     if (has_lid() && !has_started)
       {
         plug_height = mudline.mean_height(Mudline::Side::plug);
@@ -382,8 +396,7 @@ namespace CaissonMPM
                       bottom_pressure(Point<2>(), time + .5 * step)});
     is_corrected = true;
     find_flow();
-    unbalanced +=
-      step * std::abs(solver().sum_at(outflow(), PressureSolver::unknown));
+    unbalanced += step * std::abs(flow_remaining);
     through_surfaces += step * (std::abs(flow_out) + std::abs(flow_in));
   }
 

@@ -313,7 +313,7 @@ namespace CaissonMPM
     if (conductance <= 0.)
       return;
     const double rise =
-      solver_.sum_at(outflow_, PressureSolver::unknown) / conductance;
+      solver_.sums_by_state(outflow_)[PressureSolver::unknown] / conductance;
     pressure_.zero_out_ghost_values();
     pressure_.add(rise, uniform);
     pressure_.update_ghost_values();
@@ -378,7 +378,7 @@ namespace CaissonMPM
     uniform.update_ghost_values();
     grid->hanging_nodes().interpolate(uniform, 1);
     solver_.apply(uniform, of_uniform);
-    conductance = solver_.sum_at(of_uniform, PressureSolver::unknown);
+    conductance = solver_.sums_by_state(of_uniform)[PressureSolver::unknown];
   }
 
   void

@@ -278,14 +278,17 @@ namespace CaissonMPM
     return control.last_check() == SolverControl::success;
   }
 
-  double
-  PressureSolver::sum_at(const NodalData &of_nodes, const State where) const
+  PressureSolver::SumsByState
+  PressureSolver::sums_by_state(const NodalData &of_nodes) const
   {
-    double sum = 0.;
+    SumsByState sums = {};
     for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
-      if (state(node) == where)
-        sum += of_nodes.local_element(node);
-    return grid->circumference() *
-           Utilities::MPI::sum(sum, grid->communicator());
+      sums[state(node)] += of_nodes.local_element(node);
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                        grid->communicator(),
+                        ArrayView<double>(sums.data(), sums.size()));
+    for (double &sum : sums)
+      sum *= grid->circumference();
+    return sums;
   }
 } // namespace CaissonMPM

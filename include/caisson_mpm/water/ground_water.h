@@ -283,6 +283,8 @@ namespace CaissonMPM
     std::array<double, 2>
     integrate_over_tip(const Function &value) const;
     void
+    find_cells_below_tip();
+    void
     find_undrained_pressure();
     bool
     has_lid() const;
@@ -349,10 +351,11 @@ namespace CaissonMPM
     PressureProjection               projection;
     Mudline                          mudline;
     PlugBalance                      plug_balance;
-    std::vector<Conductance>         permeability; // [n_cells], m/s
-    std::vector<WaterProperties>     properties;   // [n_cells]
-    std::vector<double>              pressure_;    // [n_nodes]
-    std::vector<std::vector<double>> kept_values;  // of keep_field()
+    std::vector<Conductance>         permeability;    // [n_cells], m/s
+    std::vector<WaterProperties>     properties;      // [n_cells]
+    std::vector<double>              pressure_;       // [n_nodes]
+    std::vector<std::vector<double>> kept_values;     // of keep_field()
+    std::vector<unsigned int>        cells_below_tip; // of this rank
     // the integral over the tip of phi (m2) in seepage, else of the pressure
     // (N)
     double       tip_integral     = 0.;
@@ -362,7 +365,8 @@ namespace CaissonMPM
     bool         is_corrected     = false; // the pressure is that of this step
     unsigned int steps_since_look = 0;
     ExitGradient exit;
-    double flow_out = 0., flow_in = 0.; // of plug and open nodes, see outflow()
+    // of plug, open and unknown nodes, see outflow()
+    double flow_out = 0., flow_in = 0., flow_remaining = 0.;
     // of the equations at unknown nodes, and the flow, all steps; m3
     double unbalanced = 0., through_surfaces = 0.;
     double step = 0., time = 0.;    // s

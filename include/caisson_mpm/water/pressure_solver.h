@@ -33,7 +33,8 @@ namespace CaissonMPM
       no_water,
       unknown,
       open, // at the free surface outside, or at a drained side
-      plug  // at the mudline inside the body
+      plug, // at the mudline inside the body
+      n_states
     };
 
     /** The matrix of a cell, by rows; its corners are those of CellNodes. */
@@ -111,9 +112,12 @@ namespace CaissonMPM
     void
     vmult(NodalData &to, const NodalData &from) const;
 
-    /** Return the sum of @p of_nodes [n_nodes] over the nodes of a state. */
-    double
-    sum_at(const NodalData &of_nodes, const State where) const;
+    /** A sum over the nodes of each State. */
+    using SumsByState = std::array<double, n_states>;
+
+    /** Return these sums of @p of_nodes [n_nodes], of the whole mesh. */
+    SumsByState
+    sums_by_state(const NodalData &of_nodes) const;
 
     /** Take away what is not at unknown nodes of this rank. */
     void
