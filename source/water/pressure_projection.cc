@@ -16,7 +16,7 @@ namespace CaissonMPM
   namespace
   {
     // What is left is made good in the next step.
-    constexpr PressureSolver::Accuracy accuracy = {1e-8, 1e-2};
+    constexpr PressureSolver::Accuracy accuracy = {1e-8, 1e-1};
 
     // The equations of a cell are found anew when its shape or its filled share
     // have changed by this.
