@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """scripts/caisson run: the directory of the results, signals and statuses."""
+import html
 import os
 import signal
 import subprocess
@@ -46,6 +47,21 @@ class Run(ProgramTest):
             entry = path if option != "--set" else f"Output/Directory={path}"
             self.run_scene_and_draw(SUCCESS, scene("jack"), *SHORT, option, entry)
             self.assert_drawn(path)
+
+    def test_report_has_the_warnings(self) -> None:
+        """What has no effect is told in the terminal, run.json and the page."""
+        path = self.directory()
+        unused = ["--set", "Water/Renewal=0.125", "--output-directory", path]
+        text = self.run_scene_and_draw(SUCCESS, scene("jack"), *SHORT, *unused)
+        self.assertIn("warning: ", text)
+        (warning,) = summary(path)["warnings"]
+        self.assertIn("Water/Renewal", warning)
+        entries = summary(path)["entries"]
+        self.assertEqual(entries["Water/Renewal"], "0.125")
+        self.assertNotIn("Water/Level", entries)
+        page = html.unescape((path / "report.html").read_text(encoding="utf-8"))
+        for part in (warning, "<td>0.125</td>", "Status: finished"):
+            self.assertTrue(part in page, part)  # the page is long
 
     def test_several_ranks(self) -> None:
         path = self.directory()

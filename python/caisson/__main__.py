@@ -10,6 +10,7 @@ STUDY = "caisson.study_command"
 COMMANDS = {
     "run": ("caisson.launch", "run a scene and draw its pictures"),
     "plot": ("caisson.plot", "draw the pictures of runs"),
+    "report": ("caisson.report", "write a page on each run: report.html"),
     "compare": (
         "caisson.plot.comparison",
         "draw the forces of several runs in one picture",

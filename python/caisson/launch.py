@@ -37,12 +37,13 @@ def directory_of(arguments: list[str]) -> Path | None:
 
 
 def draw(directory: Path) -> None:
-    """Draw the pictures; without them the results are there all the same."""
+    """Draw the pictures and write the report; the results do not need them."""
     subprocess.run([str(ROOT / "scripts/setup"), "pictures"], check=True)
-    from caisson import plot
+    from caisson import plot, report
 
     for picture in plot.draw(directory):
         print(f"plot: {picture}")
+    print(f"report: {report.write(directory)}")
 
 
 def wait_for(process: "subprocess.Popen[bytes]") -> int:

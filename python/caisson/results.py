@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a run has left in its directory: the only reader of its files."""
 import csv
+import fcntl
 import functools
 import json
 import xml.etree.ElementTree as ElementTree
@@ -107,6 +108,20 @@ class Results:
             return str(self.directory)
         names = (self.summary.get(key) for key in ("title", "scene_file"))
         return ", ".join([*filter(None, names), f"results in {self.directory}"])
+
+    @property
+    def is_running(self) -> bool:
+        """Whether the run has not ended yet, or has left no run.json at its end."""
+        if not (self.directory / "run.json").is_file():
+            return True
+        try:
+            with (self.directory / ".lock").open(encoding="utf-8") as lock:
+                fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except FileNotFoundError:
+            return False
+        except OSError:  # the run has it
+            return True
+        return False
 
     @property
     def has_frames(self) -> bool:

@@ -170,6 +170,7 @@ namespace CaissonMPM
   void
   Console::warning(const std::string &text)
   {
+    warnings_.push_back(text);
     print("warning: " + text + "\n");
   }
 

@@ -419,6 +419,10 @@ namespace CaissonMPM
     result.point_steps =
       Utilities::MPI::sum(point_steps, parts.grid.communicator());
     result.wall_time = seconds_running();
+    result.warnings  = input_warnings;
+    result.warnings.insert(result.warnings.end(),
+                           console->warnings().begin(),
+                           console->warnings().end());
     return result;
   }
 
@@ -440,7 +444,6 @@ namespace CaissonMPM
       console->warning(
         "the body has not come to rest, and a suction table, which begins then, "
         "has not begun. Set a later Time/End time, or finer cells at the tip");
-    print_result();
   }
 
   void

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/output/json.h>
 #include <caisson_mpm/simulation/run_report.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/revision.h>
 
 #include <cmath>
@@ -47,6 +49,23 @@ namespace CaissonMPM
               {"start_penetration_m",
                Json::number(parts.body.shape().initial_depth() +
                             parts.body.motion().beginning().travel)}};
+    }
+
+    /** What the scene sets to another value than the default, and what the
+     * program warned of. */
+    Json::Members
+    about_input(const RunFacts &facts)
+    {
+      const DeclaredEntries declared(ParameterAcceptor::prm);
+      Json::Members         entries;
+      for (const DeclaredEntry &entry : declared.all())
+        if (entry.alias_of.empty() && entry.value != entry.default_value)
+          entries.emplace_back(entry.path, Json::text(entry.value));
+      std::vector<std::string> warnings;
+      for (const std::string &warning : facts.warnings)
+        warnings.push_back(Json::text(warning));
+      return {{"entries", Json::object(entries, 2)},
+              {"warnings", Json::list(warnings)}};
     }
 
     Json::Members
@@ -252,6 +271,7 @@ namespace CaissonMPM
   {
     Json::Members members = about_program(facts);
     append(members, about_installation(parts, facts));
+    append(members, about_input(facts));
     append(members, about_size(parts, facts));
     append(members, counts(parts, facts));
     append(members, about_speed(parts, facts));

@@ -43,7 +43,8 @@ namespace CaissonMPM
         if (!command_line.validate)
           return simulation.run(command_line.parameter_file,
                                 command_line.output_directory,
-                                command_line.restart);
+                                command_line.restart,
+                                origins.warnings());
         simulation.validate(command_line.output_directory);
         out << command_line.parameter_file << " is valid\n"
             << describe(simulation.estimate_cost()) << std::flush;

@@ -389,16 +389,19 @@ namespace CaissonMPM
     // so that the run can be continued to a later end
     save_checkpoint();
     const bool passed = recorder.verify();
-    recorder.write_summary(passed ? "finished" : "verification failed");
     recorder.print_report();
+    recorder.write_summary(passed ? "finished" : "verification failed");
+    recorder.print_result();
     return passed ? ExitStatus::success : ExitStatus::failure;
   }
 
   ExitStatus
-  Simulation::run(const std::string &scene_file,
-                  const std::string &output_directory,
-                  const bool         restart)
+  Simulation::run(const std::string              &scene_file,
+                  const std::string              &output_directory,
+                  const bool                      restart,
+                  const std::vector<std::string> &input_warnings)
   {
+    recorder.keep_warnings(input_warnings);
     set_up(scene_file, output_directory, restart);
     if (restart && schedule.is_finished())
       return nothing_left();

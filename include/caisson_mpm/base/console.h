@@ -84,6 +84,13 @@ namespace CaissonMPM
     void
     warning(const std::string &text);
 
+    /** All warnings so far, also those that were not printed. */
+    const std::vector<std::string> &
+    warnings() const
+    {
+      return warnings_;
+    }
+
     /** Why the program ends with a failure: printed in all verbosities. One
      * rank calls this. */
     void
@@ -96,8 +103,9 @@ namespace CaissonMPM
     void
     print(const std::string &text);
 
-    const Verbosity verbosity;
-    std::ostream   &out;
+    const Verbosity          verbosity;
+    std::ostream            &out;
+    std::vector<std::string> warnings_;
   };
 } // namespace CaissonMPM
 

@@ -87,9 +87,20 @@ namespace CaissonMPM
     void
     write_summary(const std::string &status);
 
-    /** Print sums, energies, times, and the result. */
+    /** Print sums, energies and times. */
     void
     print_report();
+
+    /** Print what came out, where it is, and what can be done with it. */
+    void
+    print_result();
+
+    /** Let run.json have these warnings too, which were printed before. */
+    void
+    keep_warnings(const std::vector<std::string> &of_input)
+    {
+      input_warnings = of_input;
+    }
 
     void
     message(const std::string &text);
@@ -131,8 +142,6 @@ namespace CaissonMPM
     tell_of_rest();
     void
     print_record(const HistoryRow &row);
-    void
-    print_result();
     RunFacts
     facts(const std::string &status) const;
 
@@ -158,6 +167,7 @@ namespace CaissonMPM
     std::unique_ptr<Visualization>        visualization;
     std::string                           scene, fingerprint, installation;
     std::string                           wrong_error_bar;
+    std::vector<std::string>              input_warnings;
     const Kernels::KernelTable           *kernels = nullptr;
     std::chrono::steady_clock::time_point start_time;
 

@@ -25,6 +25,7 @@ namespace CaissonMPM
     unsigned long n_steps        = 0;  // of this process
     double        point_steps    = 0.; // of all ranks
     double        wall_time      = 0.; // s
+    std::vector<std::string> warnings; // of the input and of the run
   };
 
   /** Write run.json: what was run, how large it was and how long it took. The

@@ -55,14 +55,16 @@ namespace CaissonMPM
 
     /**
      * Run the scene. @p scene_file is for messages; a non-empty
-     * @p output_directory replaces the parameter. Throws BadInput and
+     * @p output_directory replaces the parameter. run.json gets the @p
+     * input_warnings too, which were printed before. Throws BadInput and
      * RunFailure; returns success, failure (a verification that fails), or
      * stopped (on request, with a checkpoint).
      */
     ExitStatus
-    run(const std::string &scene_file,
-        const std::string &output_directory,
-        const bool         restart);
+    run(const std::string              &scene_file,
+        const std::string              &output_directory,
+        const bool                      restart,
+        const std::vector<std::string> &input_warnings = {});
 
     /** Check all parameters and set up the mesh and the points, without
      * writing a file; run() does not go on from there. An @p output_directory

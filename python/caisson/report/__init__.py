@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""One page on a run, report.html in its directory: curves, tables, pictures, and what
+the program warned of. It needs no other file and no network. While the run goes on, the
+page loads itself anew; `--follow` renews it until the run ends."""
+import argparse
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from caisson.results import Results, ResultsError
+
+NAME = "report.html"
+INTERVAL = 30.0  # s, in which a followed report is renewed
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+
+
+def write(directory: Path) -> Path:
+    """Write the report of a run; return its path. Raises ResultsError."""
+    from caisson.report import page
+
+    if not directory.is_dir():
+        raise ResultsError(f"no directory {directory}")
+    path = directory / NAME
+    path.write_text(page.html(Results(directory)), encoding="utf-8")
+    return path
+
+
+def follow(directory: Path, interval: float) -> Path:
+    """Renew the report until the run has written run.json; return its path."""
+    while True:
+        path = write(directory)
+        if not Results(directory).is_running:
+            return path
+        time.sleep(interval)
+
+
+def find_browser() -> str:
+    """Return the path of a browser that can run without a window, or nothing."""
+    for name in BROWSERS:
+        path = shutil.which(name)
+        if path:
+            return path
+    return ""
+
+
+def print_pdf(path: Path) -> Path:
+    """Print a report to a file of the same name. Raises ResultsError."""
+    browser = find_browser()
+    if not browser:
+        raise ResultsError(
+            "--pdf needs a browser: install the package chromium, or print"
+            f" {path} from yours"
+        )
+    pdf = path.with_suffix(".pdf")
+    subprocess.run(
+        [
+            browser,
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--no-pdf-header-footer",
+            f"--print-to-pdf={pdf}",
+            path.resolve().as_uri(),
+        ],
+        check=True,
+        capture_output=True,
+    )
+    return pdf
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson report`."""
+    parser.add_argument("directories", nargs="+", type=Path, metavar="DIR")
+    parser.add_argument("--pdf", action="store_true", help="print it to report.pdf too")
+    parser.add_argument(
+        "--follow", action="store_true", help="renew it until the run ends"
+    )
+
+
+def main(options: argparse.Namespace) -> int:
+    """Write the report of each run; a run that has none is named."""
+    status = 0
+    for directory in options.directories:
+        try:
+            path = follow(directory, INTERVAL) if options.follow else write(directory)
+            print(f"report: {path}")
+            if options.pdf:
+                print(f"report: {print_pdf(path)}")
+        except (ResultsError, OSError, subprocess.CalledProcessError) as error:
+            print(f"report: {error}", file=sys.stderr)
+            status = 1
+    return status

@@ -1,0 +1,280 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a report says of a run, in numbers and plain words."""
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from caisson import curves
+from caisson.plot import suction_methods, theory
+from caisson.plot.forces import COLORS, column_of, penetration, smooth
+from caisson.plot.suction import CRITICAL, rest_of_run
+from caisson.results import Results, Table
+
+MANY = 1500  # points of a curve that a screen can show
+
+Curve = dict[str, Any]  # label, color, kind, x, y; see page.js
+
+
+def thinned(depth: np.ndarray) -> np.ndarray:
+    """Return the numbers of the rows that a curve shows."""
+    return np.unique(np.linspace(0, len(depth) - 1, MANY).astype(int))
+
+
+def listed(values: Iterable[float]) -> list[float | None]:
+    """Return values for JSON, which has no nan."""
+    return [float(f"{v:.6g}") if math.isfinite(v) else None for v in values]
+
+
+def line(
+    label: str, color: str, x: np.ndarray, depth: np.ndarray, **more: Any
+) -> Curve:
+    """Return a curve x over depth."""
+    rows = thinned(depth)
+    return {
+        "label": label,
+        "color": color,
+        "x": listed(x[rows]),
+        "y": listed(depth[rows]),
+        **more,
+    }
+
+
+def band(
+    label: str, color: str, low: np.ndarray, high: np.ndarray, depth: np.ndarray
+) -> Curve:
+    """Return an area between two curves."""
+    return line(label, color, low, depth, to=listed(high[thinned(depth)]))
+
+
+def force_curves(run: Results) -> list[Curve]:
+    """Return the forces (kN) over depth (m) with their error bars and the range of
+    Houlsby & Byrne."""
+    history, depth = run.history, run.history["penetration_m"]
+    found = []
+    bounds = run.error_bounds
+    for name, color in COLORS.items():
+        columns = [
+            column_of(name).replace("_N", f"_{side}_N") for side in ("low", "high")
+        ]
+        if all(column in bounds for column in columns):
+            at = bounds["penetration_m"]
+            low, high = [smooth(at, bounds[column]) for column in columns]
+            found.append(band(f"{name}, error bar", color, low, high, at))
+    bands = theory.bands_of(run.scene, max(depth.max(), 0))
+    for name, (plain, enhanced) in bands.forces.items():
+        label = f"{name}, Houlsby & Byrne (2005)"
+        color = COLORS[name]
+        found.append(
+            band(label, color, plain / 1e3, enhanced / 1e3, bands.depth)
+            | {"hidden": name != "tip"}
+        )
+    for name, color in COLORS.items():
+        if column_of(name) in history:
+            force = smooth(depth, history[column_of(name)])
+            found.append(line(name, color, force, depth, thick=True))
+    return found
+
+
+def suction_curves(run: Results) -> list[Curve]:
+    """Return the required suction (kPa) over depth (m), beside the methods."""
+    history, depth = run.history, run.history["penetration_m"]
+    found = []
+    answers = suction_methods.answers_of(run.scene, suction_methods.depths_of(history))
+    if answers.suctions:
+        plain, enhanced, senders = [
+            answers.suctions[name] / 1e3
+            for name in (
+                suction_methods.PLAIN,
+                suction_methods.ENHANCED,
+                suction_methods.SENDERS_RANDOLPH,
+            )
+        ]
+        label = "required, Houlsby & Byrne (2005)"
+        found.append(band(label, "#2166ac", plain, enhanced, answers.depth))
+        label = "required, Senders & Randolph (2009)"
+        found.append(line(label, "#2e8b57", senders, answers.depth))
+        for column, (name, color, _) in CRITICAL.items():
+            suction = answers.suctions[column] / 1e3
+            label = f"critical, {name}"
+            found.append(line(label, color, suction, answers.depth, hidden=True))
+    required = np.maximum(history["required_suction_Pa"], 0) / 1e3
+    label = "required, computed"
+    found.append(line(label, "black", required, depth, thick=True))
+    return found
+
+
+def figures_of(run: Results) -> list[dict[str, Any]]:
+    """Return the interactive figures: id, title, axis and curves."""
+    if penetration(run.history) is None:
+        return []
+    found = [
+        {
+            "id": "forces",
+            "title": "Forces on the caisson",
+            "axis": "force (kN)",
+            "curves": force_curves(run),
+        }
+    ]
+    if "required_suction_Pa" in run.history:
+        found.append(
+            {
+                "id": "suction",
+                "title": "Suction that the motion requires",
+                "axis": "suction (kPa)",
+                "curves": suction_curves(run),
+            }
+        )
+    return found
+
+
+def depths_of_table(depth: np.ndarray) -> np.ndarray:
+    """Return each meter that the run passes, or finer steps of a short run, and its
+    deepest penetration."""
+    span = float(np.ptp(depth))
+    step = 1.0 if span >= 2 else 10.0 ** math.floor(math.log10(span / 2))
+    first = math.floor(depth.min() / step + 1e-9) + 1
+    last = math.floor(depth.max() / step + 1e-9)
+    return np.array([i * step for i in range(first, last + 1)])
+
+
+def table_of(run: Results) -> dict[str, Any]:
+    """Return forces and unit resistances at each meter: heads and rows of text.
+
+    Values are means over 0.2 m, or less at the ends. Friction is over the wall below
+    the mudline of the start, the tip force over the area of the flat tip.
+    """
+    history, scene = run.history, run.scene
+    if penetration(history) is None:
+        return {"heads": [], "rows": []}
+    rows_down = suction_methods.on_the_way_down(history)
+    depth = history["penetration_m"][rows_down]
+    at = depths_of_table(depth)
+
+    def mean(column: str) -> np.ndarray:
+        values = history[column][rows_down]
+        exact = np.interp(at, depth, values)
+        smoothed = curves.window_means(depth, values, at, curves.FORCE_WINDOW)
+        return np.where(np.isfinite(smoothed), smoothed, exact)
+
+    columns: dict[str, np.ndarray] = {"depth (m)": at}
+    for name in COLORS:
+        if column_of(name) in history:
+            columns[f"{name} (kN)"] = mean(column_of(name)) / 1e3
+    if scene.get("diameter_m") and scene.get("wall_thickness_m"):
+        outer, wall = float(scene["diameter_m"]), float(scene["wall_thickness_m"])
+        inner = outer - 2 * wall
+        tip_area = math.pi / 4 * (outer**2 - inner**2)
+        columns["unit tip (kPa)"] = mean("tip_force_N") / 1e3 / tip_area
+        for side, width in (("inner", inner), ("outer", outer)):
+            friction = mean(f"{side}_friction_N") / 1e3
+            columns[f"unit {side} friction (kPa)"] = friction / (math.pi * width * at)
+    if "required_suction_Pa" in history:
+        columns["required suction (kPa)"] = (
+            np.maximum(mean("required_suction_Pa"), 0) / 1e3
+        )
+        columns["plug heave (m)"] = mean("plug_heave_m")
+    texts = [[text_of(value) for value in values] for values in columns.values()]
+    return {"heads": list(columns), "rows": [list(row) for row in zip(*texts)]}
+
+
+def text_of(value: float) -> str:
+    """Return three digits, more before the point."""
+    if not math.isfinite(value):
+        return ""
+    if abs(value) >= 100:
+        return f"{value:.0f}"
+    return f"{value:.3g}"
+
+
+def key_values(run: Results) -> list[tuple[str, str, str]]:
+    """Return (name, value, remark) of what matters most."""
+    history, found = run.history, []
+    depth = penetration(history)
+    if depth is not None:
+        found.append(("Penetration reached", f"{depth.max():.2f} m", ""))
+        if "total_force_N" in history:
+            force = history["total_force_N"] / 1e3
+            at = int(np.argmax(force))
+            found.append(
+                ("Largest force", f"{force[at]:.0f} kN", f"at {depth[at]:.2f} m")
+            )
+    if depth is not None and "required_suction_Pa" in history:
+        required = history["required_suction_Pa"] / 1e3
+        at = int(np.argmax(required))
+        found.append(
+            (
+                "Largest suction",
+                f"{max(required[at], 0):.1f} kPa",
+                f"at {depth[at]:.2f} m",
+            )
+        )
+        rest = rest_of_run(history)
+        if rest is not None:
+            found.append(("Rests by weight at", f"{rest:.2f} m", ""))
+        found.append(("Heave of the plug", f"{history['plug_heave_m'][-1]:.2f} m", ""))
+    return found
+
+
+def remarks_on_numbers(run: Results) -> list[str]:
+    """Return what energy, points and steps say of the run, in plain words."""
+    if run.is_running:
+        return []
+    summary, history, found = run.summary, run.history, []
+    residual = (summary.get("energies") or {}).get("energy_residual")
+    if residual is not None:
+        share = 100 * abs(residual)
+        verdict = (
+            "the scheme neither makes nor loses energy that matters"
+            if share <= 1
+            else "more than one percent: read the limitations on energy"
+        )
+        found.append(
+            f"Energy that nothing accounts for: {share:.2g} % of the work; {verdict}."
+        )
+    if "total_force_N" in history and penetration(history) is not None:
+        depth = history["penetration_m"]
+        if (depth >= curves.FROM).sum() > 10:
+            rough = 100 * curves.roughness(depth, history["total_force_N"])
+            energy = 100 * curves.largest_energy_ratio(history)
+            found.append(
+                f"The curve scatters by {rough:.2g} % about its mean over"
+                f" {curves.FORCE_WINDOW} m."
+            )
+            found.append(
+                f"Kinetic energy is at most {energy:.2g} % of the work: the run is "
+                + ("slow enough." if energy < 1 else "fast; halve the velocity to see.")
+            )
+    inside = summary.get("max_points_in_body", 0)
+    found.append(
+        "No material point was inside the body."
+        if not inside
+        else f"{inside} material points were inside the body at once."
+    )
+    return found
+
+
+def error_remark(run: Results) -> str:
+    """Return what is known of the error of the curve."""
+    bounds = run.error_bounds
+    if not bounds or "total_low_N" not in bounds:
+        return (
+            "This scene has no error bar of its own. Those of the reference scenes are"
+            " in the manual; run the scene with half the cell size to see its own."
+        )
+    middle = (bounds["total_low_N"] + bounds["total_high_N"]) / 2
+    half = (bounds["total_high_N"] - bounds["total_low_N"]) / 2
+    share = 100 * np.nanmean(half / np.maximum(np.abs(middle), 1e-9))
+    return (
+        f"Half-width of the error bar of the total force: {share:.2g} % in the mean,"
+        " from runs with other meshes, steps and numbers of points."
+    )
+
+
+def csv_of(history: Table) -> str:
+    """Return history.csv as it is, for the download."""
+    names = list(history)
+    rows = zip(*(history[name].tolist() for name in names))
+    lines = [",".join(names), *(",".join(f"{v:.10g}" for v in row) for row in rows)]
+    return "\n".join(lines) + "\n"

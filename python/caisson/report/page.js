@@ -1,0 +1,201 @@
+// The interactive curves: depth downward, drag to move, wheel or two fingers to zoom.
+(function () {
+  "use strict";
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const dark = window.matchMedia("(prefers-color-scheme: dark)");
+  let printing = false;
+
+  const color = (name) =>
+    getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+  // Black is the color of the text, which is light on a dark page.
+  const shown = (name) => (name === "black" ? color("--ink") : name);
+
+  const number = (value) => String(Number(value.toPrecision(4)));
+
+  function series(curve) {
+    const points = curve.x.map((x, i) => [x, curve.y[i]]);
+    if (!curve.to)
+      return {
+        label: curve.label,
+        color: shown(curve.color),
+        data: points.filter((p) => p[0] !== null),
+        lines: { show: true, lineWidth: curve.thick ? 2.2 : 1.2 },
+        shadowSize: 0,
+      };
+    // an area is a closed line
+    const back = curve.to.map((x, i) => [x, curve.y[i]]).reverse();
+    const closed = points.concat(back).filter((p) => p[0] !== null);
+    return {
+      label: curve.label,
+      color: shown(curve.color),
+      area: closed,
+      data: closed,
+      hoverable: false,
+      lines: { show: true, lineWidth: 0 },
+      shadowSize: 0,
+    };
+  }
+
+  function fillAreas(plot, context) {
+    const offset = plot.getPlotOffset();
+    context.save();
+    context.beginPath();
+    context.rect(offset.left, offset.top, plot.width(), plot.height());
+    context.clip();
+    for (const one of plot.getData()) {
+      if (!one.area) continue;
+      context.beginPath();
+      for (const [x, y] of one.area) {
+        const at = plot.p2c({ x: x, y: y });
+        context.lineTo(at.left + offset.left, at.top + offset.top);
+      }
+      context.closePath();
+      context.globalAlpha = 0.2;
+      context.fillStyle = one.color;
+      context.fill();
+    }
+    context.restore();
+  }
+
+  function limits(curves) {
+    let low = 0, high = 0, top = 0, bottom = 0;
+    for (const curve of curves)
+      for (const list of [curve.x, curve.to || []])
+        list.forEach((x, i) => {
+          if (x === null) return;
+          low = Math.min(low, x);
+          high = Math.max(high, x);
+          top = Math.min(top, curve.y[i]);
+          bottom = Math.max(bottom, curve.y[i]);
+        });
+    const wide = (high - low || 1) * 0.03, deep = (bottom - top || 1) * 0.02;
+    return { low: low - wide, high: high + wide, top: top, bottom: bottom + deep };
+  }
+
+  function options(figure, box) {
+    const font = {
+      size: 13,
+      lineHeight: 16,
+      family: "system-ui, sans-serif",
+      fill: color("--ink"),
+      color: color("--ink"),
+    };
+    return {
+      legend: { show: false },
+      grid: {
+        hoverable: true,
+        borderWidth: 1,
+        borderColor: color("--rule"),
+        color: color("--ink"),
+        mouseActiveRadius: 400,
+      },
+      xaxes: [{
+        position: "top", axisLabel: figure.axis, font: font, autoScale: "none",
+        min: box.low, max: box.high, tickColor: color("--rule"),
+      }],
+      yaxes: [{
+        position: "left", axisLabel: "penetration of the skirt tip (m)", font: font,
+        autoScale: "none", min: box.top, max: box.bottom, tickColor: color("--rule"),
+        transform: (v) => -v, inverseTransform: (v) => -v,
+      }],
+      zoom: { interactive: true },
+      pan: { interactive: true, enableTouch: true },
+      hooks: { drawBackground: [fillAreas] },
+    };
+  }
+
+  function save(name, type, content) {
+    const link = document.createElement("a");
+    link.download = name;
+    link.href =
+      type === "png" ? content : URL.createObjectURL(new Blob([content], { type: type }));
+    link.click();
+  }
+
+  // The canvas has curves and grid; the texts of the axes are SVG above it.
+  function picture(section, name) {
+    const sources = [...section.querySelectorAll(".plot canvas.flot-base, .plot svg")];
+    const target = document.createElement("canvas");
+    $.plot.composeImages(sources, target).then(() => {
+      const page = document.createElement("canvas");
+      page.width = target.width;
+      page.height = target.height;
+      const context = page.getContext("2d");
+      context.fillStyle = color("--paper");
+      context.fillRect(0, 0, page.width, page.height);
+      context.drawImage(target, 0, 0);
+      save(name, "png", page.toDataURL("image/png"));
+    });
+  }
+
+  function Figure(figure) {
+    const section = document.getElementById(figure.id);
+    const place = $(section.querySelector(".plot"));
+    const value = section.querySelector(".value");
+    const legend = section.querySelector(".legend");
+    const visible = () => figure.curves.filter((curve) => !curve.hidden);
+
+    this.draw = function () {
+      $.plot(place, visible().map(series), options(figure, limits(visible())));
+    };
+
+    function listCurves() {
+      legend.replaceChildren();
+      for (const curve of figure.curves) {
+        const label = document.createElement("label");
+        const box = document.createElement("input");
+        box.type = "checkbox";
+        box.checked = !curve.hidden;
+        box.onchange = () => {
+          curve.hidden = !box.checked;
+          self.draw();
+        };
+        const mark = document.createElement("i");
+        mark.style.background = shown(curve.color);
+        if (curve.to) {
+          mark.className = "band";
+          mark.style.opacity = 0.35;
+        }
+        label.append(box, mark, curve.label);
+        legend.append(label);
+      }
+    }
+
+    const self = this;
+    place.on("plothover", (event, position, item) => {
+      value.textContent = item
+        ? `${item.series.label}: ${number(item.datapoint[0])} at ` +
+          `${number(item.datapoint[1])} m`
+        : "\u00a0";
+    });
+    section.querySelector(".buttons").onclick = (event) => {
+      const wanted = event.target.dataset.do;
+      if (wanted === "reset") self.draw();
+      if (wanted === "csv") save(data.name + "_history.csv", "text/csv", data.csv);
+      if (wanted === "png") picture(section, `${data.name}_${figure.id}.png`);
+    };
+    this.renew = function () {
+      listCurves();
+      self.draw();
+    };
+    this.renew();
+  }
+
+  const figures = data.figures.map((figure) => new Figure(figure));
+  const renew = () => figures.forEach((figure) => figure.renew());
+  let width = window.innerWidth;
+  window.addEventListener("resize", () => {
+    if (window.innerWidth !== width && !printing) renew();
+    width = window.innerWidth;
+  });
+  dark.addEventListener("change", renew);
+  window.addEventListener("beforeprint", () => {
+    printing = true;
+    renew();
+  });
+  window.addEventListener("afterprint", () => {
+    printing = false;
+    renew();
+  });
+})();

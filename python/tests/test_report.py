@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""report.html of made-up runs, as text and in a browser."""
+import fcntl
+import json
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from caisson import report
+from caisson.report import content
+from caisson.results import Results, ResultsError
+from caisson.table import write_csv
+
+BROWSER = report.find_browser()
+SCENE: dict[str, Any] = {
+    "diameter_m": 10.0,
+    "wall_thickness_m": 0.04,
+    "inner_wall_friction_angle_deg": 20,
+    "outer_wall_friction_angle_deg": 20,
+    "layers": [
+        {
+            "top_depth_m": 0,
+            "law": "Mohr-Coulomb",
+            "submerged_unit_weight_N_m3": 9000.0,
+            "K0": 0.5,
+            "friction_angle_deg": 32,
+            "cohesion_Pa": 0,
+        }
+    ],
+    "submerged_weight_N": 1e6,
+    "cavitation_suction_Pa": 394e3,
+}
+SUMMARY: dict[str, Any] = {
+    "version": "0.1.0",
+    "dealii_version": "9.4.1",
+    "scene_file": "mine.prm",
+    "title": "sand <b>& silt",
+    "status": "finished",
+    "cells": 5000,
+    "material_points": 60000,
+    "steps": 40000,
+    "time_step_s": 1e-3,
+    "time_step_limit": "the cell at the tip",
+    "ranks": 2,
+    "wall_time_s": 63.0,
+    "peak_memory_bytes": 3e8,
+    "fingerprint": "f00d",
+    "max_points_in_body": 0,
+    "energies": {"energy_residual": 0.004},
+    "warnings": ["the suction lifts the plug"],
+    "entries": {"Rigid body/Outer diameter": "10"},
+    "scene": SCENE,
+}
+# What a user does, and what the page then shows: put into the title.
+VISIT = """
+<script>
+const shown = [];
+HTMLAnchorElement.prototype.click = function () { shown.push(this.download); };
+const hover = (section) => {
+  const overlay = section.querySelector("canvas.flot-overlay");
+  const box = overlay.getBoundingClientRect();
+  const at = { bubbles: true, clientX: box.left + 0.5 * box.width,
+               clientY: box.top + 0.5 * box.height };
+  overlay.dispatchEvent(new MouseEvent("mousemove", at));
+};
+const section = document.getElementById("suction");
+hover(section);
+section.querySelector("[data-do=csv]").click();
+section.querySelector("[data-do=png]").click();
+const boxes = section.querySelectorAll(".legend input");
+shown.push("curves " + boxes.length);
+setTimeout(() => {
+  shown.push(section.querySelector(".value").textContent);
+  document.title = shown.join("; ");
+}, 1000);
+</script>
+"""
+
+
+def leave_run(path: Path, summary: dict[str, Any] | None) -> None:
+    """Leave what a run of a caisson with suction leaves; without run.json, and with
+    its lock, it still goes on."""
+    depth = np.linspace(0.5, 4.5, 401)
+    table = {"time_s": depth, "penetration_m": depth}
+    for name, share in (("total", 1.0), ("tip", 0.5)):
+        table[f"{name}_force_N"] = 1e6 * share * depth
+    for name in ("inner", "outer"):
+        table[f"{name}_friction_N"] = 0.25e6 * depth
+    table["external_work_J"] = 1e6 * depth
+    table["kinetic_energy_J"] = 1e3 * np.ones(len(depth))
+    table["required_suction_Pa"] = 1e4 * (depth - 1.5)
+    table["suction_Pa"] = np.maximum(table["required_suction_Pa"], 0)
+    table["exit_gradient_wall"] = table["exit_gradient_axis"] = 0.1 * depth
+    table["critical_gradient"] = 0.9 * np.ones(len(depth))
+    table["plug_heave_m"] = 0.05 * depth
+    table["pumped_volume_m3"] = table["seepage_volume_m3"] = depth
+    rows = list(zip(*(column.tolist() for column in table.values())))
+    write_csv(path / "history.csv", list(table), rows)
+    if summary is not None:
+        (path / "run.json").write_text(json.dumps(summary), encoding="utf-8")
+
+
+class Report(unittest.TestCase):
+    """The page of a run."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name)
+
+    def page(self, summary: dict[str, Any] | None = None) -> str:
+        leave_run(self.path, summary)
+        return report.write(self.path).read_text(encoding="utf-8")
+
+    def test_all_is_in_the_page(self) -> None:
+        """Nothing is loaded from elsewhere, and a title cannot break the page."""
+        page = self.page(SUMMARY)
+        tags = re.findall("<(?!script>)[a-z][^>]*>", page.split("<script", 1)[0])
+        links = re.findall(r"""(?:src|href)=["']?([^"' >]{1,20})""", "".join(tags))
+        self.assertGreater(len(links), 1)
+        for link in links:
+            self.assertTrue(link.startswith("data:"), link)
+        self.assertTrue("sand &lt;b&gt;&amp; silt" in page)
+        for text in (
+            "the suction lifts the plug",
+            "Rigid body/Outer diameter",
+            "Energy that nothing accounts for: 0.4 % of the work",
+            "deal.II 9.4.1",
+        ):
+            self.assertTrue(text in page, text)
+        self.assertNotIn('http-equiv="refresh"', page)
+
+    def test_numbers_by_depth(self) -> None:
+        """4 MN at 4 m are 2 MN on a tip of 1.2516 m2, and 1 MN on each side."""
+        leave_run(self.path, SUMMARY)
+        table = content.table_of(Results(self.path))
+        row = dict(zip(table["heads"], table["rows"][3]))
+        self.assertEqual(len(table["rows"]), 4)
+        self.assertEqual(row["depth (m)"], "4")
+        self.assertEqual(row["total (kN)"], "4000")
+        self.assertEqual(row["unit tip (kPa)"], "1598")
+        self.assertEqual(row["unit inner friction (kPa)"], "8.02")
+        self.assertEqual(row["unit outer friction (kPa)"], "7.96")
+        self.assertEqual(row["required suction (kPa)"], "25")
+
+    def test_run_that_goes_on(self) -> None:
+        """Its page loads itself anew, also where an old run.json is left."""
+        self.assertIn('http-equiv="refresh"', self.page())
+        with (self.path / ".lock").open("w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.assertIn('http-equiv="refresh"', self.page(SUMMARY))
+        self.assertNotIn('http-equiv="refresh"', self.page(SUMMARY))
+
+    def test_no_run(self) -> None:
+        with self.assertRaisesRegex(ResultsError, "no history.csv"):
+            report.write(self.path)
+        with self.assertRaisesRegex(ResultsError, "no directory"):
+            report.write(self.path / "none")
+
+    @unittest.skipUnless(BROWSER, "needs chromium")
+    def test_in_a_browser(self) -> None:
+        """No error on the console; curves are drawn, read, shown and saved."""
+        page = self.page(SUMMARY)
+        visited = self.path / "visited.html"
+        visited.write_text(page.replace("</body>", VISIT + "</body>"), encoding="utf-8")
+        for width in (400, 1200):
+            with self.subTest(width=width):
+                result = subprocess.run(
+                    [
+                        BROWSER,
+                        "--headless",
+                        "--no-sandbox",
+                        "--disable-gpu",
+                        "--enable-logging=stderr",
+                        "--virtual-time-budget=10000",
+                        f"--window-size={width},900",
+                        "--dump-dom",
+                        visited.as_uri(),
+                    ],
+                    capture_output=True,
+                    text=True,
+                    check=True,
+                )
+                self.assertNotIn("CONSOLE", result.stderr)
+                self.assertEqual(result.stdout.count('<canvas class="flot-overlay"'), 2)
+                found = re.search("<title>(.*)</title>", result.stdout)
+                assert found is not None
+                name = self.path.name
+                downloads, value = found[1].rsplit("; ", 1)
+                self.assertEqual(
+                    sorted(downloads.split("; ")),
+                    ["curves 6", f"{name}_history.csv", f"{name}_suction.png"],
+                )
+                self.assertRegex(value, r"required, .*: [\d.]+ at [\d.]+ m")
+
+
+if __name__ == "__main__":
+    unittest.main()
