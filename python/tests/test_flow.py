@@ -137,17 +137,37 @@ class Picture(unittest.TestCase):
             white = style["cmap"](-low / (high - low))
             self.assertGreater(min(white[:3]), 0.93, "white is 0")
 
-    def test_drawn_where_points_have_the_field(self) -> None:
+    def run_with_pressure(self) -> Path:
+        """Return a copy of the run, with radial stresses as pore pressures."""
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         path = Path(shutil.copytree(TINY, Path(temporary.name) / "run"))
         for file in path.glob("points_*.vtu"):
             text = file.read_text(encoding="utf-8")
             file.write_text(text.replace('"stress_rr"', '"pore_pressure"'))
+        return path
+
+    def test_drawn_where_points_have_the_field(self) -> None:
+        path = self.run_with_pressure()
         with mock.patch("builtins.print"):
             pictures = plot.draw(path)
         self.assertIn("pore_pressure.png", [picture.name for picture in pictures])
         self.assertGreater((path / "pore_pressure.png").stat().st_size, 10_000)
+
+    def test_lines_where_water_flows(self) -> None:
+        """Undrained soil has pressures, but no flow: no solver has found one."""
+        path = self.run_with_pressure()
+        table = path / "history.csv"
+        rows = table.read_text(encoding="utf-8").splitlines()
+        ends = [",flow_iterations"] + [",1"] * (len(rows) - 1)
+        flowing = "".join(f"{row}{end}\n" for row, end in zip(rows, ends))
+        name = "caisson.plot.pore_pressure.draw_flow"
+        with mock.patch("builtins.print"), mock.patch(name) as draw_flow:
+            plot.draw(path)
+            self.assertEqual(draw_flow.call_count, 0)
+            table.write_text(flowing, encoding="utf-8")
+            plot.draw(path)
+            self.assertGreater(draw_flow.call_count, 0)
 
 
 if __name__ == "__main__":

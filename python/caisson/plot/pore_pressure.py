@@ -88,9 +88,14 @@ def caption(frames: Sequence[fields.Frame]) -> str:
 
 
 def draw_panel(
-    axes: Axes, frame: fields.Frame, window: fields.Window, halves: Sequence
+    axes: Axes,
+    frame: fields.Frame,
+    window: fields.Window,
+    halves: Sequence,
+    flows: bool,
 ) -> list:
-    """Draw a field, with its colors, on each side of the axis."""
+    """Draw a field, with its colors, on each side of the axis; flows: with the flow
+    of the water."""
     painted = [
         fields.paint_cells(axes, frame.means.polygons, values, style, side)
         for (values, style), side in zip(halves, (LEFT, RIGHT))
@@ -98,9 +103,9 @@ def draw_panel(
     flow = Flow(frame.means, frame.soil["pore_pressure"])
     of_pressure = halves[0][1]
     largest = np.abs(frame.soil["pore_pressure"]).max() / 1e3
-    if largest > LEAST * max(-of_pressure["vmin"], of_pressure["vmax"]):
+    if flows and largest > LEAST * max(-of_pressure["vmin"], of_pressure["vmax"]):
         draw_flow(axes, flow, frame, window)
-    else:
+    elif flows:
         place = (-window[0] / 2, window[1] / 2)
         axes.text(*place, "hardly\nany flow", ha="center", fontsize=9)
     draw_mudline(axes, flow, frame.body, window)
@@ -123,11 +128,12 @@ def draw(
         return None
     stresses, of_stress = fields.stress_of(frames, window)
     of_pressure = style_of(low, high)
+    flows = "flow_iterations" in run.history  # not in undrained soil
     figure, axes = fields.panels(len(frames), window)
     figure.set_figheight(figure.get_figheight() + 1.2)
     for panel, frame, p, stress in zip(axes.flat, frames, pressures, stresses):
         halves = [(p, of_pressure), (stress, of_stress)]
-        painted = draw_panel(panel, frame, window, halves)
+        painted = draw_panel(panel, frame, window, halves, flows)
         panel.set_title(title_of(frame, run.history), fontsize=10)
     for panel in axes[:, 0]:
         panel.set_ylabel("z (m)")
@@ -139,11 +145,12 @@ def draw(
         figure.colorbar(
             artist, ax=above, location="bottom", aspect=35, extend="both", label=label
         )
-    inches = figure.get_figheight()
-    figure.get_layout_engine().set(rect=(0, 0.3 / inches, 1, 1 - 0.3 / inches))
-    figure.text(
-        0.5, 0.1 / inches, caption(frames), ha="center", fontsize=8, color="0.3"
-    )
+    if flows:
+        inches = figure.get_figheight()
+        figure.get_layout_engine().set(rect=(0, 0.3 / inches, 1, 1 - 0.3 / inches))
+        figure.text(
+            0.5, 0.1 / inches, caption(frames), ha="center", fontsize=8, color="0.3"
+        )
     path = run.directory / "pore_pressure.png"
     figure.savefig(path, dpi=150, bbox_inches="tight")
     return path
