@@ -5,7 +5,16 @@ import shutil
 import unittest
 from pathlib import Path
 
-from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, history, scene, summary
+from program import (
+    BAD_INPUT,
+    SUCCESS,
+    Entries,
+    ProgramTest,
+    flip_a_bit,
+    history,
+    scene,
+    summary,
+)
 
 DEPTH = "Time/End penetration"
 END = "Time/End time"
@@ -198,6 +207,9 @@ class Installation(ProgramTest):
         )
         self.assertIn("is the output directory of this run, too", text)
         self.assertEqual(history(before), rows)
+        flip_a_bit(before)
+        words = ["is damaged", "the run that wrote it anew"]
+        self.refused(words, entries={INSTALLATION: before, DEPTH: 0.6})
 
     def test_body_that_rested(self) -> None:
         """Its mesh has no zone that can move."""

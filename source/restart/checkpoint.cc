@@ -289,9 +289,9 @@ namespace CaissonMPM
     {
       throw BadInput(
         "the checkpoint in " + directory +
-        " is damaged, or was written by another version. Start the "
-        "run anew in another directory: without --restart, the "
-        "results in this one would be removed.");
+        " is damaged, or was written by another version. Compute the run that "
+        "wrote it anew, in another directory: without --restart, the results "
+        "in this one would be removed.");
     }
 
     Info
