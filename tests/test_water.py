@@ -246,6 +246,31 @@ class Lowered(ProgramTest):
         entries: Entries = {
             **PUMPED,
             "Water/Pumped flow table": "0:0, 1:0.5",
+    def test_suction_at_once_waits_for_rest(self) -> None:
+        """A table that begins above 0 does not act before the weight is borne."""
+        path = self.directory()
+        entries = {
+            "Water/Level": "seepage",
+            "Water/Suction control": "table",
+            "Water/Suction table": "0:1e4",
+            "Time/End time": 2,
+            "Output/Record interval": "every step",
+        }
+        text = self.run_scene("lowered", path, entries=entries)
+        self.assert_words(["came to rest"], text)
+        rows = history(path)
+        begin = next(i for i, row in enumerate(rows) if row["suction_Pa"] > 0)
+        self.assertGreater(rows[begin]["time_s"], 0.5)
+        self.assertEqual(rows[begin]["suction_Pa"], 1e4)
+        self.assertAlmostEqual(
+            rows[begin]["penetration_m"],
+            summary(path)["scene"]["rest_penetration_m"],
+            delta=1e-4,
+        )
+        self.assertGreater(
+            rows[-1]["penetration_m"], rows[begin]["penetration_m"] + 0.02
+        )
+
             "Time/End penetration": 0.75,
             "Time/End time": 12,
             "Output/Record interval": 1,
@@ -277,6 +302,18 @@ class Dropped(ProgramTest):
     """A caisson that its loads accelerate."""
 
     def test_mass(self) -> None:
+        self.assertNotIn("suction", text)
+        entries = {
+            "Rigid body/Submerged weight": 1e7,
+            "Water/Level": "seepage",
+            "Water/Suction control": "table",
+            "Water/Suction table": "0:1e4",
+            "Time/End penetration": 0.52,
+        }
+        text = self.run_scene("lowered", self.directory("heavy"), entries=entries)
+        words = ["has not come to rest", "has not begun", "(1e+07 N)", "bears less"]
+        self.assert_words(words, text)
+        self.assertNotIn("End time", text.split("has not begun")[1])
         """However light the body is against the soil at its tip, it rests there,
         and its weight does the work that the soil takes."""
         for mass, delta in (("844", 0.02), ("auto", 0.01)):
@@ -367,6 +404,10 @@ class BadInput(ProgramTest):
                     "Water/Suction control": "flow",
                     "Water/Pumped flow table": "0:0.5",
                 },
+            (
+                {"Rigid body/Motion": "lowered", "Rigid body/Submerged weight": 0},
+                ["Submerged weight is 0", "comes to rest"],
+            ),
                 ["prescribed", "velocity of the body"],
             ),
             ({"Grid/Geometry": "plane strain"}, ["Geometry", "axisymmetric"]),

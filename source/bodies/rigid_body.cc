@@ -191,6 +191,10 @@ namespace CaissonMPM
       throw BadInput("Rigid body/Motion is " + motion().name() +
                      ": the weight does not expand a cylinder. Set Motion = "
                      "prescribed.");
+    if (shape().exists() && motion().name() == "lowered" && weight == 0.)
+      throw BadInput("Rigid body/Motion is lowered, but Rigid body/Submerged "
+                     "weight is 0: a body without weight neither sinks nor "
+                     "comes to rest on the soil. Set its weight in N.");
     if (shape().expands() && surface().adhesion[outer_wall] > 0.)
       throw BadInput("Rigid body/Adhesion of the outer wall: the area of an "
                      "expanding cylinder changes, adhesion on it is not "

@@ -439,11 +439,29 @@ namespace CaissonMPM
   Recorder::print_report()
   {
     print_run_report(*console, parts, facts(""));
-    if (parts.body.motion().follows_loads() &&
-        !parts.body.motion().travel_at_rest())
-      console->warning(
-        "the body has not come to rest, and a suction table, which begins then, "
-        "has not begun. Set a later Time/End time, or finer cells at the tip");
+    warn_of_no_rest();
+  }
+
+  void
+  Recorder::warn_of_no_rest()
+  {
+    const BodyMotion &motion = parts.body.motion();
+    if (!motion.follows_loads() || motion.travel_at_rest())
+      return;
+    const std::string weight = "Rigid body/Submerged weight (" +
+                               to_text(parts.body.submerged_weight(), 3) +
+                               " N)";
+    console->warning(
+      std::string("the body has not come to rest") +
+      (parts.water.has_suction() ?
+         ", so that the suction, which begins then, has not begun. " :
+         ". ") +
+      (parts.schedule.is_at_end_penetration() ?
+         "Down to Time/End penetration the soil bears less than its loads: "
+         "check " +
+           weight + ", or set a deeper end" :
+         "Set a later Time/End time, or finer cells at the tip, or check " +
+           weight));
   }
 
   void

@@ -35,8 +35,9 @@ namespace CaissonMPM
     add_parameter("Suction table",
                   table_text,
                   "Pairs time : suction, separated by commas; linear in "
-                  "between and constant beyond. The time of a body that is "
-                  "lowered begins when it rests. Units: s : Pa.",
+                  "between and constant beyond. The time of a body that "
+                  "weight and suction move begins when it rests; until then "
+                  "it is 0, or as an installation left it. Units: s : Pa.",
                   prm,
                   Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"),
                                  0,
@@ -143,18 +144,19 @@ namespace CaissonMPM
         suction = std::max(suction, 0.);
         return;
       }
-    if (control == Control::flow)
-      pump(time, dt, load);
-    else
-      suction = value_at(table, time);
+    if (time > 0.) // until then, a body that its loads move comes to rest
+      {
+        if (control == Control::flow)
+          pump(time, dt, load);
+        else
+          suction = value_at(table, time);
+      }
     last_volume = load.volume;
   }
 
   void
   Suction::pump(const double time, const double dt, const SuctionLoad &load)
   {
-    if (time <= 0.) // the vents are open
-      return;
     double most = 0.;
     for (const auto &entry : flow_table)
       most = std::max(most, entry.second);

@@ -142,6 +142,8 @@ namespace CaissonMPM
     tell_of_rest();
     void
     print_record(const HistoryRow &row);
+    void
+    warn_of_no_rest();
     RunFacts
     facts(const std::string &status) const;
 

@@ -80,6 +80,13 @@ namespace CaissonMPM
     bool
     is_finished() const;
 
+    /** Whether the body has come to Time/End penetration. */
+    bool
+    is_at_end_penetration() const
+    {
+      return last_penetration && has_reached(*last_penetration);
+    }
+
     /** Return what is due now; it will not be due again. */
     Due
     take_due();

@@ -74,6 +74,13 @@ namespace CaissonMPM
       return level == Level::undrained;
     }
 
+    /** Whether the lid of a caisson is above water that flows. */
+    bool
+    has_suction() const
+    {
+      return flows() && has_lid();
+    }
+
     /** Whether the pressure follows from the motion of the soil. */
     bool
     is_coupled() const

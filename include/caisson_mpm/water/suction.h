@@ -88,8 +88,8 @@ namespace CaissonMPM
       suction = required_ = 0.;
     }
 
-    /** Continue by a step of length @p dt to @p time, that of the table. Units:
-     * s. */
+    /** Continue by a step of length @p dt to @p time, that of the table; at 0 and
+     * before, a given suction or flow waits. Units: s. */
     void
     advance(const double time, const double dt, const SuctionLoad &load);
 
