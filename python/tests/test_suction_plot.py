@@ -9,6 +9,7 @@ from typing import Any
 from unittest import mock
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from caisson import plot
 from caisson.design import seepage
@@ -35,7 +36,6 @@ SCENE: dict[str, Any] = {
     "outer_wall_friction_angle_deg": 20,
     "layers": [SAND],
     "submerged_weight_N": WEIGHT,
-    "cavitation_suction_Pa": 394e3,
 }
 CAISSON = Caisson(D, 0.1, [Layer(0, GAMMA, 30, 0.5)], 20, 20)
 REST = 2.0  # m, of the made-up run
@@ -51,6 +51,7 @@ def made_up() -> dict[str, np.ndarray]:
         "total_force_N": WEIGHT + 26 * required,
         "suction_Pa": np.maximum(required, 0),
         "required_suction_Pa": required,
+        "cavitation_suction_Pa": 3e5 + 9810 * depth,
         "exit_gradient_wall": 0.2 * depth,
         "exit_gradient_axis": 0.1 * depth,
         "critical_gradient": np.full(32, 0.9),
@@ -161,6 +162,18 @@ class MadeUpRun(unittest.TestCase):
         for name, enhanced in ((methods.PLAIN, False), (methods.ENHANCED, True)):
             force = CAISSON.resistance(answers.rest[name], enhanced)
             self.assertAlmostEqual(force / WEIGHT, 1)
+
+    def test_water_boils_later_as_the_lid_comes_down(self) -> None:
+        history = made_up()
+        for farthest, lines in ((310.0, 1), (300.0, 0)):  # kPa; it boils from 305 on
+            axes = Figure().subplots()
+            axes.set_xlim(0, farthest)
+            suction.draw_cavitation(axes, history)
+            self.assertEqual(len(axes.lines), lines)
+            for line in axes.lines:
+                kilopascals, depth = line.get_data()
+                np.testing.assert_array_equal(depth, history["penetration_m"])
+                np.testing.assert_allclose(np.diff(kilopascals), 9.81 * np.diff(depth))
 
     def test_heavy_caisson(self) -> None:
         answers = methods.answers_of(

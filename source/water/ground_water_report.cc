@@ -111,6 +111,7 @@ namespace CaissonMPM
     NamedNumbers result = {
       {"suction_Pa", s},
       {"required_suction_Pa", suction.required()},
+      {"cavitation_suction_Pa", suction.cavitation(lid())},
       {"suction_force_N", s * lid_area()},
       {"tip_water_force_N", tip_force()},
       {"pore_pressure_factor",
@@ -309,9 +310,7 @@ namespace CaissonMPM
   NamedNumbers
   GroundWater::limits() const
   {
-    return {{"submerged_weight_N", body.submerged_weight()},
-            {"cavitation_suction_Pa",
-             suction.cavitation(soil.unit_weight_of_water())}};
+    return {{"submerged_weight_N", body.submerged_weight()}};
   }
 
   std::string
@@ -319,13 +318,18 @@ namespace CaissonMPM
   {
     if (!flows() || !has_lid())
       return "";
-    const double travel = body.motion().travel();
     if (body.penetration() <= 0.)
       return "the caisson has left the soil, and water flows in below its skirt";
-    if (is_solved && mudline.mean_height(Mudline::Side::plug) >=
-                       body.shape().lower_face_of_lid() - travel)
+    if (is_solved && mudline.mean_height(Mudline::Side::plug) >= lid().height)
       return "the plug has reached the lid, or the top of the skirt where the "
              "mesh has no lid (refusal)";
-    return suction.limit_reached(soil.unit_weight_of_water());
+  Suction::Lid
+  GroundWater::lid() const
+  {
+    return {body.shape().lower_face_of_lid() - body.motion().travel(),
+            soil.unit_weight_of_water()};
+  }
+
+    return suction.limit_reached(lid());
   }
 } // namespace CaissonMPM

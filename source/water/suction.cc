@@ -73,9 +73,9 @@ namespace CaissonMPM
                        Patterns::Double(0.));
     add_parameter("Water depth",
                   water_depth,
-                  "The depth of the mudline below the sea sets the suction at "
-                  "which water boils beneath the lid, where a run ends. Units: "
-                  "m.",
+                  "The depth of the mudline below the sea, less the height of "
+                  "the lid, sets the suction at which water boils beneath the "
+                  "lid, where a run ends. Units: m.",
                   prm,
                   Patterns::Double(0.));
     parse_parameters_call_back.connect([this]() { fill_tables(); });
@@ -169,13 +169,16 @@ namespace CaissonMPM
   }
 
   double
-  Suction::cavitation(const double unit_weight_of_water) const
+  Suction::cavitation(const Lid &lid) const
   {
-    return atmosphere - vapor_pressure + unit_weight_of_water * water_depth;
+    // a lid high above the sea draws up no water, but may stand there
+    return std::max(atmosphere - vapor_pressure +
+                      lid.unit_weight_of_water * (water_depth - lid.height),
+                    0.);
   }
 
   std::string
-  Suction::limit_reached(const double unit_weight_of_water) const
+  Suction::limit_reached(const Lid &lid) const
   {
     const auto kilopascals = [](const double p) {
       return to_text(1e-3 * p, 4) + " kPa";
@@ -183,11 +186,12 @@ namespace CaissonMPM
     if (largest && suction > *largest)
       return "the suction exceeds Water/Largest suction = " +
              kilopascals(*largest) + ", that of the pump";
-    const double boiling = cavitation(unit_weight_of_water);
+    const double boiling = cavitation(lid);
     if (suction > boiling)
       return "the suction exceeds " + kilopascals(boiling) +
-             ", where water boils beneath the lid (cavitation) at Water/Water "
-             "depth = " +
+             ", where water boils beneath the lid (cavitation), " +
+             to_text(lid.height, 4) +
+             " m above the mudline at Water/Water depth = " +
              to_text(water_depth) + " m";
     return "";
   }

@@ -295,6 +295,12 @@ namespace CaissonMPM
     find_undrained_pressure();
     bool
     has_lid() const;
+    /** Whether the body is pulled from soil whose water cannot follow at once,
+     * and no suction acts beneath the lid. */
+    bool
+    pulls_with_open_lid() const;
+    Suction::Lid
+    lid() const;
     /** The area beneath the lid, 0 without one. Units: m2. */
     double
     lid_area() const;

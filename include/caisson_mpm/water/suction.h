@@ -108,14 +108,21 @@ namespace CaissonMPM
       return required_;
     }
 
-    /** Return the suction at which water beneath the lid boils. @p
-     * unit_weight_of_water: N/m3. Units: Pa. */
+    /** Where water boils first: beneath the lid, at this height of its lower
+     * face over the original mudline. */
+    struct Lid
+    {
+      double height;               // m
+      double unit_weight_of_water; // N/m3
+    };
+
+    /** Return the suction at which water beneath the lid boils. Units: Pa. */
     double
-    cavitation(const double unit_weight_of_water) const;
+    cavitation(const Lid &lid) const;
 
     /** Return why the suction cannot grow as it should, or an empty text. */
     std::string
-    limit_reached(const double unit_weight_of_water) const;
+    limit_reached(const Lid &lid) const;
 
     void
     register_totals(RunTotals &totals);

@@ -101,10 +101,13 @@ def draw_rest(axes: Axes, history: Table, answers: methods.Answers) -> None:
         known.add(label)
 
 
-def draw_cavitation(axes: Axes, limit: float | None) -> None:
-    """Draw the suction at which water boils, in Pa, if it is in the range."""
-    if limit is not None and limit / 1e3 < axes.get_xlim()[1]:
-        axes.axvline(limit / 1e3, color=RED, linewidth=1.2, label="water boils")
+def draw_cavitation(axes: Axes, history: Table) -> None:
+    """Draw the suction at which water boils beneath the lid, if it is in the range;
+    it grows as the lid comes down."""
+    limit = history.get("cavitation_suction_Pa", np.array([np.inf])) / 1e3
+    if limit.min() < axes.get_xlim()[1]:
+        depth = history["penetration_m"]
+        axes.plot(limit, depth, color=RED, linewidth=1.2, label="water boils")
 
 
 def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
@@ -128,7 +131,7 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
         lines += [suctions / 1e3 for suctions in answers.suctions.values()]
     most = max(np.nanmax(line, initial=1e-3) for line in lines)
     axes.set_xlim(-0.02 * most, 1.08 * most)
-    draw_cavitation(axes, run.scene.get("cavitation_suction_Pa"))
+    draw_cavitation(axes, history)
     draw_rest(axes, history, answers)
     axes.set_xlabel("suction (kPa)")
 
