@@ -101,6 +101,31 @@ class Caisson(ProgramTest):
         self.assertLess(undrained["tip_force_N"], 0.7 * drained["tip_force_N"])
         self.assertLess(abs(undrained["energy_residual"]), 0.02)
 
+    def test_open_lid_is_told(self) -> None:
+        """A pull whose lid holds no water is no capacity where soil keeps its own."""
+        up: Entries = {
+            "Rigid body/Velocity": -0.05,
+            "Rigid body/Ramp time": 0,
+            "Time/End penetration": 0.499,
+        }
+        held: Entries = {
+            "Water/Level": "coupled",
+            "Water/Suction control": "table",
+            "Water/Suction table": "0:1e3",
+        }
+        cases: list[tuple[Entries, bool]] = [
+            ({**UNDRAINED, **up}, True),
+            ({"Water/Level": "coupled", **up}, True),
+            ({**held, **up}, False),
+            ({"Water/Level": "seepage", **up}, False),
+            ({**UNDRAINED, "Time/End penetration": 0.501}, False),
+        ]
+        for i, (entries, is_told) in enumerate(cases):
+            with self.subTest(entries=entries):
+                path = self.directory(f"open_{i}")
+                text = self.run_scene("suction", path, entries=entries)
+                self.assertEqual("open lid" in text, is_told)
+
     def test_restart_and_ranks(self) -> None:
         """The points carry the pressure through checkpoints and ranks."""
         entries: Entries = {**UNDRAINED, "Time/End time": 0.3}

@@ -182,11 +182,31 @@ namespace CaissonMPM
     return values(now);
   }
 
+  bool
+  GroundWater::pulls_with_open_lid() const
+  {
+    // Drained soil leaves a sealed lid no more than an open one.
+    return (is_undrained() || is_coupled()) && has_lid() &&
+           !body.motion().follows_loads() &&
+           body.motion().mean_velocity() < 0. && suction.value() == 0.;
+  }
+
   std::vector<std::string>
   GroundWater::take_warnings()
   {
     std::vector<std::string> warnings;
-    if (!flows() || !has_lid())
+    if (!has_warned_of_open_lid && pulls_with_open_lid())
+      {
+        has_warned_of_open_lid = true;
+        warnings.push_back(
+          "the caisson is pulled up, and water flows freely beneath its lid: "
+          "the force is that of an open lid, and not what a sealed one bears. " +
+          std::string(is_undrained() ?
+                        "Water/Level = undrained has no suction beneath it" :
+                        "Give the suction beneath a sealed one with Water/"
+                        "Suction control = table"));
+      }
+    if (!has_suction())
       return warnings;
     const std::string where =
       " at a penetration of " + to_text(body.penetration(), 5) + " m";
@@ -307,6 +327,13 @@ namespace CaissonMPM
     return limits;
   }
 
+  Suction::Lid
+  GroundWater::lid() const
+  {
+    return {body.shape().lower_face_of_lid() - body.motion().travel(),
+            soil.unit_weight_of_water()};
+  }
+
   NamedNumbers
   GroundWater::limits() const
   {
@@ -316,20 +343,13 @@ namespace CaissonMPM
   std::string
   GroundWater::reason_to_end() const
   {
-    if (!flows() || !has_lid())
+    if (!has_suction())
       return "";
     if (body.penetration() <= 0.)
       return "the caisson has left the soil, and water flows in below its skirt";
     if (is_solved && mudline.mean_height(Mudline::Side::plug) >= lid().height)
       return "the plug has reached the lid, or the top of the skirt where the "
              "mesh has no lid (refusal)";
-  Suction::Lid
-  GroundWater::lid() const
-  {
-    return {body.shape().lower_face_of_lid() - body.motion().travel(),
-            soil.unit_weight_of_water()};
-  }
-
     return suction.limit_reached(lid());
   }
 } // namespace CaissonMPM

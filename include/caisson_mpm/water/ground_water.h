@@ -391,7 +391,8 @@ namespace CaissonMPM
     double     volume_at_start = 0.;
     RecentMean recent_heave; // of the plug, m
     bool       has_started          = false;
-    bool       has_warned_of_piping = false, has_warned_of_lift = false;
+    bool       has_warned_of_piping = false, has_warned_of_lift = false,
+         has_warned_of_open_lid = false;
   };
 } // namespace CaissonMPM
 
