@@ -299,7 +299,7 @@ class Lowered(ProgramTest):
         self.assert_words(["ended at a penetration", "Largest suction"], text)
 
     def test_no_rest_is_told(self) -> None:
-        entries = {"Time/End time": 0.4}
+        entries: Entries = {"Time/End time": 0.4}
         text = self.run_scene("lowered", self.directory(), entries=entries)
         self.assert_words(["has not come to rest", "End time"], text)
         self.assertNotIn("suction", text)

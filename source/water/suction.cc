@@ -35,9 +35,8 @@ namespace CaissonMPM
     add_parameter("Suction table",
                   table_text,
                   "Pairs time : suction, separated by commas; linear in "
-                  "between and constant beyond. The time of a body that "
-                  "weight and suction move begins when it rests; until then "
-                  "it is 0, or as an installation left it. Units: s : Pa.",
+                  "between and constant beyond. A body that its loads move "
+                  "rests first: there the time begins. Units: s : Pa.",
                   prm,
                   Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"),
                                  0,
