@@ -6,7 +6,12 @@ import subprocess
 import unittest
 from pathlib import Path
 
-from program import HERE, ProgramTest, scene
+from program import HERE, ProgramTest, scene, user_scene
+
+from caisson.paths import SCENES
+from caisson.run import read_parameters
+from caisson.study import Options, Reader
+from caisson.study_command import module_of
 
 CHECKS = '"Verification/Checks"'
 LADDER = f"""
@@ -75,6 +80,26 @@ class Ladder(ProgramTest):
         done = self.verify(self.made_directory(), "--only", "refused", "--list")
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertNotIn("wave:", done.stdout)
+
+
+class ShippedStudies(ProgramTest):
+    """The studies of prm/."""
+
+    def test_entries_are_declared(self) -> None:
+        """Each entry that a study sets is one of the program: a misspelled one
+        would be refused only when the study runs."""
+        declared = set(read_parameters([user_scene("jack")], self.program))
+        files = sorted(SCENES.rglob("*.toml"))
+        self.assertGreater(len(files), 0)
+        for file in files:
+            module = module_of(file)
+            for quick in (False, True):
+                reader = Reader(
+                    file, Options(quick=quick), module.STUDY_KEYS, module.RUN_KEYS
+                )
+                for run in (run for study in reader.studies() for run in study.runs):
+                    with self.subTest(file=file.name, study=run.study, run=run.name):
+                        self.assertEqual(set(run.run.entries) - declared, set())
 
 
 if __name__ == "__main__":
