@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The volume change of a cell that strains its points: the mean divergence of
+// the nodal velocities (B-bar), or one that is prescribed for the cell.
+#ifndef caisson_mpm_kernels_volume_change_h
+#define caisson_mpm_kernels_volume_change_h
+
+#include <caisson_mpm/kernels/cell_sums.h>
+#include <caisson_mpm/kernels/update_stress.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    inline namespace CAISSON_KERNEL_ISA
+    {
+      /** One of the fields in @p update [group.n], one cell in each lane. */
+      template <typename Number>
+      CAISSON_INLINE CellField<Number>
+                     field_of_group(const CellGroup<Number> &group,
+                                    const CellUpdate        *update,
+                                    CellField<> CellUpdate::*field)
+      {
+        const double *rows[Number::width];
+        for (int i = 0; i < Number::width; ++i)
+          rows[i] = (update[i < group.n ? i : 0].*field).r; // and then z
+        LaneSums<Number, 8> values;
+        values.load_lanes(rows);
+        CellField<Number> result;
+        for (int k = 0; k < 4; ++k)
+          {
+            result.r[k] = values.sum[k];
+            result.z[k] = values.sum[4 + k];
+          }
+        return result;
+      }
+
+      /** The mean divergence of each cell of a group, from the strain fields of
+       * @p update [group.n]. */
+      template <typename Number>
+      CAISSON_INLINE void
+      find_mean_divergence(const CellGroup<Number> &group,
+                           const CellMap<Number>   &map,
+                           const double             axisymmetric,
+                           CellUpdate              *update)
+      {
+        const Number mean =
+          mean_divergence(map,
+                          axisymmetric,
+                          field_of_group(group, update, &CellUpdate::strain));
+        for (int i = 0; i < group.n; ++i)
+          update[i].mean_divergence = mean[i];
+      }
+
+      /**
+       * Find what makes the divergence of the velocity that moves the points of
+       * a cell the same everywhere in it. B-bar gives them the mean change of
+       * volume; where they moved apart and together in one cell all the same,
+       * volumes and places would part, and gaps open. Added are
+       *   dxi/dt += a xi (xi - 1),   deta/dt += b eta (eta - 1),
+       * which vanish at the sides that they point to, so that no flow through a
+       * side changes (conservative velocity interpolation: Wang, Agrusta & van
+       * Hunen 2015, doi:10.1002/2015GC005824).
+       */
+      template <typename Number>
+      CAISSON_INLINE void
+      find_bubbles(const CellGroup<Number> &group,
+                   const CellMap<Number>   &map,
+                   const double             axisymmetric,
+                   CellUpdate              *update)
+      {
+        const CellField<Number> v =
+          field_of_group(group, update, &CellUpdate::advection);
+        // div v and 1, times r dz/deta, in the middle of the sides
+        constexpr double xi[4] = {0., 1., .5, .5}, eta[4] = {.5, .5, 0., 1.};
+        Number           flow[4], weight[4], sum_of_flow(0.), total(0.);
+        for (int i = 0; i < 4; ++i)
+          {
+            const LocalPoint<Number> p =
+              map.at_reference(Number(xi[i]), Number(eta[i]));
+            const VelocityGradient<Number> L(v,
+                                             p,
+                                             map.inverse_width,
+                                             Number(0.));
+            const Number                   r =
+              Number(axisymmetric) * (map.left + map.width * p.xi) +
+              Number(1. - axisymmetric);
+            weight[i] = r * p.height;
+            flow[i]   = weight[i] * (L.rr + L.zz) +
+                      Number(axisymmetric) * p.height * evaluate(v.r, p);
+            sum_of_flow += flow[i];
+            total += weight[i];
+          }
+        const Number mean = sum_of_flow / total, scale = Number(-2.) / total;
+        const Number a = scale *
+                         (flow[1] - flow[0] - mean * (weight[1] - weight[0])),
+                     b = scale *
+                         (flow[3] - flow[2] - mean * (weight[3] - weight[2]));
+        for (int i = 0; i < group.n; ++i)
+          {
+            update[i].bubble[0] = a[i];
+            update[i].bubble[1] = b[i];
+          }
+      }
+
+      /** Both for B-bar: the volume change of points, and where they move. */
+      template <typename Number>
+      CAISSON_INLINE void
+      make_volume_change_uniform(const CellGroup<Number> &group,
+                                 const CellMap<Number>   &map,
+                                 const double             axisymmetric,
+                                 CellUpdate              *update)
+      {
+        find_mean_divergence(group, map, axisymmetric, update);
+        find_bubbles(group, map, axisymmetric, update);
+      }
+
+      /** Take the mean divergence of cells from the list @p rates [n_cells],
+       * if there is one, where it has a value. */
+      template <typename Number>
+      CAISSON_INLINE void
+      take_volume_rates(const CellGroup<Number> &group,
+                        const double            *rates,
+                        CellUpdate              *update)
+      {
+        for (int i = 0; rates != nullptr && i < group.n; ++i)
+          {
+            const double rate = rates[group.cell[i]];
+            if (rate == rate)
+              update[i].mean_divergence = rate;
+          }
+      }
+    } // namespace CAISSON_KERNEL_ISA
+  }   // namespace Kernels
+} // namespace CaissonMPM
+
+#endif
