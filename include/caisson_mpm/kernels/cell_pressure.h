@@ -20,17 +20,39 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** The share of the pressure of a cell that acts: that of its height
+      /** The share of a cell in which its pressure acts: that of its height
        * which is filled, as a volume where points are its quadrature points. */
       CAISSON_INLINE double
-      acting_pressure(const StepContext &step, const unsigned int cell)
+      acting_share(const StepContext &step, const unsigned int cell)
       {
         const double filled =
           step.points.filled_volume[cell] /
           CellMap<>(step.grid.geometry[cell]).volume(step.grid.axisymmetric);
         const double full = step.moments[cell].full;
-        return (full + (1. - full) * (filled < 1. ? filled : 1.)) *
-               step.pore_pressure[cell];
+        return full + (1. - full) * (filled < 1. ? filled : 1.);
+      }
+
+      CAISSON_INLINE double
+      acting_pressure(const StepContext &step, const unsigned int cell)
+      {
+        return acting_share(step, cell) * step.pore_pressure[cell];
+      }
+
+      /** The work on the water of a cell that grows by @p growth, div v dt, in
+       * this step: of the mean of its pressures before and after, over the
+       * volume in which its force acts. J per radian. */
+      CAISSON_INLINE double
+      work_on_water(const StepContext &step,
+                    const unsigned int cell,
+                    const double       growth)
+      {
+        // the water is the same in all materials
+        const double modulus = step.materials[0].water_modulus,
+                     pressure =
+                       step.pore_pressure[cell] - .5 * modulus * growth;
+        return -pressure * growth * acting_share(step, cell) *
+               CellMap<>(step.grid.geometry[cell])
+                 .volume(step.grid.axisymmetric);
       }
 
       /** Take the pressure of the cells of a group from the stress in their

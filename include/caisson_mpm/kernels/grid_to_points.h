@@ -8,6 +8,7 @@
 #ifndef caisson_mpm_kernels_grid_to_points_h
 #define caisson_mpm_kernels_grid_to_points_h
 
+#include <caisson_mpm/kernels/cell_pressure.h>
 #include <caisson_mpm/kernels/cell_sums.h>
 #include <caisson_mpm/kernels/volume_change.h>
 #include <caisson_mpm/kernels/waiting_blocks.h>
@@ -449,6 +450,12 @@ namespace CaissonMPM
                                          step.grid.axisymmetric,
                                          update);
             take_volume_rates(group, how.volume_rates, update);
+            if (step.pore_pressure != nullptr)
+              for (int i = 0; i < group.n; ++i)
+                result.stress_work += work_on_water(step,
+                                                    group.cell[i],
+                                                    update[i].mean_divergence *
+                                                      how.settings.time_step);
 
             // 3. Stress, volume, velocity and place of the points.
             update_group(step, how, group, update, progress);

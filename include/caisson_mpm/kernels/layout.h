@@ -277,7 +277,7 @@ namespace CaissonMPM
       unsigned int  capacity;    // at least the number of all MPs
       unsigned int  n_leaving;   // entries of leaving that are in use
       unsigned int  n_limited;   // MPs whose velocity was cut
-      double        stress_work; // of the soil in this step, J per radian
+      double        stress_work; // of the total stress, J per radian
     };
 
     /** The kernels, compiled for one instruction set. */
