@@ -218,6 +218,14 @@ class BadInput(ProgramTest):
             ({"Water/Level": "seepage"}, ["caisson", "coupled"]),
             ({"Water/Drained surface": "false"}, ["nowhere", "Drained bottom"]),
             ({"Water/Bottom pressure": "1e4*x"}, ["Water/Bottom pressure", "x"]),
+            (
+                {"Water/Drained bottom": "true", "Water/Bottom pressure": "1/t"},
+                ["Water/Bottom pressure = 1/t is inf at t = 0"],
+            ),
+            (
+                {"Loads/Surrounding pressure": "sqrt(-1)"},
+                ["Loads/Surrounding pressure = sqrt(-1) is", "nan at t = 0"],
+            ),
             ({"Method/Mean volume change": "false"}, ["Mean volume change"]),
         ]
         for entries, words in cases:

@@ -403,7 +403,7 @@ class BadInput(ProgramTest):
                 },
                 ["does not follow"],
             ),
-            ({"Rigid body/Motion": "lowered"}, ["Suction control", "table"]),
+            ({"Rigid body/Motion": "lowered"}, ["table or flow", "prescribed"]),
             (
                 {"Rigid body/Motion": "lowered", "Rigid body/Submerged weight": 0},
                 ["Submerged weight is 0", "comes to rest"],
@@ -414,7 +414,7 @@ class BadInput(ProgramTest):
                     "Water/Suction control": "flow",
                     "Water/Pumped flow table": "0:0.5",
                 },
-                ["prescribed", "velocity of the body"],
+                ["prescribed", "lowered or dropped", "required or table"],
             ),
             ({"Grid/Geometry": "plane strain"}, ["Geometry", "axisymmetric"]),
             (

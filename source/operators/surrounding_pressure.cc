@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/value_in_time.h>
 #include <caisson_mpm/operators/surrounding_pressure.h>
 
 namespace CaissonMPM
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** The entry with what it is set to, for messages. */
+    std::string
+    entry_with(const std::string &text)
+    {
+      return "Loads/Surrounding pressure = " + text;
+    }
+  } // namespace
 
   SurroundingPressure::SurroundingPressure()
     : ParameterAcceptor("/Loads")
@@ -23,13 +34,13 @@ namespace CaissonMPM
   Expression
   SurroundingPressure::parse() const
   {
-    return Expression(text, "Loads/Surrounding pressure = " + text);
+    return Expression(text, entry_with(text));
   }
 
   void
   SurroundingPressure::check_parameters() const
   {
-    parse();
+    value_at(parse(), 0., entry_with(text));
   }
 
   void
@@ -50,7 +61,7 @@ namespace CaissonMPM
   {
     // The pressure outside acts on the soil as a negative one inside would.
     of_nodes.assign(context.grid.n_nodes(),
-                    -pressure(Point<2>(), context.time));
+                    -value_at(pressure, context.time, entry_with(text)));
     context.kernels.pressure_force(context.step, of_nodes.data(), force);
   }
 } // namespace CaissonMPM

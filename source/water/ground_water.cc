@@ -2,6 +2,7 @@
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
+#include <caisson_mpm/base/value_in_time.h>
 #include <caisson_mpm/water/ground_water.h>
 
 #include <deal.II/base/mpi.h>
@@ -27,7 +28,14 @@ namespace CaissonMPM
 
     // The heave is known when the flow is found; the pump sees it smoothed.
     constexpr double time_of_heave = 1.; // s
-  }                                      // namespace
+
+    /** The entry with what it is set to, for messages. */
+    std::string
+    entry_of_bottom(const std::string &text)
+    {
+      return "Water/Bottom pressure = " + text;
+    }
+  } // namespace
 
   GroundWater::GroundWater(BackgroundGrid  &grid,
                            MaterialPoints  &points,
@@ -116,15 +124,15 @@ namespace CaissonMPM
       {
         if (!soil.is_submerged())
           throw BadInput("Water/Level is undrained, but the soil is dry: set "
-                         "Soil/Submerged = true.");
+                         "Soil/Submerged = true, or Level = drained.");
         return;
       }
     suction.check_parameters();
-    bottom_expression();
+    value_at(bottom_expression(), 0., entry_of_bottom(bottom_text));
     if (!soil.is_submerged() || soil.unit_weight_of_water() <= 0.)
       throw BadInput("Water/Level is not drained, but the soil is dry: set "
                      "Soil/Submerged = true, Soil/Fluid density and a Soil/"
-                     "Gravity that points downward.");
+                     "Gravity that points downward, or Level = drained.");
     if (!has_lid())
       {
         if (!is_coupled())
@@ -132,7 +140,7 @@ namespace CaissonMPM
             "Water/Level is seepage, but Rigid body/Kind is " +
             body.shape().name() +
             ": only a caisson has a lid with suction beneath it. Set Kind = "
-            "caisson, or Level = drained or coupled.");
+            "caisson, or Level = drained, undrained or coupled.");
         if (!sides.surface && !sides.outer && !sides.bottom)
           throw BadInput(
             "the pore water has nowhere to drain to. Set Water/Drained "
@@ -143,23 +151,24 @@ namespace CaissonMPM
       throw BadInput(
         "Rigid body/Motion is " + body.motion().name() +
         ": the suction moves the body, and must be given. Set Water/Suction "
-        "control = table, or Rigid body/Motion = prescribed, for which the "
-        "suction is a result.");
+        "control = table or flow, or Rigid body/Motion = prescribed, for which "
+        "the suction is a result.");
     if (suction.moves_body() && !body.motion().follows_loads())
       throw BadInput(
         "Water/Suction control is flow, but Rigid body/Motion is " +
         body.motion().name() +
-        ": the velocity of the body sets the flow. Set Motion = "
-        "lowered, or Suction control = required.");
+        ": the velocity of the body sets the flow. Set Motion = lowered or "
+        "dropped, or Suction control = required or table.");
     if (!grid.axisymmetric())
       throw BadInput(
         "Water/Level is not drained, but Grid/Geometry is plane strain: the "
         "lid of a caisson is round. Set Geometry = axisymmetric, or Level = "
-        "drained.");
+        "drained or undrained.");
     if (body.shape().initial_depth() <= 0.)
       throw BadInput("Water/Level is not drained, and Rigid body/Initial "
                      "penetration is 0: water would flow in below the skirt. "
-                     "Begin with a penetration of some cells.");
+                     "Begin with a penetration of some cells, or set Level = "
+                     "drained or undrained.");
   }
 
   void
@@ -237,7 +246,7 @@ namespace CaissonMPM
   Expression
   GroundWater::bottom_expression() const
   {
-    return Expression(bottom_text, "Water/Bottom pressure = " + bottom_text);
+    return Expression(bottom_text, entry_of_bottom(bottom_text));
   }
 
   void
@@ -393,7 +402,9 @@ namespace CaissonMPM
     projection.solve(velocity,
                      corners,
                      {-suction.value(),
-                      bottom_pressure(Point<2>(), time + .5 * step)});
+                      value_at(bottom_pressure,
+                               time + .5 * step,
+                               entry_of_bottom(bottom_text))});
     is_corrected = true;
     find_flow();
     unbalanced += step * std::abs(flow_remaining);

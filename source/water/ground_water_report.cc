@@ -269,15 +269,21 @@ namespace CaissonMPM
                              to_text(share_of_load(materials[i]), 3) +
                              " of a load on confined soil");
     const auto of_layers = drainage(materials);
+    const auto group     = [this](const Drainage &layer) {
+      if (!body.motion().needs_response())
+        return to_text(layer.group, 3);
+      return to_text(2. * body.shape().right() / layer.c_v, 3) +
+             " for each m/s of the velocity, which is a result";
+    };
     for (unsigned int i = 0; i < of_layers.size(); ++i)
-      lines.emplace_back(
-        "drainage of layer " + to_text(i + 1),
-        "c_v = " + to_text(of_layers[i].c_v, 3) +
-          " m2/s, v D / c_v = " + to_text(of_layers[i].group, 3) +
-          (time_compression != 1. ?
-             ", permeability times " + to_text(time_compression) +
-               " (Water/Time compression)" :
-             ""));
+      lines.emplace_back("drainage of layer " + to_text(i + 1),
+                         "c_v = " + to_text(of_layers[i].c_v, 3) +
+                           " m2/s, v D / c_v = " + group(of_layers[i]) +
+                           (time_compression != 1. ?
+                              ", permeability times " +
+                                to_text(time_compression) +
+                                " (Water/Time compression)" :
+                              ""));
     return lines;
   }
 
