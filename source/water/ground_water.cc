@@ -35,6 +35,15 @@ namespace CaissonMPM
     {
       return "Water/Bottom pressure = " + text;
     }
+
+    /** Return the areas of the left side of a cell that belong to its lower and
+     * its upper node. Units: m2 per radian (m in plane strain). */
+    std::array<double, 2>
+    areas_of_left_side(const Kernels::CellGeometry &g, const bool axisymmetric)
+    {
+      const double half = .5 * (axisymmetric ? g.left : 1.) * g.height_left;
+      return {{half, half}};
+    }
   } // namespace
 
   GroundWater::GroundWater(BackgroundGrid  &grid,
@@ -227,7 +236,7 @@ namespace CaissonMPM
     if (!acts())
       return;
     mudline.initialize(grid, body.shape());
-    find_cells_below_tip();
+    find_cells_at_tip();
     undrained.forget();
     if (!flows())
       return;
@@ -289,14 +298,17 @@ namespace CaissonMPM
   std::array<double, 2>
   GroundWater::integrate_over_tip(const Function &value) const
   {
-    std::array<double, 2> sums = {{0., 0.}};
-    for (const unsigned int cell : cells_below_tip)
+    std::array<double, 2> sums        = {{0., 0.}};
+    const bool            of_cylinder = body.shape().expands();
+    for (const unsigned int cell : cells_at_tip)
       {
-        const auto area =
-          areas_of_side(grid.geometry(cell), grid.axisymmetric());
+        const auto &geometry = grid.geometry(cell);
+        const bool  is_round = grid.axisymmetric();
+        const auto area = of_cylinder ? areas_of_left_side(geometry, is_round) :
+                                        areas_of_side(geometry, is_round);
         for (unsigned int i = 0; i < 2; ++i)
           {
-            sums[0] += area[i] * value(cell, 2 + i);
+            sums[0] += area[i] * value(cell, of_cylinder ? 2 * i : 2 + i);
             sums[1] += area[i];
           }
       }
@@ -309,16 +321,17 @@ namespace CaissonMPM
   }
 
   void
-  GroundWater::find_cells_below_tip()
+  GroundWater::find_cells_at_tip()
   {
-    cells_below_tip.clear();
+    cells_at_tip.clear();
+    const bool of_cylinder = body.shape().expands();
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       {
-        const int above = grid.neighbor(cell, 3);
-        if (grid.is_owned(cell) && !grid.is_rigid(cell) && above >= 0 &&
-            grid.is_rigid(above) &&
-            mudline.side_of(cell) == Mudline::Side::body)
-          cells_below_tip.push_back(cell);
+        const int beyond = grid.neighbor(cell, of_cylinder ? 0 : 3);
+        if (grid.is_owned(cell) && !grid.is_rigid(cell) && beyond >= 0 &&
+            grid.is_rigid(beyond) &&
+            (of_cylinder || mudline.side_of(cell) == Mudline::Side::body))
+          cells_at_tip.push_back(cell);
       }
   }
 

@@ -284,13 +284,13 @@ namespace CaissonMPM
     set_up_step(const double dt);
     void
     find_properties();
-    /** Return the integral over the tip, looking down, of value(cell, corner)
-     * of the cells below it, and the area of the tip. Collective. */
+    /** Return the integral over the tip, or the mantle of a cylinder, of
+     * value(cell, corner) of the cells at it, and its area. Collective. */
     template <typename Function>
     std::array<double, 2>
     integrate_over_tip(const Function &value) const;
     void
-    find_cells_below_tip();
+    find_cells_at_tip();
     void
     find_undrained_pressure();
     bool
@@ -364,11 +364,11 @@ namespace CaissonMPM
     PressureProjection               projection;
     Mudline                          mudline;
     PlugBalance                      plug_balance;
-    std::vector<Conductance>         permeability;    // [n_cells], m/s
-    std::vector<WaterProperties>     properties;      // [n_cells]
-    std::vector<double>              pressure_;       // [n_nodes]
-    std::vector<std::vector<double>> kept_values;     // of keep_field()
-    std::vector<unsigned int>        cells_below_tip; // of this rank
+    std::vector<Conductance>         permeability; // [n_cells], m/s
+    std::vector<WaterProperties>     properties;   // [n_cells]
+    std::vector<double>              pressure_;    // [n_nodes]
+    std::vector<std::vector<double>> kept_values;  // of keep_field()
+    std::vector<unsigned int>        cells_at_tip; // of this rank
     // the integral over the tip of phi (m2) in seepage, else of the pressure
     // (N)
     double       tip_integral     = 0.;
