@@ -185,6 +185,26 @@ class Installation(ProgramTest):
         for key in ("tip_water_force_N", "total_force_with_water_N"):
             self.assertAlmostEqual(first[key] / end[key], 1, 6, key)
 
+    def test_undrained_pressure_goes_on(self) -> None:
+        """The volumes of the points bring it along."""
+        before, whole = self.directory("before"), self.directory("whole")
+        entries: Entries = {**SHORT, "Water/Level": "undrained", DEPTH: 0.55}
+        self.run_scene("suction", before, entries=entries)
+        shutil.copytree(before, whole)
+        longer: Entries = {**entries, DEPTH: 0.57}
+        self.run_scene("suction", whole, SUCCESS, "--restart", entries=longer)
+        path = self.directory("after")
+        longer[INSTALLATION] = before
+        self.run_scene("suction", path, entries=longer, ranks=2)
+        self.assert_same_end(whole, path, 1e-6)
+        water = ("tip_water_force_N", "total_force_with_water_N")
+        # the first row has the pressure one step later than the row before it
+        for x, y, delta in ((whole, -1, 1e-6), (before, 0, 0.03)):
+            expected, row = history(x)[-1], history(path)[y]
+            for key in (*water, "pore_pressure_largest_Pa"):
+                self.assertGreater(expected[key], 1e3)
+                self.assertAlmostEqual(row[key] / expected[key], 1, delta=delta)
+
     def test_refused(self) -> None:
         """What decides the state may not differ, and files are kept."""
         before = self.directory("before")

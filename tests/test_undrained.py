@@ -19,6 +19,7 @@ UNDRAINED: Entries = {"Water/Level": "undrained"}
 NO_FRAMES: Entries = {"Output/Frame interval": 0}
 MODULUS = 5e6 * 0.7 / (1.3 * 0.4)  # lambda + 2 mu of the column, Pa
 LOAD = 1e4  # Pa
+DEPTH = "Time/End penetration"
 
 
 class Column(ProgramTest):
@@ -127,6 +128,15 @@ class Caisson(ProgramTest):
                 path = self.directory(f"open_{i}")
                 text = self.run_scene("suction", path, entries=entries)
                 self.assertEqual("open lid" in text, is_told)
+
+    def test_water_does_not_damp(self) -> None:
+        """A stiffer water makes the steps shorter, and no more damping of them."""
+        losses = []
+        for water in (8e7, 3.2e8):
+            entries: Entries = {"Water/Bulk modulus": water, DEPTH: 0.56}
+            path = self.jack(f"of_{water:g}", {**UNDRAINED, **entries})
+            losses.append(history(path)[-1]["numerical_dissipation_J"])
+        self.assertAlmostEqual(losses[1] / losses[0], 1, delta=0.15)
 
     def test_restart_and_ranks(self) -> None:
         """The points carry the pressure through checkpoints and ranks."""

@@ -166,17 +166,25 @@ namespace CaissonMPM
                        const Soil                           &soil,
                        const std::vector<Kernels::Material> &materials)
   {
-    std::vector<double> squares;
+    std::vector<double> squares, squares_of_soil;
     for (unsigned int i = 0; i < soil.n_layers(); ++i)
-      squares.push_back(materials[i].p_wave_modulus / soil.inertial_density(i));
+      {
+        const Kernels::Material &material = materials[i];
+        const double             density  = soil.inertial_density(i);
+        squares.push_back(material.p_wave_modulus / density);
+        squares_of_soil.push_back(
+          (material.p_wave_modulus - material.water_modulus) / density);
+      }
     unsigned int        limiting = 0;
-    double              worst = 0., speed = 0.; // 1 / s2, m/s
+    double              worst = 0., worst_of_soil = 0., speed = 0.; // 1/s2, m/s
     std::vector<double> worst_of_zone(GridLines::n_zones, 0.);
     for (const unsigned int cell : points.cells_with_points())
       {
-        const double square = square_of_speed(points, cell, squares),
-                     frequency =
-                       square * inverse_square_of_size(grid.geometry(cell));
+        const double square    = square_of_speed(points, cell, squares),
+                     of_soil   = square_of_speed(points, cell, squares_of_soil),
+                     size      = inverse_square_of_size(grid.geometry(cell)),
+                     frequency = square * size;
+        worst_of_soil          = std::max(worst_of_soil, of_soil * size);
         double &of_zone = worst_of_zone[static_cast<int>(grid.zone(cell))];
         of_zone         = std::max(of_zone, frequency);
         if (frequency > worst)
@@ -192,7 +200,9 @@ namespace CaissonMPM
       limit_of_zone[zone] = 1. / std::sqrt(worst_of_zone[zone]);
     const auto of_all = Utilities::MPI::min_max_avg(worst, communicator);
     limit             = 1. / std::sqrt(of_all.max);
-    age               = 0;
+    limit_of_soil =
+      1. / std::sqrt(Utilities::MPI::max(worst_of_soil, communicator));
+    age = 0;
 
     std::string text;
     if (of_all.max_index == Utilities::MPI::this_mpi_process(communicator))

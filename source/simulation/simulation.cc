@@ -101,7 +101,7 @@ namespace CaissonMPM
     if (!body.motion().needs_response())
       timed("move body", [&]() { move_body(); });
     const StepSize size = {clock.step_size,
-                           time_step.courant_number(clock.step_size)};
+                           time_step.courant_number_of_soil(clock.step_size)};
     timed("points to grid", [&]() {
       nodal_motion.collect(soil_on_grid(), nodal_forces, clock.time);
     });

@@ -23,7 +23,7 @@ namespace CaissonMPM
     static constexpr double reference_courant = .8;
 
     double seconds;
-    double courant; // over the stability limit
+    double courant; // over the stability limit of the soil without its water
 
     /** The number of steps of reference in this one. */
     double

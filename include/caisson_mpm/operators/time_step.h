@@ -58,11 +58,14 @@ namespace CaissonMPM
       return fixed_step.value_or(courant * limit);
     }
 
-    /** A step over the stability limit, with the limit that was found last. */
+    /** A step over the limit that the soil would have without its water, with
+     * the limit that was found last. The water of undrained soil shortens the
+     * steps; what acts in each step by a share would act more often, and damp
+     * the same motion several times as much. */
     double
-    courant_number(const double step) const
+    courant_number_of_soil(const double step) const
     {
-      return step / limit;
+      return step / limit_of_soil;
     }
 
     /** The cell that limits the step, in words. */
@@ -99,7 +102,7 @@ namespace CaissonMPM
 
     double                courant = 0.5;
     std::optional<double> fixed_step;
-    double                limit = 0.; // s
+    double                limit = 0., limit_of_soil = 0.; // s
     // of all ranks; infinite where a zone has no points
     std::array<double, GridLines::n_zones> limit_of_zone;
     unsigned int age = 0; // steps since the limit was found
