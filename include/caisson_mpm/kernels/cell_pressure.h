@@ -13,6 +13,7 @@
 #define caisson_mpm_kernels_cell_pressure_h
 
 #include <caisson_mpm/kernels/pressure_integrals.h>
+#include <caisson_mpm/kernels/update_stress.h>
 
 namespace CaissonMPM
 {
@@ -53,6 +54,21 @@ namespace CaissonMPM
         return -pressure * growth * acting_share(step, cell) *
                CellMap<>(step.grid.geometry[cell])
                  .volume(step.grid.axisymmetric);
+      }
+
+      /** The same of the cells of a group in a step of @p dt (s). */
+      template <typename Number>
+      CAISSON_INLINE double
+      work_on_water(const StepContext       &step,
+                    const CellGroup<Number> &group,
+                    const CellUpdate        *update,
+                    const double             dt)
+      {
+        double work = 0.;
+        for (int i = 0; i < group.n; ++i)
+          work +=
+            work_on_water(step, group.cell[i], update[i].mean_divergence * dt);
+        return work;
       }
 
       /** Take the pressure of the cells of a group from the stress in their

@@ -444,18 +444,11 @@ namespace CaissonMPM
             CellUpdate update[width];
             for (int i = 0; i < group.n; ++i)
               prepare_cell(step, how, group.cell[i], update[i]);
-            if (how.settings.mean_volume_change)
-              make_volume_change_uniform(group,
-                                         map,
-                                         step.grid.axisymmetric,
-                                         update);
-            take_volume_rates(group, how.volume_rates, update);
+            find_volume_changes(
+              group, map, step.grid.axisymmetric, how, update);
             if (step.pore_pressure != nullptr)
-              for (int i = 0; i < group.n; ++i)
-                result.stress_work += work_on_water(step,
-                                                    group.cell[i],
-                                                    update[i].mean_divergence *
-                                                      how.settings.time_step);
+              result.stress_work +=
+                work_on_water(step, group, update, how.settings.time_step);
 
             // 3. Stress, volume, velocity and place of the points.
             update_group(step, how, group, update, progress);

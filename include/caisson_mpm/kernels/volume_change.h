@@ -130,6 +130,20 @@ namespace CaissonMPM
               update[i].mean_divergence = rate;
           }
       }
+
+      /** Find the volume changes of the cells of a group, by all of these. */
+      template <typename Number>
+      CAISSON_INLINE void
+      find_volume_changes(const CellGroup<Number> &group,
+                          const CellMap<Number>   &map,
+                          const double             axisymmetric,
+                          const PointUpdate       &how,
+                          CellUpdate              *update)
+      {
+        if (how.settings.mean_volume_change)
+          make_volume_change_uniform(group, map, axisymmetric, update);
+        take_volume_rates(group, how.volume_rates, update);
+      }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels
 } // namespace CaissonMPM
