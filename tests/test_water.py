@@ -387,6 +387,20 @@ class Dropped(ProgramTest):
             )
 
 
+class Header(ProgramTest):
+    """What a run says of its water before it begins."""
+
+    def test_velocity_of_a_dropped_body_is_a_result(self) -> None:
+        entries = {
+            "Water/Level": "coupled",
+            "Water/Suction control": "table",
+            "Water/Suction table": "0:0",
+            "Time/End time": 0.002,
+        }
+        text = self.run_scene("dropped", self.directory(), entries=entries)
+        self.assert_words(["v D / c_v", "for each m/s", "a result"], text)
+
+
 class BadInput(ProgramTest):
     """Scenes that have no flow, or no answer."""
 
