@@ -17,7 +17,8 @@ and holds studies, or is one itself if it holds none (its id is then its name):
     quick = true            # taken with --quick; or a table of the keys that
                             # replace those of the study then
     runs = [{...}]          # one run of the scene as it is, if left out
-    variants = ["name"]     # each run with each of these choices
+    variants = ["name"]     # each run with each of these choices, "" being none;
+                            # a run may have its own list
     meshes = {"name" = {"Section/Entry" = value}}   # ... and on each mesh
     reference = {"Section/Entry" = value}   # one more run, called reference, of the
                             # scene with these entries
@@ -63,7 +64,9 @@ FILE_KEYS = {"kind", "set", "variants", "study"}
 STUDY_KEYS = set(
     "id title scene set seconds quick runs variants meshes reference".split()
 )
-RUN_KEYS = set("name scene set seconds h ranks binding until stop_after".split())
+RUN_KEYS = set(
+    "name scene set seconds variants h ranks binding until stop_after".split()
+)
 SHARED_KEYS = set("h ranks binding until stop_after".split())
 
 
@@ -213,7 +216,7 @@ class Reader:
 
     def runs(self, study: dict[str, Any], run: dict[str, Any]) -> Iterator[StudyRun]:
         """Yield a run on each mesh with each variant."""
-        for variant in study.get("variants", [""]):
+        for variant in run.get("variants", study.get("variants", [""])):
             if variant and variant not in self.variants:
                 raise StudyError(f"{self.file}: {study['id']}: no variant {variant!r}")
             for mesh, on_mesh in study.get("meshes", {"": {}}).items():

@@ -73,6 +73,24 @@ reference = {"A/f" = 6}
         (study,) = self.read(text)
         self.assertEqual([run.name for run in study.runs], ["p", "q"])
 
+    def test_variants_of_a_run(self) -> None:
+        """A run has its own list in the place of that of its study."""
+        text = (
+            HEAD
+            + """
+[[study]]
+id = "s"
+scene = "a.prm"
+variants = ["default"]
+runs = [{name = "x"}, {name = "y", variants = ["", "other"]}]
+"""
+        )
+        (study,) = self.read(text)
+        names = [run.name for run in study.runs]
+        self.assertEqual(names, ["default_x", "y", "other_y"])
+        self.assertNotIn("A/d", study.run("y").run.entries)
+        self.assertEqual(study.run("other_y").run.entries["A/d"], 4)
+
     def test_quick(self) -> None:
         text = """
 kind = "forces"
