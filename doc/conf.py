@@ -25,7 +25,8 @@ mathjax2_config = {
     "jax": ["input/TeX", "output/CommonHTML"],
     "extensions": ["tex2jax.js"],
     "TeX": {"extensions": ["AMSmath.js", "AMSsymbols.js", "noErrors.js"]},
-    "CommonHTML": {"linebreaks": {"automatic": True}},
+    # Not the width of the place: an empty cell of a table has none.
+    "CommonHTML": {"linebreaks": {"automatic": True, "width": "40em"}},
     "showMathMenu": False,
     "messageStyle": "none",
 }
