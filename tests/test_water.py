@@ -4,7 +4,16 @@
 import math
 import unittest
 
-from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, history, scene, summary
+from program import (
+    BAD_INPUT,
+    SUCCESS,
+    Entries,
+    ProgramTest,
+    Results,
+    history,
+    scene,
+    summary,
+)
 
 INNER_RADIUS = 2.8  # m, of tests/jack.prm
 WEIGHT = 6e4  # N, of tests/suction.prm
@@ -63,6 +72,44 @@ class Suction(ProgramTest):
         self.assert_words(["exit gradient", "critical", "piping"], text)
         last = history(path)[-1]
         self.assertGreater(last["exit_gradient_wall"], last["critical_gradient"])
+
+    def test_error_bar(self) -> None:
+        """Bounds of a file whose half-widths grow with depth: relative ones of forces,
+        absolute ones of the suction; none where the file is of another scene."""
+        first, path = self.directory("first"), self.directory()
+        entries: Entries = {"Time/End time": 1.2, "Output/Record interval": 0.1}
+        self.run_scene("suction", first, entries=entries)
+        file = self.made_directory() / "bar.csv"
+        file.write_text(
+            f"# fingerprint: {summary(first)['fingerprint']}\n"
+            "penetration_m,tip_error,total_error,required_suction_half_width_Pa\n"
+            "0.52,0.1,0.2,1000\n0.58,0.4,0.2,4000\n"
+        )
+        entries["Output/Error bar"] = file
+        self.run_scene("suction", path, entries=entries)
+        rows = [r for r in history(path) if 0.52 <= r["penetration_m"] <= 0.58]
+        self.assertGreater(len(rows), 3)
+        bounds = Results(path).error_bounds
+        self.assertEqual(len(bounds["penetration_m"]), len(rows))
+        self.assertNotIn("plug_heave_low_m", bounds)
+        for i, row in enumerate(rows):
+            share = (row["penetration_m"] - 0.52) / 0.06
+            for side, sign in (("low", -1), ("high", 1)):
+                self.assertAlmostEqual(
+                    bounds[f"required_suction_{side}_Pa"][i],
+                    row["required_suction_Pa"] + sign * (1e3 + 3e3 * share),
+                    delta=0.1,
+                )
+                self.assertAlmostEqual(
+                    bounds[f"tip_force_{side}_N"][i] / row["tip_force_N"],
+                    1 + sign * (0.1 + 0.3 * share),
+                    6,
+                )
+        entries["Rigid body/Submerged weight"] = 5e4
+        other = self.directory("other")
+        text = self.run_scene("suction", other, entries=entries)
+        self.assert_words(["error bar", "other parameters"], text)
+        self.assertFalse((other / "history_error.csv").exists())
 
     def test_heavy_body_needs_no_suction(self) -> None:
         path = self.directory()

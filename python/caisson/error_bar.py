@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Studies of kind "error bar": of the forces of an installation, from runs with
-changed numerics.
+"""Studies of kind "error bar": of the forces of an installation, and of its suction
+where it has one, from runs with changed numerics.
 
 Keys of the study beside the usual ones:
 
@@ -13,14 +13,17 @@ Keys of the study beside the usual ones:
     factor = 1         extrapolates to the limit: 2 from a halved quantity on which
                        the error depends linearly, 1 from a refined mesh
 
-The relative error of a term at a depth is
+The error of a term at a depth is
 
-    factor * rms |F_from - F_to| / |F_from|    over 0.5 m about it
+    factor * rms (F_from - F_to) / F_from    over 0.5 m about it
 
-with forces averaged over 0.2 m. The half-width of the error bar is the root of
-the sum of the squares of all terms. One run must be called "default".
+with forces averaged over 0.2 m. Errors of the suction, the exit gradient and the
+heave are absolute, without the division, because these cross zero. The half-width of
+the error bar is the root of the sum of the squares of all terms. One run must be
+called "default".
 """
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -28,35 +31,114 @@ import numpy as np
 
 from caisson import curves, table
 from caisson.paths import short
-from caisson.results import ResultsError
+from caisson.results import ResultsError, Table
 from caisson.study import Options, Study, StudyError, StudyRun
 
 NAME = "error bar"
 STUDY_KEYS = {"output", "depths", "errors"}
 RUN_KEYS = set[str]()
 ERROR_WINDOW = 0.5  # m
-TABLE_DEPTHS = [1, 2, 4, 6]  # m
-FORCES = {
-    "tip": "tip_force_N",
-    "inner": "inner_friction_N",
-    "outer": "outer_friction_N",
-    "total": "total_force_N",
-}
 
-Errors = dict[str, np.ndarray]  # by force: [n_depths]
+
+@dataclass(frozen=True)
+class Quantity:
+    """A column of history.csv that has an error bar.
+
+    name and unit make the names of columns in the file, unit being that of its error;
+    scale and digits are those of the printed tables, for values in shown_unit.
+    """
+
+    name: str
+    column: str
+    is_relative: bool
+    unit: str
+    shown_unit: str
+    scale: float
+    digits: int
+
+    def named(self, *parts: str) -> str:
+        """Return the name of a column of the file."""
+        return "_".join(filter(None, [self.name, *parts, self.unit]))
+
+    @property
+    def half_width(self) -> str:
+        """The column with the half-width."""
+        return self.named("error" if self.is_relative else "half_width")
+
+    def text(self, value: float) -> str:
+        """Return a value for a printed table."""
+        return f"{value * self.scale:.{self.digits}f}"
+
+
+FORCES = [
+    Quantity(name, column, True, "", "kN", 1e-3, 0)
+    for name, column in {
+        "tip": "tip_force_N",
+        "inner": "inner_friction_N",
+        "outer": "outer_friction_N",
+        "total": "total_force_N",
+    }.items()
+]
+SUCTION = [
+    Quantity("required_suction", "required_suction_Pa", False, "Pa", "kPa", 1e-3, 2),
+    Quantity("exit_gradient_axis", "exit_gradient_axis", False, "", "", 1, 3),
+    Quantity("plug_heave", "plug_heave_m", False, "m", "mm", 1e3, 1),
+]
+QUANTITIES = {quantity.name: quantity for quantity in FORCES + SUCTION}
+TABLE_DEPTHS = [(FORCES, [1, 2, 4, 6]), (SUCTION, [2, 3, 4, 5, 6])]  # m
+
+Errors = dict[str, np.ndarray]  # by name of the quantity: [n_depths]
+
+
+def quantities_of(history: Table) -> list[Quantity]:
+    """Return what a run with this history has: forces, and suction if it acts."""
+    return [q for q in FORCES + SUCTION if q.column in history]
 
 
 def term_errors(term: dict[str, Any], study: Study, depths: np.ndarray) -> Errors:
-    """Return the relative errors of all forces by one term."""
+    """Return the errors of all quantities by one term."""
     a, b = [study.run(term[key]).results.history for key in ("from", "to")]
     errors = {}
-    for name, column in FORCES.items():
-        from_a, from_b = [curves.forces_at(h, column, depths) for h in (a, b)]
-        difference = (from_a - from_b) / from_a
-        errors[name] = term["factor"] * curves.window_rms(
+    for quantity in quantities_of(a):
+        from_a, from_b = [curves.forces_at(h, quantity.column, depths) for h in (a, b)]
+        difference = from_a - from_b
+        if quantity.is_relative:
+            difference /= from_a
+        errors[quantity.name] = term["factor"] * curves.window_rms(
             depths, difference, ERROR_WINDOW
         )
     return errors
+
+
+def combined(terms: Sequence[Errors]) -> Errors:
+    """Return the half-widths: the roots of the sums of the squares of all terms."""
+    return {
+        name: np.sqrt(np.sum([term[name] ** 2 for term in terms], axis=0))
+        for name in terms[0]
+    }
+
+
+def file_columns(
+    study: Study, depths: np.ndarray, half: Errors, terms: list[Errors]
+) -> dict[str, list[str]]:
+    """Return the columns of the file as text: relative half-widths of the forces with
+    their terms, then the values, half-widths and terms of the suction."""
+    history = study.run("default").results.history
+    names = [term["name"].replace(" ", "_") for term in study.keys["errors"]]
+    columns = {"penetration_m": [f"{depth:.2f}" for depth in depths]}
+    for group in (FORCES, SUCTION):
+        present = [q for q in group if q.name in half]
+        text = ".5f" if group is FORCES else ".5g"
+        values = {
+            q.column: curves.forces_at(history, q.column, depths)
+            for q in present
+            if not q.is_relative
+        }
+        values |= {q.half_width: half[q.name] for q in present}
+        for name, term in zip(names, terms):
+            values |= {q.named(name): term[q.name] for q in present}
+        columns |= {n: [f"{value:{text}}" for value in v] for n, v in values.items()}
+    return columns
 
 
 def write_file(
@@ -64,17 +146,15 @@ def write_file(
 ) -> None:
     """Write the file that the program reads."""
     base = study.run("default")
-    names = [term["name"].replace(" ", "_") for term in study.keys["errors"]]
-    columns = [f"{force}_{name}" for name in names for force in FORCES]
+    columns = file_columns(study, depths, half, terms)
+    of = "forces and suction" if len(half) > len(FORCES) else "forces"
     lines = [
-        f"# Relative errors of the forces of {base.run.scene.name},"
+        f"# Errors of the {of} of {base.run.scene.name},"
         f" by scripts/caisson study {short(study.file)}",
         f"# fingerprint: {base.results.summary['fingerprint']}",
-        ",".join(["penetration_m", *[f"{f}_error" for f in FORCES], *columns]),
+        ",".join(columns),
+        *map(",".join, zip(*columns.values())),
     ]
-    for i, depth in enumerate(depths):
-        values = [errors[force][i] for errors in [half, *terms] for force in FORCES]
-        lines.append(f"{depth:.2f}," + ",".join(f"{value:.5f}" for value in values))
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
@@ -84,26 +164,35 @@ def minutes(run: StudyRun) -> str:
     return "broke off" if seconds is None else f"{seconds / 60:.1f} min"
 
 
+def print_table(
+    study: Study, depths: np.ndarray, named: list[tuple[str, Errors]], q: Quantity
+) -> None:
+    """Print a quantity of all runs, and its errors by all terms, at depths [m]."""
+    heads = [f"{depth:.0f} m" for depth in depths]
+    unit = f" ({q.shown_unit})" if q.shown_unit else ""
+    rows = []
+    for run in study.runs:
+        values = curves.forces_at(run.results.history, q.column, depths)
+        rows.append([run.name, *map(q.text, values), minutes(run)])
+    print(table.markdown([f"{q.column}{unit}", *heads, "time"], rows) + "\n")
+    rows = [
+        [name, *(f"{100 * e:.1f} %" if q.is_relative else q.text(e) for e in errors)]
+        for name, errors in ((name, errors[q.name]) for name, errors in named)
+    ]
+    print(table.markdown(["error", *heads], rows) + "\n")
+
+
 def print_tables(
     study: Study, depths: np.ndarray, half: Errors, terms: list[Errors]
 ) -> None:
-    """Print the forces of all runs, and the errors of all terms, at some depths."""
-    wanted = [d for d in TABLE_DEPTHS if depths[0] <= d <= depths[-1]]
-    at = [int(np.argmin(abs(depths - d))) for d in wanted]
-    heads = [f"{force} at {depths[i]:.0f} m" for force in FORCES for i in at]
-    rows = []
-    for run in study.runs:
-        history = run.results.history
-        forces = [curves.forces_at(history, c, depths[at]) for c in FORCES.values()]
-        values = [f"{force / 1e3:.0f}" for force in np.concatenate(forces)]
-        rows.append([run.name, *values, minutes(run)])
-    print(table.markdown(["forces (kN)", *heads, "time"], rows) + "\n")
-    named = [(term["name"], e) for term, e in zip(study.keys["errors"], terms)]
-    rows = [
-        [name, *[f"{100 * errors[force][i]:.1f}" for force in FORCES for i in at]]
-        for name, errors in [*named, ("all", half)]
-    ]
-    print(table.markdown(["error (%)", *heads], rows))
+    """Print all quantities of all runs, and the errors of all terms, at some depths."""
+    for group, table_depths in TABLE_DEPTHS:
+        wanted = [d for d in table_depths if depths[0] <= d <= depths[-1]]
+        at = [int(np.argmin(abs(depths - d))) for d in wanted]
+        names = [*(term["name"] for term in study.keys["errors"]), "all"]
+        for q in (q for q in group if q.name in half):
+            chosen = [{q.name: errors[q.name][at]} for errors in [*terms, half]]
+            print_table(study, depths[at], list(zip(names, chosen)), q)
 
 
 def evaluate(studies: Sequence[Study], _: Options, __: float) -> int:
@@ -114,7 +203,7 @@ def evaluate(studies: Sequence[Study], _: Options, __: float) -> int:
         depths = np.arange(first, last + step / 2, step)
         try:
             terms = [term_errors(t, study, depths) for t in study.keys["errors"]]
-            half = {f: np.sqrt(sum(t[f] ** 2 for t in terms)) for f in FORCES}
+            half = combined(terms)
             path = study.file.parent / study.keys["output"]
             write_file(path, study, depths, half, terms)
             print_tables(study, depths, half, terms)

@@ -15,10 +15,10 @@ Each problem is a study; a row of the table is one of its
     known_order = 1.3         # reported and must not become worse
     why = "limitations.md"    # where a shortfall is explained
 
-or states the half-width of the error bar of an installation:
+or states the half-width of the error bar of an installation, over the quantity itself:
 
     error_bar = "../jack_error_bar.csv"   # of a study of kind "error bar"
-    force = "tip"                         # or "total"
+    quantity = "tip"                      # as caisson.error_bar names it
     depth = 2                             # m
 """
 import math
@@ -27,7 +27,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson import table
+from caisson import error_bar, table
 from caisson.machine import machine
 from caisson.results import ResultsError, read_table
 from caisson.study import Options, Study, StudyError, StudyRun
@@ -37,7 +37,7 @@ NAME = "verification"
 STUDY_KEYS = {"checks"}
 RUN_KEYS = set[str]()
 ROW_KEYS = set(
-    "check what run error asked order known_error known_order why error_bar force"
+    "check what run error asked order known_error known_order why error_bar quantity"
     " depth".split()
 )
 COLUMNS = ["problem", "computed", "exact", "error", "asked", "verdict"]
@@ -101,14 +101,19 @@ def error_row(row: Row, runs: Sequence[StudyRun]) -> Row:
 
 
 def error_bar_row(row: Row, study: Study) -> Row:
-    """Return what the table says of the half-width of an error bar, of the force
-    itself."""
+    """Return what the table says of the half-width of an error bar, over the
+    quantity itself. Raises StudyError where the file has no such quantity or depth."""
     path = (study.file.parent / row["error_bar"]).resolve()
     bars = read_table(path)
     nearest = int(np.argmin(np.abs(bars["penetration_m"] - row["depth"])))
     if abs(bars["penetration_m"][nearest] - row["depth"]) > NEAR:
         raise StudyError(f"{path.name} has no depth {row['depth']} m")
-    bar = float(bars[row["force"] + "_error"][nearest])
+    quantity = error_bar.QUANTITIES.get(row["quantity"])
+    if quantity is None or quantity.half_width not in bars:
+        raise StudyError(f"{path.name} has no quantity {row['quantity']!r}")
+    bar = float(bars[quantity.half_width][nearest])
+    if not quantity.is_relative:
+        bar /= abs(float(bars[quantity.column][nearest]))
     return {
         "computed": number(bar, 3),
         "exact": "",

@@ -94,6 +94,31 @@ class MadeUpRun(unittest.TestCase):
         self.assertEqual(picture[:4], b"\x89PNG")
         self.assertGreater(len(picture), 10_000)
 
+    def test_error_bars(self) -> None:
+        """The band of 2 kPa about the required suction is drawn; without a file
+        of bounds there is none."""
+        run = self.write(made_up())
+        (axes,) = Figure().subplots(1, 1, squeeze=False)[0]
+        answers = methods.answers_of(run.scene, np.array([1.0, 4.0]))
+        suction.draw_suction(axes, run, answers)
+        self.assertNotIn("error bar", axes.get_legend_handles_labels()[1])
+        depth = run.history["penetration_m"]
+        required = run.history["required_suction_Pa"]
+        bounds = {
+            "penetration_m": depth,
+            "required_suction_low_Pa": required - 2e3,
+            "required_suction_high_Pa": required + 2e3,
+        }
+        rows = list(zip(*(column.tolist() for column in bounds.values())))
+        write_csv(self.path / "history_error.csv", list(bounds), rows)
+        suction.draw_suction(axes, Results(self.path), answers)
+        (band,) = [c for c in axes.collections if c.get_label() == "error bar"]
+        corners = band.get_paths()[0].vertices
+        at = depth[np.argmin(abs(depth - 3))]
+        sides = corners[np.isclose(corners[:, 1], at), 0]
+        self.assertAlmostEqual(sides.min(), 10 * (at - REST) - 2)
+        self.assertAlmostEqual(sides.max(), 10 * (at - REST) + 2)
+
     def test_values_at_one_depth(self) -> None:
         methods.write(self.path / "design.csv", self.write(made_up()))
         rows = self.design()

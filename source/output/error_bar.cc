@@ -56,16 +56,40 @@ namespace CaissonMPM
     };
   } // namespace
 
+  struct ErrorBar::Quantity
+  {
+    std::string name, unit, half_width;
+    bool        is_relative, is_required;
+
+    /** Its column in history.csv, or that of a bound, with "low" or "high". */
+    std::string
+    column(const std::string &bound = "") const
+    {
+      return name + (bound.empty() ? "" : "_" + bound) +
+             (unit.empty() ? "" : "_" + unit);
+    }
+  };
+
+  // Forces have relative half-widths. The required suction crosses zero where
+  // the weight no longer suffices, so that it and what follows from it have
+  // absolute ones.
+  const std::vector<ErrorBar::Quantity> ErrorBar::known_quantities = {
+    {"tip_force", "N", "tip_error", true, true},
+    {"total_force", "N", "total_error", true, true},
+    {"required_suction", "Pa", "required_suction_half_width_Pa", false, false},
+    {"exit_gradient_axis", "", "exit_gradient_axis_half_width", false, false},
+    {"plug_heave", "m", "plug_heave_half_width_m", false, false}};
+
   ErrorBar::ErrorBar()
     : ParameterAcceptor("/Output")
   {
     add_parameter(
       "Error bar",
       file,
-      "The file with the relative errors of the forces, as "
-      "scripts/caisson study makes it, lies at this path relative to "
-      "the scene's file, and leads to history_error.csv; without a "
-      "path there is none. Units: none.");
+      "The file with the errors of the forces, and of the suction where "
+      "there is one, as scripts/caisson study makes it, lies at this path "
+      "relative to the scene's file, and leads to history_error.csv; "
+      "without a path there is none. Units: none.");
   }
 
   std::string
@@ -92,10 +116,17 @@ namespace CaissonMPM
     try
       {
         const Table table(text);
+        quantities.clear();
+        for (const Quantity &q : known_quantities)
+          if (q.is_required || table.has({q.half_width}))
+            quantities.push_back(&q);
         for (const auto &row : table.rows)
-          rows.push_back({table.value(row, "penetration_m"),
-                          table.value(row, "tip_error"),
-                          table.value(row, "total_error")});
+          {
+            rows.push_back({table.value(row, "penetration_m"), {}});
+            for (const Quantity *q : quantities)
+              rows.back().half_widths.push_back(
+                table.value(row, q->half_width));
+          }
       }
     catch (const std::exception &)
       {
@@ -122,9 +153,10 @@ namespace CaissonMPM
     const double x =
       std::min(1.,
                (penetration - a.penetration) / (b.penetration - a.penetration));
-    return {penetration,
-            a.tip + x * (b.tip - a.tip),
-            a.total + x * (b.total - a.total)};
+    Row between{penetration, a.half_widths};
+    for (unsigned int i = 0; i < quantities.size(); ++i)
+      between.half_widths[i] += x * (b.half_widths[i] - a.half_widths[i]);
+    return between;
   }
 
   void
@@ -132,29 +164,37 @@ namespace CaissonMPM
   {
     if (rows.empty())
       return;
-    const std::vector<std::string> names = {"penetration_m",
-                                            "tip_force_N",
-                                            "total_force_N"};
-    const Table history(read_text(directory + "/history.csv"));
+    const Table              history(read_text(directory + "/history.csv"));
+    std::vector<std::string> names = {"penetration_m"};
+    std::string              text  = names.front();
+    for (const Quantity *q : quantities)
+      {
+        names.push_back(q->column());
+        for (const std::string bound : {"", "low", "high"})
+          text += "," + q->column(bound);
+      }
+    text += "\n";
     if (!history.has(names))
       throw RunFailure(directory + "/history.csv has lost its columns: "
                                    "history_error.csv is not written.");
-    std::string text = "penetration_m,tip_force_N,tip_force_low_N,"
-                       "tip_force_high_N,total_force_N,total_force_low_N,"
-                       "total_force_high_N\n";
     for (const auto &row : history.rows)
       {
-        const double depth = history.value(row, names[0]);
+        const double depth = history.value(row, names.front());
         if (depth < rows.front().penetration - 1e-9 ||
             depth > rows.back().penetration + 1e-9)
           continue;
         const Row error = at(depth);
         text += to_text(depth, 10);
-        for (const auto &[name, half_width] :
-             {std::make_pair(names[1], error.tip),
-              std::make_pair(names[2], error.total)})
-          for (const double factor : {1., 1. - half_width, 1. + half_width})
-            text += "," + to_text(factor * history.value(row, name), 10);
+        for (unsigned int i = 0; i < quantities.size(); ++i)
+          {
+            const double value      = history.value(row, names[i + 1]);
+            const double half_width = error.half_widths[i];
+            for (const double side : {0., -1., 1.})
+              text += "," + to_text(quantities[i]->is_relative ?
+                                      (1. + side * half_width) * value :
+                                      value + side * half_width,
+                                    10);
+          }
         text += "\n";
       }
     write_atomically(directory + "/history_error.csv", text);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The error bar of an installation's forces: the companion of history.csv.
+// The error bar of an installation's forces and suction: the companion of
+// history.csv.
 //
-// The relative errors come from a study of mesh, points, mass scaling and
-// velocity (scripts/caisson study), as a file beside the scene. They hold for
-// the scene of the study only, which the file names by its fingerprint.
+// The errors come from a study of mesh, points, mass scaling and more
+// (scripts/caisson study), as a file beside the scene. They hold for the scene
+// of the study only, which the file names by its fingerprint.
 #ifndef caisson_mpm_output_error_bar_h
 #define caisson_mpm_output_error_bar_h
 
@@ -17,11 +18,14 @@ namespace CaissonMPM
 {
   /**
    * Reads the file of errors and writes history_error.csv: for each row of
-   * history.csv within the depths of the study the tip and total force with
+   * history.csv within the depths of the study the quantities of the file, with
    * their lower and upper bounds. The file of errors is CSV with the line
    *   # fingerprint: TEXT
    * and the columns penetration_m (increasing), tip_error and total_error
-   * (relative half-widths). Called by one rank; not collective.
+   * (relative half-widths). Columns of a run with suction, with half-widths in
+   * the units of history.csv, may be added: required_suction_half_width_Pa,
+   * exit_gradient_axis_half_width and plug_heave_half_width_m. Called by one
+   * rank; not collective.
    */
   class ErrorBar : public dealii::ParameterAcceptor
   {
@@ -44,17 +48,25 @@ namespace CaissonMPM
     write(const std::string &directory) const;
 
   private:
+    /** A quantity of history.csv, and which column has its half-width. */
+    struct Quantity;
+
+    /** A depth with the half-widths of all quantities that the file has. */
     struct Row
     {
-      double penetration, tip, total;
+      double              penetration;
+      std::vector<double> half_widths;
     };
+
+    static const std::vector<Quantity> known_quantities;
 
     /** The errors at a depth that lies within those of the study. */
     Row
     at(const double penetration) const;
 
-    std::string      file;
-    std::vector<Row> rows;
+    std::string                   file;
+    std::vector<const Quantity *> quantities;
+    std::vector<Row>              rows;
   };
 } // namespace CaissonMPM
 

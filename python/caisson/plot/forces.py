@@ -74,23 +74,36 @@ def draw_bands(axes: Axes, bands: theory.Bands, names: tuple[str, ...]) -> None:
         axes.plot(enhanced, bands.depth, color=color, linewidth=0.8, linestyle=":")
 
 
+def draw_error_bar(
+    axes: Axes,
+    bounds: Table,
+    columns: tuple[str, str],
+    scale: float | np.ndarray,
+    color: str,
+    label: str,
+) -> None:
+    """Draw the running means of a lower and an upper bound, times scale (one factor, or
+    [n_rows]), if the run has them."""
+    if not all(column in bounds for column in columns):
+        return
+    depth = bounds["penetration_m"]
+    low, high = [
+        running_mean(depth, bounds[column], window_of(depth)) * scale
+        for column in columns
+    ]
+    axes.fill_betweenx(
+        depth, low, high, color=color, alpha=0.3, linewidth=0, label=label
+    )
+
+
 def draw_error_bars(axes: Axes, bounds: Table) -> None:
     """Draw the bounds of total and tip force."""
     for name in ("total", "tip"):
-        columns = [
+        low, high = [
             column_of(name).replace("_N", f"_{side}_N") for side in ("low", "high")
         ]
-        if not all(column in bounds for column in columns):
-            continue
-        depth = bounds["penetration_m"]
-        axes.fill_betweenx(
-            depth,
-            *[smooth(depth, bounds[column]) for column in columns],
-            color=COLORS[name],
-            alpha=0.3,
-            linewidth=0,
-            label=f"{name}, error bar",
-        )
+        label = f"{name}, error bar"
+        draw_error_bar(axes, bounds, (low, high), 1e-3, COLORS[name], label)
 
 
 def set_limits(axes: Axes, depth: np.ndarray) -> None:

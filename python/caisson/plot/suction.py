@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson.plot import suction_methods as methods
-from caisson.plot.forces import COLORS, penetration
+from caisson.plot.forces import COLORS, draw_error_bar, penetration
 from caisson.results import Results, Table
 
 BLUE, GREEN, RED = (
@@ -19,6 +19,7 @@ CRITICAL = {
     methods.CRITICAL_SENDERS_RANDOLPH: ("Senders & Randolph (2009)", GREEN, "-"),
     methods.CRITICAL_IBSEN_THILSTED: ("Ibsen & Thilsted (2011)", RED, (0, (6, 6))),
 }
+ERROR_BAR = "error bar"  # its name in the legends
 WHITE = {"facecolor": "white", "edgecolor": "0.8"}  # behind a text
 
 
@@ -124,6 +125,8 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
         alpha=0.5,
         label="required, computed",
     )
+    columns = ("required_suction_low_Pa", "required_suction_high_Pa")
+    draw_error_bar(axes, run.error_bounds, columns, 1e-3, "black", ERROR_BAR)
     lines = [applied]
     if answers.suctions:
         draw_required(axes, answers)
@@ -136,20 +139,26 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
     axes.set_xlabel("suction (kPa)")
 
 
-def draw_gradients(axes: Axes, history: Table) -> None:
+def draw_gradients(axes: Axes, run: Results) -> None:
     """Draw the exit gradients over the one at which soil has no weight."""
+    history, bounds = run.history, run.error_bounds
     depth, critical = history["penetration_m"], history["critical_gradient"]
     for place, color, width in (("wall", "black", 1.8), ("axis", BLUE, 1.2)):
         gradient = history[f"exit_gradient_{place}"] / critical
         label = f"at the {'inner wall' if place == 'wall' else place}"
         axes.plot(gradient, depth, color=color, linewidth=width, label=label)
+    if bounds:
+        columns = ("exit_gradient_axis_low", "exit_gradient_axis_high")
+        scale = 1 / np.interp(bounds["penetration_m"], depth, critical)
+        draw_error_bar(axes, bounds, columns, scale, BLUE, f"at the axis, {ERROR_BAR}")
     axes.axvline(1, color=RED, linewidth=1.2, linestyle="--", label="no weight left")
     axes.set_xlim(left=-0.02)
     axes.set_xlabel("exit gradient / critical gradient")
 
 
-def draw_heave(axes: Axes, history: Table) -> None:
+def draw_heave(axes: Axes, run: Results) -> None:
     """Draw the heave of the plug and tell the volumes of water at the end."""
+    history = run.history
     axes.plot(
         history["plug_heave_m"],
         history["penetration_m"],
@@ -157,6 +166,8 @@ def draw_heave(axes: Axes, history: Table) -> None:
         linewidth=1.8,
         label="mean over the plug",
     )
+    columns = ("plug_heave_low_m", "plug_heave_high_m")
+    draw_error_bar(axes, run.error_bounds, columns, 1.0, "black", ERROR_BAR)
     axes.axvline(0, color="0.6", linewidth=0.8)
     pumped, seepage = [
         history[f"{name}_volume_m3"][-1] for name in ("pumped", "seepage")
@@ -207,8 +218,8 @@ def draw(directory: Path, run: Results) -> list[Path]:
     panels = figure.subplots(1, 3, width_ratios=[1.7, 1, 1])
     figure.suptitle(run.title, fontsize=10)
     draw_suction(panels[0], run, answers)
-    draw_gradients(panels[1], history)
-    draw_heave(panels[2], history)
+    draw_gradients(panels[1], run)
+    draw_heave(panels[2], run)
     for axes, place in zip(panels, ("upper right", "lower left", "upper right")):
         set_depth_axis(axes, depth, place)
     panels[0].set_ylabel("penetration of the skirt tip (m)")

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The error bar of made-up runs that differ by known amounts."""
+import contextlib
+import io
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from caisson import error_bar, verification
+from caisson.results import ResultsError, Table, read_table
+from caisson.study import Options, Reader, Study, StudyError
+from caisson.table import write_csv
+
+STUDY = """
+kind = "error bar"
+scene = "a.prm"
+output = "bar.csv"
+depths = [1.0, 3.0, 0.1]
+runs = [{name = "default"}, {name = "refined"}, {name = "little_mass"}]
+[[errors]]
+name = "mesh"
+from = "default"
+to = "refined"
+factor = 1
+[[errors]]
+name = "mass scaling"
+from = "default"
+to = "little_mass"
+factor = 2
+"""
+SUCTION = 1e4  # Pa for each meter
+
+
+def made_up(force: float, suction: float | None) -> Table:
+    """Return a history whose forces are larger by this share, and whose suction is
+    larger by this amount (Pa) and zero at 2 m; None: drained."""
+    depth = np.linspace(0.5, 3.5, 301)
+    table = {"time_s": depth, "penetration_m": depth}
+    for quantity in error_bar.FORCES:
+        table[quantity.column] = (1 + force) * 1e5 * depth
+    if suction is not None:
+        table["required_suction_Pa"] = SUCTION * (depth - 2) + suction
+        table["exit_gradient_axis"] = 0.1 * depth
+        table["plug_heave_m"] = 0.05 * depth + suction / 1e6
+    return table
+
+
+class ErrorBar(unittest.TestCase):
+    """The file that a study leaves, and what the ladder makes of it."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name)
+
+    def study(self, suctions: tuple[float | None, ...] = (0, 800, -300)) -> Study:
+        """Return a study with finished runs; errors of the forces are 3 % and, before
+        the factor of 2, 2 %."""
+        file = self.path / "study.toml"
+        file.write_text(STUDY, encoding="utf-8")
+        options = Options(results=self.path / "results")
+        (study,) = Reader(file, options, error_bar.STUDY_KEYS, set()).studies()
+        for run, force, suction in zip(study.runs, (0, 0.03, -0.02), suctions):
+            history = made_up(force, suction)
+            run.run.directory.mkdir(parents=True, exist_ok=True)
+            rows = list(zip(*(column.tolist() for column in history.values())))
+            write_csv(run.run.directory / "history.csv", list(history), rows)
+            text = json.dumps({"fingerprint": "f00d", "wall_time_s": 60})
+            (run.run.directory / "run.json").write_text(text, encoding="utf-8")
+        return study
+
+    def bars(self, study: Study) -> tuple[Table, str]:
+        """Return the file of the study, and what is printed with it."""
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            self.assertEqual(error_bar.evaluate([study], Options(), 0), 0)
+        return read_table(self.path / "bar.csv"), printed.getvalue()
+
+    def test_half_widths(self) -> None:
+        """Root of 3 % and twice 2 % squared, of 800 and twice 300 Pa, at each depth,
+        also where the suction is zero."""
+        bars, printed = self.bars(self.study())
+        self.assertEqual(len(bars["penetration_m"]), 21)
+        for name in ("tip", "inner", "outer", "total"):
+            np.testing.assert_allclose(bars[f"{name}_error"], 0.05)
+            np.testing.assert_allclose(bars[f"{name}_mass_scaling"], 0.04)
+        np.testing.assert_allclose(bars["required_suction_half_width_Pa"], 1000)
+        np.testing.assert_allclose(bars["required_suction_mesh_Pa"], 800)
+        np.testing.assert_allclose(bars["plug_heave_half_width_m"], 1e-3)
+        np.testing.assert_allclose(bars["exit_gradient_axis_half_width"], 0)
+        expected = SUCTION * (bars["penetration_m"] - 2)
+        np.testing.assert_allclose(bars["required_suction_Pa"], expected, atol=1e-3)
+        text = (self.path / "bar.csv").read_text(encoding="utf-8")
+        self.assertIn("# fingerprint: f00d\n", text)
+        row = next(line for line in printed.splitlines() if "| all " in line)
+        self.assertEqual(row.split("|")[2].strip(), "5.0 %")
+
+    def test_drained_runs_have_forces_only(self) -> None:
+        bars, _ = self.bars(self.study((None, None, None)))
+        self.assertEqual([name for name in bars if "suction" in name], [])
+        np.testing.assert_allclose(bars["total_error"], 0.05)
+
+    def test_missing_run(self) -> None:
+        study = self.study()
+        (study.run("refined").run.directory / "history.csv").unlink()
+        with self.assertRaisesRegex(StudyError, "history.csv"):
+            error_bar.evaluate([study], Options(), 0)
+
+    def test_row_of_the_ladder(self) -> None:
+        """1000 Pa are 10 % of the suction at 3 m."""
+        study = self.study()
+        self.bars(study)
+        row = {"error_bar": "bar.csv", "quantity": "required_suction", "depth": 3}
+        found = verification.error_bar_row({**row, "error": 0.1001}, study)
+        self.assertEqual(found["error"], "0.1")
+        self.assertEqual(found["verdict"], verification.PASS)
+        found = verification.error_bar_row({**row, "error": 0.09}, study)
+        self.assertEqual(found["verdict"], verification.FAIL)
+        tip = {**row, "quantity": "tip", "error": 0.03, "known_error": 0.05}
+        found = verification.error_bar_row(tip, study)
+        self.assertEqual(found["verdict"], verification.KNOWN)
+        with self.assertRaisesRegex(StudyError, "no depth 4 m"):
+            verification.error_bar_row({**row, "depth": 4, "error": 0.1}, study)
+        with self.assertRaisesRegex(StudyError, "no quantity 'lid'"):
+            verification.error_bar_row({**row, "quantity": "lid", "error": 0.1}, study)
+        with self.assertRaises(ResultsError):
+            verification.error_bar_row({**row, "error_bar": "x", "error": 0.1}, study)
+
+
+if __name__ == "__main__":
+    unittest.main()
