@@ -12,6 +12,7 @@ Keys of the study beside the usual ones:
     to = "refined"
     factor = 1         extrapolates to the limit: 2 from a halved quantity on which
                        the error depends linearly, 1 from a refined mesh
+    depths = [1, 4]    where the term counts, if not everywhere (m)
 
 The error of a term at a depth is
 
@@ -96,16 +97,27 @@ def quantities_of(history: Table) -> list[Quantity]:
 
 
 def term_errors(term: dict[str, Any], study: Study, depths: np.ndarray) -> Errors:
-    """Return the errors of all quantities by one term."""
+    """Return the errors of all quantities by one term, 0 where it does not count.
+    Raises StudyError where a run does not reach that far."""
     a, b = [study.run(term[key]).results.history for key in ("from", "to")]
+    first, last = term.get("depths", (depths[0], depths[-1]))
+    counts = (depths > first - curves.EDGE) & (depths < last + curves.EDGE)
+    at = depths[counts]
     errors = {}
     for quantity in quantities_of(a):
-        from_a, from_b = [curves.forces_at(h, quantity.column, depths) for h in (a, b)]
+        column = quantity.column
+        from_a, from_b = [curves.forces_at(h, column, at) for h in (a, b)]
         difference = from_a - from_b
+        if not np.all(np.isfinite(difference)):
+            raise StudyError(
+                f"the error {term['name']!r} counts to {last:.4g} m, and one of its runs"
+                " ends before; set its depths"
+            )
         if quantity.is_relative:
             difference /= from_a
-        errors[quantity.name] = term["factor"] * curves.window_rms(
-            depths, difference, ERROR_WINDOW
+        errors[quantity.name] = np.zeros(len(depths))
+        errors[quantity.name][counts] = term["factor"] * curves.window_rms(
+            at, difference, ERROR_WINDOW
         )
     return errors
 

@@ -98,6 +98,20 @@ class ErrorBar(unittest.TestCase):
         row = next(line for line in printed.splitlines() if "| all " in line)
         self.assertEqual(row.split("|")[2].strip(), "5.0 %")
 
+    def test_a_term_counts_at_its_depths(self) -> None:
+        """Outside them the other term is left; a run that ends before is told."""
+        study = self.study()
+        study.keys["errors"][0]["depths"] = [1.0, 2.0]
+        bars, _ = self.bars(study)
+        shallow = bars["penetration_m"] < 2.05
+        self.assertEqual(int(shallow.sum()), 11)
+        expected = np.where(shallow, 1000, 600)
+        np.testing.assert_allclose(bars["required_suction_half_width_Pa"], expected)
+        study.keys["errors"][0]["depths"] = [1.0, 5.0]
+        study.keys["depths"] = [1.0, 5.0, 0.1]
+        with self.assertRaisesRegex(StudyError, "'mesh' counts to 5 m.*set its depths"):
+            error_bar.evaluate([study], Options(), 0)
+
     def test_drained_runs_have_forces_only(self) -> None:
         bars, _ = self.bars(self.study((None, None, None)))
         self.assertEqual([name for name in bars if "suction" in name], [])
