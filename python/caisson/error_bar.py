@@ -110,8 +110,8 @@ def term_errors(term: dict[str, Any], study: Study, depths: np.ndarray) -> Error
         difference = from_a - from_b
         if not np.all(np.isfinite(difference)):
             raise StudyError(
-                f"the error {term['name']!r} counts to {last:.4g} m, and one of its runs"
-                " ends before; set its depths"
+                f"the error {term['name']!r} counts to {last:.4g} m, and one of its"
+                " runs ends before; set its depths"
             )
         if quantity.is_relative:
             difference /= from_a
