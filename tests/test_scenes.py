@@ -48,6 +48,21 @@ class UserScenes(ProgramTest):
                 with self.subTest(path.name):
                     self.run_program(SUCCESS, path, "--validate")
 
+    def test_error_bars_are_those_of_today(self) -> None:
+        """Each file of errors was computed for the scene as it is now."""
+        for name in ("jack", "suction", "suction_coupled"):
+            with self.subTest(name):
+                text = self.run_program(
+                    SUCCESS,
+                    user_scene(name),
+                    "--output-directory",
+                    self.directory(),
+                    entries={"Time/End time": 0.02},
+                )
+                scene = (SCENES / f"{name}.prm").read_text(encoding="utf-8")
+                self.assertIn(f"{name}_error_bar.csv", scene)
+                self.assertNotIn("other parameters", text)
+
     def test_pull_out_after_is_valid(self) -> None:
         """After a short piece of its installation; some steps pull."""
         before, after = self.directory("before"), self.directory("after")

@@ -21,6 +21,7 @@ COMMANDS = {
     "stability": (STUDY, "run the hard scenes of prm/stability"),
     "accuracy": (STUDY, "measure error against time over meshes and methods"),
     "error-bar": (STUDY, "make the error bar of prm/jack.prm"),
+    "suction-error-bar": (STUDY, "make those of the scenes with suction"),
     "tip": (STUDY, "study the tip force of prm/jack_coarse.prm"),
     "drainage": (STUDY, "study the resistance between the limits of drainage"),
     "speed": (STUDY, "measure the speed of kernels and program, as ratios"),

@@ -21,6 +21,7 @@ OWN = {
     "accuracy": SCENES / "verification/accuracy.toml",
     "stability": SCENES / "stability/stability.toml",
     "error-bar": SCENES / "jack_study.toml",
+    "suction-error-bar": SCENES / "suction_study.toml",
     "tip": SCENES / "tip_study.toml",
     "drainage": SCENES / "drainage_study.toml",
     "speed": SCENES / "speed.toml",
