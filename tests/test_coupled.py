@@ -124,6 +124,36 @@ class Column(ProgramTest):
         path = self.run_column("updraft", entries)
         self.assertGreater(history(path, "observations")[-1]["bottom"], 1e-3)
 
+    def test_boiling_is_told(self) -> None:
+        """A bottom at 1 m that is drawn at with 200 kPa has 101.3 - 200 + 9.81 kPa,
+        1.2 kPa of it vapor; under 20 m of water it is far from boiling."""
+        entries: Entries = {
+            **COARSE,
+            "Water/Drained bottom": "true",
+            "Water/Bottom pressure": -2e5,
+            "Time/End time": 0.02,
+            "Output/Record interval": 0.01,
+            "Verification/Checks": "",
+        }
+        for depth in (0, 20):
+            with self.subTest(depth=depth):
+                path = self.directory(f"depth_{depth}")
+                text = self.run_program(
+                    SUCCESS,
+                    user_scene("verification/consolidation"),
+                    "--output-directory",
+                    path,
+                    entries={**entries, "Water/Water depth": depth},
+                )
+                margin = 101.3e3 - 1.2e3 + 9810 * (depth + 1) - 2e5
+                self.assertAlmostEqual(
+                    history(path)[-1]["cavitation_margin_Pa"], margin, delta=1
+                )
+                if margin < 0:
+                    self.assert_words(["vapor pressure", "z = -1 m"], text)
+                else:
+                    self.assertNotIn("vapor pressure", text)
+
 
 class Rest(ProgramTest):
     """Soil at rest stays so, whatever its layers."""

@@ -60,6 +60,24 @@ class Column(ProgramTest):
     def test_modulus_decides(self) -> None:
         self.load(2e7, 1e8 / (1e8 + MODULUS), {}, FAILURE)
 
+    def test_boiling_is_told(self) -> None:
+        """A pull of 200 kPa at the surface: water that bears its share of it boils
+        where no more than the atmosphere presses on it."""
+        water = 1e9
+        share = water / (water + MODULUS)
+        path = self.load(
+            water,
+            -20 * share,
+            {
+                "Loads/Surrounding pressure": -20 * LOAD,
+                "Water/Water depth": 0,
+                "Verification/Checks": "",
+            },
+        )
+        last = history(path)[-1]
+        margin = 101.3e3 - 1.2e3 + 9810 * 0.05 - 20 * LOAD * share
+        self.assertAlmostEqual(last["cavitation_margin_Pa"] / margin, 1, delta=0.02)
+
     def test_step_is_shorter(self) -> None:
         """The wave is faster by the root of all that resists."""
         steps = [

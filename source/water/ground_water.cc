@@ -208,7 +208,7 @@ namespace CaissonMPM
     const std::string why =
       is_undrained() ? "Water/Level is undrained" : "Water/Level is drained";
     if (!is_undrained())
-      origins.add_unused({"Water/Bulk modulus"}, why);
+      origins.add_unused({"Water/Bulk modulus", "Water/Water depth"}, why);
     origins.add_unused({"Water/Renewal",
                         "Water/Pressure smoothing",
                         "Water/Bottom pressure",

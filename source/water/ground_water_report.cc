@@ -2,6 +2,7 @@
 //
 // What the pore water says of itself: columns, warnings, reasons.
 #include <caisson_mpm/base/text.h>
+#include <caisson_mpm/kernels/cell_map.h>
 #include <caisson_mpm/water/ground_water.h>
 
 #include <deal.II/base/mpi.h>
@@ -68,7 +69,8 @@ namespace CaissonMPM
       {
         const auto [smallest, largest] = extremes();
         result = {{"pore_pressure_smallest_Pa", smallest},
-                  {"pore_pressure_largest_Pa", largest}};
+                  {"pore_pressure_largest_Pa", largest},
+                  {"cavitation_margin_Pa", boiling_margin.value}};
       }
     if (is_undrained())
       {
@@ -154,23 +156,57 @@ namespace CaissonMPM
             Utilities::MPI::max(result.second, grid.communicator())};
   }
 
+  GroundWater::BoilingMargin
+  GroundWater::find_boiling_margin() const
+  {
+    const double gamma           = soil.unit_weight_of_water(),
+                 rest            = suction.cavitation({0., gamma});
+    std::array<double, 3> lowest = {{rest, 0., 0.}};
+    const auto include = [&](const double p, const double r, const double z) {
+      lowest = std::min(lowest, {{rest - gamma * z + p, r, z}});
+    };
+    if (undrained.is_found())
+      for (const unsigned int cell : points.cells_with_points())
+        {
+          const Kernels::CellMap<> map(grid.geometry(cell));
+          include(undrained.pressure()[cell],
+                  map.left + .5 * map.width,
+                  map.center_z());
+        }
+    for (unsigned int node = 0;
+         is_coupled() && is_solved && node < grid.n_owned_nodes();
+         ++node)
+      if (solver().state(node) != PressureSolver::no_water)
+        include(projection.pressure().local_element(node),
+                grid.r_of(node),
+                grid.z_of(node));
+    for (const auto &of_rank :
+         Utilities::MPI::all_gather(grid.communicator(), lowest))
+      lowest = std::min(lowest, of_rank);
+    return {lowest[0], lowest[1], lowest[2]};
+  }
+
   void
   GroundWater::find_exit_gradient()
   {
-    if (!is_coupled())
-      {
-        exit = exit_gradient(grid, mudline, permeability, outflow());
-        return;
-      }
+    const double wall = body.shape().left(), width = body.penetration();
+    NodalData    flux;
     // what the soil at the mudline gives off in a step is noise to the gradient
-    NodalData flux;
-    projection.find_flux(flux);
-    exit = exit_gradient(grid, mudline, permeability, flux);
+    if (is_coupled())
+      projection.find_flux(flux);
+    exit = exit_gradient(grid,
+                         mudline,
+                         permeability,
+                         is_coupled() ? flux : outflow(),
+                         wall,
+                         width);
   }
 
   NamedNumbers
   GroundWater::columns()
   {
+    if (is_coupled() || is_undrained())
+      boiling_margin = find_boiling_margin();
     if (!flows())
       return values(mudline);
     if (!is_solved && !is_coupled())
@@ -206,10 +242,32 @@ namespace CaissonMPM
                         "Give the suction beneath a sealed one with Water/"
                         "Suction control = table"));
       }
-    if (!has_suction())
-      return warnings;
-    const std::string where =
-      " at a penetration of " + to_text(body.penetration(), 5) + " m";
+    const std::string        where =
+      body.shape().exists() ?
+               " at a penetration of " + to_text(body.penetration(), 5) + " m" :
+               "";
+    if (!has_warned_of_boiling && boiling_margin.value < 0.)
+      {
+        has_warned_of_boiling = true;
+        warnings.push_back(
+          "the pore water falls below its vapor pressure at t = " +
+          to_text(time, 5) + " s" + where +
+          ", first at r = " + to_text(boiling_margin.r, 4) +
+          " m, z = " + to_text(boiling_margin.z, 4) +
+          " m. It would boil there (cavitation), which the program does not "
+          "compute: from here on, soil that is drawn apart or dilates is held "
+          "by more suction than water bears, and its resistance is too large. "
+          "Check Water/Water depth; see cavitation_margin_Pa in history.csv");
+      }
+    if (has_suction())
+      warn_of_plug(where, warnings);
+    return warnings;
+  }
+
+  void
+  GroundWater::warn_of_plug(const std::string        &where,
+                            std::vector<std::string> &warnings)
+  {
     const double gradient = flow_scale() * exit.wall;
     if (!has_warned_of_piping && gradient > critical_gradient())
       {
@@ -226,7 +284,6 @@ namespace CaissonMPM
         warnings.push_back("the suction lifts the plug" + where +
                            ": it rises by more than the wall displaces");
       }
-    return warnings;
   }
 
   double

@@ -4,7 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <utility>
+#include <vector>
 
 namespace CaissonMPM
 {
@@ -97,31 +97,82 @@ namespace CaissonMPM
     }
   } // namespace
 
+  namespace
+  {
+    /** A part of the mudline of the plug; extensive values per radian. */
+    struct Outlet
+    {
+      double r            = 0.; // m
+      double flow         = 0.; // out of the soil, m2/s or that over a pressure
+      double conductivity = 0.; // permeability times area, m3/s
+
+      bool
+      operator<(const Outlet &other) const
+      {
+        return r < other.r;
+      }
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &r &flow &conductivity;
+      }
+    };
+
+    /** Fit i = a + b d^2 over the distance d < @p width from @p wall, each
+     * outlet weighted with its conductivity times 1 - (d / width)^2, and return
+     * a. Units: m. */
+    double
+    gradient_at_wall(const std::vector<Outlet> &outlets,
+                     const double               wall,
+                     const double               width)
+    {
+      double one = 0., x = 0., xx = 0., i = 0., ix = 0.;
+      for (const Outlet &o : outlets)
+        {
+          const double d = (wall - o.r) / width, square = d * d,
+                       share = std::max(0., 1. - square);
+          one += share * o.conductivity;
+          x += share * o.conductivity * square;
+          xx += share * o.conductivity * square * square;
+          i += share * o.flow;
+          ix += share * o.flow * square;
+        }
+      const double determinant = one * xx - x * x;
+      // no other node within the width
+      if (determinant <= 1e-9 * one * one)
+        return outlets.back().flow / outlets.back().conductivity;
+      return (i * xx - ix * x) / determinant;
+    }
+  } // namespace
+
   ExitGradient
   exit_gradient(const BackgroundGrid           &grid,
                 const Mudline                  &mudline,
                 const std::vector<Conductance> &permeability,
-                const NodalData                &outflow)
+                const NodalData                &outflow,
+                const double                    wall,
+                const double                    width)
   {
     const NodalData conductivity =
       conductivity_of_plug(grid, mudline, permeability);
-    using Place = std::pair<double, double>; // r, gradient
-    std::vector<Place> own;
+    std::vector<Outlet> own;
     for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
       if (conductivity.local_element(node) > 0.)
-        own.emplace_back(grid.r_of(node),
-                         outflow.local_element(node) /
-                           conductivity.local_element(node));
-    std::vector<Place> places;
+        own.push_back({grid.r_of(node),
+                       outflow.local_element(node),
+                       conductivity.local_element(node)});
+    std::vector<Outlet> outlets;
     for (const auto &of_rank :
          Utilities::MPI::all_gather(grid.communicator(), own))
-      places.insert(places.end(), of_rank.begin(), of_rank.end());
-    std::sort(places.begin(), places.end());
+      outlets.insert(outlets.end(), of_rank.begin(), of_rank.end());
+    std::sort(outlets.begin(), outlets.end());
     ExitGradient result;
-    if (places.empty())
+    if (outlets.empty())
       return result;
-    result.axis = places.front().second;
-    result.wall = places.back().second;
+    result.axis = outlets.front().flow / outlets.front().conductivity;
+    result.wall = gradient_at_wall(outlets, wall, width);
     return result;
   }
 } // namespace CaissonMPM

@@ -72,9 +72,10 @@ namespace CaissonMPM
                        Patterns::Double(0.));
     add_parameter("Water depth",
                   water_depth,
-                  "The depth of the mudline below the sea, less the height of "
-                  "the lid, sets the suction at which water boils beneath the "
-                  "lid, where a run ends. Units: m.",
+                  "The depth of the mudline below the sea sets the pressure "
+                  "at which water boils: beneath the lid, whose height takes "
+                  "from it, where a run ends, and in the soil, where it warns. "
+                  "Units: m.",
                   prm,
                   Patterns::Double(0.));
     parse_parameters_call_back.connect([this]() { fill_tables(); });
@@ -128,8 +129,7 @@ namespace CaissonMPM
                         "Water/Suction delay",
                         "Water/Pumped flow table",
                         "Water/Pump delay",
-                        "Water/Largest suction",
-                        "Water/Water depth"},
+                        "Water/Largest suction"},
                        why);
   }
 

@@ -227,8 +227,8 @@ namespace CaissonMPM
     known_limits(const std::vector<Kernels::Material> &materials,
                  const double                          dt) const;
 
-    /** Return warnings of what the water does to the plug, each once; after
-     * columns(). */
+    /** Return warnings of what the water does to the plug, and of what it does
+     * not do in this program, each once; after columns(). */
     std::vector<std::string>
     take_warnings();
 
@@ -324,6 +324,9 @@ namespace CaissonMPM
     find_flow();
     void
     find_exit_gradient();
+    /** Append warnings of the plug. @p where: at which penetration. */
+    void
+    warn_of_plug(const std::string &where, std::vector<std::string> &warnings);
     double
     critical_gradient() const;
     SuctionLoad
@@ -331,6 +334,16 @@ namespace CaissonMPM
     /** The smallest and the largest pressure, 0 among them. Collective. */
     std::pair<double, double>
     extremes() const;
+    /** How far the pore water is from boiling where it is nearest to it. */
+    struct BoilingMargin
+    {
+      double value = 0.; // absolute pressure over that of vapor, Pa
+      double r = 0., z = 0.;
+    };
+    /** Return it for a coupled or undrained run, at most that of the water on
+     * the mudline at rest. Collective. */
+    BoilingMargin
+    find_boiling_margin() const;
     /** Return the columns with the present @p mudline. */
     NamedNumbers
     values(const Mudline &mudline) const;
@@ -371,13 +384,14 @@ namespace CaissonMPM
     std::vector<unsigned int>        cells_at_tip; // of this rank
     // the integral over the tip of phi (m2) in seepage, else of the pressure
     // (N)
-    double       tip_integral     = 0.;
-    double       tip_area         = 0.; // looking down, m2
-    double       travel_at_solve  = 0.;
-    bool         is_solved        = false; // since the last initialize()
-    bool         is_corrected     = false; // the pressure is that of this step
-    unsigned int steps_since_look = 0;
-    ExitGradient exit;
+    double        tip_integral     = 0.;
+    double        tip_area         = 0.; // looking down, m2
+    double        travel_at_solve  = 0.;
+    bool          is_solved        = false; // since the last initialize()
+    bool          is_corrected     = false; // the pressure is that of this step
+    unsigned int  steps_since_look = 0;
+    ExitGradient  exit;
+    BoilingMargin boiling_margin; // of the last record
     // of plug, open and unknown nodes, see outflow()
     double flow_out = 0., flow_in = 0., flow_remaining = 0.;
     // of the equations at unknown nodes, and the flow, all steps; m3
@@ -392,7 +406,7 @@ namespace CaissonMPM
     RecentMean recent_heave; // of the plug, m
     bool       has_started          = false;
     bool       has_warned_of_piping = false, has_warned_of_lift = false,
-         has_warned_of_open_lid = false;
+         has_warned_of_open_lid = false, has_warned_of_boiling = false;
   };
 } // namespace CaissonMPM
 

@@ -92,14 +92,21 @@ namespace CaissonMPM
 
   /**
    * Return the exit gradient of the flow @p outflow [n_nodes] out of the nodes,
-   * which is more accurate than the gradient in the cell below. Units: those of
-   * the flow, times radian, over those of the permeability and m2. Collective.
+   * which is more accurate than the gradient in the cell below. The one at the
+   * radius @p wall is the value there of the even parabola i = a + b d^2 that
+   * fits the flow over the @p width beside it, with weights that fall to zero
+   * with it: no water crosses the wall, so that the gradient is even in the
+   * distance d, and single nodes, which change when the mudline crosses a row
+   * of cells, hardly matter. Units: m; those of the flow, times radian, over
+   * those of the permeability and m2. Collective.
    */
   ExitGradient
   exit_gradient(const BackgroundGrid           &grid,
                 const Mudline                  &mudline,
                 const std::vector<Conductance> &permeability,
-                const NodalData                &outflow);
+                const NodalData                &outflow,
+                const double                    wall,
+                const double                    width);
 } // namespace CaissonMPM
 
 #endif
