@@ -144,6 +144,26 @@ class Suction(ProgramTest):
             self.assertLess(after, 1.005 * before)
             self.assertGreater(after, 0.95 * before)
 
+    def test_plug_at_lid(self) -> None:
+        """The lid, 0.3 m over the mudline, bears no load before the soil is there,
+        and the run ends where it bears on the whole lid."""
+        path = self.directory()
+        entries: Entries = {
+            "Rigid body/Skirt length": 1,
+            "Rigid body/Lid thickness": 0.2,
+            "Time/End penetration": 0.95,
+            "Output/Record interval": 0.05,
+        }
+        text = self.run_scene("suction", path, entries=entries)
+        self.assert_words(["ended at a penetration", "plug fills", "refusal"], text)
+        rows = history(path)
+        for row in rows:
+            gap = 0.3 - (row["penetration_m"] - 0.5) - row["plug_heave_m"]
+            if gap > 0.05:
+                self.assertEqual(row["lid_force_N"], 0)
+        self.assertGreater(rows[-1]["lid_force_N"], 0)
+        self.assertLess(rows[-1]["suction_Pa"], 1e5)
+
     def test_heavy_body_needs_no_suction(self) -> None:
         path = self.directory()
         self.run_scene("suction", path, entries={"Rigid body/Submerged weight": 1e7})
@@ -367,6 +387,30 @@ class Lowered(ProgramTest):
         flow = pumped / (rows[-1]["time_s"] - rows[0]["time_s"])
         self.assertAlmostEqual(flow / 0.5, 1, delta=0.1)
         self.assertGreater(rows[-1]["suction_Pa"], rows[0]["suction_Pa"])
+
+    def test_pump_takes_gas(self) -> None:
+        """100 m3 of gas under 30 m of water: it expands as Boyle says, and the pump
+        takes 0.1 m3/s of water and gas."""
+        path = self.directory()
+        entries: Entries = {
+            **PUMPED,
+            "Water/Pumped flow table": "0:0.1",
+            "Water/Trapped gas": 100,
+            "Time/End time": 8,
+            "Output/Record interval": 1,
+        }
+        self.run_scene("lowered", path, entries=entries)
+        rows = history(path)
+        ambient = 101.3e3 + 30 * GAMMA_W
+        for row in rows:
+            s = row["suction_Pa"]
+            self.assertAlmostEqual(
+                row["gas_expansion_m3"], 100 * (ambient / (ambient - s) - 1), 6
+            )
+        pumped = rows[-1]["pumped_volume_m3"] - rows[-5]["pumped_volume_m3"]
+        time = rows[-1]["time_s"] - rows[-5]["time_s"]
+        self.assertGreater(rows[-1]["gas_expansion_m3"], 0.3)
+        self.assertAlmostEqual(pumped / (0.1 * time), 1, delta=0.1)
 
     def test_pump_that_is_too_weak(self) -> None:
         entries: Entries = {

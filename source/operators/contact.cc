@@ -47,8 +47,15 @@ namespace CaissonMPM
           const bool is_new = found.count(face.nodes[i]) == 0;
           Node      &node   = found[face.nodes[i]];
           if (is_new)
-            node = {
-              face.nodes[i], face.surface, 0, {}, Vector2(), false, 0., 0.};
+            node = {face.nodes[i],
+                    face.surface,
+                    0,
+                    {},
+                    Vector2(),
+                    false,
+                    false,
+                    0.,
+                    0.};
           node.surface = dominant(node.surface, face.surface);
           if (node.n_normals == 0 ||
               (node.n_normals == 1 && node.normal[0] * face.normal < 1. - 1e-9))
@@ -103,6 +110,18 @@ namespace CaissonMPM
             }
   }
 
+  void
+  Contact::open_lid(const std::vector<double> &filled, const double touching)
+  {
+    std::vector<unsigned char> is_touched(on_body.size(), false);
+    for (const ContactFace &face : faces)
+      if (face.surface == lid && filled[face.soil_cell] >= touching)
+        for (const unsigned int node : face.nodes)
+          is_touched[node] = true;
+    for (Node &node : nodes)
+      node.is_open = node.surface == lid && !is_touched[node.node];
+  }
+
   Contact::NodeResult
   Contact::find_contact(const Node &node, const Vector2 &w) const
   {
@@ -110,6 +129,12 @@ namespace CaissonMPM
       return w * normal < 0. ? NodeResult{State::sliding, normal} :
                                NodeResult{State::apart, normal};
     };
+    if (node.is_open)
+      for (unsigned int i = 0; i < node.n_normals; ++i)
+        if (std::abs(node.normal[i][vertical]) < .5) // the wall at its corner
+          return against(node.normal[i]);
+    if (node.is_open)
+      return {};
     if (node.n_normals == 1)
       return against(node.normal[0]);
 
@@ -199,7 +224,7 @@ namespace CaissonMPM
           continue;
         ++sums.n_touching;
         sums.n_sticking += results[i].state == State::sticking;
-        sums.impulse[node.surface] += circumference * results[i].impulse;
+        sums.impulse[surface_of(node)] += circumference * results[i].impulse;
         total += circumference * results[i].impulse;
       }
     add_corners(sums, total);
@@ -358,7 +383,7 @@ namespace CaissonMPM
         results[i].impulse += impulse;
         if (node.node >= n_owned_nodes)
           continue;
-        result.impulse[node.surface] += circumference * impulse;
+        result.impulse[surface_of(node)] += circumference * impulse;
         result.work -= circumference * (impulse * velocity);
       }
     constrain(body_velocity, v);

@@ -98,6 +98,8 @@ namespace CaissonMPM
     NodalWork work;
     timed("choose step", [&]() { choose_step(); });
     timed("ground water", [&]() { water.update(clock.step_size); });
+    if (const auto *const filled = water.filled_beneath_lid())
+      contact.open_lid(*filled, Mudline::touching);
     if (!body.motion().needs_response())
       timed("move body", [&]() { move_body(); });
     const StepSize size = {clock.step_size,

@@ -274,6 +274,7 @@ namespace CaissonMPM
           return;
         Mudline now = mudline;
         now.find(grid, points);
+        look_at_lid(now);
         steps_since_look = 0;
         if (Utilities::MPI::max(now.largest_change(mudline),
                                 grid.communicator()) < renewal)
@@ -286,12 +287,22 @@ namespace CaissonMPM
   GroundWater::solve()
   {
     mudline.find(grid, points);
+    look_at_lid(mudline);
     find_properties();
     seepage.solve(grid, mudline, permeability, sides);
     find_flow();
     is_solved        = true;
     travel_at_solve  = body.motion().travel();
     steps_since_look = 0;
+  }
+
+  void
+  GroundWater::look_at_lid(const Mudline &now)
+  {
+    if (filled_beneath_lid() == nullptr)
+      return;
+    filled_beneath_lid_ = now.filled();
+    touched_lid         = now.touched_share_of_lid(grid);
   }
 
   template <typename Function>
@@ -396,6 +407,7 @@ namespace CaissonMPM
     if (is_new_step || steps_since_look % steps_between_set_ups == 0)
       {
         mudline.find(grid, points);
+        look_at_lid(mudline);
         projection.set_up(grid, mudline, properties, sides, dt);
       }
     if (!is_solved && !projection.solver().has_known_value())
@@ -521,9 +533,11 @@ namespace CaissonMPM
                  volume = seepage_volume + area * (body.motion().travel() +
                                                    recent_heave.value());
     // In seepage, the pressure at the tip grows with the suction.
+    const double ambient =
+      suction.ambient_pressure(soil.unit_weight_of_water());
     if (is_coupled())
-      return {-force_on_body + tip_force(), weight, area, volume};
-    return {-force_on_body, weight, area + tip_integral, volume};
+      return {-force_on_body + tip_force(), weight, area, volume, ambient};
+    return {-force_on_body, weight, area + tip_integral, volume, ambient};
   }
 
   void

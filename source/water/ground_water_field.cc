@@ -142,7 +142,8 @@ namespace CaissonMPM
       find_tip_integral();
     if (!has_lid())
       return;
-    volume_at_start = lid_area() * (body.motion().travel() + heave(mudline));
+    volume_at_start = lid_area() * (body.motion().travel() + heave(mudline)) +
+                      suction.gas_expansion(soil.unit_weight_of_water());
     suction.go_on_at(lid_area() *
                      (body.motion().travel() + recent_heave.value()));
   }

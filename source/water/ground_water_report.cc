@@ -23,6 +23,9 @@ namespace CaissonMPM
     // Above this, the loss of old pressure acts as permeability does.
     constexpr double largest_leak = .5;
 
+    // From this share of the area on, the soil bears on the whole lid.
+    constexpr double full_lid = .9;
+
     // Below this, undrained soil changes its volume noticeably.
     constexpr double least_share = .9;
 
@@ -109,7 +112,8 @@ namespace CaissonMPM
       return mudline.is_found() ? mudline.height_at_wall(side) : 0.;
     };
     const double s = suction.value(), rise = heave(mudline),
-                 scale  = flow_scale();
+                 scale  = flow_scale(),
+                 gas    = suction.gas_expansion(soil.unit_weight_of_water());
     NamedNumbers result = {
       {"suction_Pa", s},
       {"required_suction_Pa", suction.required()},
@@ -127,8 +131,9 @@ namespace CaissonMPM
       {"seepage_inflow_m3_s", scale * flow_in},
       {"seepage_volume_m3", seepage_volume},
       {"pumped_volume_m3",
-       seepage_volume + lid_area() * (body.motion().travel() + rise) -
+       seepage_volume + lid_area() * (body.motion().travel() + rise) + gas -
          volume_at_start},
+      {"gas_expansion_m3", gas},
       {"plug_heave_m", rise},
       {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
       {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
@@ -410,9 +415,12 @@ namespace CaissonMPM
       return "";
     if (body.penetration() <= 0.)
       return "the caisson has left the soil, and water flows in below its skirt";
+    if (touched_lid >= full_lid)
+      return "the plug fills the caisson: soil bears on " +
+             to_text(100. * full_lid) + " % of the lid (refusal)";
     if (is_solved && mudline.mean_height(Mudline::Side::plug) >= lid().height)
-      return "the plug has reached the lid, or the top of the skirt where the "
-             "mesh has no lid (refusal)";
+      return "the plug fills the caisson: it has reached the lid, or the top of "
+             "the skirt where the mesh has no lid (refusal)";
     return suction.limit_reached(lid());
   }
 } // namespace CaissonMPM

@@ -188,6 +188,26 @@ namespace CaissonMPM
   }
 
   double
+  Mudline::touched_share_of_lid(const BackgroundGrid &grid) const
+  {
+    std::vector<double> areas = {0., 0.}; // touched, all
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      {
+        const int above = grid.neighbor(cell, 3);
+        if (!grid.is_owned(cell) || grid.is_rigid(cell) || above < 0 ||
+            !grid.is_rigid(above) || !grid.is_lid(above))
+          continue;
+        const auto of_nodes = areas_of_side(grid.geometry(cell), axisymmetric);
+        const double area   = of_nodes[0] + of_nodes[1];
+        areas[1] += area;
+        if (filled_[cell] >= touching)
+          areas[0] += area;
+      }
+    Utilities::MPI::sum(areas, grid.communicator(), areas);
+    return areas[1] > 0. ? areas[0] / areas[1] : 0.;
+  }
+
+  double
   Mudline::mean_height(const Side side) const
   {
     double sum = 0., area = 0.;

@@ -78,6 +78,14 @@ namespace CaissonMPM
                   "Units: m.",
                   prm,
                   Patterns::Double(0.));
+    add_parameter("Trapped gas",
+                  gas,
+                  "The volume of gas beneath the lid at the pressure of the "
+                  "open water on the mudline. It expands under suction at "
+                  "constant temperature, and the pump takes this volume, too. "
+                  "Units: m3.",
+                  prm,
+                  Patterns::Double(0.));
     parse_parameters_call_back.connect([this]() { fill_tables(); });
   }
 
@@ -129,7 +137,8 @@ namespace CaissonMPM
                         "Water/Suction delay",
                         "Water/Pumped flow table",
                         "Water/Pump delay",
-                        "Water/Largest suction"},
+                        "Water/Largest suction",
+                        "Water/Trapped gas"},
                        why);
   }
 
@@ -162,9 +171,28 @@ namespace CaissonMPM
     const double missing =
       dt * value_at(flow_table, time) - (load.volume - last_volume);
     constexpr double share = .1; // at which a body that is lowered is fastest
-    suction += share * (load.weight / load.area + suction) * missing /
-               (most * pump_delay);
+    const double     rate  = share * (load.weight / load.area + suction) /
+                        (most * pump_delay); // Pa/m3
+    const double left   = load.ambient - suction,
+                 volume = gas * load.ambient / left;
+    if (volume * rate > left) // gas gives way more
+      suction = load.ambient - gas * load.ambient / (volume + missing);
+    else
+      suction += share * (load.weight / load.area + suction) * missing /
+                 (most * pump_delay);
     suction = std::max(suction, 0.);
+  }
+
+  double
+  Suction::ambient_pressure(const double unit_weight_of_water) const
+  {
+    return atmosphere + unit_weight_of_water * water_depth;
+  }
+
+  double
+  Suction::gas_expansion(const double unit_weight_of_water) const
+  {
+    return gas * suction / (ambient_pressure(unit_weight_of_water) - suction);
   }
 
   double

@@ -65,6 +65,13 @@ namespace CaissonMPM
           const std::vector<double> &mass,
           Kernels::NodalVector      *v);
 
+    /** Let the lid touch soil only at nodes of cells that are filled to
+     * @p touching: without this, it does so as soon as soil has entered the cell
+     * beneath it. @p filled [n_cells] is the share of each cell below the
+     * mudline. */
+    void
+    open_lid(const std::vector<double> &filled, const double touching);
+
     /** The impulse on the body and the mass that it moves, for a body that
      * keeps its velocity; for the whole circumference. Units: N s, kg. */
     struct Response
@@ -156,7 +163,8 @@ namespace CaissonMPM
       unsigned int           n_normals; // of different direction: 1 or 2
       std::array<Vector2, 2> normal;
       Vector2                mean_normal;
-      bool                   concave; // between lid and wall
+      bool                   concave;         // between lid and wall
+      bool                   is_open = false; // the soil is below the lid
       double                 friction;
       double                 adhesion; // a A, N per radian
     };
@@ -173,6 +181,13 @@ namespace CaissonMPM
       Vector2 normal  = Vector2();
       Vector2 impulse = Vector2(); // on the body, N s per radian
     };
+
+    /** The surface that the force at a node counts to. */
+    static Surface
+    surface_of(const Node &node)
+    {
+      return node.is_open ? inner_wall : node.surface;
+    }
 
     /** Find the state and the normal of a node with the relative velocity
      * @p w. */

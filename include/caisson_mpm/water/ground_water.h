@@ -190,6 +190,15 @@ namespace CaissonMPM
       return mudline.filled();
     }
 
+    /** Return the share of each cell below the mudline as it was last looked at
+     * if the mesh has a lid with suction beneath it; null otherwise. [n_cells]
+     */
+    const std::vector<double> *
+    filled_beneath_lid() const
+    {
+      return flows() && body.shape().has_lid() ? &filled_beneath_lid_ : nullptr;
+    }
+
     /** Return the names of the numbers that water adds to a record. */
     std::vector<std::string>
     column_names() const;
@@ -284,6 +293,9 @@ namespace CaissonMPM
     set_up_step(const double dt);
     void
     find_properties();
+    /** Find where the soil touches a lid of the mesh. Collective. */
+    void
+    look_at_lid(const Mudline &now);
     /** Return the integral over the tip, or the mantle of a cylinder, of
      * value(cell, corner) of the cells at it, and its area. Collective. */
     template <typename Function>
@@ -377,15 +389,17 @@ namespace CaissonMPM
     PressureProjection               projection;
     Mudline                          mudline;
     PlugBalance                      plug_balance;
-    std::vector<Conductance>         permeability; // [n_cells], m/s
-    std::vector<WaterProperties>     properties;   // [n_cells]
-    std::vector<double>              pressure_;    // [n_nodes]
-    std::vector<std::vector<double>> kept_values;  // of keep_field()
-    std::vector<unsigned int>        cells_at_tip; // of this rank
+    std::vector<Conductance>         permeability;        // [n_cells], m/s
+    std::vector<WaterProperties>     properties;          // [n_cells]
+    std::vector<double>              pressure_;           // [n_nodes]
+    std::vector<double>              filled_beneath_lid_; // [n_cells]
+    std::vector<std::vector<double>> kept_values;         // of keep_field()
+    std::vector<unsigned int>        cells_at_tip;        // of this rank
     // the integral over the tip of phi (m2) in seepage, else of the pressure
     // (N)
     double        tip_integral     = 0.;
     double        tip_area         = 0.; // looking down, m2
+    double        touched_lid      = 0.; // share of its area
     double        travel_at_solve  = 0.;
     bool          is_solved        = false; // since the last initialize()
     bool          is_corrected     = false; // the pressure is that of this step

@@ -86,6 +86,14 @@ namespace CaissonMPM
     double
     largest_change(const Mudline &other) const;
 
+    /** Return the share of the lid's area that the soil touches, 0 where the
+     * mesh has no lid. Collective. */
+    double
+    touched_share_of_lid(const BackgroundGrid &grid) const;
+
+    /** Soil that fills a cell to this share touches the lid above it. */
+    static constexpr double touching = .98;
+
     /** Below this share, the conductance of a cut cell grows no more. */
     static constexpr double least_filled = .002;
 

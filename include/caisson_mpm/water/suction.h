@@ -24,7 +24,8 @@ namespace CaissonMPM
     double weight     = 0.; // submerged; N
     double area       = 0.; // of the lid, plus that of the tip times the share
                             // of the suction that has reached it; m2
-    double volume = 0.;     // of water that has left the caisson so far; m3
+    double volume  = 0.;    // of water that has left the caisson so far; m3
+    double ambient = 0.;    // absolute pressure of the water on the mudline; Pa
   };
 
   /**
@@ -40,6 +41,10 @@ namespace CaissonMPM
    * if the water gave way a little. With the load F = W + s A and the largest
    * flow Q_m of the table,
    *   ds/dt = F / (10 A) (Q - dV/dt) / (Q_m T).
+   *
+   * Gas beneath the lid, V_0 at the ambient pressure p_0, expands to
+   * V_0 p_0/(p_0 - s). The pump takes its expansion, too, and where gas gives
+   * way more than the above, it alone says what the suction is.
    * Not collective; the same on all ranks.
    */
   class Suction : public dealii::ParameterAcceptor
@@ -108,6 +113,16 @@ namespace CaissonMPM
       return required_;
     }
 
+    /** Return the absolute pressure of the water on the mudline. @p
+     * unit_weight_of_water: N/m3. Units: Pa. */
+    double
+    ambient_pressure(const double unit_weight_of_water) const;
+
+    /** Return by how much the trapped gas has expanded under the suction.
+     * Units: N/m3; m3. */
+    double
+    gas_expansion(const double unit_weight_of_water) const;
+
     /** Where water boils first: beneath the lid, at this height of its lower
      * face over the original mudline. */
     struct Lid
@@ -146,8 +161,9 @@ namespace CaissonMPM
     double                                 delay = 0.02, pump_delay = 0.1;
     std::optional<double>                  largest;
     double                                 water_depth = 30.;
-    std::vector<std::pair<double, double>> table;      // s, Pa
-    std::vector<std::pair<double, double>> flow_table; // s, m3/s
+    double                                 gas         = 0.; // at p_0, m3
+    std::vector<std::pair<double, double>> table;            // s, Pa
+    std::vector<std::pair<double, double>> flow_table;       // s, m3/s
 
     double suction = 0., required_ = 0.;
     double last_volume = 0.; // m3
