@@ -247,10 +247,10 @@ namespace CaissonMPM
                         "Give the suction beneath a sealed one with Water/"
                         "Suction control = table"));
       }
-    const std::string        where =
+    const std::string where =
       body.shape().exists() ?
-               " at a penetration of " + to_text(body.penetration(), 5) + " m" :
-               "";
+        " at a penetration of " + to_text(body.penetration(), 5) + " m" :
+        "";
     if (!has_warned_of_boiling && boiling_margin.value < 0.)
       {
         has_warned_of_boiling = true;

@@ -17,7 +17,42 @@ namespace CaissonMPM
   namespace
   {
     constexpr double atmosphere = 101.3e3, vapor_pressure = 1.2e3; // Pa, 10 C
-  }
+
+    /** Declare the entries of what is beneath the lid and limits the suction.
+     */
+    void
+    declare_limits(ParameterAcceptor     &suction,
+                   std::optional<double> &largest,
+                   double                &water_depth,
+                   double                &gas)
+    {
+      add_word_or_number(suction,
+                         "Largest suction",
+                         largest,
+                         "unlimited",
+                         0.,
+                         "The run ends where the required suction exceeds that "
+                         "of the pump. Units: Pa.",
+                         Patterns::Double(0.));
+      suction.add_parameter(
+        "Water depth",
+        water_depth,
+        "The depth of the mudline below the sea sets the pressure "
+        "at which water boils: beneath the lid, whose height takes "
+        "from it, where a run ends, and in the soil, where it warns. Units: m.",
+        suction.prm,
+        Patterns::Double(0.));
+      suction.add_parameter(
+        "Trapped gas",
+        gas,
+        "The volume of gas beneath the lid at the pressure of the "
+        "open water on the mudline. It expands under suction at "
+        "constant temperature, and the pump takes this volume, too. "
+        "Units: m3.",
+        suction.prm,
+        Patterns::Double(0.));
+    }
+  } // namespace
 
   Suction::Suction()
     : ParameterAcceptor("/Water")
@@ -62,30 +97,7 @@ namespace CaissonMPM
                   "constant. Units: s.",
                   prm,
                   Patterns::Double(1e-6));
-    add_word_or_number(*this,
-                       "Largest suction",
-                       largest,
-                       "unlimited",
-                       0.,
-                       "The run ends where the required suction exceeds that "
-                       "of the pump. Units: Pa.",
-                       Patterns::Double(0.));
-    add_parameter("Water depth",
-                  water_depth,
-                  "The depth of the mudline below the sea sets the pressure "
-                  "at which water boils: beneath the lid, whose height takes "
-                  "from it, where a run ends, and in the soil, where it warns. "
-                  "Units: m.",
-                  prm,
-                  Patterns::Double(0.));
-    add_parameter("Trapped gas",
-                  gas,
-                  "The volume of gas beneath the lid at the pressure of the "
-                  "open water on the mudline. It expands under suction at "
-                  "constant temperature, and the pump takes this volume, too. "
-                  "Units: m3.",
-                  prm,
-                  Patterns::Double(0.));
+    declare_limits(*this, largest, water_depth, gas);
     parse_parameters_call_back.connect([this]() { fill_tables(); });
   }
 
