@@ -112,6 +112,24 @@ class Suction(ProgramTest):
         self.assert_words(["error bar", "other parameters"], text)
         self.assertFalse((other / "history_error.csv").exists())
 
+    def test_cohesive_soil_is_not_carried(self) -> None:
+        """The flow out of clay is noise, and cohesion holds it together."""
+        for cohesion, k, is_told in ((1e4, 1e-9, False), (0, 1e-4, True)):
+            text = self.run_scene(
+                "suction",
+                self.directory(f"cohesion_{cohesion:g}"),
+                entries={
+                    "Soil/Layer 1/Cohesion": cohesion,
+                    "Soil/Layer 1/Permeability": k,
+                    "Water/Level": "coupled",
+                    "Water/Suction control": "table",
+                    "Water/Suction table": "0:2e4",
+                    "Time/End penetration": 0.52,
+                    "Output/Record interval": 0.01,
+                },
+            )
+            self.assertEqual("piping" in text.lower(), is_told, text)
+
     def test_exit_gradient_has_no_peaks(self) -> None:
         """Over the suction, it falls with depth; at a single node it would rise by
         2 % and more where the mudline of a column crosses a row of cells."""

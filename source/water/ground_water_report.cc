@@ -26,6 +26,9 @@ namespace CaissonMPM
     // From this share of the area on, the soil bears on the whole lid.
     constexpr double full_lid = .9;
 
+    // A flow that lifts less than this share of the plug is not looked at.
+    constexpr double least_lifted_share = .1;
+
     // Below this, undrained soil changes its volume noticeably.
     constexpr double least_share = .9;
 
@@ -269,12 +272,23 @@ namespace CaissonMPM
     return warnings;
   }
 
+  bool
+  GroundWater::carries_soil() const
+  {
+    // Cohesion holds soil together. The gradient of soil that gives off hardly
+    // any water is noise, and less suction than this lifts no soil by its flow.
+    const double least = least_lifted_share * body.penetration() *
+                         critical_gradient() * soil.unit_weight_of_water();
+    return suction.value() > least &&
+           soil.layer(0).law_value("Cohesion").value_or(0.) == 0. &&
+           flow_scale() * exit.wall > critical_gradient();
+  }
+
   void
   GroundWater::warn_of_plug(const std::string        &where,
                             std::vector<std::string> &warnings)
   {
-    const double gradient = flow_scale() * exit.wall;
-    if (!has_warned_of_piping && gradient > critical_gradient())
+    if (!has_warned_of_piping && carries_soil())
       {
         has_warned_of_piping = true;
         warnings.push_back(
@@ -324,6 +338,14 @@ namespace CaissonMPM
     const std::vector<Kernels::Material> &materials) const
   {
     std::vector<std::pair<std::string, std::string>> lines;
+    if (has_suction())
+      lines.emplace_back(
+        "suction",
+        "on a lid of " + to_text(lid_area(), 4) + " m2; the weight is " +
+          to_text(1e-3 * body.submerged_weight(), 4) + " kN, like " +
+          to_text(1e-3 * body.submerged_weight() / lid_area(), 3) +
+          " kPa on it; water boils there at " +
+          to_text(1e-3 * suction.cavitation(lid()), 3) + " kPa");
     if (is_undrained())
       for (unsigned int i = 0; i < materials.size(); ++i)
         lines.emplace_back("water in layer " + to_text(i + 1),

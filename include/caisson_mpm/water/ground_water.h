@@ -336,6 +336,9 @@ namespace CaissonMPM
     find_flow();
     void
     find_exit_gradient();
+    /** Whether the flow out of the plug carries soil without cohesion. */
+    bool
+    carries_soil() const;
     /** Append warnings of the plug. @p where: at which penetration. */
     void
     warn_of_plug(const std::string &where, std::vector<std::string> &warnings);
