@@ -148,6 +148,20 @@ class Report(unittest.TestCase):
         self.assertEqual(row["unit outer friction (kPa)"], "7.96")
         self.assertEqual(row["required suction (kPa)"], "25")
 
+    def test_error_bar_of_the_suction(self) -> None:
+        """A band in kPa, which does not go below zero."""
+        leave_run(self.path, SUMMARY)
+        columns = [
+            "penetration_m",
+            "required_suction_low_Pa",
+            "required_suction_high_Pa",
+        ]
+        rows = [[1.0, -2e3, 1e3], [2.0, 4e3, 6e3]]
+        write_csv(self.path / "history_error.csv", columns, rows)
+        found = content.suction_curves(Results(self.path))
+        (bar,) = [curve for curve in found if curve["label"] == "required, error bar"]
+        self.assertEqual((bar["x"], bar["to"]), ([0.0, 4.0], [1.0, 6.0]))
+
     def test_run_that_goes_on(self) -> None:
         """Its page loads itself anew, also where an old run.json is left."""
         self.assertIn('http-equiv="refresh"', self.page())

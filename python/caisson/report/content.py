@@ -99,6 +99,14 @@ def suction_curves(run: Results) -> list[Curve]:
             suction = answers.suctions[column] / 1e3
             label = f"critical, {name}"
             found.append(line(label, color, suction, answers.depth, hidden=True))
+    bounds = run.error_bounds
+    if "required_suction_low_Pa" in bounds:
+        low, high = [
+            np.maximum(bounds[f"required_suction_{side}_Pa"], 0) / 1e3
+            for side in ("low", "high")
+        ]
+        at = bounds["penetration_m"]
+        found.append(band("required, error bar", "black", low, high, at))
     required = np.maximum(history["required_suction_Pa"], 0) / 1e3
     label = "required, computed"
     found.append(line(label, "black", required, depth, thick=True))
