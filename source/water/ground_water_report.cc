@@ -26,6 +26,10 @@ namespace CaissonMPM
     // From this share of the area on, the soil bears on the whole lid.
     constexpr double full_lid = .9;
 
+    // Nearer to the critical gradient than this, no margin is left: the suction
+    // is not known better.
+    constexpr double near_critical = .9;
+
     // A flow that lifts less than this share of the plug is not looked at.
     constexpr double least_lifted_share = .1;
 
@@ -281,7 +285,8 @@ namespace CaissonMPM
                          critical_gradient() * soil.unit_weight_of_water();
     return suction.value() > least &&
            soil.layer(0).law_value("Cohesion").value_or(0.) == 0. &&
-           flow_scale() * exit.wall > critical_gradient();
+           flow_scale() * std::max(exit.wall, exit.axis) >
+             near_critical * critical_gradient();
   }
 
   void
@@ -292,9 +297,10 @@ namespace CaissonMPM
       {
         has_warned_of_piping = true;
         warnings.push_back(
-          "the exit gradient at the inner wall becomes critical" + where +
-          ": the flow carries the soil. Piping may begin, which the program "
-          "does not follow");
+          "the exit gradient exceeds " + to_text(100. * near_critical) +
+          " % of the critical one" + where +
+          ": the flow carries nearly all of the soil. Piping may begin, which "
+          "the program does not follow");
       }
     if (!has_warned_of_lift &&
         heave(mudline) > heave_by_wall() + .02 * body.shape().right())

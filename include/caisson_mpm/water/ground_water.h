@@ -336,7 +336,8 @@ namespace CaissonMPM
     find_flow();
     void
     find_exit_gradient();
-    /** Whether the flow out of the plug carries soil without cohesion. */
+    /** Whether the flow out of the plug nearly carries soil without cohesion.
+     */
     bool
     carries_soil() const;
     /** Append warnings of the plug. @p where: at which penetration. */
