@@ -149,18 +149,18 @@ class Report(unittest.TestCase):
         self.assertEqual(row["required suction (kPa)"], "25")
 
     def test_error_bar_of_the_suction(self) -> None:
-        """A band in kPa, which does not go below zero."""
+        """A band of means in kPa, which does not go below zero."""
         leave_run(self.path, SUMMARY)
-        columns = [
-            "penetration_m",
-            "required_suction_low_Pa",
-            "required_suction_high_Pa",
-        ]
-        rows = [[1.0, -2e3, 1e3], [2.0, 4e3, 6e3]]
-        write_csv(self.path / "history_error.csv", columns, rows)
+        depth = np.linspace(1, 2, 101)
+        low = 6e3 * (depth - 1) - 2e3
+        names = ["penetration_m", "required_suction_low_Pa", "required_suction_high_Pa"]
+        rows = list(zip(depth.tolist(), low.tolist(), (low + 3e3).tolist()))
+        write_csv(self.path / "history_error.csv", names, rows)
         found = content.suction_curves(Results(self.path))
         (bar,) = [curve for curve in found if curve["label"] == "required, error bar"]
-        self.assertEqual((bar["x"], bar["to"]), ([0.0, 4.0], [1.0, 6.0]))
+        for i, bounds in ((20, (0, 2.2)), (50, (1, 4))):
+            self.assertAlmostEqual(bar["x"][i], bounds[0])
+            self.assertAlmostEqual(bar["to"][i], bounds[1])
 
     def test_run_that_goes_on(self) -> None:
         """Its page loads itself anew, also where an old run.json is left."""

@@ -101,11 +101,11 @@ def suction_curves(run: Results) -> list[Curve]:
             found.append(line(label, color, suction, answers.depth, hidden=True))
     bounds = run.error_bounds
     if "required_suction_low_Pa" in bounds:
+        at = bounds["penetration_m"]
         low, high = [
-            np.maximum(bounds[f"required_suction_{side}_Pa"], 0) / 1e3
+            np.maximum(smooth(at, bounds[f"required_suction_{side}_Pa"]), 0)
             for side in ("low", "high")
         ]
-        at = bounds["penetration_m"]
         found.append(band("required, error bar", "black", low, high, at))
     required = np.maximum(history["required_suction_Pa"], 0) / 1e3
     label = "required, computed"
