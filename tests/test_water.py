@@ -349,6 +349,7 @@ class Lowered(ProgramTest):
         depths = [row["penetration_m"] for row in rows]
         self.assertGreater(depths[1], depths[0])
         self.assertAlmostEqual(depths[-1], depths[1], delta=2e-3)
+        self.assertAlmostEqual(depths[-1], 0.505, delta=1e-3)
 
     def test_suction_begins_at_rest(self) -> None:
         path = self.directory()
