@@ -2,17 +2,16 @@
 """The error bar of made-up runs that differ by known amounts."""
 import contextlib
 import io
-import json
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
+from made_up import write_run
 
 from caisson import error_bar, verification
 from caisson.results import ResultsError, Table, read_table
 from caisson.study import Options, Reader, Study, StudyError
-from caisson.table import write_csv
 
 STUDY = """
 kind = "error bar"
@@ -64,12 +63,8 @@ class ErrorBar(unittest.TestCase):
         options = Options(results=self.path / "results")
         (study,) = Reader(file, options, error_bar.STUDY_KEYS, set()).studies()
         for run, force, suction in zip(study.runs, (0, 0.03, -0.02), suctions):
-            history = made_up(force, suction)
-            run.run.directory.mkdir(parents=True, exist_ok=True)
-            rows = list(zip(*(column.tolist() for column in history.values())))
-            write_csv(run.run.directory / "history.csv", list(history), rows)
-            text = json.dumps({"fingerprint": "f00d", "wall_time_s": 60})
-            (run.run.directory / "run.json").write_text(text, encoding="utf-8")
+            summary = {"fingerprint": "f00d", "wall_time_s": 60}
+            write_run(run.run.directory, made_up(force, suction), summary)
         return study
 
     def bars(self, study: Study) -> tuple[Table, str]:

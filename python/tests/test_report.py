@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """report.html of made-up runs, as text and in a browser."""
 import fcntl
-import json
 import re
 import subprocess
 import tempfile
@@ -10,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from made_up import write_columns, write_run
 
 from caisson import report
 from caisson.report import content
 from caisson.results import Results, ResultsError
-from caisson.table import write_csv
 
 BROWSER = report.find_browser()
 SCENE: dict[str, Any] = {
@@ -99,10 +98,7 @@ def leave_run(path: Path, summary: dict[str, Any] | None) -> None:
     table["critical_gradient"] = 0.9 * np.ones(len(depth))
     table["plug_heave_m"] = 0.05 * depth
     table["pumped_volume_m3"] = table["seepage_volume_m3"] = depth
-    rows = list(zip(*(column.tolist() for column in table.values())))
-    write_csv(path / "history.csv", list(table), rows)
-    if summary is not None:
-        (path / "run.json").write_text(json.dumps(summary), encoding="utf-8")
+    write_run(path, table, summary)
 
 
 class Report(unittest.TestCase):
@@ -153,14 +149,17 @@ class Report(unittest.TestCase):
         leave_run(self.path, SUMMARY)
         depth = np.linspace(1, 2, 101)
         low = 6e3 * (depth - 1) - 2e3
-        names = ["penetration_m", "required_suction_low_Pa", "required_suction_high_Pa"]
-        rows = list(zip(depth.tolist(), low.tolist(), (low + 3e3).tolist()))
-        write_csv(self.path / "history_error.csv", names, rows)
+        bounds = {
+            "penetration_m": depth,
+            "required_suction_low_Pa": low,
+            "required_suction_high_Pa": low + 3e3,
+        }
+        write_columns(self.path / "history_error.csv", bounds)
         found = content.suction_curves(Results(self.path))
         (bar,) = [curve for curve in found if curve["label"] == "required, error bar"]
-        for i, bounds in ((20, (0, 2.2)), (50, (1, 4))):
-            self.assertAlmostEqual(bar["x"][i], bounds[0])
-            self.assertAlmostEqual(bar["to"][i], bounds[1])
+        for i, expected in ((20, (0, 2.2)), (50, (1, 4))):
+            self.assertAlmostEqual(bar["x"][i], expected[0])
+            self.assertAlmostEqual(bar["to"][i], expected[1])
 
     def test_run_that_goes_on(self) -> None:
         """Its page loads itself anew, also where an old run.json is left."""

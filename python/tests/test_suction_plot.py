@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """suction.png and design.csv of a made-up run."""
 import csv
-import json
 import tempfile
 import unittest
 from pathlib import Path
@@ -10,6 +9,7 @@ from unittest import mock
 
 import numpy as np
 from matplotlib.figure import Figure
+from made_up import write_columns, write_run
 
 from caisson import plot
 from caisson.design import seepage
@@ -18,7 +18,6 @@ from caisson.design.houlsby_byrne import Caisson, Layer
 from caisson.plot import suction
 from caisson.plot import suction_methods as methods
 from caisson.results import Results
-from caisson.table import write_csv
 
 GAMMA, WEIGHT, D = 8829.0, 1e6, 6.0
 SAND: dict[str, Any] = {
@@ -75,10 +74,8 @@ class MadeUpRun(unittest.TestCase):
 
     def write(self, history: dict[str, np.ndarray], **change: Any) -> Results:
         """Write a run whose scene has some entries changed."""
-        rows = list(zip(*(column.tolist() for column in history.values())))
-        write_csv(self.path / "history.csv", list(history), rows)
-        text = json.dumps({"title": "made up", "scene": {**SCENE, **change}})
-        (self.path / "run.json").write_text(text, encoding="utf-8")
+        summary = {"title": "made up", "scene": {**SCENE, **change}}
+        write_run(self.path, history, summary)
         return Results(self.path)
 
     def design(self) -> list[dict[str, str]]:
@@ -109,8 +106,7 @@ class MadeUpRun(unittest.TestCase):
             "required_suction_low_Pa": required - 2e3,
             "required_suction_high_Pa": required + 2e3,
         }
-        rows = list(zip(*(column.tolist() for column in bounds.values())))
-        write_csv(self.path / "history_error.csv", list(bounds), rows)
+        write_columns(self.path / "history_error.csv", bounds)
         suction.draw_suction(axes, Results(self.path), answers)
         (band,) = [c for c in axes.collections if c.get_label() == "error bar"]
         corners = band.get_paths()[0].vertices

@@ -74,36 +74,41 @@ def draw_bands(axes: Axes, bands: theory.Bands, names: tuple[str, ...]) -> None:
         axes.plot(enhanced, bands.depth, color=color, linewidth=0.8, linestyle=":")
 
 
+def error_band(
+    bounds: Table, name: str, unit: str = ""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """Return depths and running means of the lower and the upper bound of a quantity,
+    [n_rows] each, or None where the run has none."""
+    low, high = ["_".join(filter(None, [name, s, unit])) for s in ("low", "high")]
+    if low not in bounds or high not in bounds:
+        return None
+    depth = bounds["penetration_m"]
+    window = window_of(depth)
+    means = [running_mean(depth, bounds[column], window) for column in (low, high)]
+    return depth, means[0], means[1]
+
+
 def draw_error_bar(
     axes: Axes,
-    bounds: Table,
-    columns: tuple[str, str],
+    band: tuple[np.ndarray, np.ndarray, np.ndarray] | None,
     scale: float | np.ndarray,
     color: str,
     label: str,
 ) -> None:
-    """Draw the running means of a lower and an upper bound, times scale (one factor, or
-    [n_rows]), if the run has them."""
-    if not all(column in bounds for column in columns):
+    """Draw an error_band() times scale (one factor, or [n_rows]), if there is one."""
+    if band is None:
         return
-    depth = bounds["penetration_m"]
-    low, high = [
-        running_mean(depth, bounds[column], window_of(depth)) * scale
-        for column in columns
-    ]
+    depth, low, high = band
     axes.fill_betweenx(
-        depth, low, high, color=color, alpha=0.3, linewidth=0, label=label
+        depth, low * scale, high * scale, color=color, alpha=0.3, lw=0, label=label
     )
 
 
 def draw_error_bars(axes: Axes, bounds: Table) -> None:
     """Draw the bounds of total and tip force."""
     for name in ("total", "tip"):
-        low, high = [
-            column_of(name).replace("_N", f"_{side}_N") for side in ("low", "high")
-        ]
-        label = f"{name}, error bar"
-        draw_error_bar(axes, bounds, (low, high), 1e-3, COLORS[name], label)
+        band = error_band(bounds, f"{name}_force", "N")
+        draw_error_bar(axes, band, 1e-3, COLORS[name], f"{name}, error bar")
 
 
 def set_limits(axes: Axes, depth: np.ndarray) -> None:

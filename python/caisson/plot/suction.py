@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson.plot import suction_methods as methods
-from caisson.plot.forces import COLORS, draw_error_bar, penetration
+from caisson.plot.forces import COLORS, draw_error_bar, error_band, penetration
 from caisson.results import Results, Table
 
 BLUE, GREEN, RED = (
@@ -125,8 +125,8 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
         alpha=0.5,
         label="required, computed",
     )
-    columns = ("required_suction_low_Pa", "required_suction_high_Pa")
-    draw_error_bar(axes, run.error_bounds, columns, 1e-3, "black", ERROR_BAR)
+    band = error_band(run.error_bounds, "required_suction", "Pa")
+    draw_error_bar(axes, band, 1e-3, "black", ERROR_BAR)
     lines = [applied]
     if answers.suctions:
         draw_required(axes, answers)
@@ -141,16 +141,16 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
 
 def draw_gradients(axes: Axes, run: Results) -> None:
     """Draw the exit gradients over the one at which soil has no weight."""
-    history, bounds = run.history, run.error_bounds
+    history = run.history
     depth, critical = history["penetration_m"], history["critical_gradient"]
     for place, color, width in (("wall", "black", 1.8), ("axis", BLUE, 1.2)):
         gradient = history[f"exit_gradient_{place}"] / critical
         label = f"at the {'inner wall' if place == 'wall' else place}"
         axes.plot(gradient, depth, color=color, linewidth=width, label=label)
-    if bounds:
-        columns = ("exit_gradient_axis_low", "exit_gradient_axis_high")
-        scale = 1 / np.interp(bounds["penetration_m"], depth, critical)
-        draw_error_bar(axes, bounds, columns, scale, BLUE, f"at the axis, {ERROR_BAR}")
+    band = error_band(run.error_bounds, "exit_gradient_axis")
+    if band is not None:
+        scale = 1 / np.interp(band[0], depth, critical)
+        draw_error_bar(axes, band, scale, BLUE, f"at the axis, {ERROR_BAR}")
     axes.axvline(1, color=RED, linewidth=1.2, linestyle="--", label="no weight left")
     axes.set_xlim(left=-0.02)
     axes.set_xlabel("exit gradient / critical gradient")
@@ -166,8 +166,8 @@ def draw_heave(axes: Axes, run: Results) -> None:
         linewidth=1.8,
         label="mean over the plug",
     )
-    columns = ("plug_heave_low_m", "plug_heave_high_m")
-    draw_error_bar(axes, run.error_bounds, columns, 1.0, "black", ERROR_BAR)
+    band = error_band(run.error_bounds, "plug_heave", "m")
+    draw_error_bar(axes, band, 1.0, "black", ERROR_BAR)
     axes.axvline(0, color="0.6", linewidth=0.8)
     pumped, seepage = [
         history[f"{name}_volume_m3"][-1] for name in ("pumped", "seepage")

@@ -8,7 +8,7 @@ import numpy as np
 
 from caisson import curves
 from caisson.plot import suction_methods, theory
-from caisson.plot.forces import COLORS, column_of, penetration, smooth
+from caisson.plot.forces import COLORS, column_of, error_band, penetration, smooth
 from caisson.plot.suction import CRITICAL, rest_of_run
 from caisson.results import Results, Table
 
@@ -53,15 +53,12 @@ def force_curves(run: Results) -> list[Curve]:
     Houlsby & Byrne."""
     history, depth = run.history, run.history["penetration_m"]
     found = []
-    bounds = run.error_bounds
     for name, color in COLORS.items():
-        columns = [
-            column_of(name).replace("_N", f"_{side}_N") for side in ("low", "high")
-        ]
-        if all(column in bounds for column in columns):
-            at = bounds["penetration_m"]
-            low, high = [smooth(at, bounds[column]) for column in columns]
-            found.append(band(f"{name}, error bar", color, low, high, at))
+        bar = error_band(run.error_bounds, column_of(name).removesuffix("_N"), "N")
+        if bar is not None:
+            at, low, high = bar
+            label = f"{name}, error bar"
+            found.append(band(label, color, low / 1e3, high / 1e3, at))
     bands = theory.bands_of(run.scene, max(depth.max(), 0))
     for name, (plain, enhanced) in bands.forces.items():
         label = f"{name}, Houlsby & Byrne (2005)"
@@ -99,13 +96,9 @@ def suction_curves(run: Results) -> list[Curve]:
             suction = answers.suctions[column] / 1e3
             label = f"critical, {name}"
             found.append(line(label, color, suction, answers.depth, hidden=True))
-    bounds = run.error_bounds
-    if "required_suction_low_Pa" in bounds:
-        at = bounds["penetration_m"]
-        low, high = [
-            np.maximum(smooth(at, bounds[f"required_suction_{side}_Pa"]), 0)
-            for side in ("low", "high")
-        ]
+    bar = error_band(run.error_bounds, "required_suction", "Pa")
+    if bar is not None:
+        at, low, high = [bar[0], *(np.maximum(bound, 0) / 1e3 for bound in bar[1:])]
         found.append(band("required, error bar", "black", low, high, at))
     required = np.maximum(history["required_suction_Pa"], 0) / 1e3
     label = "required, computed"
