@@ -162,22 +162,25 @@ class Installation(ProgramTest):
         for key in ("seepage_volume_m3", "pumped_volume_m3"):
             self.assertAlmostEqual(last[key] / (end[key] - start[key]), 1, 5, key)
 
-    def test_coupled_pressure_goes_on(self) -> None:
+    def go_on_both_ways(self, entries: Entries) -> tuple[Path, Path, Path]:
+        """Run the suction scene to 0.55 m, and from there to 0.57 m by a restart and
+        as another run on two ranks; return the directories of the three."""
         before, whole = self.directory("before"), self.directory("whole")
-        coupled: Entries = {
-            **SHORT,
-            "Water/Level": "coupled",
-            "Soil/Layer 1/Permeability": 1e-5,
-            DEPTH: 0.55,
-        }
-        self.run_scene("suction", before, entries=coupled)
+        first: Entries = {**SHORT, **entries, DEPTH: 0.55}
+        self.run_scene("suction", before, entries=first)
         shutil.copytree(before, whole)
-        longer: Entries = {**coupled, DEPTH: 0.57}
+        longer: Entries = {**first, DEPTH: 0.57}
         self.run_scene("suction", whole, SUCCESS, "--restart", entries=longer)
         path = self.directory("after")
         longer[INSTALLATION] = before
         self.run_scene("suction", path, entries=longer, ranks=2)
         self.assert_same_end(whole, path, 1e-6)
+        return before, whole, path
+
+    def test_coupled_pressure_goes_on(self) -> None:
+        before, whole, path = self.go_on_both_ways(
+            {"Water/Level": "coupled", "Soil/Layer 1/Permeability": 1e-5}
+        )
         last, end = history(path)[-1], history(whole)[-1]
         for key in ("tip_water_force_N", "pore_pressure_smallest_Pa"):
             self.assertAlmostEqual(last[key] / end[key], 1, 6, key)
@@ -187,16 +190,7 @@ class Installation(ProgramTest):
 
     def test_undrained_pressure_goes_on(self) -> None:
         """The volumes of the points bring it along."""
-        before, whole = self.directory("before"), self.directory("whole")
-        entries: Entries = {**SHORT, "Water/Level": "undrained", DEPTH: 0.55}
-        self.run_scene("suction", before, entries=entries)
-        shutil.copytree(before, whole)
-        longer: Entries = {**entries, DEPTH: 0.57}
-        self.run_scene("suction", whole, SUCCESS, "--restart", entries=longer)
-        path = self.directory("after")
-        longer[INSTALLATION] = before
-        self.run_scene("suction", path, entries=longer, ranks=2)
-        self.assert_same_end(whole, path, 1e-6)
+        before, whole, path = self.go_on_both_ways({"Water/Level": "undrained"})
         water = ("tip_water_force_N", "total_force_with_water_N")
         # the first row has the pressure one step later than the row before it
         for x, y, delta in ((whole, -1, 1e-6), (before, 0, 0.03)):
