@@ -6,6 +6,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <cmath>
 #include <iostream>
 #include <sstream>
 
@@ -73,7 +74,8 @@ namespace CaissonMPM
   } // namespace
 
   Expression::Expression(const std::string &text, const std::string &where)
-    : function(std::make_unique<FunctionParser<2>>(1))
+    : where(where)
+    , function(std::make_unique<FunctionParser<2>>(1))
     , zero(text == "0")
   {
     const CapturedErrors errors;
@@ -88,6 +90,17 @@ namespace CaissonMPM
         throw BadInput(where + " must be an expression in r, z, t and pi: " +
                        explain(text, errors) + ".");
       }
+  }
+
+  double
+  Expression::at_time(const double t) const
+  {
+    const double value = (*this)(Point<2>(), t);
+    if (!std::isfinite(value))
+      throw BadInput(where + " is " + to_text(value) + " at t = " + to_text(t) +
+                     " s. Write an expression that is finite at all times of "
+                     "the run.");
+    return value;
   }
 
   VectorExpression

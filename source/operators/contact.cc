@@ -47,15 +47,10 @@ namespace CaissonMPM
           const bool is_new = found.count(face.nodes[i]) == 0;
           Node      &node   = found[face.nodes[i]];
           if (is_new)
-            node = {face.nodes[i],
-                    face.surface,
-                    0,
-                    {},
-                    Vector2(),
-                    false,
-                    false,
-                    0.,
-                    0.};
+            {
+              node.node    = face.nodes[i];
+              node.surface = face.surface;
+            }
           node.surface = dominant(node.surface, face.surface);
           if (node.n_normals == 0 ||
               (node.n_normals == 1 && node.normal[0] * face.normal < 1. - 1e-9))
@@ -130,11 +125,12 @@ namespace CaissonMPM
                                NodeResult{State::apart, normal};
     };
     if (node.is_open)
-      for (unsigned int i = 0; i < node.n_normals; ++i)
-        if (std::abs(node.normal[i][vertical]) < .5) // the wall at its corner
-          return against(node.normal[i]);
-    if (node.is_open)
-      return {};
+      {
+        for (unsigned int i = 0; i < node.n_normals; ++i)
+          if (std::abs(node.normal[i][vertical]) < .5) // the wall at its corner
+            return against(node.normal[i]);
+        return {};
+      }
     if (node.n_normals == 1)
       return against(node.normal[0]);
 

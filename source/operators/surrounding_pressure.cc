@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/base/value_in_time.h>
 #include <caisson_mpm/operators/surrounding_pressure.h>
 
 namespace CaissonMPM
 {
   using namespace dealii;
-
-  namespace
-  {
-    /** The entry with what it is set to, for messages. */
-    std::string
-    entry_with(const std::string &text)
-    {
-      return "Loads/Surrounding pressure = " + text;
-    }
-  } // namespace
 
   SurroundingPressure::SurroundingPressure()
     : ParameterAcceptor("/Loads")
@@ -34,13 +23,13 @@ namespace CaissonMPM
   Expression
   SurroundingPressure::parse() const
   {
-    return Expression(text, entry_with(text));
+    return Expression(text, "Loads/Surrounding pressure = " + text);
   }
 
   void
   SurroundingPressure::check_parameters() const
   {
-    value_at(parse(), 0., entry_with(text));
+    parse().at_time(0.);
   }
 
   void
@@ -60,8 +49,7 @@ namespace CaissonMPM
                            Kernels::NodalVector *force)
   {
     // The pressure outside acts on the soil as a negative one inside would.
-    of_nodes.assign(context.grid.n_nodes(),
-                    -value_at(pressure, context.time, entry_with(text)));
+    of_nodes.assign(context.grid.n_nodes(), -pressure.at_time(context.time));
     context.kernels.pressure_force(context.step, of_nodes.data(), force);
   }
 } // namespace CaissonMPM

@@ -114,19 +114,6 @@ namespace CaissonMPM
 
   namespace
   {
-    /** The largest of the wave speeds squared of what lies in a cell. */
-    double
-    square_of_speed(const MaterialPoints      &points,
-                    const unsigned int         cell,
-                    const std::vector<double> &squares)
-    {
-      double largest = 0.;
-      points.for_each_material(cell, [&](const unsigned int material) {
-        largest = std::max(largest, squares[material]);
-      });
-      return largest;
-    }
-
     /**
      * A bound of the largest frequency in a cell, squared, over (2 c)^2. The
      * gradient in the unit cell is J^-T, and the largest frequency of linear
@@ -166,7 +153,7 @@ namespace CaissonMPM
                        const Soil                           &soil,
                        const std::vector<Kernels::Material> &materials)
   {
-    std::vector<double> squares, squares_of_soil;
+    std::vector<double> squares, squares_of_soil; // of wave speeds, m2/s2
     for (unsigned int i = 0; i < soil.n_layers(); ++i)
       {
         const Kernels::Material &material = materials[i];
@@ -180,9 +167,12 @@ namespace CaissonMPM
     std::vector<double> worst_of_zone(GridLines::n_zones, 0.);
     for (const unsigned int cell : points.cells_with_points())
       {
-        const double square    = square_of_speed(points, cell, squares),
-                     of_soil   = square_of_speed(points, cell, squares_of_soil),
-                     size      = inverse_square_of_size(grid.geometry(cell)),
+        double square = 0., of_soil = 0.;
+        points.for_each_material(cell, [&](const unsigned int material) {
+          square  = std::max(square, squares[material]);
+          of_soil = std::max(of_soil, squares_of_soil[material]);
+        });
+        const double size      = inverse_square_of_size(grid.geometry(cell)),
                      frequency = square * size;
         worst_of_soil          = std::max(worst_of_soil, of_soil * size);
         double &of_zone = worst_of_zone[static_cast<int>(grid.zone(cell))];

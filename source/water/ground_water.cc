@@ -2,7 +2,6 @@
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
-#include <caisson_mpm/base/value_in_time.h>
 #include <caisson_mpm/water/ground_water.h>
 
 #include <deal.II/base/mpi.h>
@@ -28,14 +27,7 @@ namespace CaissonMPM
 
     // The heave is known when the flow is found; the pump sees it smoothed.
     constexpr double time_of_heave = 1.; // s
-
-    /** The entry with what it is set to, for messages. */
-    std::string
-    entry_of_bottom(const std::string &text)
-    {
-      return "Water/Bottom pressure = " + text;
-    }
-  } // namespace
+  }                                      // namespace
 
   GroundWater::GroundWater(BackgroundGrid  &grid,
                            MaterialPoints  &points,
@@ -128,7 +120,7 @@ namespace CaissonMPM
         return;
       }
     suction.check_parameters();
-    value_at(bottom_expression(), 0., entry_of_bottom(bottom_text));
+    bottom_expression().at_time(0.);
     if (!soil.is_submerged() || soil.unit_weight_of_water() <= 0.)
       throw BadInput("Water/Level is not drained, but the soil is dry: set "
                      "Soil/Submerged = true, Soil/Fluid density and a Soil/"
@@ -226,6 +218,7 @@ namespace CaissonMPM
   {
     if (!acts())
       return;
+    suction.initialize(soil.unit_weight_of_water());
     mudline.initialize(grid, body.shape());
     find_cells_at_tip();
     undrained.forget();
@@ -246,7 +239,7 @@ namespace CaissonMPM
   Expression
   GroundWater::bottom_expression() const
   {
-    return Expression(bottom_text, entry_of_bottom(bottom_text));
+    return Expression(bottom_text, "Water/Bottom pressure = " + bottom_text);
   }
 
   void
@@ -356,9 +349,7 @@ namespace CaissonMPM
     projection.solve(velocity,
                      corners,
                      {-suction.value(),
-                      value_at(bottom_pressure,
-                               time + .5 * step,
-                               entry_of_bottom(bottom_text))});
+                      bottom_pressure.at_time(time + .5 * step)});
     is_corrected = true;
     find_flow();
     unbalanced += step * std::abs(flow_remaining);
@@ -462,11 +453,9 @@ namespace CaissonMPM
                  volume = seepage_volume + area * (body.motion().travel() +
                                                    recent_heave.value());
     // In seepage, the pressure at the tip grows with the suction.
-    const double ambient =
-      suction.ambient_pressure(soil.unit_weight_of_water());
     if (is_coupled())
-      return {-force_on_body + tip_force(), weight, area, volume, ambient};
-    return {-force_on_body, weight, area + tip_integral, volume, ambient};
+      return {-force_on_body + tip_force(), weight, area, volume};
+    return {-force_on_body, weight, area + tip_integral, volume};
   }
 
   void

@@ -143,7 +143,7 @@ namespace CaissonMPM
     if (!has_lid())
       return;
     volume_at_start = lid_area() * (body.motion().travel() + heave(mudline)) +
-                      suction.gas_expansion(soil.unit_weight_of_water());
+                      suction.gas_expansion();
     suction.go_on_at(lid_area() *
                      (body.motion().travel() + recent_heave.value()));
   }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace CaissonMPM
 {
@@ -35,6 +36,13 @@ namespace CaissonMPM
 
     // Below this, undrained soil changes its volume noticeably.
     constexpr double least_share = .9;
+
+    /** Whether something is so for the first time; it is remembered. */
+    bool
+    is_first(bool &was_so, const bool is_so)
+    {
+      return is_so && !std::exchange(was_so, true);
+    }
 
     /** What the water bears of a load on confined undrained soil. */
     double
@@ -119,12 +127,11 @@ namespace CaissonMPM
       return mudline.is_found() ? mudline.height_at_wall(side) : 0.;
     };
     const double s = suction.value(), rise = heave(mudline),
-                 scale  = flow_scale(),
-                 gas    = suction.gas_expansion(soil.unit_weight_of_water());
+                 scale = flow_scale(), gas = suction.gas_expansion();
     NamedNumbers result = {
       {"suction_Pa", s},
       {"required_suction_Pa", suction.required()},
-      {"cavitation_suction_Pa", suction.cavitation(lid())},
+      {"cavitation_suction_Pa", suction.cavitation(height_of_lid())},
       {"suction_force_N", s * lid_area()},
       {"tip_water_force_N", tip_force()},
       {"pore_pressure_factor",
@@ -172,7 +179,7 @@ namespace CaissonMPM
   GroundWater::find_boiling_margin() const
   {
     const double gamma           = soil.unit_weight_of_water(),
-                 rest            = suction.cavitation({0., gamma});
+                 rest            = suction.cavitation(0.);
     std::array<double, 3> lowest = {{rest, 0., 0.}};
     const auto include = [&](const double p, const double r, const double z) {
       lowest = std::min(lowest, {{rest - gamma * z + p, r, z}});
@@ -243,34 +250,28 @@ namespace CaissonMPM
   GroundWater::take_warnings()
   {
     std::vector<std::string> warnings;
-    if (!has_warned_of_open_lid && pulls_with_open_lid())
-      {
-        has_warned_of_open_lid = true;
-        warnings.push_back(
-          "the caisson is pulled up, and water flows freely beneath its lid: "
-          "the force is that of an open lid, and not what a sealed one bears. " +
-          std::string(is_undrained() ?
-                        "Water/Level = undrained has no suction beneath it" :
-                        "Give the suction beneath a sealed one with Water/"
-                        "Suction control = table"));
-      }
+    if (is_first(has_warned_of_open_lid, pulls_with_open_lid()))
+      warnings.push_back(
+        "the caisson is pulled up, and water flows freely beneath its lid: "
+        "the force is that of an open lid, and not what a sealed one bears. " +
+        std::string(is_undrained() ?
+                      "Water/Level = undrained has no suction beneath it" :
+                      "Give the suction beneath a sealed one with Water/"
+                      "Suction control = table"));
     const std::string where =
       body.shape().exists() ?
         " at a penetration of " + to_text(body.penetration(), 5) + " m" :
         "";
-    if (!has_warned_of_boiling && boiling_margin.value < 0.)
-      {
-        has_warned_of_boiling = true;
-        warnings.push_back(
-          "the pore water falls below its vapor pressure at t = " +
-          to_text(time, 5) + " s" + where +
-          ", first at r = " + to_text(boiling_margin.r, 4) +
-          " m, z = " + to_text(boiling_margin.z, 4) +
-          " m. It would boil there (cavitation), which the program does not "
-          "compute: from here on, soil that is drawn apart or dilates is held "
-          "by more suction than water bears, and its resistance is too large. "
-          "Check Water/Water depth; see cavitation_margin_Pa in history.csv");
-      }
+    if (is_first(has_warned_of_boiling, boiling_margin.value < 0.))
+      warnings.push_back(
+        "the pore water falls below its vapor pressure at t = " +
+        to_text(time, 5) + " s" + where +
+        ", first at r = " + to_text(boiling_margin.r, 4) +
+        " m, z = " + to_text(boiling_margin.z, 4) +
+        " m. It would boil there (cavitation), which the program does not "
+        "compute: from here on, soil that is drawn apart or dilates is held "
+        "by more suction than water bears, and its resistance is too large. "
+        "Check Water/Water depth; see cavitation_margin_Pa in history.csv");
     if (has_suction())
       warn_of_plug(where, warnings);
     return warnings;
@@ -293,22 +294,16 @@ namespace CaissonMPM
   GroundWater::warn_of_plug(const std::string        &where,
                             std::vector<std::string> &warnings)
   {
-    if (!has_warned_of_piping && carries_soil())
-      {
-        has_warned_of_piping = true;
-        warnings.push_back(
-          "the exit gradient exceeds " + to_text(100. * near_critical) +
-          " % of the critical one" + where +
-          ": the flow carries nearly all of the soil. Piping may begin, which "
-          "the program does not follow");
-      }
-    if (!has_warned_of_lift &&
-        heave(mudline) > heave_by_wall() + .02 * body.shape().right())
-      {
-        has_warned_of_lift = true;
-        warnings.push_back("the suction lifts the plug" + where +
-                           ": it rises by more than the wall displaces");
-      }
+    if (is_first(has_warned_of_piping, carries_soil()))
+      warnings.push_back(
+        "the exit gradient exceeds " + to_text(100. * near_critical) +
+        " % of the critical one" + where +
+        ": the flow carries nearly all of the soil. Piping may begin, which "
+        "the program does not follow");
+    if (is_first(has_warned_of_lift,
+                 heave(mudline) > heave_by_wall() + .02 * body.shape().right()))
+      warnings.push_back("the suction lifts the plug" + where +
+                         ": it rises by more than the wall displaces");
   }
 
   double
@@ -351,7 +346,7 @@ namespace CaissonMPM
           to_text(1e-3 * body.submerged_weight(), 4) + " kN, like " +
           to_text(1e-3 * body.submerged_weight() / lid_area(), 3) +
           " kPa on it; water boils there at " +
-          to_text(1e-3 * suction.cavitation(lid()), 3) + " kPa");
+          to_text(1e-3 * suction.cavitation(height_of_lid()), 3) + " kPa");
     if (is_undrained())
       for (unsigned int i = 0; i < materials.size(); ++i)
         lines.emplace_back("water in layer " + to_text(i + 1),
@@ -423,11 +418,10 @@ namespace CaissonMPM
     return limits;
   }
 
-  Suction::Lid
-  GroundWater::lid() const
+  double
+  GroundWater::height_of_lid() const
   {
-    return {body.shape().lower_face_of_lid() - body.motion().travel(),
-            soil.unit_weight_of_water()};
+    return body.shape().lower_face_of_lid() - body.motion().travel();
   }
 
   NamedNumbers
@@ -446,9 +440,10 @@ namespace CaissonMPM
     if (touched_lid >= full_lid)
       return "the plug fills the caisson: soil bears on " +
              to_text(100. * full_lid) + " % of the lid (refusal)";
-    if (is_solved && mudline.mean_height(Mudline::Side::plug) >= lid().height)
+    if (is_solved &&
+        mudline.mean_height(Mudline::Side::plug) >= height_of_lid())
       return "the plug fills the caisson: it has reached the lid, or the top of "
              "the skirt where the mesh has no lid (refusal)";
-    return suction.limit_reached(lid());
+    return suction.limit_reached(height_of_lid());
   }
 } // namespace CaissonMPM

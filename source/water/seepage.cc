@@ -95,10 +95,7 @@ namespace CaissonMPM
       conductivity.compress(VectorOperation::add);
       return conductivity;
     }
-  } // namespace
 
-  namespace
-  {
     /** A part of the mudline of the plug; extensive values per radian. */
     struct Outlet
     {

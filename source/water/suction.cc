@@ -185,39 +185,38 @@ namespace CaissonMPM
     constexpr double share = .1; // at which a body that is lowered is fastest
     const double     rate  = share * (load.weight / load.area + suction) /
                         (most * pump_delay); // Pa/m3
-    const double left   = load.ambient - suction,
-                 volume = gas * load.ambient / left;
+    const double ambient = ambient_pressure(), left = ambient - suction,
+                 volume = gas * ambient / left;
     if (volume * rate > left) // gas gives way more
-      suction = load.ambient - gas * load.ambient / (volume + missing);
+      suction = ambient - gas * ambient / (volume + missing);
     else
-      suction += share * (load.weight / load.area + suction) * missing /
-                 (most * pump_delay);
+      suction += rate * missing;
     suction = std::max(suction, 0.);
   }
 
   double
-  Suction::ambient_pressure(const double unit_weight_of_water) const
+  Suction::ambient_pressure() const
   {
     return atmosphere + unit_weight_of_water * water_depth;
   }
 
   double
-  Suction::gas_expansion(const double unit_weight_of_water) const
+  Suction::gas_expansion() const
   {
-    return gas * suction / (ambient_pressure(unit_weight_of_water) - suction);
+    return gas * suction / (ambient_pressure() - suction);
   }
 
   double
-  Suction::cavitation(const Lid &lid) const
+  Suction::cavitation(const double height) const
   {
     // a lid high above the sea draws up no water, but may stand there
-    return std::max(atmosphere - vapor_pressure +
-                      lid.unit_weight_of_water * (water_depth - lid.height),
+    return std::max(ambient_pressure() - vapor_pressure -
+                      unit_weight_of_water * height,
                     0.);
   }
 
   std::string
-  Suction::limit_reached(const Lid &lid) const
+  Suction::limit_reached(const double height) const
   {
     const auto kilopascals = [](const double p) {
       return to_text(1e-3 * p, 4) + " kPa";
@@ -225,11 +224,11 @@ namespace CaissonMPM
     if (largest && suction > *largest)
       return "the suction exceeds Water/Largest suction = " +
              kilopascals(*largest) + ", that of the pump";
-    const double boiling = cavitation(lid);
+    const double boiling = cavitation(height);
     if (suction > boiling)
       return "the suction exceeds " + kilopascals(boiling) +
              ", where water boils beneath the lid (cavitation), " +
-             to_text(lid.height, 4) +
+             to_text(height, 4) +
              " m above the mudline at Water/Water depth = " +
              to_text(water_depth) + " m";
     return "";

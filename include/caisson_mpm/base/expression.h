@@ -48,7 +48,13 @@ namespace CaissonMPM
       return function->value(p);
     }
 
+    /** Of the time alone. Throws BadInput, which begins with "where", if the
+     * value is not finite. Units of the time: s. */
+    double
+    at_time(const double t) const;
+
   private:
+    std::string                                where;
     std::unique_ptr<dealii::FunctionParser<2>> function;
     bool                                       zero = true;
   };

@@ -160,13 +160,13 @@ namespace CaissonMPM
     {
       unsigned int           node;
       Surface                surface;
-      unsigned int           n_normals; // of different direction: 1 or 2
+      unsigned int           n_normals = 0; // of different direction: 1 or 2
       std::array<Vector2, 2> normal;
       Vector2                mean_normal;
-      bool                   concave;         // between lid and wall
-      bool                   is_open = false; // the soil is below the lid
-      double                 friction;
-      double                 adhesion; // a A, N per radian
+      bool                   concave  = false; // between lid and wall
+      bool                   is_open  = false; // the soil is below the lid
+      double                 friction = 0.;
+      double                 adhesion = 0.; // a A, N per radian
     };
     enum class State : unsigned char
     {

@@ -311,8 +311,9 @@ namespace CaissonMPM
      * and no suction acts beneath the lid. */
     bool
     pulls_with_open_lid() const;
-    Suction::Lid
-    lid() const;
+    /** Of its lower face over the original mudline. Units: m. */
+    double
+    height_of_lid() const;
     /** The area beneath the lid, 0 without one. Units: m2. */
     double
     lid_area() const;

@@ -24,8 +24,7 @@ namespace CaissonMPM
     double weight     = 0.; // submerged; N
     double area       = 0.; // of the lid, plus that of the tip times the share
                             // of the suction that has reached it; m2
-    double volume  = 0.;    // of water that has left the caisson so far; m3
-    double ambient = 0.;    // absolute pressure of the water on the mudline; Pa
+    double volume = 0.;     // of water that has left the caisson so far; m3
   };
 
   /**
@@ -51,6 +50,13 @@ namespace CaissonMPM
   {
   public:
     Suction();
+
+    /** Tell the @p unit_weight of the water. Units: N/m3. */
+    void
+    initialize(const double unit_weight)
+    {
+      unit_weight_of_water = unit_weight;
+    }
 
     /** Throw BadInput where the entries contradict each other. */
     void
@@ -113,31 +119,20 @@ namespace CaissonMPM
       return required_;
     }
 
-    /** Return the absolute pressure of the water on the mudline. @p
-     * unit_weight_of_water: N/m3. Units: Pa. */
-    double
-    ambient_pressure(const double unit_weight_of_water) const;
-
     /** Return by how much the trapped gas has expanded under the suction.
-     * Units: N/m3; m3. */
+     * Units: m3. */
     double
-    gas_expansion(const double unit_weight_of_water) const;
+    gas_expansion() const;
 
-    /** Where water boils first: beneath the lid, at this height of its lower
-     * face over the original mudline. */
-    struct Lid
-    {
-      double height;               // m
-      double unit_weight_of_water; // N/m3
-    };
-
-    /** Return the suction at which water beneath the lid boils. Units: Pa. */
+    /** Return the suction at which water boils at this @p height over the
+     * original mudline, for instance beneath the lid. Units: m; Pa. */
     double
-    cavitation(const Lid &lid) const;
+    cavitation(const double height) const;
 
-    /** Return why the suction cannot grow as it should, or an empty text. */
+    /** Return why the suction cannot grow as it should, or an empty text. @p
+     * height: of the lid's lower face over the original mudline, m. */
     std::string
-    limit_reached(const Lid &lid) const;
+    limit_reached(const double height) const;
 
     void
     register_totals(RunTotals &totals);
@@ -152,6 +147,9 @@ namespace CaissonMPM
 
     void
     fill_tables();
+    /** The absolute pressure of the open water on the mudline. Units: Pa. */
+    double
+    ambient_pressure() const;
     /** Let the pump take its flow for a step. */
     void
     pump(const double time, const double dt, const SuctionLoad &load);
@@ -165,6 +163,7 @@ namespace CaissonMPM
     std::vector<std::pair<double, double>> table;            // s, Pa
     std::vector<std::pair<double, double>> flow_table;       // s, m3/s
 
+    double unit_weight_of_water = 0.; // N/m3
     double suction = 0., required_ = 0.;
     double last_volume = 0.; // m3
   };
