@@ -9,6 +9,7 @@ from program import (
     BAD_INPUT,
     FAILURE,
     SUCCESS,
+    Entries,
     ProgramTest,
     checks,
     history,
@@ -22,8 +23,8 @@ class Options(ProgramTest):
 
     def test_help_and_version(self) -> None:
         text = self.run_program(SUCCESS, "--help")
-        options = "set output-directory print-parameters validate restart version help"
-        for option in options.split():
+        options = "set output-directory print-parameters validate strict restart"
+        for option in [*options.split(), "version", "help"]:
             self.assertIn(f"--{option}", text)
         self.assertRegex(self.run_program(SUCCESS, "--version"), r"caisson_mpm \d")
         self.assertIn("No parameter file", self.run_program(BAD_INPUT))
@@ -47,6 +48,64 @@ class Options(ProgramTest):
         for words in (r"steps +about \d", r"memory +about \d", r"duration +about \d"):
             self.assertRegex(text, words)
         self.assertFalse((path / "history.csv").exists())
+
+    def test_strict(self) -> None:
+        """Warnings of likely mistakes become errors, each by its name; known
+        limits of the program do not."""
+        mistakes: Entries = {
+            "Soil/Layer 2/Friction angle": 40,
+            "Rigid body/Apex angle": 70,
+        }
+        path = self.directory()
+        self.run_program(SUCCESS, scene("jack"), "--validate", entries=mistakes)
+        for option in ("--validate", f"--output-directory={path}"):
+            with self.subTest(option):
+                said = self.run_program(
+                    BAD_INPUT, scene("jack"), "--strict", option, entries=mistakes
+                )
+                for words in ("2 warnings", "--strict", *mistakes):
+                    self.assertIn(words, said)
+        self.assertFalse(path.exists(), "nothing was written")
+        said = self.run_program(
+            SUCCESS, scene("jack_softening"), "--validate", "--strict"
+        )
+        self.assertIn("warning: Soil/Layer 1: softening needs", said)
+
+    def test_a_run_keeps_its_warnings(self) -> None:
+        """--validate, the terminal and run.json have the same ones."""
+        entries: Entries = {
+            "Soil/Layer 2/Friction angle": 40,
+            "Time/End penetration": 0.505,
+        }
+        path = self.directory()
+        first = self.run_scene(
+            "jack_softening", path, SUCCESS, "--validate", entries=entries
+        )
+        said = self.run_scene("jack_softening", path, entries=entries)
+        found = re.findall("^warning: (.*)$", first, re.M)
+        self.assertEqual(len(found), 2, first)
+        for warning in found:
+            self.assertIn(f"warning: {warning}", said)
+        self.assertEqual(summary(path)["warnings"][:2], found)
+
+    def test_validate_refuses_what_a_run_refuses(self) -> None:
+        """Files and directories that cannot be used; nothing is written."""
+        path = self.made_directory()
+        (path / "file").write_text("")
+        cases: tuple[tuple[str, list[str], Entries], ...] = (
+            ("a file is in its place", ["--output-directory", f"{path}/file"], {}),
+            ("name too long", ["--output-directory", f"{path}/{'x' * 300}"], {}),
+            ("cannot be read", [], {"Output/Error bar": "missing.csv"}),
+            ("cannot be read", [], {"Output/Error bar": ".."}),
+            ("checkpoint", ["--restart", f"--output-directory={path}/new"], {}),
+        )
+        for words, options, entries in cases:
+            with self.subTest(words, options=options[:1]):
+                said = self.run_program(
+                    BAD_INPUT, scene("jack"), "--validate", *options, entries=entries
+                )
+                self.assertIn(words, said)
+        self.assertEqual([file.name for file in path.iterdir()], ["file"])
 
     def test_set_overrides(self) -> None:
         text = self.run_program(

@@ -30,6 +30,9 @@ namespace CaissonMPM
           "print all entries with their meaning and the values in effect, and "
           "stop; the output is itself a parameter file");
       add("validate", "check the input without running it, and stop");
+      add("strict",
+          "take warnings of likely mistakes in the input for errors, with "
+          "--validate and in a run");
       add("restart", "continue from the checkpoint in the output directory");
       add("version", "print the version and stop");
       add("help,h", "print this text and stop");
@@ -104,6 +107,7 @@ namespace CaissonMPM
         value_or_default<std::string>(options, "output-directory");
       result.print_parameters = options.count("print-parameters") > 0;
       result.validate         = options.count("validate") > 0;
+      result.strict           = options.count("strict") > 0;
       result.restart          = options.count("restart") > 0;
       result.version          = options.count("version") > 0;
       result.help             = options.count("help") > 0;

@@ -45,7 +45,50 @@ namespace CaissonMPM
              by_file.st_ino == by_path.st_ino &&
              by_file.st_dev == by_path.st_dev;
     }
+
+    /** Return why no directory can be at this path, or nothing. */
+    std::string
+    obstacle_to(const fs::path &path)
+    {
+      std::error_code error;
+      const auto      status = fs::status(path, error);
+      if (status.type() == fs::file_type::not_found && path.has_parent_path() &&
+          path != path.parent_path())
+        return obstacle_to(path.parent_path());
+      if (status.type() == fs::file_type::none)
+        return "cannot be made: " + error.message();
+      if (status.type() != fs::file_type::directory)
+        return "cannot be made: a file is in its place";
+      return access(path.c_str(), W_OK | X_OK) == 0 ?
+               "" :
+               std::string("cannot be written: ") + std::strerror(errno);
+    }
   } // namespace
+
+
+
+  void
+  OutputDirectory::check(const std::string &path, const MPI_Comm communicator)
+  {
+    const bool is_first =
+      dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    refuse(path, is_first ? obstacle_to(fs::absolute(path)) : "", communicator);
+  }
+
+
+
+  void
+  OutputDirectory::refuse(const std::string &path,
+                          const std::string &reason,
+                          const MPI_Comm     communicator)
+  {
+    const std::string of_first =
+      dealii::Utilities::MPI::broadcast(communicator, reason);
+    if (!of_first.empty())
+      throw BadInput("the output directory " + path + " " + of_first +
+                     ". Choose another one with Output/Directory or "
+                     "--output-directory.");
+  }
 
 
 
@@ -53,15 +96,9 @@ namespace CaissonMPM
                                    const MPI_Comm     communicator)
     : path_(path)
   {
-    namespace MPI = dealii::Utilities::MPI;
-    std::string reason;
-    if (MPI::this_mpi_process(communicator) == 0)
-      reason = prepare();
-    reason = MPI::broadcast(communicator, reason);
-    if (!reason.empty())
-      throw BadInput("the output directory " + path + " " + reason +
-                     ". Choose another one with Output/Directory or "
-                     "--output-directory.");
+    const bool is_first =
+      dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    refuse(path, is_first ? prepare() : "", communicator);
   }
 
 

@@ -59,6 +59,15 @@ namespace CaissonMPM
   ParameterOrigins::add_warning(const std::string &text)
   {
     notes.push_back(text);
+    doubts.push_back(text);
+  }
+
+
+
+  void
+  ParameterOrigins::add_limit(const std::string &text)
+  {
+    notes.push_back(text);
   }
 
 
@@ -142,13 +151,5 @@ namespace CaissonMPM
                 (is_set(path) ? " is " + origin(path) : " has its default") +
                 ".";
     return result;
-  }
-
-
-
-  const std::vector<std::string> &
-  ParameterOrigins::warnings() const
-  {
-    return notes;
   }
 } // namespace CaissonMPM

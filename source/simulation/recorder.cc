@@ -88,20 +88,30 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::open(const std::string          &scene_file,
-                 const std::string          &output_directory,
-                 const std::string          &fingerprint,
-                 const std::string          &installation,
-                 const Kernels::KernelTable &kernels)
+  Recorder::set_output_directory(const std::string &of_command_line)
+  {
+    if (!of_command_line.empty())
+      directory = of_command_line;
+  }
+
+  void
+  Recorder::describe(const std::string          &scene_file,
+                     const std::string          &fingerprint,
+                     const std::string          &installation,
+                     const Kernels::KernelTable &kernels)
   {
     start_time         = std::chrono::steady_clock::now();
     scene              = scene_file;
     this->fingerprint  = fingerprint;
     this->installation = installation;
     this->kernels      = &kernels;
-    wrong_error_bar    = error_bar.read(scene, fingerprint);
-    if (!output_directory.empty())
-      directory = output_directory;
+    wrong_error_bar_   = error_bar.read(scene, fingerprint);
+    OutputDirectory::check(directory, parts.grid.communicator());
+  }
+
+  void
+  Recorder::open()
+  {
     locked_directory =
       std::make_unique<OutputDirectory>(directory, parts.grid.communicator());
     console = std::make_unique<Console>(verbosity());
@@ -154,7 +164,7 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::print_header(const std::vector<std::string> &known_limits)
+  Recorder::print_header(const std::vector<std::string> &warnings)
   {
     double own_mass = 0.;
     for (const BodyPoint &p : parts.body_points)
@@ -191,10 +201,8 @@ namespace CaissonMPM
     const auto of_water = parts.water.description(parts.materials);
     lines.insert(lines.end(), of_water.begin(), of_water.end());
     console->summary(lines);
-    if (!wrong_error_bar.empty())
-      console->warning(wrong_error_bar);
-    for (const std::string &limit : known_limits)
-      console->warning(limit);
+    for (const std::string &warning : warnings)
+      console->warning(warning);
   }
 
   // ------------------------------------------------------------ records
@@ -419,10 +427,7 @@ namespace CaissonMPM
     result.point_steps =
       Utilities::MPI::sum(point_steps, parts.grid.communicator());
     result.wall_time = seconds_running();
-    result.warnings  = input_warnings;
-    result.warnings.insert(result.warnings.end(),
-                           console->warnings().begin(),
-                           console->warnings().end());
+    result.warnings  = console->warnings();
     return result;
   }
 

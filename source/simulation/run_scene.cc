@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/declared_entries.h>
+#include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/parameter_file.h>
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/simulation/run_scene.h>
 #include <caisson_mpm/simulation/simulation.h>
 
@@ -18,6 +20,70 @@ namespace CaissonMPM
         out << "# warning: " << text << '\n';
       out << describe_parameters(dealii::ParameterAcceptor::prm);
     }
+
+    void
+    print_warnings(const ParameterOrigins &origins, std::ostream &out)
+    {
+      for (const std::string &text : origins.warnings())
+        out << "warning: " << text << '\n';
+      out << std::flush;
+    }
+
+    /** Do something, and add to a BadInput where the entries that it names were
+     * set. */
+    template <typename Action>
+    auto
+    with_places(const ParameterOrigins &origins, const Action &action)
+    {
+      try
+        {
+          return action();
+        }
+      catch (const BadInput &error)
+        {
+          throw BadInput(error.what() +
+                         origins.places_of_entries_in(error.what()));
+        }
+    }
+
+    /** Set the scene up, and collect the warnings of it. Those that were found
+     * before an error are printed: they may explain it. */
+    void
+    set_up(const CommandLine &command_line,
+           Simulation        &simulation,
+           ParameterOrigins  &origins,
+           std::ostream      &out)
+    {
+      try
+        {
+          dealii::ParameterAcceptor::parse_all_parameters();
+          simulation.name_unused_entries(origins);
+          simulation.set_up(command_line.parameter_file,
+                            command_line.output_directory,
+                            command_line.restart);
+          simulation.name_limits(origins);
+        }
+      catch (const BadInput &)
+        {
+          print_warnings(origins, out);
+          throw;
+        }
+    }
+
+    void
+    refuse_mistakes(const std::string      &scene_file,
+                    const ParameterOrigins &origins)
+    {
+      const auto &mistakes = origins.mistakes();
+      if (mistakes.empty())
+        return;
+      std::string text;
+      for (const std::string &mistake : mistakes)
+        text += "\n  " + mistake;
+      throw BadInput(scene_file + " has " + to_text(mistakes.size()) +
+                     (mistakes.size() == 1 ? " warning" : " warnings") +
+                     ", which --strict takes for errors:" + text);
+    }
   } // namespace
 
 
@@ -34,26 +100,16 @@ namespace CaissonMPM
         print_parameters(origins, out);
         return ExitStatus::success;
       }
-    try
-      {
-        dealii::ParameterAcceptor::parse_all_parameters();
-        simulation.name_unused_entries(origins);
-        for (const std::string &text : origins.warnings())
-          out << "warning: " << text << std::endl;
-        if (!command_line.validate)
-          return simulation.run(command_line.parameter_file,
-                                command_line.output_directory,
-                                command_line.restart,
-                                origins.warnings());
-        simulation.validate(command_line.output_directory);
-        out << command_line.parameter_file << " is valid\n"
-            << describe(simulation.estimate_cost()) << std::flush;
-        return ExitStatus::success;
-      }
-    catch (const BadInput &error)
-      {
-        throw BadInput(error.what() +
-                       origins.places_of_entries_in(error.what()));
-      }
+    with_places(origins,
+                [&]() { set_up(command_line, simulation, origins, out); });
+    if (command_line.strict)
+      refuse_mistakes(command_line.parameter_file, origins);
+    if (!command_line.validate)
+      return with_places(origins,
+                         [&]() { return simulation.run(origins.warnings()); });
+    print_warnings(origins, out);
+    out << command_line.parameter_file << " is valid\n"
+        << describe(simulation.estimate_cost()) << std::flush;
+    return ExitStatus::success;
   }
 } // namespace CaissonMPM

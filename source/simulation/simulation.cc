@@ -398,17 +398,18 @@ namespace CaissonMPM
   }
 
   ExitStatus
-  Simulation::run(const std::string              &scene_file,
-                  const std::string              &output_directory,
-                  const bool                      restart,
-                  const std::vector<std::string> &input_warnings)
+  Simulation::run(const std::vector<std::string> &warnings)
   {
-    recorder.keep_warnings(input_warnings);
-    set_up(scene_file, output_directory, restart);
-    if (restart && schedule.is_finished())
+    recorder.open();
+    stop_request.arm(recorder.output_directory());
+    if (is_restart)
+      recorder.resume();
+    else
+      recorder.start();
+    if (is_restart && schedule.is_finished())
       return nothing_left();
-    recorder.print_header(known_limits());
-    if (!restart)
+    recorder.print_header(warnings);
+    if (!is_restart)
       {
         if (installation.is_given())
           recorder.message("goes on at a penetration of " +

@@ -18,12 +18,11 @@ namespace CaissonMPM
   using namespace dealii;
 
   void
-  Simulation::find_beginning(const std::string &output_directory,
-                             const bool         restart)
+  Simulation::find_beginning()
   {
-    if (restart)
+    if (is_restart)
       {
-        const Checkpoint checkpoint(output_directory);
+        const Checkpoint checkpoint(recorder.output_directory());
         checkpoint.check_fingerprint(physics(prm));
         const auto number = [&](const std::string &name) {
           return number_named(name, checkpoint.state()).value_or(0.);
@@ -35,7 +34,7 @@ namespace CaissonMPM
       }
     else if (installation.is_given())
       {
-        installation.open(output_directory, physics(prm));
+        installation.open(recorder.output_directory(), physics(prm));
         begin_at(installation.end_of_motion(),
                  installation.checkpoint().state());
       }
@@ -111,18 +110,6 @@ namespace CaissonMPM
     body.find_weight(Utilities::MPI::sum(mass, grid.communicator()), soil);
   }
 
-  void
-  Simulation::validate(const std::string &output_directory)
-  {
-    find_beginning(output_directory.empty() ? recorder.output_directory() :
-                                              output_directory,
-                   false);
-    check_parameters();
-    make_mesh();
-    start();
-    time_step.initialize(grid, points, soil, materials);
-  }
-
   RunCost
   Simulation::estimate_cost()
   {
@@ -135,7 +122,7 @@ namespace CaissonMPM
     cost.n_frames  = schedule.n_frames();
     cost.step_size = time_step.step_size();
     cost.limit     = time_step.reason();
-    cost.end_time  = schedule.end_time();
+    cost.duration  = schedule.end_time() - clock.time;
 
     unsigned int  n = 0;
     dealii::Timer timer(grid.communicator(), true);
@@ -180,29 +167,21 @@ namespace CaissonMPM
                      const std::string &output_directory,
                      const bool         restart)
   {
-    find_beginning(output_directory.empty() ? recorder.output_directory() :
-                                              output_directory,
-                   restart);
+    is_restart = restart;
+    recorder.set_output_directory(output_directory);
+    find_beginning();
     check_parameters();
-    recorder.open(scene_file,
-                  output_directory,
-                  fingerprint_of(changed_physics(prm)),
-                  installation.directory(),
-                  *kernels);
-    stop_request.arm(recorder.output_directory());
-
+    recorder.describe(scene_file,
+                      fingerprint_of(changed_physics(prm)),
+                      installation.directory(),
+                      *kernels);
     make_mesh();
-    if (restart)
+    if (is_restart)
       resume();
     else
       start();
-    // refuses a fixed step that is too large, before any file is written
     time_step.initialize(grid, points, soil, materials);
     clock.step_size = schedule.shorten(time_step.step_size());
-    if (restart)
-      recorder.resume();
-    else
-      recorder.start();
   }
 
   void
@@ -286,14 +265,15 @@ namespace CaissonMPM
     schedule.start();
   }
 
-  std::vector<std::string>
-  Simulation::known_limits() const
+  void
+  Simulation::name_limits(ParameterOrigins &origins) const
   {
-    std::vector<std::string> result;
+    if (!recorder.wrong_error_bar().empty())
+      origins.add_warning(recorder.wrong_error_bar());
     for (const auto &limits : {soil.known_limits(),
                                nodal_motion.settings().known_limits(),
                                water.known_limits(materials, clock.step_size)})
-      result.insert(result.end(), limits.begin(), limits.end());
-    return result;
+      for (const std::string &limit : limits)
+        origins.add_limit(limit);
   }
 } // namespace CaissonMPM

@@ -20,6 +20,7 @@ namespace CaissonMPM
     std::string output_directory;
     bool        print_parameters = false;
     bool        validate         = false;
+    bool        strict           = false;
     bool        restart          = false;
     bool        version          = false;
     bool        help             = false;

@@ -21,6 +21,11 @@ namespace CaissonMPM
   class OutputDirectory
   {
   public:
+    /** Throw BadInput on all ranks where no directory can be at this path.
+     * Writes nothing. Collective. */
+    static void
+    check(const std::string &path, const MPI_Comm communicator);
+
     /**
      * Make the directory if it is missing, try to write in it, and lock it.
      * Throws BadInput on all ranks if one of these fails.
@@ -47,6 +52,13 @@ namespace CaissonMPM
     }
 
   private:
+    /** Throw BadInput on all ranks where the first one has a @p reason why the
+     * directory at this path cannot be used. Collective. */
+    static void
+    refuse(const std::string &path,
+           const std::string &reason,
+           const MPI_Comm     communicator);
+
     /** Return why the directory cannot be used, or nothing. */
     std::string
     prepare();

@@ -33,9 +33,14 @@ namespace CaissonMPM
            const std::string &place,
            const bool         may_be_unused = false);
 
-    /** Add a note for the user that is not an error. */
+    /** Warn of what may be a mistake in the input. */
     void
     add_warning(const std::string &text);
+
+    /** Warn of what the program is known to do less well in such a scene; it is
+     * no mistake to ask for it. */
+    void
+    add_limit(const std::string &text);
 
     /**
      * Warn if the user has set entries that this run does not use; each path
@@ -62,9 +67,19 @@ namespace CaissonMPM
     std::string
     places_of_entries_in(const std::string &message) const;
 
-    /** Notes on the input, to be printed. */
+    /** All warnings, to be printed. */
     const std::vector<std::string> &
-    warnings() const;
+    warnings() const
+    {
+      return notes;
+    }
+
+    /** The warnings of add_warning() and add_unused(). */
+    const std::vector<std::string> &
+    mistakes() const
+    {
+      return doubts;
+    }
 
   private:
     struct Place
@@ -79,7 +94,7 @@ namespace CaissonMPM
 
     std::vector<std::string>     paths;
     std::map<std::string, Place> places;
-    std::vector<std::string>     notes;
+    std::vector<std::string>     notes, doubts;
   };
 } // namespace CaissonMPM
 

@@ -38,19 +38,35 @@ namespace CaissonMPM
     void
     check_parameters();
 
+    /** Let a directory that is not empty replace the parameter. */
+    void
+    set_output_directory(const std::string &of_command_line);
+
     /**
-     * Prepare the directory and the terminal. @p scene_file is for messages; a
-     * non-empty @p output_directory replaces the parameter. @p fingerprint is
-     * that of the physics, and @p installation the directory of the run after
-     * which this one goes on, or empty. Throws BadInput where the directory or
-     * the file of the error bar cannot be used.
+     * Learn what is run; the wall time begins. @p scene_file is for messages,
+     * @p fingerprint is that of the physics, and @p installation the directory
+     * of the run after which this one goes on, or empty. Throws BadInput where
+     * the output directory or the file of the error bar cannot be used. Writes
+     * nothing.
      */
     void
-    open(const std::string          &scene_file,
-         const std::string          &output_directory,
-         const std::string          &fingerprint,
-         const std::string          &installation,
-         const Kernels::KernelTable &kernels);
+    describe(const std::string          &scene_file,
+             const std::string          &fingerprint,
+             const std::string          &installation,
+             const Kernels::KernelTable &kernels);
+
+    /** Return why history_error.csv will not be written although the scene asks
+     * for it, or an empty text. */
+    const std::string &
+    wrong_error_bar() const
+    {
+      return wrong_error_bar_;
+    }
+
+    /** Prepare the directory and the terminal. Throws BadInput where the
+     * directory cannot be used. */
+    void
+    open();
 
     /** Begin new files. */
     void
@@ -64,9 +80,9 @@ namespace CaissonMPM
     void
     register_totals(RunTotals &totals);
 
-    /** Print what is run, and what is known to limit its use. */
+    /** Print what is run, and the warnings of its scene. */
     void
-    print_header(const std::vector<std::string> &known_limits);
+    print_header(const std::vector<std::string> &warnings);
 
     /** Add a step: the impulses of this rank's nodes, for the whole
      * circumference. Units: N s. */
@@ -95,13 +111,6 @@ namespace CaissonMPM
     void
     print_result();
 
-    /** Let run.json have these warnings too, which were printed before. */
-    void
-    keep_warnings(const std::vector<std::string> &of_input)
-    {
-      input_warnings = of_input;
-    }
-
     void
     message(const std::string &text);
 
@@ -111,7 +120,7 @@ namespace CaissonMPM
       return directory;
     }
 
-    /** Wall time since open(). Units: s. */
+    /** Wall time since describe(). Units: s. */
     double
     seconds_running() const;
 
@@ -168,8 +177,7 @@ namespace CaissonMPM
     std::unique_ptr<Records>              records;
     std::unique_ptr<Visualization>        visualization;
     std::string                           scene, fingerprint, installation;
-    std::string                           wrong_error_bar;
-    std::vector<std::string>              input_warnings;
+    std::string                           wrong_error_bar_;
     const Kernels::KernelTable           *kernels = nullptr;
     std::chrono::steady_clock::time_point start_time;
 

@@ -42,8 +42,8 @@ namespace CaissonMPM
    * One scene from its parameters to its last file.
    *
    * Construct it, fill the parameters (ParameterAcceptor::initialize or
-   * parse_all_parameters), and call run(). advance() is one time step and reads
-   * in the order of the method. Collective over MPI.
+   * parse_all_parameters), and call set_up() and run(). advance() is one time
+   * step and reads in the order of the method. Collective over MPI.
    *
    * Each rank works on the cells that it owns and the points in them. Sums over
    * nodes, points and steps are of one rank; see RunTotals.
@@ -53,32 +53,39 @@ namespace CaissonMPM
   public:
     explicit Simulation(const MPI_Comm communicator);
 
-    /**
-     * Run the scene. @p scene_file is for messages; a non-empty
-     * @p output_directory replaces the parameter. run.json gets the @p
-     * input_warnings too, which were printed before. Throws BadInput and
-     * RunFailure; returns success, failure (a verification that fails), or
-     * stopped (on request, with a checkpoint).
-     */
-    ExitStatus
-    run(const std::string              &scene_file,
-        const std::string              &output_directory,
-        const bool                      restart,
-        const std::vector<std::string> &input_warnings = {});
-
-    /** Check all parameters and set up the mesh and the points, without
-     * writing a file; run() does not go on from there. An @p output_directory
-     * that is not empty takes the place of the entry. Throws BadInput. */
+    /** Tell which entries have no effect in this scene; before or after
+     * set_up(). */
     void
-    validate(const std::string &output_directory);
+    name_unused_entries(ParameterOrigins &origins) const;
 
-    /** Find out how large the run is; after validate(). Takes some steps. */
+    /**
+     * Check all parameters and set up the mesh and the points, those of the
+     * checkpoint with @p restart. Writes no file. @p scene_file is for messages;
+     * an @p output_directory that is not empty replaces the parameter. Throws
+     * BadInput.
+     */
+    void
+    set_up(const std::string &scene_file,
+           const std::string &output_directory,
+           const bool         restart);
+
+    /** Tell what else is to be warned of in this scene; after set_up(). */
+    void
+    name_limits(ParameterOrigins &origins) const;
+
+    /** Find out how large the run is; after set_up(). Takes some steps: run()
+     * does not go on from there. */
     RunCost
     estimate_cost();
 
-    /** Tell which entries have no effect in this scene. */
-    void
-    name_unused_entries(ParameterOrigins &origins) const;
+    /**
+     * Run the scene that was set up, and print the @p warnings of it, which
+     * run.json gets, too. Throws BadInput where the output directory cannot be
+     * used, and RunFailure; returns success, failure (a verification that
+     * fails), or stopped (on request, with a checkpoint).
+     */
+    ExitStatus
+    run(const std::vector<std::string> &warnings);
 
   private:
     void
@@ -86,7 +93,7 @@ namespace CaissonMPM
     /** Find out how the motion begins, and which travel the mesh was made for,
      * if the run goes on from a checkpoint. */
     void
-    find_beginning(const std::string &output_directory, const bool restart);
+    find_beginning();
     /** Let the motion begin like this, in the mesh of a checkpoint. */
     void
     begin_at(const BodyMotion::Start &start, const NamedNumbers &state);
@@ -97,10 +104,6 @@ namespace CaissonMPM
     place_lines();
     void
     make_mesh();
-    void
-    set_up(const std::string &scene_file,
-           const std::string &output_directory,
-           const bool         restart);
     /** Set up what knows the cells or nodes of this rank. */
     void
     set_up_part();
@@ -122,9 +125,6 @@ namespace CaissonMPM
     /** Start with the state of the installation. */
     void
     go_on_after_installation();
-    std::vector<std::string>
-    known_limits() const;
-
     void
     advance();
     template <typename Action>
@@ -199,6 +199,7 @@ namespace CaissonMPM
     StopRequest        stop_request;
 
     // state
+    bool                           is_restart = false;
     Clock                          clock;
     MaterialPoints                 points;
     std::vector<BodyPoint>         body_points;
