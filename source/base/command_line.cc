@@ -6,6 +6,7 @@
 
 #include <boost/program_options.hpp>
 
+#include <algorithm>
 #include <sstream>
 
 namespace CaissonMPM
@@ -39,16 +40,34 @@ namespace CaissonMPM
       return options;
     }
 
+    /** The options that begin with a name, or else those that are close to it.
+     */
+    std::vector<std::string>
+    options_near(const std::string &name)
+    {
+      std::vector<std::string>      names, result;
+      const po::options_description options = visible_options();
+      for (const auto &known : options.options())
+        {
+          names.push_back(known->long_name());
+          if (name.size() > 1 &&
+              names.back().compare(0, name.size(), name) == 0)
+            result.push_back(names.back());
+        }
+      return result.empty() ? nearest_names(name, names) : result;
+    }
+
     std::string
     unknown_option_message(const std::string &option)
     {
-      std::vector<std::string>      names;
-      const po::options_description options = visible_options();
-      for (const auto &known : options.options())
-        names.push_back("--" + known->long_name());
-      return "Unknown option \"" + option + "\"." +
-             did_you_mean(
-               nearest_names(option.substr(0, option.find('=')), names)) +
+      // dashes, which all options have, make none of them nearer
+      const std::size_t begin =
+        std::min(option.find_first_not_of('-'), option.size());
+      std::vector<std::string> names =
+        options_near(option.substr(begin, option.find('=') - begin));
+      for (std::string &name : names)
+        name = "--" + name;
+      return "Unknown option \"" + option + "\"." + did_you_mean(names) +
              "\n  \"caisson_mpm --help\" lists the options.";
     }
 
@@ -146,12 +165,15 @@ namespace CaissonMPM
   usage()
   {
     std::ostringstream text;
-    text << "caisson_mpm: suction caissons pushed into sand, by an "
-            "axisymmetric material point method.\n\n"
-            "Usage: caisson_mpm FILE.prm [options]\n\n"
-         << visible_options()
-         << "\nExit status: 0 success, 1 bad input, 2 failure while running, "
-            "3 stopped on request\nwith a checkpoint.\n";
+    text
+      << "caisson_mpm: suction caissons pushed into sand, by an "
+         "axisymmetric material point method.\n\n"
+         "Usage: caisson_mpm FILE.prm [options]\n\n"
+      << visible_options()
+      << "\nExamples are in prm/, from prm/tutorial.prm on; the documentation "
+         "is in doc/,\nfrom doc/quick_start.md on.\n"
+         "\nExit status: 0 success, 1 bad input, 2 failure while running, "
+         "3 stopped on request\nwith a checkpoint.\n";
     return text.str();
   }
 } // namespace CaissonMPM

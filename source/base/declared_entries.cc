@@ -327,6 +327,17 @@ namespace CaissonMPM
 
 
 
+  std::vector<std::string>
+  choices_of(const std::string &pattern)
+  {
+    if (!starts_with(pattern, "[Selection"))
+      return {};
+    return dealii::Utilities::split_string_list(
+      between(pattern, "[Selection ", "]"), '|');
+  }
+
+
+
   // deal.II has words of its own, but writes the bounds of unbounded numbers
   // ("-MAX_DOUBLE <= v"), and pattern_factory() misreads a list of lists.
   std::string

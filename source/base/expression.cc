@@ -96,6 +96,9 @@ namespace CaissonMPM
   Expression::at_time(const double t) const
   {
     const double value = (*this)(Point<2>(), t);
+    if (value != (*this)(Point<2>(1.3, -2.7), t) && std::isfinite(value))
+      throw BadInput(where + " depends on r or z, and may depend on the time t "
+                             "alone.");
     if (!std::isfinite(value))
       throw BadInput(where + " is " + to_text(value) + " at t = " + to_text(t) +
                      " s. Write an expression that is finite at all times of "

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <tuple>
 
 namespace CaissonMPM
@@ -116,6 +117,46 @@ namespace CaissonMPM
       if (result.size() < 3 && candidate.distance <= max_distance &&
           candidate.distance <= candidates.front().distance + 1)
         result.push_back(candidate.name);
+    return result;
+  }
+
+
+
+  std::vector<std::string>
+  names_of_symbol(const std::string              &path,
+                  const std::vector<std::string> &known_names)
+  {
+    static const std::map<std::string, std::string> names = {
+      {"c", "Cohesion"},
+      {"cfl", "Courant number"},
+      {"d", "Outer diameter"},
+      {"delta", "Friction angle of the outer wall"},
+      {"dt", "Time step"},
+      {"e", "Youngs modulus"},
+      {"g", "Gravity"},
+      {"gamma", "Solid density"},
+      {"k", "Permeability"},
+      {"l", "Skirt length"},
+      {"n", "Porosity"},
+      {"nu", "Poisson ratio"},
+      {"phi", "Friction angle"},
+      {"psi", "Dilatancy angle"},
+      {"t", "Wall thickness"},
+      {"unit weight", "Solid density"},
+      {"wall friction", "Friction angle of the outer wall"}};
+    const auto [subsection, symbol] = split_path(lower_case(path));
+    const auto               meant  = names.find(symbol);
+    std::vector<std::string> result;
+    for (const std::string &known : known_names)
+      {
+        const auto [of_known, last] = split_path(known);
+        if (meant == names.end() || last != meant->second)
+          continue;
+        if (lower_case(of_known) == subsection)
+          return {known};
+        if (result.empty())
+          result = {known};
+      }
     return result;
   }
 

@@ -313,8 +313,12 @@ namespace CaissonMPM
     {
       if (entries.has_subsection(path))
         return place + ": " + quote(path) + " is a subsection, not an entry.";
+      std::vector<std::string> names =
+        names_of_symbol(path, entries.entry_paths());
+      if (names.empty())
+        names = nearest_names(path, entries.entry_paths());
       return place + ": there is no entry " + quote(path) + "." +
-             did_you_mean(nearest_names(path, entries.entry_paths()));
+             did_you_mean(names);
     }
 
 
@@ -342,8 +346,9 @@ namespace CaissonMPM
     {
       // An override replaces what the file says, but not another override.
       files.push_back({});
-      for (const std::string &text : overrides)
+      for (const std::string &written : overrides)
         {
+          const std::string text       = with_plain_spaces(written);
           const std::string place      = "--set " + quote(text);
           const std::size_t equal_sign = text.find('=');
           if (equal_sign == std::string::npos)
@@ -440,12 +445,14 @@ namespace CaissonMPM
       for (std::size_t i = 0; i < entry.subsections.size(); ++i)
         prm.leave_subsection();
       if (!is_allowed)
-        throw BadInput(place + ": " + quote(entry.path) + " cannot be " +
-                       (value.empty() ? "empty" : quote(value)) +
-                       ".\n  Allowed: " + allowed_values(entry.pattern) + "." +
-                       (entry.documentation.empty() ?
-                          "" :
-                          "\n  Meaning: " + entry.documentation));
+        throw BadInput(
+          place + ": " + quote(entry.path) + " cannot be " +
+          (value.empty() ? "empty" : quote(value)) + "." +
+          did_you_mean(nearest_names(value, choices_of(entry.pattern))) +
+          "\n  Allowed: " + allowed_values(entry.pattern) + "." +
+          (entry.documentation.empty() ?
+             "" :
+             "\n  Meaning: " + entry.documentation));
     }
   } // namespace
 

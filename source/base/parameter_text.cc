@@ -28,6 +28,22 @@ namespace CaissonMPM
             result.push_back((parent / item.path().filename()).string());
         return result;
       }
+
+      std::string
+      with_replaced(const std::string &text,
+                    const std::string &old_part,
+                    const std::string &new_part)
+      {
+        std::string result;
+        std::size_t from = 0;
+        for (std::size_t at = text.find(old_part); at != std::string::npos;
+             at             = text.find(old_part, from))
+          {
+                        result += text.substr(from, at - from) + new_part;
+                        from = at + old_part.size();
+          }
+        return result + text.substr(from);
+      }
     } // namespace
 
 
@@ -79,6 +95,18 @@ namespace CaissonMPM
 
 
     std::string
+    with_plain_spaces(const std::string &text)
+    {
+      std::string result = text;
+      for (const std::string space :
+           {"\xC2\xA0", "\xE2\x80\x87", "\xE2\x80\xAF"})
+        result = with_replaced(result, space, " ");
+      return result;
+    }
+
+
+
+    std::string
     normalize_path(const std::string &path)
     {
       std::string        result;
@@ -93,9 +121,13 @@ namespace CaissonMPM
     std::string
     read_text(const std::string &file_name, const std::string &place)
     {
-      const std::string file = (place.empty() ? "The" : place + ": the") +
+      constexpr std::size_t largest_size = 16 * 1024 * 1024; // bytes
+      const std::string     file = (place.empty() ? "The" : place + ": the") +
                                " parameter file " + quote(file_name);
       std::error_code error;
+      if (file_name == "-")
+        throw BadInput(file + " does not exist.\n  To read the standard input, "
+                              "give /dev/stdin.");
       if (std::filesystem::is_directory(file_name, error))
         throw BadInput(file + " is a directory.\n  Give a file in it.");
       if (!std::filesystem::exists(file_name, error))
@@ -109,14 +141,17 @@ namespace CaissonMPM
       std::ifstream stream(file_name, std::ios::binary);
       if (!stream)
         throw BadInput(file + " cannot be opened.\n  Is reading permitted?");
-      std::ostringstream content;
-      content << stream.rdbuf();
-      std::string text = content.str();
+      std::string text(largest_size + 1, ' ');
+      stream.read(text.data(), text.size());
+      text.resize(stream.gcount());
       if (text.find('\0') != std::string::npos)
         throw BadInput(file + " is not a text file.");
       if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) // byte order mark
         text.erase(0, 3);
-      return text;
+      if (text.size() > largest_size)
+        throw BadInput(file + " has more than 16 MB. Is it the right file?");
+      text = with_replaced(with_replaced(text, "\r\n", "\n"), "\r", "\n");
+      return with_plain_spaces(text);
     }
 
 

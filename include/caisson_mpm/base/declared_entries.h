@@ -77,6 +77,11 @@ namespace CaissonMPM
   std::string
   allowed_values(const std::string &pattern);
 
+  /** The words among which a pattern lets the user choose; none where it is
+   * another kind of pattern. */
+  std::vector<std::string>
+  choices_of(const std::string &pattern);
+
   /**
    * All entries with their documentation, the values allowed, the default
    * and the value in effect, in the order of declaration. The text can be

@@ -29,6 +29,16 @@ namespace CaissonMPM
                 const std::vector<std::string> &known_names);
 
   /**
+   * The known name that a symbol or an abbreviation of the field stands for, as
+   * the last part of a path: "Time/Courant number" for "Time/CFL". Of names in
+   * several subsections, that in the subsection of the path, else the first.
+   * None where it is no symbol. Upper and lower case count as equal.
+   */
+  std::vector<std::string>
+  names_of_symbol(const std::string              &path,
+                  const std::vector<std::string> &known_names);
+
+  /**
    * The line of an error message that offers the names (indented, with the
    * line break before it); empty where there are none.
    */

@@ -26,12 +26,17 @@ namespace CaissonMPM
     std::string
     quote(const std::string &text);
 
+    /** Make plain spaces of no-break spaces (UTF-8), which text that was copied
+     * from a document has. */
+    std::string
+    with_plain_spaces(const std::string &text);
+
     /** Make "Soil/Friction angle" of " Soil /  Friction angle". */
     std::string
     normalize_path(const std::string &path);
 
-    /** Read a file; @p place is the line that includes it, empty if none.
-     * Throws BadInput where it cannot be read. */
+    /** Read a file, with plain spaces and line ends; @p place is the line that
+     * includes it, empty if none. Throws BadInput where it cannot be read. */
     std::string
     read_text(const std::string &file_name, const std::string &place);
 
