@@ -29,7 +29,7 @@ class Lost(ProgramTest):
     def test_not_finite(self) -> None:
         path = self.directory()
         text = self.run_scene(
-            "jack", path, FAILURE, entries={"Soil/Layer 1/Solid density": 1e308}
+            "jack", path, FAILURE, entries={"Soil/Layer 1/Solid density": 1e307}
         )
         self.assert_words(
             ["not finite", "step", "material point", "began at", "Likely cause"], text

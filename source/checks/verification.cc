@@ -95,7 +95,12 @@ namespace CaissonMPM
           if (check.of_points && word == "where")
             {
               std::getline(in, check.region);
-              Expression(check.region, place + "the region");
+              check.region = Utilities::trim(check.region);
+              if (Expression(check.region, place + "the region").is_zero())
+                throw BadInput(place +
+                               "the region is 0, which no point belongs "
+                               "to. Write an expression that is not 0 "
+                               "in it.");
             }
           else if (!check.of_points && (word == "from" || word == "to"))
             {
@@ -109,6 +114,10 @@ namespace CaissonMPM
                            "\"where REGION\", behind a series \"from T\" and "
                            "\"to T\".");
         }
+      if (check.begin > check.end)
+        throw BadInput(place + "from " + to_text(check.begin) + " to " +
+                       to_text(check.end) +
+                       " has no record: write the earlier time first.");
     }
 
     /** What stands behind the first colon. */

@@ -351,7 +351,7 @@ namespace CaissonMPM
         for (unsigned int d = 0; d < 2; ++d)
           {
             if (!velocity[d].is_zero())
-              p.velocity[d] = velocity[d](p.position, 0.);
+              p.velocity[d] = velocity_at(p.position, d);
             p.size[d] = part.size[d];
           }
         p.state  = states[p.material];
@@ -362,6 +362,19 @@ namespace CaissonMPM
       }
 
     private:
+      double
+      velocity_at(const Point<2> &place, const unsigned int component) const
+      {
+        const double v = velocity[component](place, 0.);
+        if (!std::isfinite(v))
+          throw BadInput("Soil/Initial velocity is " + to_text(v) +
+                         " m/s at r = " + to_text(place[radial]) +
+                         " m, z = " + to_text(place[vertical]) +
+                         " m. Write expressions that are finite where there "
+                         "is soil.");
+        return v;
+      }
+
       const Soil                 &soil;
       const VectorExpression      velocity;
       std::vector<StateVariables> states;
@@ -373,8 +386,17 @@ namespace CaissonMPM
                                const Expression &further) const
   {
     const double r = place[radial];
-    return r >= region_left && r <= region_right &&
-           (further.empty() || further(place, 0.) > 0.);
+    if (r < region_left || r > region_right)
+      return false;
+    if (further.empty())
+      return true;
+    const double value = further(place, 0.);
+    if (!std::isfinite(value))
+      throw BadInput("Material points/Region = " + region + " is " +
+                     to_text(value) + " at r = " + to_text(r) +
+                     " m, z = " + to_text(place[vertical]) +
+                     " m. Write an expression that is finite everywhere.");
+    return value > 0.;
   }
 
   void

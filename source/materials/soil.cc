@@ -391,6 +391,11 @@ namespace CaissonMPM
       throw BadInput(
         "Soil/Gravity has a horizontal component, and Soil/Initial "
         "stress = K0 needs it vertical. Set Initial stress = none.");
+    if (stress_state == InitialStress::k0 && gravity[vertical] > 0.)
+      throw BadInput("Soil/Gravity = " + gravity_text +
+                     " points upward (z grows upward), and with Soil/Initial "
+                     "stress = K0 the soil would be in tension. Write 0, "
+                     "-9.81.");
     initial_velocity();
   }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
+
+#include <cmath>
 
 namespace CaissonMPM
 {
@@ -67,14 +70,37 @@ namespace CaissonMPM
                          "Boundary conditions/Prescribed region is empty");
   }
 
+  std::string
+  BoundaryConditions::region_entry() const
+  {
+    return "Boundary conditions/Prescribed region = " + region_text;
+  }
+
+  namespace
+  {
+    /** The value, if it is finite. */
+    double
+    finite_value(const Expression  &expression,
+                 const Point<2>    &x,
+                 const double       time,
+                 const std::string &where)
+    {
+      const double value = expression(x, time);
+      if (!std::isfinite(value))
+        throw BadInput(
+          where + " is " + to_text(value) + " at r = " + to_text(x[radial]) +
+          " m, z = " + to_text(x[vertical]) + " m, t = " + to_text(time) +
+          " s. Write an expression that is finite everywhere and "
+          "at all times of the run.");
+      return value;
+    }
+  } // namespace
+
   Expression
   BoundaryConditions::parse_region() const
   {
-    return region_text.empty() ?
-             Expression() :
-             Expression(region_text,
-                        "Boundary conditions/Prescribed region = " +
-                          region_text);
+    return region_text.empty() ? Expression() :
+                                 Expression(region_text, region_entry());
   }
 
   VectorExpression
@@ -121,11 +147,18 @@ namespace CaissonMPM
     for (unsigned int node = 0; node < grid.n_nodes(); ++node)
       {
         const Point<2> x(grid.r_of(node), grid.z_of(node));
-        if (!(region(x, time) > 0.))
+        if (finite_value(region, x, time, region_entry()) <= 0.)
           continue;
         for (unsigned int d = 0; d < 2; ++d)
           if (!velocity[d].empty())
-            prescribed.push_back({node, d, velocity[d](x, time + .5 * dt)});
+            prescribed.push_back({node,
+                                  d,
+                                  finite_value(velocity[d],
+                                               x,
+                                               time + .5 * dt,
+                                               "Boundary conditions/Prescribed "
+                                               "velocity = " +
+                                                 velocity_text)});
       }
   }
 

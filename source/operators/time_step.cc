@@ -48,6 +48,11 @@ namespace CaissonMPM
     find_moduli(grid.communicator(), points, soil, materials);
     find_limit(grid, points, soil, materials);
     age = 1; // the start of a run counts as a step
+    if (!std::isfinite(limit) || limit <= 0.)
+      throw BadInput("the stability limit of the time step is " +
+                     to_text(limit) + " s, set by " + limiting_cell +
+                     ". Check the stiffness and the densities of the soil, "
+                     "and Soil/Fluid density.");
     if (is_too_large())
       throw BadInput(text_of_too_large_step());
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
+#include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/domain/all_points.h>
 #include <caisson_mpm/simulation/recorder.h>
@@ -107,6 +108,19 @@ namespace CaissonMPM
     this->kernels      = &kernels;
     wrong_error_bar_   = error_bar.read(scene, fingerprint);
     OutputDirectory::check(directory, parts.grid.communicator());
+  }
+
+  void
+  Recorder::try_observations() const
+  {
+    try
+      {
+        observed_values();
+      }
+    catch (const RunFailure &error)
+      {
+        throw BadInput(error.what());
+      }
   }
 
   void

@@ -18,7 +18,7 @@ namespace CaissonMPM
     std::string
     rough(const double x)
     {
-      if (x < 100.)
+      if (x < 100. || x > 1e15)
         return to_text(x, 2);
       const double unit = std::pow(10., std::floor(std::log10(x)) - 1.);
       return to_text(static_cast<unsigned long>(std::round(x / unit) * unit));
@@ -54,6 +54,7 @@ namespace CaissonMPM
                        to_text(cost.n_points) + "\n  time step  " +
                        to_text(cost.step_size, 4) + " s, limited by " +
                        cost.limit;
+    text += "\n  end        " + cost.end;
     if (std::isfinite(n_steps))
       text += "\n  steps      about " + rough(n_steps);
     text += "\n  memory     about " +

@@ -21,11 +21,14 @@ namespace CaissonMPM
       out << describe_parameters(dealii::ParameterAcceptor::prm);
     }
 
+    /** Print the warnings, each with the places of the entries that it names.
+     */
     void
     print_warnings(const ParameterOrigins &origins, std::ostream &out)
     {
       for (const std::string &text : origins.warnings())
-        out << "warning: " << text << '\n';
+        out << "warning: " << text << origins.places_of_entries_in(text)
+            << '\n';
       out << std::flush;
     }
 
@@ -61,7 +64,7 @@ namespace CaissonMPM
           simulation.set_up(command_line.parameter_file,
                             command_line.output_directory,
                             command_line.restart);
-          simulation.name_limits(origins);
+          simulation.review(origins);
         }
       catch (const BadInput &)
         {
@@ -79,7 +82,7 @@ namespace CaissonMPM
         return;
       std::string text;
       for (const std::string &mistake : mistakes)
-        text += "\n  " + mistake;
+        text += "\n" + mistake + origins.places_of_entries_in(mistake);
       throw BadInput(scene_file + " has " + to_text(mistakes.size()) +
                      (mistakes.size() == 1 ? " warning" : " warnings") +
                      ", which --strict takes for errors:" + text);
@@ -107,9 +110,12 @@ namespace CaissonMPM
     if (!command_line.validate)
       return with_places(origins,
                          [&]() { return simulation.run(origins.warnings()); });
+    // the first steps, too, may show that an entry is wrong
+    const std::string cost = with_places(origins, [&]() {
+      return describe(simulation.estimate_cost());
+    });
     print_warnings(origins, out);
-    out << command_line.parameter_file << " is valid\n"
-        << describe(simulation.estimate_cost()) << std::flush;
+    out << command_line.parameter_file << " is valid\n" << cost << std::flush;
     return ExitStatus::success;
   }
 } // namespace CaissonMPM

@@ -308,12 +308,50 @@ namespace CaissonMPM
 
 
 
+  std::vector<double>
+  Schedule::frames_out_of_reach() const
+  {
+    constexpr double    same_place = 1e-6; // m
+    const auto          range      = travel_to_hold();
+    std::vector<double> result;
+    for (const double depth : frame_penetrations)
+      if (body.shape().exists() &&
+          (travel_at(depth) < range.first - same_place ||
+           travel_at(depth) > range.second + same_place))
+        result.push_back(depth);
+    return result;
+  }
+
+
+
+  double
+  Schedule::n_records() const
+  {
+    return record_interval ? end / *record_interval : never;
+  }
+
+
+
   std::string
   Schedule::end_description() const
   {
     return std::isfinite(end) ?
              to_text(end, 6) + " s" :
              "at a penetration of " + to_text(*last_penetration) + " m";
+  }
+
+
+
+  std::string
+  Schedule::entry_of_end() const
+  {
+    if (!last_penetration)
+      return "Time/End time";
+    const double time = time_of(*last_penetration);
+    if (!last_time || time <= *last_time)
+      return "Time/End penetration";
+    return std::isfinite(time) ? "Time/End time" :
+                                 "Time/End penetration or Time/End time";
   }
 
 

@@ -6,12 +6,15 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/simulation/physics_text.h>
+#include <caisson_mpm/simulation/scene_review.h>
 #include <caisson_mpm/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace CaissonMPM
 {
@@ -104,10 +107,16 @@ namespace CaissonMPM
     nodal_forces.initialize(soil.mass_scaling());
     materials = soil.kernel_materials();
     water.stiffen(materials);
+    body.find_weight(mass_of_body(), soil);
+  }
+
+  double
+  Simulation::mass_of_body() const
+  {
     double mass = 0.;
     for (const BodyPoint &p : body_points)
       mass += p.mass;
-    body.find_weight(Utilities::MPI::sum(mass, grid.communicator()), soil);
+    return Utilities::MPI::sum(mass, grid.communicator());
   }
 
   RunCost
@@ -121,8 +130,9 @@ namespace CaissonMPM
                                                        grid.communicator());
     cost.n_frames  = schedule.n_frames();
     cost.step_size = time_step.step_size();
-    cost.limit     = time_step.reason();
-    cost.duration  = schedule.end_time() - clock.time;
+    cost.end   = schedule.end_description() + ", by " + schedule.entry_of_end();
+    cost.limit = time_step.reason();
+    cost.duration = schedule.end_time() - clock.time;
 
     unsigned int  n = 0;
     dealii::Timer timer(grid.communicator(), true);
@@ -181,7 +191,59 @@ namespace CaissonMPM
     else
       start();
     time_step.initialize(grid, points, soil, materials);
+    check_initial_speed();
+    recorder.try_observations();
+    check_number_of_steps();
     clock.step_size = schedule.shorten(time_step.step_size());
+  }
+
+  void
+  Simulation::check_initial_speed() const
+  {
+    double fastest_wave = 0., fastest_point = 0.;
+    for (unsigned int i = 0; i < soil.n_layers(); ++i)
+      fastest_wave = std::max(fastest_wave, wave_speed(i));
+    points.for_each_motion([&](const Point<2> &,
+                               const Vector2 &velocity,
+                               const double,
+                               const unsigned int) {
+      fastest_point = std::max(fastest_point, velocity.norm());
+    });
+    fastest_point = Utilities::MPI::max(fastest_point, grid.communicator());
+    if (!is_restart && fastest_point > fastest_wave)
+      throw BadInput("Soil/Initial velocity reaches " +
+                     to_text(fastest_point, 4) +
+                     " m/s, more than the wave speed of the soil, " +
+                     to_text(fastest_wave, 4) +
+                     " m/s: in a step, points would pass whole cells. Reduce "
+                     "it.");
+  }
+
+  void
+  Simulation::check_number_of_steps() const
+  {
+    constexpr double largest = 1e14; // a step then still changes the time
+    if (std::isfinite(schedule.end_time()) && number_of_steps() > largest)
+      throw BadInput("the run would take " + to_text(number_of_steps(), 2) +
+                     " steps of " + to_text(time_step.step_size(), 3) +
+                     " s, and never end. The step is limited by " +
+                     time_step.reason() +
+                     ". Check Time/Time step, and the stiffness and density of "
+                     "the soil.");
+  }
+
+  double
+  Simulation::number_of_steps() const
+  {
+    return std::ceil((schedule.end_time() - clock.time) /
+                     time_step.step_size());
+  }
+
+  double
+  Simulation::wave_speed(const unsigned int layer) const
+  {
+    return std::sqrt(materials[layer].p_wave_modulus /
+                     soil.inertial_density(layer));
   }
 
   void
@@ -266,8 +328,21 @@ namespace CaissonMPM
   }
 
   void
-  Simulation::name_limits(ParameterOrigins &origins) const
+  Simulation::review(ParameterOrigins &origins) const
   {
+    double slowest_wave = std::numeric_limits<double>::infinity();
+    for (unsigned int i = 0; i < soil.n_layers(); ++i)
+      slowest_wave = std::min(slowest_wave, wave_speed(i));
+    SceneReview({lines,
+                 soil,
+                 body,
+                 water,
+                 schedule,
+                 mass_of_body(),
+                 slowest_wave,
+                 number_of_steps()},
+                origins)
+      .all();
     if (!recorder.wrong_error_bar().empty())
       origins.add_warning(recorder.wrong_error_bar());
     for (const auto &limits : {soil.known_limits(),

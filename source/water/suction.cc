@@ -154,6 +154,16 @@ namespace CaissonMPM
                        why);
   }
 
+  double
+  Suction::largest_of_table() const
+  {
+    double result = 0.;
+    if (control == Control::table)
+      for (const auto &row : table)
+        result = std::max(result, row.second);
+    return result;
+  }
+
   void
   Suction::advance(const double time, const double dt, const SuctionLoad &load)
   {

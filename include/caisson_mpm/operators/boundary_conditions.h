@@ -91,6 +91,9 @@ namespace CaissonMPM
       double       velocity;
     };
 
+    /** The entry with its text, for messages. */
+    std::string
+    region_entry() const;
     Expression
     parse_region() const;
     VectorExpression

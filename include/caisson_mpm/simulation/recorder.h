@@ -63,6 +63,11 @@ namespace CaissonMPM
       return wrong_error_bar_;
     }
 
+    /** Throw BadInput where an observation finds no material point. Collective.
+     */
+    void
+    try_observations() const;
+
     /** Prepare the directory and the terminal. Throws BadInput where the
      * directory cannot be used. */
     void

@@ -16,6 +16,7 @@ namespace CaissonMPM
     unsigned int  n_frames  = 0;
     double        step_size = 0.;  // s
     std::string   limit;           // what limits the step
+    std::string   end;             // when, and by which entry
     double        duration   = 0.; // s; infinite where it is not known
     double        peak_bytes = 0.; // memory so far
     /** Measured in the first steps; 0 where there is no measurement. */

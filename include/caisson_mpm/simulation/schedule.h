@@ -115,9 +115,22 @@ namespace CaissonMPM
       return frame_penetrations;
     }
 
+    /** Return those of them that the body does not pass. Units: m. */
+    std::vector<double>
+    frames_out_of_reach() const;
+
+    /** Return the number of rows of history.csv, infinite where every step has
+     * one, or where the end is not known. */
+    double
+    n_records() const;
+
     /** Return the end in words. */
     std::string
     end_description() const;
+
+    /** Return the entry that decides when the run ends. */
+    std::string
+    entry_of_end() const;
 
     /** Register what a continued run must know. */
     void

@@ -69,9 +69,10 @@ namespace CaissonMPM
            const std::string &output_directory,
            const bool         restart);
 
-    /** Tell what else is to be warned of in this scene; after set_up(). */
+    /** Tell what else is to be warned of in this scene, doubtful values and
+     * known limits; after set_up(). Collective. */
     void
-    name_limits(ParameterOrigins &origins) const;
+    review(ParameterOrigins &origins) const;
 
     /** Find out how large the run is; after set_up(). Takes some steps: run()
      * does not go on from there. */
@@ -102,8 +103,25 @@ namespace CaissonMPM
     check_parameters();
     void
     place_lines();
+    /** Return the mass of the body's cells on all ranks. Collective. Units: kg.
+     */
+    double
+    mass_of_body() const;
     void
     make_mesh();
+    /** Throw BadInput where soil begins faster than its waves. Collective. */
+    void
+    check_initial_speed() const;
+    /** Throw BadInput where the steps are too short to come to the end. */
+    void
+    check_number_of_steps() const;
+    /** Return how many steps are left, infinite where it is not known. */
+    double
+    number_of_steps() const;
+    /** Return the speed of compression waves in a layer, with mass scaling.
+     * Units: m/s. */
+    double
+    wave_speed(const unsigned int layer) const;
     /** Set up what knows the cells or nodes of this rank. */
     void
     set_up_part();

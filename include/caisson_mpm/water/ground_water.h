@@ -81,6 +81,19 @@ namespace CaissonMPM
       return flows() && has_lid();
     }
 
+    /** The largest suction of the table, and that of the pump; 0 where there is
+     * none. Units: Pa. */
+    double
+    largest_suction_of_table() const
+    {
+      return suction.largest_of_table();
+    }
+    double
+    largest_suction_of_pump() const
+    {
+      return suction.largest_of_pump();
+    }
+
     /** Whether the pressure follows from the motion of the soil. */
     bool
     is_coupled() const

@@ -134,6 +134,19 @@ namespace CaissonMPM
     std::string
     limit_reached(const double height) const;
 
+    /** Return the largest suction of the table; 0 where it is not used. Units:
+     * Pa. */
+    double
+    largest_of_table() const;
+
+    /** Return the largest suction of the pump; 0 where it has no limit. Units:
+     * Pa. */
+    double
+    largest_of_pump() const
+    {
+      return largest.value_or(0.);
+    }
+
     void
     register_totals(RunTotals &totals);
 

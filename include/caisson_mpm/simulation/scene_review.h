@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What an engineer would ask about a scene before it is run.
+#ifndef caisson_mpm_simulation_scene_review_h
+#define caisson_mpm_simulation_scene_review_h
+
+#include <caisson_mpm/base/parameter_origins.h>
+#include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/domain/grid_lines.h>
+#include <caisson_mpm/materials/soil.h>
+#include <caisson_mpm/simulation/run_cost.h>
+#include <caisson_mpm/simulation/schedule.h>
+#include <caisson_mpm/water/ground_water.h>
+
+#include <string>
+
+namespace CaissonMPM
+{
+  /** What a review looks at. */
+  struct ReviewedScene
+  {
+    const GridLines   &lines;
+    const Soil        &soil;
+    const RigidBody   &body;
+    const GroundWater &water;
+    const Schedule    &schedule;
+    double             body_mass;  // of its cells, kg
+    double             wave_speed; // least one of the layers, m/s
+    double             n_steps;    // infinite where the end is not known
+  };
+
+  /**
+   * Warns of values that the program can compute with, but that are hardly
+   * meant: units that are off by a thousand, boundaries that are too near, a
+   * wall that is rougher than the soil. What cannot be meant at all is refused
+   * where the entry belongs. After the lines are placed; not collective.
+   */
+  class SceneReview
+  {
+  public:
+    /** The warnings go to @p origins. */
+    SceneReview(const ReviewedScene &scene, ParameterOrigins &origins)
+      : scene(scene)
+      , origins(origins)
+    {}
+
+    void
+    all();
+
+  private:
+    void
+    layers();
+    void
+    stiffness_and_strength(const unsigned int layer);
+    void
+    solid_density(const unsigned int layer);
+    void
+    gravity();
+    void
+    fluid();
+    void
+    thin_layers();
+    void
+    size_of_body();
+    void
+    motion_of_body();
+    void
+    wall_friction();
+    void
+    boundaries();
+    /** Whether the body is a box: a plate, a block or a piston. */
+    bool
+    is_block() const;
+    /** Whether soil must give way to a caisson or cone that goes deeper. */
+    bool
+    is_pushed_in() const;
+    void
+    suction();
+    void
+    length_of_run();
+
+    /** Warn of an entry with its value: "Section/Entry = 5 Pa text". */
+    void
+    doubt(const std::string &entry,
+          const double       value,
+          const std::string &unit,
+          const std::string &text);
+
+    const ReviewedScene scene;
+    ParameterOrigins   &origins;
+  };
+} // namespace CaissonMPM
+
+#endif

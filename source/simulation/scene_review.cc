@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/simulation/scene_review.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace CaissonMPM
+{
+  namespace
+  {
+    // What lies outside of these is hardly meant in SI units, where a body goes
+    // into the ground; tests of the method take other numbers.
+    constexpr double least_modulus = 1e4, largest_modulus = 1e12,
+                     largest_strength      = 1e9;   // Pa
+    constexpr double least_solid_density   = 1000., // kg/m3
+      largest_solid_density                = 6000.; // kg/m3
+    constexpr double least_fluid_density   = 500.,  // kg/m3
+      largest_fluid_density                = 2000.; // kg/m3
+    constexpr double least_body_density    = 100.,  // kg/m3
+      largest_body_density                 = 3e4;   // kg/m3
+    constexpr double largest_gravity       = 5000.; // m/s2, centrifuge
+    constexpr double largest_permeability  = 1.;    // m/s
+    constexpr double largest_size          = 200.;  // of a body, m
+    constexpr double largest_part_of_speed = .1;    // of waves
+    constexpr double largest_n_steps = 1e8, largest_n_frames = 1e4,
+                     largest_n_records = 1e6;
+    // Distances from the wall and below the tip, in diameters, of a body that
+    // is deeper than a quarter of them: see doc/limitations.md, Boundaries.
+    constexpr double least_to_side = 2., least_to_bottom = 1.5, shallow = .25;
+
+    std::string
+    section_of(const unsigned int layer)
+    {
+      return "Soil/Layer " + to_text(layer + 1);
+    }
+
+    std::string
+    meters(const double x)
+    {
+      return to_text(x, 4) + " m";
+    }
+
+    /** Which other unit may be meant by a density; empty if none. */
+    std::string
+    other_unit_of_density(const double density)
+    {
+      if (density >= .5 && density < 8.)
+        return " The value may be in t/m3 (g/cm3): multiply it by 1000.";
+      if (density >= 8. && density < 80.)
+        return " The value may be a unit weight in kN/m3: divide it by 9.81 and "
+               "multiply it by 1000.";
+      return "";
+    }
+  } // namespace
+
+
+
+  void
+  SceneReview::all()
+  {
+    thin_layers();
+    gravity();
+    if (scene.body.shape().exists() && !is_block())
+      {
+        layers();
+        fluid();
+      }
+    if (scene.body.shape().exists())
+      {
+        size_of_body();
+        motion_of_body();
+        wall_friction();
+        boundaries();
+        suction();
+      }
+    length_of_run();
+  }
+
+
+
+  void
+  SceneReview::doubt(const std::string &entry,
+                     const double       value,
+                     const std::string &unit,
+                     const std::string &text)
+  {
+    origins.add_warning(entry + " = " + to_text(value, 6) + " " + unit + " " +
+                        text);
+  }
+
+  // ------------------------------------------------------------ soil
+
+  void
+  SceneReview::layers()
+  {
+    for (unsigned int i = 0; i < scene.soil.n_layers(); ++i)
+      {
+        stiffness_and_strength(i);
+        solid_density(i);
+        const double k = scene.soil.layer(i).permeability;
+        if (scene.water.flows() && k > largest_permeability)
+          doubt(section_of(i) + "/Permeability",
+                k,
+                "m/s",
+                "is more than that of gravel. Check the unit, m/s.");
+      }
+  }
+
+
+
+  void
+  SceneReview::stiffness_and_strength(const unsigned int layer)
+  {
+    const SoilLayer &soil = scene.soil.layer(layer);
+    for (const std::string name : {"Youngs modulus", "Granular hardness"})
+      if (const auto value = soil.law_value(name))
+        if (*value < least_modulus || *value > largest_modulus)
+          doubt(section_of(layer) + "/" + name,
+                *value,
+                "Pa",
+                "is not the stiffness of a soil. Check the unit, Pa: 1 MPa is "
+                "1e6 Pa.");
+    for (const std::string name : {"Cohesion", "Residual cohesion"})
+      if (const auto value = soil.law_value(name))
+        if (*value > largest_strength)
+          doubt(section_of(layer) + "/" + name,
+                *value,
+                "Pa",
+                "is not the strength of a soil. Check the unit, Pa.");
+  }
+
+
+
+  void
+  SceneReview::solid_density(const unsigned int layer)
+  {
+    const double density = scene.soil.layer(layer).solid_density;
+    if (density < least_solid_density || density > largest_solid_density)
+      doubt(section_of(layer) + "/Solid density",
+            density,
+            "kg/m3",
+            "is not the density of grains, which is about 2650 kg/m3." +
+              other_unit_of_density(density));
+  }
+
+
+
+  void
+  SceneReview::gravity()
+  {
+    const double gravity = scene.soil.gravity[vertical];
+    if (std::abs(gravity) > largest_gravity)
+      origins.add_warning("Soil/Gravity is " + to_text(gravity, 6) +
+                          " m/s2 in the vertical, which is more than that of "
+                          "a centrifuge. Check the unit, m/s2.");
+    if (gravity > 0.)
+      origins.add_warning(
+        "Soil/Gravity points upward: z grows upward, so that its "
+        "second number is negative on earth.");
+  }
+
+
+
+  void
+  SceneReview::fluid()
+  {
+    const double gravity = scene.soil.gravity[vertical];
+    if (!scene.soil.is_submerged() || gravity == 0.)
+      return;
+    const double density = -scene.soil.unit_weight_of_water() / gravity;
+    if (density < least_fluid_density || density > largest_fluid_density)
+      doubt("Soil/Fluid density",
+            density,
+            "kg/m3",
+            "is not the density of water." + other_unit_of_density(density));
+  }
+
+
+
+  void
+  SceneReview::thin_layers()
+  {
+    const double width = scene.body.shape().cell_width();
+    for (unsigned int i = 0; i + 1 < scene.soil.n_layers(); ++i)
+      {
+        const double thickness =
+          scene.soil.layer(i + 1).top_depth - scene.soil.layer(i).top_depth;
+        if (thickness < width)
+          doubt(section_of(i + 1) + "/Top depth",
+                scene.soil.layer(i + 1).top_depth,
+                "m",
+                "makes layer " + to_text(i + 1) + " only " + meters(thickness) +
+                  " thick, thinner than the cells at the "
+                  "wall (" +
+                  meters(width) +
+                  "): its row of cells makes the time step small. Join the "
+                  "layer with the one above or below.");
+      }
+  }
+
+  // ------------------------------------------------------------ body
+
+  void
+  SceneReview::size_of_body()
+  {
+    const BodyShape &shape = scene.body.shape();
+    const double     size =
+      std::max(2. * shape.right(),
+               shape.expands() ? 0. : shape.top() - shape.bottom());
+    if (size > largest_size)
+      origins.add_warning(
+        "the body is " + meters(size) +
+        " large. Check Rigid body/Outer diameter and Rigid body/Skirt length: lengths are in meters.");
+    const double density = scene.body.density;
+    if (density < least_body_density || density > largest_body_density)
+      doubt("Rigid body/Density",
+            density,
+            "kg/m3",
+            "is not the density of steel (7850 kg/m3) or concrete (2400 "
+            "kg/m3)." +
+              other_unit_of_density(density));
+    const double top_at_end = shape.top() - scene.lines.total_travel();
+    if (!shape.expands() && top_at_end < -1e-9)
+      origins.add_warning(
+        "the travel of " + meters(scene.lines.total_travel()) +
+        " brings the top of the body to z = " + meters(top_at_end) +
+        ", below the soil surface: soil would flow over it, or a lid would be "
+        "in the soil. Increase Rigid body/Skirt length, or end earlier.");
+  }
+
+
+
+  void
+  SceneReview::motion_of_body()
+  {
+    const double speed = scene.body.motion().usual_velocity();
+    if (speed > largest_part_of_speed * scene.wave_speed)
+      origins.add_warning(
+        "the body moves at " + to_text(speed, 4) +
+        " m/s, more than a tenth of the wave speed in the soil, " +
+        to_text(scene.wave_speed, 4) +
+        " m/s: inertia decides its forces. Check Rigid body/Velocity, which is in m/s, and Time/Mass scaling.");
+  }
+
+
+
+  void
+  SceneReview::wall_friction()
+  {
+    const BodyShape      &shape  = scene.body.shape();
+    const auto           &angles = scene.body.surface().friction_angle;
+    std::optional<double> of_soil; // of the weakest layer
+    unsigned int          weakest = 0;
+    for (unsigned int i = 0; i < scene.soil.n_layers(); ++i)
+      if (const auto angle = scene.soil.layer(i).friction_angle())
+        if (!of_soil || *angle < *of_soil)
+          {
+            of_soil = angle;
+            weakest = i;
+          }
+    std::vector<Surface> rougher;
+    for (const Surface s :
+         {Surface::outer_wall, Surface::inner_wall, Surface::tip})
+      if (of_soil && angles[s] > *of_soil &&
+          (s == Surface::tip || !is_block()) &&
+          (s != Surface::inner_wall || shape.left() > 0.))
+        rougher.push_back(s);
+    if (rougher.empty())
+      return;
+    std::string others;
+    for (std::size_t i = 1; i < rougher.size(); ++i)
+      others +=
+        (i == 1 ? ", and so do those of the " : ", the ") + name_of(rougher[i]);
+    doubt("Rigid body/Friction angle of the " + name_of(rougher[0]),
+          angles[rougher[0]],
+          "degrees",
+          "exceeds the friction angle of layer " + to_text(weakest + 1) + ", " +
+            to_text(*of_soil, 4) + " degrees" + others +
+            ": the soil beside such a wall fails before it slides on the wall. "
+            "Set at most that angle; in clay, set 0 and an adhesion.");
+  }
+
+
+
+  void
+  SceneReview::boundaries()
+  {
+    const BodyShape &shape = scene.body.shape();
+    const GridLines &lines = scene.lines;
+    if (!is_pushed_in())
+      return;
+    const double diameter = 2. * shape.right(),
+                 depth    = lines.total_travel() - shape.bottom(),
+                 side     = lines.node_start(lines.n_columns(), 0)[radial],
+                 to_side  = side - shape.right(),
+                 to_floor = lines.depth() - depth;
+    // a body that is hardly in the soil does not reach far
+    const auto needed = [=](const double n_diameters) {
+      return depth <= shallow * diameter ?
+               std::min(2. * depth, n_diameters * diameter) :
+               n_diameters * diameter;
+    };
+    const std::string effect =
+      ", and raises the forces: see doc/limitations.md, Boundaries. Set ";
+    constexpr double tolerance = 1e-9;
+    if (to_side < needed(least_to_side) - tolerance)
+      doubt("Grid/Outer radius",
+            side,
+            "m",
+            "puts the side " + meters(to_side) +
+              " from the wall, nearer than " + meters(needed(least_to_side)) +
+              effect + "at least " +
+              meters(shape.right() + needed(least_to_side)) + ".");
+    if (to_floor < needed(least_to_bottom) - tolerance)
+      doubt("Grid/Bottom",
+            -lines.depth(),
+            "m",
+            "is " + meters(to_floor) +
+              " below the tip at the end, nearer than " +
+              meters(needed(least_to_bottom)) + effect + "at most " +
+              meters(-depth - needed(least_to_bottom)) + ".");
+  }
+
+
+
+  bool
+  SceneReview::is_block() const
+  {
+    // the other bodies ask for cells of their own
+    return scene.body.shape().cell_width() == 0.;
+  }
+
+
+
+  bool
+  SceneReview::is_pushed_in() const
+  {
+    return scene.lines.axisymmetric() && !is_block() &&
+           !scene.body.shape().expands() && scene.lines.total_travel() > 0.;
+  }
+
+  // ------------------------------------------------------------ water
+
+  void
+  SceneReview::suction()
+  {
+    // a hundredth of the least that an installation would meet
+    constexpr double  part   = .01;
+    const std::string weight = "Rigid body/Submerged weight";
+    const double      own    = -scene.soil.gravity[vertical] * scene.body_mass;
+    if (origins.is_set(weight) && scene.body.submerged_weight() < part * own)
+      doubt(weight,
+            scene.body.submerged_weight(),
+            "N",
+            "is less than a hundredth of the weight of the body's cells, " +
+              to_text(own, 3) + " N. Check the unit, N: 1 kN is 1000 N.");
+    if (!scene.water.has_suction())
+      return;
+    const BodyShape &shape = scene.body.shape();
+    const double     least =
+      part * scene.soil.unit_weight(0) * (shape.top() - shape.bottom());
+    const auto check = [&](const std::string &entry, const double pressure) {
+      if (pressure > 0. && pressure < least)
+        origins.add_warning(
+          entry + " is " + to_text(pressure, 4) +
+          " Pa, less than a hundredth of the weight of soil over the length "
+          "of the skirt. Check the unit, Pa: 1 kPa is 1000 Pa.");
+    };
+    check("Water/Suction table", scene.water.largest_suction_of_table());
+    check("Water/Largest suction", scene.water.largest_suction_of_pump());
+  }
+
+  // ------------------------------------------------------------ time
+
+  void
+  SceneReview::length_of_run()
+  {
+    std::string depths;
+    for (const double depth : scene.schedule.frames_out_of_reach())
+      depths += (depths.empty() ? "" : ", ") + meters(depth);
+    if (!depths.empty())
+      origins.add_warning(
+        "Output/Frame penetrations: the body does not come to " + depths +
+        ". Remove what is not reached, or set a later end in "
+        "section Time.");
+    if (!std::isfinite(scene.n_steps))
+      return;
+    if (scene.n_steps > largest_n_steps)
+      origins.add_warning(
+        "the run takes about " + to_text(scene.n_steps, 2) +
+        " steps. Check the units, the smallest cells, and Time/Time step.");
+    const double n_frames =
+      std::min<double>(scene.n_steps, scene.schedule.n_frames());
+    if (n_frames > largest_n_frames)
+      origins.add_warning(
+        "the run writes " + to_text(n_frames, 2) +
+        " frames. Check Output/Frame interval, which is in s.");
+    const double n_records =
+      std::min(scene.n_steps, scene.schedule.n_records());
+    if (n_records > largest_n_records)
+      origins.add_warning("the run writes " + to_text(n_records, 2) +
+                          " rows to history.csv. Check Output/Record interval, "
+                          "which is in s.");
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,264 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the program says of scenes that it could run, but that are hardly meant."""
+import os
+import unittest
+
+from program import BAD_INPUT, SCENES, SUCCESS, Entries, ProgramTest, user_scene
+
+BODY = "Rigid body"
+LAYER = "Soil/Layer 1"
+WEIGHT: Entries = {f"{BODY}/Motion": "lowered", "Time/End time": 1}
+SUCTION: Entries = {"Water/Suction control": "table"}
+
+# words of the warning, entries of a scene that have it, entries that do not
+DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
+    (["Youngs modulus = 5 Pa", "1e6 Pa"], {f"{LAYER}/Youngs modulus": 5}, {}),
+    (["Youngs modulus", "stiffness"], {f"{LAYER}/Youngs modulus": 1e14}, {}),
+    (["Cohesion", "strength"], {f"{LAYER}/Cohesion": 1e10}, {}),
+    (
+        ["Solid density = 2.65", "t/m3"],
+        {f"{LAYER}/Solid density": 2.65, "Soil/Fluid density": 1},
+        {f"{LAYER}/Solid density": 2650, "Soil/Fluid density": 1025},
+    ),
+    (
+        ["Fluid density = 10", "kN/m3"],
+        {f"{LAYER}/Solid density": 26.5, "Soil/Fluid density": 10},
+        {},
+    ),
+    (
+        ["points upward"],
+        {"Soil/Gravity": "0, 9.81", "Soil/Initial stress": "none"},
+        {"Soil/Gravity": "0, -9.81", "Soil/Initial stress": "none"},
+    ),
+    (["Gravity", "centrifuge"], {"Soil/Gravity": "0, -9810"}, {}),
+    (["Density = 7.85", "steel"], {f"{BODY}/Density": 7.85}, {f"{BODY}/Density": 2400}),
+    (
+        ["outer wall = 45 degrees", "layer 1, 30 degrees", "Set at most"],
+        {f"{BODY}/Friction angle of the outer wall": 45},
+        {f"{BODY}/Friction angle of the outer wall": 30},
+    ),
+    (
+        ["friction angle of layer 2, 15", "inner wall", "tip"],
+        {
+            "Soil/Number of layers": 2,
+            "Soil/Layer 2/Top depth": 2,
+            "Soil/Layer 2/Friction angle": 15,
+        },
+        {
+            "Soil/Number of layers": 2,
+            "Soil/Layer 2/Top depth": 2,
+            "Soil/Layer 2/Friction angle": 20,
+        },
+    ),
+    (
+        ["layer 2 only 0.05 m thick", "time step"],
+        {
+            "Soil/Number of layers": 3,
+            "Soil/Layer 2/Top depth": 10,
+            "Soil/Layer 3/Top depth": 10.05,
+        },
+        {
+            "Soil/Number of layers": 3,
+            "Soil/Layer 2/Top depth": 10,
+            "Soil/Layer 3/Top depth": 10.5,
+        },
+    ),
+    (
+        ["below the soil surface", "Skirt length"],
+        {f"{BODY}/Skirt length": 6},
+        {f"{BODY}/Skirt length": 6.5},
+    ),
+    (
+        ["Outer radius", "11.9 m from the wall", "at least 15 m"],
+        {"Grid/Outer radius": 14.9},
+        {"Grid/Outer radius": 15},
+    ),
+    (
+        ["Bottom", "8.9 m below the tip", "at most -15.5 m"],
+        {"Grid/Bottom": -15.4},
+        {"Grid/Bottom": -15.5},
+    ),
+    (
+        ["Outer radius", "2 m from the wall", "at least 6 m"],
+        {
+            "Grid/Outer radius": 5,
+            "Time/End penetration": 1.5,
+            "Output/Frame penetrations": "",
+        },
+        {
+            "Grid/Outer radius": 6,
+            "Time/End penetration": 1.5,
+            "Output/Frame penetrations": "",
+        },
+    ),
+    (
+        ["Frame penetrations", "50 m"],
+        {"Output/Frame penetrations": "3, 50"},
+        {"Output/Frame penetrations": "3, 6.5"},
+    ),
+    (["moves at 100 m/s", "wave speed"], {f"{BODY}/Velocity": 100}, {}),
+    (["6e+13 steps"], {"Time/Time step": 1e-12}, {}),
+    (
+        ["frames", "Frame interval"],
+        {"Output/Frame interval": 2e-3},
+        {"Output/Frame interval": 1},
+    ),
+    (
+        ["rows", "Record interval"],
+        {"Time/Time step": 1e-5, "Output/Record interval": 1e-5},
+        {"Time/Time step": 1e-5},
+    ),
+)
+
+# words of the message, entries
+REFUSED: tuple[tuple[list[str], Entries], ...] = (
+    (["upward", "in tension", "0, -9.81"], {"Soil/Gravity": "0, 9.81"}),
+    (["depends on r or z"], {"Loads/Surrounding pressure": "100 + r"}),
+    (["Region = 1/0 is inf"], {"Material points/Region": "1/0"}),
+    (["Region", "nan"], {"Material points/Region": "sqrt(r - 3)"}),
+    (
+        ["Prescribed region = 0/0 is", "nan"],
+        {"Boundary conditions/Prescribed region": "0/0"},
+    ),
+    (
+        ["Prescribed velocity", "inf"],
+        {
+            "Boundary conditions/Prescribed region": "r - 14",
+            "Boundary conditions/Prescribed velocity": "1/0; 0",
+        },
+    ),
+    (["Initial velocity is"], {"Soil/Initial velocity": "0/0; 0"}),
+    (["Initial velocity", "wave speed"], {"Soil/Initial velocity": "0; 1e200"}),
+    (["stability limit", "stiffness"], {f"{LAYER}/Youngs modulus": 1.7e308}),
+    (["never end", "stiffness"], {f"{LAYER}/Youngs modulus": 1e308}),
+    (
+        ["began in its region"],
+        {"Verification/Observations": "a = mean speed where 0"},
+    ),
+    (
+        ["earlier time first"],
+        {"Verification/Checks": "final total_force_N from 1 to 0 : 5 : 1"},
+    ),
+    (["region is 0"], {"Verification/Checks": "max speed where 0 : 5 : 1"}),
+)
+
+
+class Review(ProgramTest):
+    """Scenes of which one entry is hardly meant."""
+
+    def validate(self, name: str, entries: Entries) -> str:
+        """Return what --validate says of a valid scene."""
+        return self.run_program(
+            SUCCESS, user_scene(name), "--validate", entries=entries
+        )
+
+    def test_doubts(self) -> None:
+        """A warning, and none where the entry is just as it should be."""
+        for words, doubtful, good in DOUBTS:
+            with self.subTest(words=words):
+                said = self.validate("jack_coarse", doubtful)
+                self.assert_words(["warning: ", *words], said)
+                if good:
+                    self.assertNotIn("warning", self.validate("jack_coarse", good))
+
+    def test_places(self) -> None:
+        """The warning says where the entry was set."""
+        said = self.validate(
+            "jack_coarse", {f"{BODY}/Friction angle of the outer wall": 45}
+        )
+        self.assertIn("Friction angle of the outer wall is set by --set.", said)
+
+    def test_units_of_suction(self) -> None:
+        """A suction in kPa, and a weight in kN."""
+        table = {**WEIGHT, **SUCTION, "Water/Suction table": "0 : 0, 10 : 90"}
+        self.assert_words(
+            ["Suction table is 90 Pa", "1 kPa is 1000 Pa"],
+            self.validate("suction", table),
+        )
+        said = self.validate("suction", {"Water/Largest suction": 200})
+        self.assert_words(["Largest suction is 200 Pa"], said)
+        said = self.validate("suction", {f"{BODY}/Submerged weight": 1000})
+        self.assert_words(["Submerged weight = 1000 N", "1 kN is 1000 N"], said)
+        table["Water/Suction table"] = "0 : 0, 10 : 9e4"
+        said = self.validate("suction", {**table, "Water/Largest suction": 2e5})
+        self.assertNotIn("kPa is", said)
+
+    def test_what_cannot_be_meant(self) -> None:
+        """It is refused by --validate."""
+        for words, entries in REFUSED:
+            with self.subTest(words=words):
+                self.assert_invalid(words, "jack_coarse", entries)
+
+    def test_end(self) -> None:
+        """Of two ends, the earlier one counts."""
+        said = self.validate("jack_coarse", {"Time/End time": 1})
+        self.assertIn("end        1 s, by Time/End time\n", said)
+        said = self.validate("jack_coarse", {"Time/End time": 100})
+        self.assertIn("end        60.25 s, by Time/End penetration\n", said)
+
+    def test_user_scenes_are_strict(self) -> None:
+        """The scenes that users begin with have no likely mistake."""
+        for path in sorted(SCENES.glob("*.prm")):
+            if "subsection Installation" not in path.read_text(encoding="utf-8"):
+                with self.subTest(path.name):
+                    self.run_program(SUCCESS, path, "--validate", "--strict")
+
+
+class Text(ProgramTest):
+    """Files and words that were typed or copied with small faults."""
+
+    def refusal(self, *options: str) -> str:
+        """Return what is said of bad input."""
+        return self.run_program(BAD_INPUT, *options)
+
+    def test_no_break_space(self) -> None:
+        """As word processors write them, in a file and on the command line."""
+        path = self.made_directory() / "copied.prm"
+        path.write_text(
+            f"include {user_scene('jack_coarse')}\n"
+            "subsection Time\n  set\u00a0Courant\u202fnumber\u00a0= 0.5\nend\n",
+            encoding="utf-8",
+        )
+        entries: Entries = {"Time/Mass\u00a0scaling": 4}
+        said = self.run_program(SUCCESS, path, "--print-parameters", entries=entries)
+        self.assertIn("set Courant number = 0.5\n", said)
+        self.assertIn("set Mass scaling = 4\n", said)
+
+    def test_old_line_ends(self) -> None:
+        """A file with carriage returns alone: the line is still found."""
+        path = self.made_directory() / "old.prm"
+        path.write_text("subsection Time\r  set Tim step = 1\rend\r", newline="")
+        self.assertIn(f"{path}:2: ", self.refusal(str(path)))
+
+    def test_endless_file(self) -> None:
+        """It is not read to its end."""
+        self.assertIn("not a text file", self.refusal("/dev/zero"))
+        self.assertIn("/dev/stdin", self.refusal("-"))
+        path = self.made_directory() / "long.prm"
+        with open(path, "wb") as file:
+            for _ in range(17):
+                file.write(b" " * 1024 * 1024)
+        self.assertIn("more than 16 MB", self.refusal(str(path)))
+        os.remove(path)
+
+    def test_symbols(self) -> None:
+        """The names of symbols of the field."""
+        for symbol, name in (
+            ("Time/CFL", "Time/Courant number"),
+            ("Soil/Layer 2/phi", "Soil/Layer 2/Friction angle"),
+            ("E", "Soil/Layer 1/Youngs modulus"),
+        ):
+            said = self.refusal(user_scene("jack_coarse"), "--set", f"{symbol}=1")
+            self.assertIn(f'Did you mean "{name}"?', said)
+
+    def test_nearest_choice(self) -> None:
+        """A choice with another case, an option that is like no other."""
+        said = self.refusal(user_scene("jack_coarse"), "--set", f"{BODY}/Kind=Caisson")
+        self.assertIn('Did you mean "caisson"?', said)
+        self.assertNotIn("Did you mean", self.refusal("--foo"))
+        self.assertIn('Did you mean "--restart"?', self.refusal("--restrat"))
+
+
+if __name__ == "__main__":
+    unittest.main()
