@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs that are stopped and continued."""
+import shutil
 import signal
 import unittest
 from pathlib import Path
@@ -68,6 +69,27 @@ class Stop(ProgramTest):
         for name in ("points.pvd", "grid.pvd"):
             counts = [(p / name).read_text().count("<DataSet") for p in (whole, path)]
             self.assertEqual(counts[0], counts[1], name)
+
+    def test_lost_rows(self) -> None:
+        """A restart tells what history.csv has lost since the checkpoint, and
+        nothing where it is complete."""
+        path = self.directory()
+        entries: Entries = {"Output/Record interval": 0.1, "Time/End penetration": 0.6}
+        status, _ = self.run_until(path, entries, 6)
+        self.assertEqual(status, STOPPED)
+        rows = (path / "history.csv").read_text().splitlines(keepends=True)
+        for kept, words in ((2, "ends at t = 0 s"), (0, "has no rows"), (None, "")):
+            with self.subTest(kept=kept):
+                copy = self.directory("copy")
+                shutil.copytree(path, copy)
+                (copy / "history.csv").write_text("".join(rows[:kept]))
+                said = self.run_scene(
+                    "jack", copy, SUCCESS, "--restart", entries=entries
+                )
+                if words:
+                    self.assert_words(["warning", "rows between are lost", words], said)
+                else:
+                    self.assertNotIn("lost", said)
 
     def test_stop_file(self) -> None:
         path = self.made_directory()

@@ -152,8 +152,26 @@ namespace CaissonMPM
   {
     if (parts.grid.is_first_rank())
       records->resume(parts.clock.time);
+    warn_of_lost_rows();
     visualization->resume(parts.clock.time);
     begin();
+  }
+
+  void
+  Recorder::warn_of_lost_rows()
+  {
+    constexpr double tolerance = 1e-6; // times are rounded in the file
+    const double     found     = records->last_time();
+    if (!parts.grid.is_first_rank() ||
+        std::abs(found - last_record) <= tolerance * last_record)
+      return;
+    console->warning(
+      directory + "/history.csv " +
+      (found < 0. ? "has no rows" : "ends at t = " + to_text(found, 6) + " s") +
+      ", and the run that wrote the checkpoint had come to t = " +
+      to_text(last_record, 6) +
+      " s: the rows between are lost. Put the file back, or begin without "
+      "--restart");
   }
 
   void

@@ -44,6 +44,13 @@ namespace CaissonMPM
     void
     resume(const double time);
 
+    /** The time of the last row, negative where there is none. Units: s. */
+    double
+    last_time() const
+    {
+      return rows.empty() ? -1. : rows.back()[0];
+    }
+
     /** Add the record of this row, and the values of the observations. */
     void
     append(const HistoryRow &row, const std::vector<double> &observed);

@@ -140,6 +140,9 @@ namespace CaissonMPM
     verbosity() const;
     void
     begin();
+    /** Warn where history.csv lacks rows of the run that goes on. */
+    void
+    warn_of_lost_rows();
     void
     add_forces(HistoryRow &row);
     /** The pressure on a cylinder that expands. Units: Pa. */
