@@ -47,8 +47,8 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
         },
         {
             "Soil/Number of layers": 2,
-            "Soil/Layer 2/Top depth": 2,
-            "Soil/Layer 2/Friction angle": 20,
+            "Soil/Layer 2/Top depth": 8,
+            "Soil/Layer 2/Friction angle": 15,
         },
     ),
     (

@@ -50,8 +50,8 @@ namespace CaissonMPM
       if (density >= .5 && density < 8.)
         return " The value may be in t/m3 (g/cm3): multiply it by 1000.";
       if (density >= 8. && density < 80.)
-        return " The value may be a unit weight in kN/m3: divide it by 9.81 and "
-               "multiply it by 1000.";
+        return " The value may be a unit weight in kN/m3: divide it by 9.81 "
+               "and multiply it by 1000.";
       return "";
     }
   } // namespace
@@ -213,7 +213,8 @@ namespace CaissonMPM
     if (size > largest_size)
       origins.add_warning(
         "the body is " + meters(size) +
-        " large. Check Rigid body/Outer diameter and Rigid body/Skirt length: lengths are in meters.");
+        " large. Check Rigid body/Outer diameter "
+        "and Rigid body/Skirt length: lengths are in meters.");
     const double density = scene.body.density;
     if (density < least_body_density || density > largest_body_density)
       doubt("Rigid body/Density",
@@ -242,7 +243,8 @@ namespace CaissonMPM
         "the body moves at " + to_text(speed, 4) +
         " m/s, more than a tenth of the wave speed in the soil, " +
         to_text(scene.wave_speed, 4) +
-        " m/s: inertia decides its forces. Check Rigid body/Velocity, which is in m/s, and Time/Mass scaling.");
+        " m/s: inertia decides its forces. Check Rigid body/Velocity, which is "
+        "in m/s, and Time/Mass scaling.");
   }
 
 
@@ -252,15 +254,19 @@ namespace CaissonMPM
   {
     const BodyShape      &shape  = scene.body.shape();
     const auto           &angles = scene.body.surface().friction_angle;
-    std::optional<double> of_soil; // of the weakest layer
+    const double          depth  = shape.expands() ?
+                                     scene.lines.depth() :
+                                     scene.lines.total_travel() - shape.bottom();
+    std::optional<double> of_soil; // of the weakest layer that is reached
     unsigned int          weakest = 0;
     for (unsigned int i = 0; i < scene.soil.n_layers(); ++i)
-      if (const auto angle = scene.soil.layer(i).friction_angle())
-        if (!of_soil || *angle < *of_soil)
-          {
-            of_soil = angle;
-            weakest = i;
-          }
+      if (const auto angle = scene.soil.layer(i).friction_angle();
+          angle && scene.soil.layer(i).top_depth <= depth &&
+          (!of_soil || *angle < *of_soil))
+        {
+          of_soil = angle;
+          weakest = i;
+        }
     std::vector<Surface> rougher;
     for (const Surface s :
          {Surface::outer_wall, Surface::inner_wall, Surface::tip})
