@@ -2,9 +2,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the program says of scenes that it could run, but that are hardly meant."""
 import os
+import pathlib
+import subprocess
 import unittest
 
-from program import BAD_INPUT, SCENES, SUCCESS, Entries, ProgramTest, user_scene
+from program import (
+    BAD_INPUT,
+    SCENES,
+    SUCCESS,
+    Entries,
+    ProgramTest,
+    environment,
+    user_scene,
+)
 
 BODY = "Rigid body"
 LAYER = "Soil/Layer 1"
@@ -241,6 +251,19 @@ class Text(ProgramTest):
                 file.write(b" " * 1024 * 1024)
         self.assertIn("more than 16 MB", self.refusal(str(path)))
         os.remove(path)
+
+    def test_standard_input(self) -> None:
+        """A scene that comes through a pipe."""
+        text = pathlib.Path(user_scene("jack_coarse")).read_text(encoding="utf-8")
+        done = subprocess.run(
+            self.command("/dev/stdin", "--print-parameters"),
+            input=text,
+            text=True,
+            check=True,
+            stdout=subprocess.PIPE,
+            env=environment(),
+        )
+        self.assertIn("set Wall thickness = 0.2\n", done.stdout)
 
     def test_symbols(self) -> None:
         """The names of symbols of the field."""

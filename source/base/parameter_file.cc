@@ -20,6 +20,16 @@ namespace CaissonMPM
     const std::string list_hint =
       "\n  \"caisson_mpm --print-parameters\" lists all entries.";
 
+    /** The path without links; as it is where it has none, as that of a pipe.
+     */
+    std::filesystem::path
+    canonical(const std::string &name)
+    {
+      std::error_code error;
+      const auto      result = std::filesystem::weakly_canonical(name, error);
+      return error ? std::filesystem::path(name) : result;
+    }
+
     /**
      * Goes through the statements of the file and of the command line, checks
      * each against the declared entries and sets it in the ParameterHandler.
@@ -158,12 +168,12 @@ namespace CaissonMPM
     void
     Reader::check_new(const std::string &name, const std::string &place)
     {
-      const auto key             = std::filesystem::weakly_canonical(name);
+      const auto key             = canonical(name);
       const auto [entry, is_new] = place_of_include.insert({key, place});
       if (is_new)
         return;
       for (const OpenFile &file : files)
-        if (std::filesystem::weakly_canonical(file.name) == key)
+        if (canonical(file.name) == key)
           throw BadInput(place + ": the file " + quote(name) +
                          " includes itself.\n  Remove one of the \"include\" "
                          "lines on the way.");

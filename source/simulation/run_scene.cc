@@ -82,7 +82,7 @@ namespace CaissonMPM
         return;
       std::string text;
       for (const std::string &mistake : mistakes)
-        text += "\n" + mistake + origins.places_of_entries_in(mistake);
+        text += "\nwarning: " + mistake + origins.places_of_entries_in(mistake);
       throw BadInput(scene_file + " has " + to_text(mistakes.size()) +
                      (mistakes.size() == 1 ? " warning" : " warnings") +
                      ", which --strict takes for errors:" + text);
