@@ -56,8 +56,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   void
   SceneReview::all()
   {
@@ -78,8 +76,6 @@ namespace CaissonMPM
       }
     length_of_run();
   }
-
-
 
   void
   SceneReview::doubt(const std::string &entry,
@@ -109,8 +105,6 @@ namespace CaissonMPM
       }
   }
 
-
-
   void
   SceneReview::stiffness_and_strength(const unsigned int layer)
   {
@@ -132,8 +126,6 @@ namespace CaissonMPM
                 "is not the strength of a soil. Check the unit, Pa.");
   }
 
-
-
   void
   SceneReview::solid_density(const unsigned int layer)
   {
@@ -145,8 +137,6 @@ namespace CaissonMPM
             "is not the density of grains, which is about 2650 kg/m3." +
               other_unit_of_density(density));
   }
-
-
 
   void
   SceneReview::gravity()
@@ -162,8 +152,6 @@ namespace CaissonMPM
         "second number is negative on earth.");
   }
 
-
-
   void
   SceneReview::fluid()
   {
@@ -177,8 +165,6 @@ namespace CaissonMPM
             "kg/m3",
             "is not the density of water." + other_unit_of_density(density));
   }
-
-
 
   void
   SceneReview::thin_layers()
@@ -232,8 +218,6 @@ namespace CaissonMPM
         "in the soil. Increase Rigid body/Skirt length, or end earlier.");
   }
 
-
-
   void
   SceneReview::motion_of_body()
   {
@@ -246,8 +230,6 @@ namespace CaissonMPM
         " m/s: inertia decides its forces. Check Rigid body/Velocity, which is "
         "in m/s, and Time/Mass scaling.");
   }
-
-
 
   void
   SceneReview::wall_friction()
@@ -289,8 +271,6 @@ namespace CaissonMPM
             "Set at most that angle; in clay, set 0 and an adhesion.");
   }
 
-
-
   void
   SceneReview::boundaries()
   {
@@ -330,16 +310,12 @@ namespace CaissonMPM
               meters(-depth - needed(least_to_bottom)) + ".");
   }
 
-
-
   bool
   SceneReview::is_block() const
   {
     // the other bodies ask for cells of their own
     return scene.body.shape().cell_width() == 0.;
   }
-
-
 
   bool
   SceneReview::is_pushed_in() const
