@@ -64,6 +64,18 @@ class Column(ProgramTest):
         }
         self.run_column("consolidation", entries)
 
+    def test_short_last_step(self) -> None:
+        """A rest of a step before the end leaves the pressure where it is."""
+        entries = {
+            "Time/End time": 1.45748615,
+            "Output/Record interval": 0.1457486,
+            "Verification/Checks": "",
+        }
+        rows = history(self.run_column("consolidation", entries))[-2:]
+        self.assertLess(rows[1]["time_s"] - rows[0]["time_s"], 1e-6)
+        before, after = (row["pore_pressure_largest_Pa"] for row in rows)
+        self.assertAlmostEqual(after / before, 1, delta=0.002)
+
     def test_soil_that_conducts_badly(self) -> None:
         """A front of two cells keeps its pressure: 1 - 2 sqrt(T / pi) of it is left
         at T = 0.01. The strongest smoothing makes it fade."""

@@ -286,7 +286,11 @@ namespace CaissonMPM
     find_divergence(velocity, corners, rate);
     find_product(inertia, kept_, source);
     source.sadd(step / scale, -1. / scale, rate);
-    source.add(1. / (step * scale), remainder_);
+    // A step that is shorter than the last one makes good its share of what
+    // that one left: all of it at once would be a flood.
+    const double share = std::min(1., step / std::max(step_before, step));
+    step_before        = step;
+    source.add(share / (step * scale), remainder_);
 
     pressure_.zero_out_ghost_values();
     for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
@@ -300,9 +304,9 @@ namespace CaissonMPM
     outflow_.sadd(-1., 1., source);
     close_balance();
     outflow_ *= scale;
-    remainder_.copy_locally_owned_data_from(outflow_);
+    remainder_.zero_out_ghost_values();
+    remainder_.sadd(1. - share, step, outflow_);
     solver_.keep_unknown(remainder_);
-    remainder_ *= step;
   }
 
   void

@@ -203,7 +203,7 @@ namespace CaissonMPM
     std::vector<Gradient>                   gradients;
     std::vector<char>                       has_water;
     std::vector<double>                     volume_rates_;
-    double                                  scale = 1., step = 0.;
+    double       scale = 1., step = 0., step_before = 0.;
     NodalData    pressure_, kept_, outflow_, remainder_, source, rate;
     unsigned int n_layers = 1;
     // the volumes of the layers at a node, and the diagonal of the inertia
