@@ -144,21 +144,22 @@ namespace CaissonMPM
     if (region.empty())
       return;
     prescribed.clear();
+    // for messages; not made anew for each node
+    const std::string of_region = region_entry(),
+                      of_velocity =
+                        "Boundary conditions/Prescribed velocity = " +
+                        velocity_text;
     for (unsigned int node = 0; node < grid.n_nodes(); ++node)
       {
         const Point<2> x(grid.r_of(node), grid.z_of(node));
-        if (finite_value(region, x, time, region_entry()) <= 0.)
+        if (finite_value(region, x, time, of_region) <= 0.)
           continue;
         for (unsigned int d = 0; d < 2; ++d)
           if (!velocity[d].empty())
-            prescribed.push_back({node,
-                                  d,
-                                  finite_value(velocity[d],
-                                               x,
-                                               time + .5 * dt,
-                                               "Boundary conditions/Prescribed "
-                                               "velocity = " +
-                                                 velocity_text)});
+            prescribed.push_back(
+              {node,
+               d,
+               finite_value(velocity[d], x, time + .5 * dt, of_velocity)});
       }
   }
 
