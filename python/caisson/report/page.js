@@ -73,6 +73,11 @@
     return { low: low - wide, high: high + wide, top: top, bottom: bottom + deep };
   }
 
+  // Flot rounds the labels of steps of a quarter to one digit.
+  function tickLabel(value) {
+    return String(parseFloat(value.toPrecision(6)));
+  }
+
   function options(figure, box) {
     const font = {
       size: 13,
@@ -93,11 +98,12 @@
       xaxes: [{
         position: "top", axisLabel: figure.axis, font: font, autoScale: "none",
         min: box.low, max: box.high, tickColor: color("--rule"),
+        tickFormatter: tickLabel,
       }],
       yaxes: [{
         position: "left", axisLabel: "penetration of the skirt tip (m)", font: font,
         autoScale: "none", min: box.top, max: box.bottom, tickColor: color("--rule"),
-        transform: (v) => -v, inverseTransform: (v) => -v,
+        tickFormatter: tickLabel, transform: (v) => -v, inverseTransform: (v) => -v,
       }],
       zoom: { interactive: true },
       pan: { interactive: true, enableTouch: true },
