@@ -124,10 +124,13 @@ struct Stepper
   void
   collect()
   {
-    motion.collect(
-      {*Kernels::select_kernels("auto"), scene.points, scene.grid, materials},
-      forces,
-      0.);
+    motion.collect({*Kernels::select_kernels("auto"),
+                    scene.points,
+                    scene.grid,
+                    materials,
+                    nullptr},
+                   forces,
+                   0.);
   }
 
   /** Take a step without relocation; returns its works. */
@@ -135,7 +138,10 @@ struct Stepper
   step()
   {
     collect();
-    motion.accelerate({dt, StepSize::reference_courant}, Vector2(), contact);
+    motion.accelerate({dt, StepSize::reference_courant},
+                      forces,
+                      Vector2(),
+                      contact);
     motion.constrain(Vector2(), constraints);
     motion.prepare_transfer(constraints);
     const NodalWork work = motion.work_of_step(forces, constraints);
@@ -295,6 +301,7 @@ check_order()
   };
   std::printf("accelerate before collect: %s\n", refused([&]() {
                 s.motion.accelerate({dt, StepSize::reference_courant},
+                                    s.forces,
                                     Vector2(),
                                     s.contact);
               }));
@@ -305,6 +312,7 @@ check_order()
               }));
   std::printf("accelerate: %s\n", refused([&]() {
                 s.motion.accelerate({dt, StepSize::reference_courant},
+                                    s.forces,
                                     Vector2(),
                                     s.contact);
               }));

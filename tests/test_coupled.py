@@ -78,22 +78,38 @@ class Column(ProgramTest):
 
     def test_soil_that_conducts_badly(self) -> None:
         """A front of two cells keeps its pressure: 1 - 2 sqrt(T / pi) of it is left
-        at T = 0.01. The strongest smoothing makes it fade."""
-        error = {}
-        for smoothing in (0.05, 1):
-            entries = {
-                "Soil/Layer 1/Permeability": 1e-6,
-                "Time/Mass scaling": 1,
-                "Water/Pressure smoothing": smoothing,
-                "Verification/Checks": "",
-                "Verification/Observations": "p = mean pore_pressure",
-                "Time/End time": 14.57486,
-                "Output/Record interval": 14.57486,
-            }
-            path = self.run_column("consolidation", entries)
-            error[smoothing] = abs(history(path, "observations")[-1]["p"] / 8871.6 - 1)
-        self.assertLess(error[0.05], 0.003)
-        self.assertGreater(error[1], 0.006)
+        at T = 0.01."""
+        entries = {
+            "Soil/Layer 1/Permeability": 1e-6,
+            "Time/Mass scaling": 1,
+            "Verification/Checks": "",
+            "Verification/Observations": "p = mean pore_pressure",
+            "Time/End time": 14.57486,
+            "Output/Record interval": 14.57486,
+        }
+        path = self.run_column("consolidation", entries)
+        p = history(path, "observations")[-1]["p"]
+        self.assertAlmostEqual(p / 8871.6, 1, delta=0.003)
+
+    def test_soil_that_cannot_drain(self) -> None:
+        """The water bears the load, next to the open surface too: the effective stress
+        is that of the weight."""
+        entries = {
+            "Soil/Layer 1/Permeability": 1e-12,
+            "Verification/Checks": "rms stress_zz : 8829*z : 0.01",
+        }
+        self.run_column("consolidation", entries)
+
+    def test_drained_bottom(self) -> None:
+        """A closed surface over an open bottom is the same column upside down."""
+        scene = Path(user_scene("verification/consolidation")).read_text()
+        checks = scene.split("set Checks =")[1].split("end")[0].replace("\\\n", "")
+        entries = {
+            "Water/Drained surface": "false",
+            "Water/Drained bottom": "true",
+            "Verification/Checks": checks.strip().replace("z", "(-1 - z)"),
+        }
+        self.run_column("consolidation", entries)
 
     def test_thin_layer_that_conducts_badly(self) -> None:
         """The flow up through 2 cm of clay in sand: its pressure in the sand above
@@ -181,7 +197,8 @@ class Caisson(ProgramTest):
     """The caisson of tests/suction.prm."""
 
     def test_much_permeability_is_seepage(self) -> None:
-        """Where water moves freely, its flow is steady at each time."""
+        """Where water moves freely, its flow is steady at each time. The force on the
+        tip has an error of first order, in which cells and nodes differ in sign."""
         rows = {}
         for level in ("seepage", "coupled"):
             path = self.directory(level)
@@ -193,10 +210,12 @@ class Caisson(ProgramTest):
             }
             self.run_scene("suction", path, entries=entries)
             rows[level] = history(path)[-1]
-        for name in ("tip_water_force_N", "seepage_flow_m3_s"):
-            self.assertAlmostEqual(
-                rows["coupled"][name] / rows["seepage"][name], 1, delta=0.01, msg=name
-            )
+        for name, tolerance in (
+            ("tip_water_force_N", 0.02),
+            ("seepage_flow_m3_s", 0.01),
+        ):
+            ratio = rows["coupled"][name] / rows["seepage"][name]
+            self.assertAlmostEqual(ratio, 1, delta=tolerance, msg=name)
 
     def test_little_permeability_has_excess_pressure(self) -> None:
         path = self.directory()
@@ -233,14 +252,12 @@ class BadInput(ProgramTest):
     def test_warnings(self) -> None:
         """What is known to be wrong is told, and only where it is."""
         cases: list[tuple[Entries, list[str]]] = [
-            ({"Soil/Layer 1/Permeability": 1e-8}, ["fade by error", "0.01"]),
-            ({"Water/Pressure smoothing": 0}, ["alternate", "smoothing"]),
             ({"Water/Bottom pressure": "1e4"}, ["Drained bottom is false"]),
             ({"Water/Suction table": "0:0, 1:1"}, ["no caisson"]),
         ]
         for entries, words in cases:
             with self.subTest(entries=entries):
-                text = self.assert_told(
+                self.assert_told(
                     words,
                     "verification/consolidation",
                     {
@@ -249,9 +266,6 @@ class BadInput(ProgramTest):
                         "Time/End time": 0.01,
                         "Verification/Checks": "",
                     },
-                )
-                self.assertEqual(
-                    "fade by error" in text, "Soil/Layer 1/Permeability" in entries
                 )
 
     def test_messages(self) -> None:

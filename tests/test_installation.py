@@ -188,6 +188,34 @@ class Installation(ProgramTest):
         for key in ("tip_water_force_N", "total_force_with_water_N"):
             self.assertAlmostEqual(first[key] / end[key], 1, 6, key)
 
+    def test_steady_flow_goes_on_coupled(self) -> None:
+        """Coupled water begins with the pressures of the steady flow, on any number of
+        ranks."""
+        still: Entries = {
+            "Rigid body/Velocity": 0,
+            "Rigid body/Ramp time": 0,
+            "Soil/Layer 1/Permeability": 1e-2,
+            "Water/Suction control": "table",
+            DEPTH: "never",
+        }
+        before = self.directory("before")
+        rising: Entries = {**still, "Water/Suction table": "0:0, 0.4:2000", END: 0.5}
+        self.run_scene("suction", before, entries=rising)
+        entries: Entries = {
+            **still,
+            "Water/Level": "coupled",
+            "Water/Suction table": "0:2000, 1:2000",
+            INSTALLATION: before,
+            END: 0.05,
+        }
+        steady = history(before)[-1]
+        for ranks in (1, 2):
+            path = self.directory(f"after_{ranks}")
+            self.run_scene("suction", path, entries=entries, ranks=ranks)
+            first = history(path)[0]
+            ratio = first["tip_water_force_N"] / steady["tip_water_force_N"]
+            self.assertAlmostEqual(ratio, 1, delta=0.03)
+
     def test_undrained_pressure_goes_on(self) -> None:
         """The volumes of the points bring it along."""
         before, whole, path = self.go_on_both_ways({"Water/Level": "undrained"})

@@ -119,8 +119,11 @@ namespace CaissonMPM
     circumference = grid.circumference();
     n_owned_nodes = grid.n_owned_nodes();
     prescribed.clear();
-    fixed[0].clear();
-    fixed[1].clear();
+    for (unsigned int d = 0; d < 2; ++d)
+      {
+        fixed[d].clear();
+        is_held[d].assign(grid.n_nodes(), false);
+      }
     for (unsigned int node = 0; node < grid.n_nodes(); ++node)
       {
         bool is_fixed[2] = {false, false};
@@ -132,7 +135,10 @@ namespace CaissonMPM
                 (sides[side] == SideCondition::roller && d == side / 2);
         for (unsigned int d = 0; d < 2; ++d)
           if (is_fixed[d])
-            fixed[d].push_back(node);
+            {
+              fixed[d].push_back(node);
+              is_held[d][node] = true;
+            }
       }
   }
 
@@ -143,6 +149,11 @@ namespace CaissonMPM
   {
     if (region.empty())
       return;
+    for (const Prescribed &p : prescribed)
+      is_held[p.component][p.node] = false;
+    for (unsigned int d = 0; d < 2; ++d)
+      for (const unsigned int node : fixed[d])
+        is_held[d][node] = true;
     prescribed.clear();
     // for messages; not made anew for each node
     const std::string of_region = region_entry(),
@@ -156,10 +167,13 @@ namespace CaissonMPM
           continue;
         for (unsigned int d = 0; d < 2; ++d)
           if (!velocity[d].empty())
-            prescribed.push_back(
-              {node,
-               d,
-               finite_value(velocity[d], x, time + .5 * dt, of_velocity)});
+            {
+              prescribed.push_back(
+                {node,
+                 d,
+                 finite_value(velocity[d], x, time + .5 * dt, of_velocity)});
+              is_held[d][node] = true;
+            }
       }
   }
 

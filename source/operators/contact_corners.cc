@@ -150,7 +150,8 @@ namespace CaissonMPM
   void
   ContactCorners::collect(const Kernels::KernelTable &kernels,
                           const Kernels::StepContext &step,
-                          const double                share_that_points_keep)
+                          const double                share_that_points_keep,
+                          const NodalForces          &forces)
   {
     keep = share_that_points_keep;
     if (sums_.empty())
@@ -171,13 +172,14 @@ namespace CaissonMPM
             step.points.changed[cell.cell] = true;
             alone.points.active_cells      = &cell.cell;
             kernels.points_to_grid(alone, of_cell.data());
-            const NodalSums &own = of_cell[corner.node];
-            double *const    sum = &sums_[n_sums * cell.index];
-            sum[0]               = own.mass;
+            const NodalSums &own  = of_cell[corner.node];
+            double *const    sum  = &sums_[n_sums * cell.index];
+            const Vector2    more = forces.at_corner(cell.cell, cell.corner);
+            sum[0]                = own.mass;
             for (unsigned int d = 0; d < 2; ++d)
               {
                 sum[1 + d] = own.momentum[d];
-                sum[3 + d] = own.force[d];
+                sum[3 + d] = own.force[d] + more[d];
               }
           }
     Utilities::MPI::sum(sums_, communicator, sums_);

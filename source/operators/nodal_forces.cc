@@ -46,6 +46,17 @@ namespace CaissonMPM
       force->correct(context, change);
   }
 
+  Vector2
+  NodalForces::at_corner(const unsigned int cell,
+                         const unsigned int corner) const
+  {
+    Vector2 sum;
+    for (const auto &force : forces)
+      if (force->acts())
+        sum += force->at_corner(cell, corner);
+    return sum;
+  }
+
   double
   NodalForces::work(const double                dt,
                     const Kernels::NodalVector *start,

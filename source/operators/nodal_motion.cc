@@ -47,13 +47,17 @@ namespace CaissonMPM
   }
 
   void
-  NodalMotion::accelerate(const StepSize &step_size,
-                          const Vector2  &body_velocity,
-                          Contact        &contact)
+  NodalMotion::accelerate(const StepSize    &step_size,
+                          const NodalForces &forces,
+                          const Vector2     &body_velocity,
+                          Contact           &contact)
   {
     enter(Stage::accelerated);
     size = step_size;
-    contact.corners().collect(*kernels, step, settings_.keep_velocity(size));
+    contact.corners().collect(*kernels,
+                              step,
+                              settings_.keep_velocity(size),
+                              forces);
     accelerate(body_velocity, contact);
   }
 
@@ -92,6 +96,10 @@ namespace CaissonMPM
                        Contact          &contact)
   {
     momentum.correct({*kernels, step, soil.points, soil.grid, time}, forces);
+    contact.corners().collect(*kernels,
+                              step,
+                              settings_.keep_velocity(size),
+                              forces);
     accelerate(body_velocity, contact);
   }
 

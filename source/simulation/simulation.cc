@@ -97,7 +97,9 @@ namespace CaissonMPM
   {
     NodalWork work;
     timed("choose step", [&]() { choose_step(); });
-    timed("ground water", [&]() { water.update(clock.step_size); });
+    boundary_conditions.prepare(grid, clock.time, clock.step_size);
+    timed("ground water",
+          [&]() { water.update(clock.step_size, boundary_conditions); });
     if (const auto *const filled = water.filled_beneath_lid())
       contact.open_lid(*filled, Mudline::touching);
     if (!body.motion().needs_response())
@@ -108,11 +110,13 @@ namespace CaissonMPM
       nodal_motion.collect(soil_on_grid(), nodal_forces, clock.time);
     });
     timed("nodal motion", [&]() {
-      nodal_motion.accelerate(size, body.mean_velocity(), contact);
+      nodal_motion.accelerate(size,
+                              nodal_forces,
+                              body.mean_velocity(),
+                              contact);
     });
     if (body.motion().needs_response())
       timed("move body", [&]() { move_body_with_soil(); });
-    boundary_conditions.prepare(grid, clock.time, clock.step_size);
     if (water.is_coupled())
       timed("pore pressure", [&]() { find_pore_pressure(); });
     timed("contact", [&]() {

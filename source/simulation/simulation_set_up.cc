@@ -347,7 +347,7 @@ namespace CaissonMPM
       origins.add_warning(recorder.wrong_error_bar());
     for (const auto &limits : {soil.known_limits(),
                                nodal_motion.settings().known_limits(),
-                               water.known_limits(materials, clock.step_size)})
+                               water.known_limits(materials)})
       for (const std::string &limit : limits)
         origins.add_limit(limit);
   }

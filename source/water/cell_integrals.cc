@@ -49,43 +49,25 @@ namespace CaissonMPM
     return result;
   }
 
-  std::array<std::array<double, 4>, 8>
+  std::array<double, 8>
   CellIntegrals::divergence() const
   {
-    std::array<std::array<double, 4>, 8> result = {};
+    std::array<double, 8> result = {};
     for (const GaussPoint &g : points)
-      for (unsigned int i = 0; i < 4; ++i)
-        for (unsigned int j = 0; j < 4; ++j)
-          {
-            const double weight = g.weight * g.shape[i];
-            result[2 * j][i] +=
-              weight * (g.gradient[j][0] + g.hoop * g.shape[j]);
-            result[2 * j + 1][i] += weight * g.gradient[j][1];
-          }
+      for (unsigned int j = 0; j < 4; ++j)
+        {
+          result[2 * j] += g.weight * (g.gradient[j][0] + g.hoop * g.shape[j]);
+          result[2 * j + 1] += g.weight * g.gradient[j][1];
+        }
     return result;
   }
 
-  std::array<std::array<double, 4>, 2>
-  CellIntegrals::mean_gradient() const
+  double
+  CellIntegrals::volume() const
   {
-    std::array<std::array<double, 4>, 2> result = {};
-    double                               volume = 0.;
+    double result = 0.;
     for (const GaussPoint &g : points)
-      volume += g.weight;
-    for (const GaussPoint &g : points)
-      for (unsigned int d = 0; d < 2; ++d)
-        for (unsigned int i = 0; i < 4; ++i)
-          result[d][i] += g.weight / volume * g.gradient[i][d];
-    return result;
-  }
-
-  std::array<double, 4>
-  CellIntegrals::volumes() const
-  {
-    std::array<double, 4> result = {};
-    for (const GaussPoint &g : points)
-      for (unsigned int i = 0; i < 4; ++i)
-        result[i] += g.weight * g.shape[i];
+      result += g.weight;
     return result;
   }
 } // namespace CaissonMPM

@@ -23,7 +23,7 @@ namespace CaissonMPM
     constexpr unsigned int steps_between_properties = 20;
 
     // In this many steps, the soil moves by a small part of a cell.
-    constexpr unsigned int steps_between_set_ups = 4;
+    constexpr unsigned int steps_between_set_ups = 8;
 
     // The heave is known when the flow is found; the pump sees it smoothed.
     constexpr double time_of_heave = 1.; // s
@@ -59,14 +59,6 @@ namespace CaissonMPM
                   "mudline changed, by this share of a cell. Units: none.",
                   prm,
                   Patterns::Double(1e-6, 1.));
-    add_parameter("Pressure smoothing",
-                  smoothing,
-                  "A coupled step begins with the old pressure, of which it "
-                  "takes away this share of what oscillates from node to node. "
-                  "With 0, the oscillation grows; with much, steep pressures "
-                  "fade in soil that conducts badly. Units: none.",
-                  prm,
-                  Patterns::Double(0., 1.));
     add_parameter("Time compression",
                   time_compression,
                   "The scene runs this many times faster than what it stands "
@@ -172,8 +164,7 @@ namespace CaissonMPM
     if (is_coupled())
       origins.add_unused({"Water/Renewal"}, "Water/Level is coupled");
     else
-      origins.add_unused({"Water/Pressure smoothing",
-                          "Water/Bottom pressure",
+      origins.add_unused({"Water/Bottom pressure",
                           "Water/Time compression",
                           "Water/Drained surface"},
                          "Water/Level is seepage");
@@ -193,7 +184,6 @@ namespace CaissonMPM
     if (!is_undrained())
       origins.add_unused({"Water/Bulk modulus", "Water/Water depth"}, why);
     origins.add_unused({"Water/Renewal",
-                        "Water/Pressure smoothing",
                         "Water/Bottom pressure",
                         "Water/Time compression",
                         "Water/Drained surface",
@@ -226,7 +216,7 @@ namespace CaissonMPM
       return;
     bottom_pressure = bottom_expression();
     if (is_coupled())
-      projection.initialize(grid, soil.n_layers());
+      projection.initialize(grid);
     else
       seepage.initialize(grid);
     is_solved         = false;
@@ -243,14 +233,14 @@ namespace CaissonMPM
   }
 
   void
-  GroundWater::update(const double dt)
+  GroundWater::update(const double dt, const BoundaryConditions &conditions)
   {
     if (!acts())
       return;
     if (is_undrained())
       return find_undrained_pressure();
     if (is_coupled())
-      return set_up_step(dt);
+      return set_up_step(dt, conditions);
     const double moved = std::abs(body.motion().travel() - travel_at_solve);
     if (is_solved && moved < renewal * body.shape().cell_width())
       {
@@ -304,10 +294,19 @@ namespace CaissonMPM
   GroundWater::find_flow()
   {
     find_tip_integral();
-    const auto sums = solver().sums_by_state(outflow());
-    flow_out        = sums[PressureSolver::plug];
-    flow_in         = -sums[PressureSolver::open];
-    flow_remaining  = sums[PressureSolver::unknown];
+    if (is_coupled())
+      {
+        flow_out       = projection.flow().out;
+        flow_in        = projection.flow().in;
+        flow_remaining = projection.flow().left;
+      }
+    else
+      {
+        const auto sums = seepage.solver().sums_by_state(seepage.residual());
+        flow_out        = sums[PressureSolver::plug];
+        flow_in         = -sums[PressureSolver::open];
+        flow_remaining  = sums[PressureSolver::unknown];
+      }
     if (has_lid() && !has_started)
       {
         plug_height = mudline.mean_height(Mudline::Side::plug);
@@ -317,7 +316,8 @@ namespace CaissonMPM
   }
 
   void
-  GroundWater::set_up_step(const double dt)
+  GroundWater::set_up_step(const double              dt,
+                           const BoundaryConditions &conditions)
   {
     if (!is_solved || ++steps_since_look == steps_between_properties)
       {
@@ -330,13 +330,12 @@ namespace CaissonMPM
       {
         mudline.find(grid, points);
         look_at_lid(mudline);
-        projection.set_up(grid, mudline, properties, sides, dt);
+        projection.set_up(grid, mudline, properties, sides, conditions, dt);
       }
     if (!is_solved && !projection.solver().has_known_value())
       throw RunFailure(
         "the pore water has nowhere to drain to: its pressure is known nowhere. "
         "Set Water/Drained surface, Drained outer side or Drained bottom.");
-    projection.find_kept(smoothing);
     is_solved    = true;
     is_corrected = false;
     step         = dt;
@@ -362,20 +361,13 @@ namespace CaissonMPM
   {
     if (!is_coupled())
       return nullptr;
-    projection.find_volume_rates(velocity, corners);
-    return projection.volume_rates().data();
-  }
-
-  const PressureSolver &
-  GroundWater::solver() const
-  {
-    return is_coupled() ? projection.solver() : seepage.solver();
+    return projection.find_volume_rates(velocity, corners).data();
   }
 
   const NodalData &
-  GroundWater::outflow() const
+  GroundWater::outflow()
   {
-    return is_coupled() ? projection.outflow() : seepage.residual();
+    return is_coupled() ? projection.find_outflow() : seepage.residual();
   }
 
   double
@@ -397,18 +389,15 @@ namespace CaissonMPM
     const double faster = is_coupled() ? time_compression : 1.;
     permeability.assign(grid.n_cells(), {});
     properties.assign(grid.n_cells(), {});
-    std::vector<double> of_layers(soil.n_layers());
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       {
         if (!grid.is_owned(cell) || grid.is_rigid(cell))
           continue;
         double volume = 0., mass = 0., along = 0., across = 0.;
-        std::fill(of_layers.begin(), of_layers.end(), 0.);
         points.for_each_in(cell, [&](const MaterialPoint &p) {
           const SoilLayer &layer = soil.layer(p.material);
           const double     k =
             faster * layer.permeability_at(p.void_ratio(layer.void_ratio()));
-          of_layers[p.material] += p.volume;
           volume += p.volume;
           mass += p.mass;
           along += p.volume * k * layer.anisotropy;
@@ -420,8 +409,7 @@ namespace CaissonMPM
           {
             const auto        &g = grid.geometry(cell);
             const unsigned int i = soil.layer_at(std::min(0., g.bottom_left));
-            of_layers[i]         = 1.;
-            const double k       = faster * soil.layer(i).permeability;
+            const double       k = faster * soil.layer(i).permeability;
             permeability[cell]   = {k * soil.layer(i).anisotropy, k};
             volume               = 1.;
             mass                 = soil.inertial_density(i);
@@ -429,11 +417,7 @@ namespace CaissonMPM
         const double gamma = soil.unit_weight_of_water();
         properties[cell]   = {{permeability[cell].horizontal / gamma,
                                permeability[cell].vertical / gamma},
-                              volume / mass,
-                              static_cast<unsigned int>(
-                              std::max_element(of_layers.begin(),
-                                               of_layers.end()) -
-                              of_layers.begin())};
+                              volume / mass};
       }
   }
 
@@ -485,20 +469,18 @@ namespace CaissonMPM
   GroundWater::pressure()
   {
     pressure_.resize(grid.n_nodes());
-    const double factor = is_coupled() ? 1. : -suction.value();
+    const double     factor = is_coupled() ? 1. : -suction.value();
+    const NodalData &nodal =
+      is_coupled() ? projection.find_nodal_pressure() : seepage.field();
     for (unsigned int node = 0; node < grid.n_nodes(); ++node)
-      pressure_[node] = factor * field().local_element(node);
+      pressure_[node] = factor * nodal.local_element(node);
     return pressure_;
   }
 
-  const std::vector<double> &
-  GroundWater::acting_pressure()
+  void
+  GroundWater::add_coupled_force(Kernels::NodalVector *force) const
   {
-    if (!is_coupled() || is_corrected)
-      return pressure();
-    pressure_.assign(projection.kept().begin(),
-                     projection.kept().begin() + grid.n_nodes());
-    return pressure_;
+    projection.add_force(force);
   }
 
   void
@@ -508,6 +490,7 @@ namespace CaissonMPM
     totals.keep("time_of_suction", time_of_suction);
     recent_heave.register_totals(totals, "recent_heave");
     plug_balance.register_totals(totals);
+    projection.register_totals(totals);
     totals.keep("seepage_volume", seepage_volume);
     totals.keep("volume_at_start", volume_at_start);
     totals.carry("plug_height_at_start", plug_height);

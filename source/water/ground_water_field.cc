@@ -15,10 +15,9 @@ namespace CaissonMPM
 {
   using namespace dealii;
 
-  const NodalData &
-  GroundWater::field() const
+  namespace
   {
-    return is_coupled() ? projection.pressure() : seepage.field();
+    const std::string of_nodes = "water_at_";
   }
 
   std::size_t
@@ -36,6 +35,13 @@ namespace CaissonMPM
       {
         const CellBlock &block =
           grid.lines().tree().block(grid.global_number(cell));
+        if (is_coupled())
+          {
+            action(projection.solver().place(cell),
+                   std::size_t(block.row) * (grid.lines().n_columns() + 1) +
+                     block.column);
+            continue;
+          }
         for (unsigned int k = 0; k < 4; ++k)
           action(grid.cell_nodes(cell).node[k],
                  std::size_t(block.row + k / 2 * block.size) *
@@ -48,9 +54,9 @@ namespace CaissonMPM
   GroundWater::kept_fields()
   {
     if (is_coupled())
-      return {{"water_at_", &projection.pressure()},
-              {"water_left_at_", &projection.remainder()}};
-    return {{"water_at_", &seepage.field()}};
+      return {{"water_in_", &projection.pressure()},
+              {"water_left_in_", &projection.remainder()}};
+    return {{of_nodes, &seepage.field()}};
   }
 
   std::vector<double>
@@ -59,7 +65,7 @@ namespace CaissonMPM
     constexpr double    none = std::numeric_limits<double>::lowest();
     std::vector<double> values(n_places(), none);
     for_each_place([&](const unsigned int node, const std::size_t place) {
-      if (node < grid.n_owned_nodes())
+      if (node < field.locally_owned_size())
         values[place] = field.local_element(node);
     });
     Utilities::MPI::max(values, grid.communicator(), values);
@@ -75,7 +81,7 @@ namespace CaissonMPM
   {
     field.zero_out_ghost_values();
     for_each_place([&](const unsigned int node, const std::size_t place) {
-      if (node < grid.n_owned_nodes())
+      if (node < field.locally_owned_size())
         field.local_element(node) = values[place];
     });
     field.update_ghost_values();
@@ -105,19 +111,46 @@ namespace CaissonMPM
     return state;
   }
 
+  std::vector<double>
+  GroundWater::values_at_places(const NamedNumbers &state,
+                                const std::string  &field) const
+  {
+    std::vector<double> values(n_places(), 0.);
+    for (const auto &[name, value] : state)
+      if (name.compare(0, field.size(), field) == 0)
+        values[std::stoul(name.substr(field.size()))] = value;
+    return values;
+  }
+
   void
   GroundWater::resume_field(const NamedNumbers &state)
   {
-    if (!flows())
-      return;
-    for (const KeptField &kept : kept_fields())
-      {
-        std::vector<double> values(n_places(), 0.);
-        for (const auto &[name, value] : state)
-          if (name.compare(0, kept.name.size(), kept.name) == 0)
-            values[std::stoul(name.substr(kept.name.size()))] = value;
-        scatter(values, *kept.field);
-      }
+    if (flows())
+      for (const KeptField &kept : kept_fields())
+        scatter(values_at_places(state, kept.name), *kept.field);
+  }
+
+  void
+  GroundWater::begin_with_seepage(const NamedNumbers &state)
+  {
+    const std::vector<double> at_nodes = values_at_places(state, of_nodes);
+    const std::size_t         per_row  = grid.lines().n_columns() + 1;
+    CellData                 &p        = projection.pressure();
+    p.zero_out_ghost_values();
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (grid.is_owned(cell))
+        {
+          const CellBlock &block =
+            grid.lines().tree().block(grid.global_number(cell));
+          double mean = 0.;
+          for (unsigned int k = 0; k < 4; ++k)
+            mean += .25 * at_nodes[(block.row + k / 2 * block.size) * per_row +
+                                   block.column + k % 2 * block.size];
+          p.local_element(projection.solver().place(cell)) =
+            -suction.value() * mean;
+        }
+    p.update_ghost_values();
+    projection.begin_with({-suction.value(), 0.});
   }
 
   void
@@ -132,11 +165,7 @@ namespace CaissonMPM
     if (was_coupled == is_coupled())
       resume_field(state);
     else if (is_coupled() && level == "seepage")
-      {
-        resume_field(state);
-        projection.pressure() *= -suction.value();
-        projection.pressure().update_ghost_values();
-      }
+      begin_with_seepage(state);
     mudline.find(grid, points);
     if (is_coupled())
       find_tip_integral();

@@ -21,9 +21,6 @@ namespace CaissonMPM
     // a per cent.
     constexpr double largest_inertia = .02;
 
-    // Above this, the loss of old pressure acts as permeability does.
-    constexpr double largest_leak = .5;
-
     // From this share of the area on, the soil bears on the whole lid.
     constexpr double full_lid = .9;
 
@@ -109,7 +106,7 @@ namespace CaissonMPM
                       {{"tip_water_force_N", tip_force()},
                        {"total_force_with_water_N", total_with_water},
                        {"net_outflow_m3_s", -scale * flow_in},
-                       {"flow_iterations", 1. * solver().n_iterations()}});
+                       {"flow_iterations", 1. * n_iterations()}});
         return result;
       }
     const NamedNumbers of_lid = values_of_lid(mudline);
@@ -151,7 +148,7 @@ namespace CaissonMPM
       {"plug_heave_m", rise},
       {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
       {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
-      {"flow_iterations", 1. * solver().n_iterations()}};
+      {"flow_iterations", 1. * n_iterations()}};
     const auto of_plug = plug_balance.columns(lid_area() * rise);
     result.insert(result.end(), of_plug.begin(), of_plug.end());
     return result;
@@ -167,10 +164,9 @@ namespace CaissonMPM
     };
     for (const double p : undrained.pressure())
       include(p);
-    for (unsigned int node = 0;
-         is_coupled() && has_started && node < grid.n_owned_nodes();
-         ++node)
-      include(projection.pressure().local_element(node));
+    if (is_coupled() && has_started)
+      for (const unsigned int cell : projection.solver().cells())
+        include(projection.pressure_in(cell));
     return {Utilities::MPI::min(result.first, grid.communicator()),
             Utilities::MPI::max(result.second, grid.communicator())};
   }
@@ -184,21 +180,21 @@ namespace CaissonMPM
     const auto include = [&](const double p, const double r, const double z) {
       lowest = std::min(lowest, {{rest - gamma * z + p, r, z}});
     };
+    const auto include_cell = [&](const double p, const unsigned int cell) {
+      const Kernels::CellMap<> map(grid.geometry(cell));
+      include(p, map.left + .5 * map.width, map.center_z());
+    };
     if (undrained.is_found())
       for (const unsigned int cell : points.cells_with_points())
-        {
-          const Kernels::CellMap<> map(grid.geometry(cell));
-          include(undrained.pressure()[cell],
-                  map.left + .5 * map.width,
-                  map.center_z());
-        }
-    for (unsigned int node = 0;
-         is_coupled() && is_solved && node < grid.n_owned_nodes();
-         ++node)
-      if (solver().state(node) != PressureSolver::no_water)
-        include(projection.pressure().local_element(node),
-                grid.r_of(node),
-                grid.z_of(node));
+        include_cell(undrained.pressure()[cell], cell);
+    if (is_coupled() && is_solved)
+      {
+        for (const unsigned int cell : projection.solver().cells())
+          include_cell(projection.pressure_in(cell), cell);
+        for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
+          if (const auto p = projection.known_at(node))
+            include(*p, grid.r_of(node), grid.z_of(node));
+      }
     for (const auto &of_rank :
          Utilities::MPI::all_gather(grid.communicator(), lowest))
       lowest = std::min(lowest, of_rank);
@@ -209,16 +205,7 @@ namespace CaissonMPM
   GroundWater::find_exit_gradient()
   {
     const double wall = body.shape().left(), width = body.penetration();
-    NodalData    flux;
-    // what the soil at the mudline gives off in a step is noise to the gradient
-    if (is_coupled())
-      projection.find_flux(flux);
-    exit = exit_gradient(grid,
-                         mudline,
-                         permeability,
-                         is_coupled() ? flux : outflow(),
-                         wall,
-                         width);
+    exit = exit_gradient(grid, mudline, permeability, outflow(), wall, width);
   }
 
   NamedNumbers
@@ -373,8 +360,8 @@ namespace CaissonMPM
   }
 
   std::vector<std::string>
-  GroundWater::known_limits(const std::vector<Kernels::Material> &materials,
-                            const double                          dt) const
+  GroundWater::known_limits(
+    const std::vector<Kernels::Material> &materials) const
   {
     std::vector<std::string> limits;
     for (unsigned int i = 0; is_undrained() && i < materials.size(); ++i)
@@ -395,26 +382,6 @@ namespace CaissonMPM
           to_text(of_layers[i].inertia, 2) + ", more than " +
           to_text(largest_inertia) +
           ". Reduce Time/Mass scaling if pressures that change fast matter");
-    if (!is_coupled())
-      return limits;
-    for (unsigned int i = 0; i < soil.n_layers(); ++i)
-      {
-        const double leak = smoothing * dt * soil.unit_weight_of_water() /
-                            (soil.inertial_density(i) * time_compression *
-                             soil.layer(i).permeability);
-        if (leak > largest_leak)
-          limits.push_back(
-            "layer " + to_text(i + 1) +
-            " conducts so badly that pressures which change within two cells "
-            "fade by error: what smoothing conducts weighs " +
-            to_text(leak, 2) + " times the permeability, more than " +
-            to_text(largest_leak) +
-            ". Make the cells smaller there, or set Water/Pressure smoothing = "
-            "0.01, and look at what that changes");
-      }
-    if (smoothing == 0.)
-      limits.push_back("with Water/Pressure smoothing = 0, pressures that "
-                       "alternate from node to node may grow and end a run");
     return limits;
   }
 

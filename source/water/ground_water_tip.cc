@@ -78,7 +78,9 @@ namespace CaissonMPM
   {
     const auto over_tip = integrate_over_tip(
       [this](const unsigned int cell, const unsigned int corner) {
-        return field().local_element(grid.cell_nodes(cell).node[corner]);
+        return is_coupled() ? projection.pressure_in(cell) :
+                              seepage.field().local_element(
+                                grid.cell_nodes(cell).node[corner]);
       });
     tip_integral = over_tip[0];
     tip_area     = over_tip[1];

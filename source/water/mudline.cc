@@ -19,7 +19,7 @@ namespace CaissonMPM
     // A cell with less soil than this holds points that were thrown off.
     constexpr double least_share_of_soil = .05;
 
-    constexpr double round_off = 1e-6; // of the height of a cell
+    constexpr double round_off = 1e-9; // of the height of the domain
 
     double
     bottom_of(const Kernels::CellGeometry &g)
@@ -42,6 +42,8 @@ namespace CaissonMPM
     left.resize(lines.n_columns());
     width.resize(lines.n_columns());
     sides.resize(lines.n_columns());
+    tolerance = round_off * (lines.node_start(0, lines.n_rows())[1] -
+                             lines.node_start(0, 0)[1]);
     for (unsigned int c = 0; c < lines.n_columns(); ++c)
       {
         left[c]             = lines.node_start(c, 0)[0];
@@ -63,6 +65,11 @@ namespace CaissonMPM
               row               = std::min(row, block.row);
             }
       }
+    // the column of an edge that is inset has soil only
+    for (unsigned int c = 0; c < lines.n_columns(); ++c)
+      if (sides[c] == Side::body && lowest_of_body[c] == lines.n_rows())
+        sides[c] = left[c] > .5 * (body.left() + body.right()) ? Side::beyond :
+                                                                 Side::plug;
     first_column.resize(grid.n_cells());
     n_columns.resize(grid.n_cells());
     is_below_body.resize(grid.n_cells());
@@ -173,13 +180,15 @@ namespace CaissonMPM
         double mean = 0.;
         for (unsigned int i = 0; i < n_columns[cell]; ++i)
           mean += heights[first_column[cell] + i] / n_columns[cell];
-        const double share     = (mean - bottom_of(g)) / height_of(g);
-        const int    above     = grid.neighbor(cell, 3);
-        const bool   is_at_lid = above >= 0 && grid.is_rigid(above);
-        if (share > round_off)
+        // the same for all cells, so that each column has a top
+        const double above_bottom = mean - bottom_of(g);
+        const int    above        = grid.neighbor(cell, 3);
+        const bool   is_at_lid    = above >= 0 && grid.is_rigid(above);
+        if (above_bottom > tolerance)
           {
-            filled_[cell] = std::clamp(share, least_filled, 1.);
-            top[cell]     = share <= 1. + round_off || is_at_lid;
+            filled_[cell] =
+              std::clamp(above_bottom / height_of(g), least_filled, 1.);
+            top[cell] = above_bottom <= height_of(g) + tolerance || is_at_lid;
           }
         if (top[cell])
           for (unsigned int i = 0; i < n_columns[cell]; ++i)

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/water/pressure_projection.h>
-#include <caisson_mpm/water/seepage.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace CaissonMPM
 {
@@ -16,11 +14,11 @@ namespace CaissonMPM
   namespace
   {
     // What is left is made good in the next step.
-    constexpr PressureSolver::Accuracy accuracy = {1e-8, 1e-1};
+    constexpr PressureSolver::Accuracy accuracy = {0., .3};
 
-    // The equations of a cell are found anew when its shape or its filled share
-    // have changed by this.
-    constexpr double largest_change = 1e-3;
+    // Where soil fills a cell by less than the first share, its velocities say
+    // nothing of its volume; from the second one on they do.
+    constexpr double hardly_filled = .25, well_filled = .75;
 
     /** Return what the cell at a corner adds to the velocity of the node. */
     std::array<double, 2>
@@ -32,250 +30,282 @@ namespace CaissonMPM
         change[d] = corner.velocity[d] + free * corner.q[d] - v.value[d];
       return change;
     }
+
+    /** Return how much the pressure of a cell follows from its own change of
+     * volume, and not from the pressures around it. */
+    double
+    share_of_own(const double filled)
+    {
+      return std::clamp(
+        (filled - hardly_filled) / (well_filled - hardly_filled), 0., 1.);
+    }
+
+    /** Return how steep the middle of a cell rises or falls. */
+    double
+    slope_of(const Kernels::CellGeometry &g)
+    {
+      const double rise = g.bottom_right + .5 * g.height_right - g.bottom_left -
+                          .5 * g.height_left;
+      return std::abs(rise) / g.width;
+    }
+
+    /** Return whether cells are the same but for their height and rounding. */
+    bool
+    have_same_shape(const Kernels::CellGeometry &a,
+                    const Kernels::CellGeometry &b)
+    {
+      const auto same = [&a](const double x, const double y) {
+        return std::abs(x - y) <= 1e-10 * (a.width + a.height_left);
+      };
+      return same(a.left, b.left) && same(a.width, b.width) &&
+             same(a.height_left, b.height_left) &&
+             same(a.height_right, b.height_right) &&
+             same(a.bottom_right - a.bottom_left,
+                  b.bottom_right - b.bottom_left);
+    }
   } // namespace
 
   void
-  PressureProjection::initialize(const BackgroundGrid &grid_of_run,
-                                 const unsigned int    n_layers_of_run)
+  PressureProjection::initialize(const BackgroundGrid &grid_of_run)
   {
-    grid     = &grid_of_run;
-    n_layers = n_layers_of_run;
+    grid = &grid_of_run;
     solver_.initialize(*grid);
-    for (NodalData *v : {&pressure_,
-                         &kept_,
-                         &outflow_,
-                         &remainder_,
-                         &source,
-                         &rate,
-                         &uniform,
-                         &of_uniform})
+    for (CellData *v : {&pressure_,
+                        &remainder_,
+                        &source,
+                        &mobility[0],
+                        &mobility[1],
+                        &inverse_density})
+      solver_.reinit(*v);
+    for (NodalData *v : {&outflow_, &nodal_pressure, &nodal_volume})
       grid->reinit(*v, 1);
-    grid->reinit(of_nodes, n_layers + 1);
-    grid->reinit(gradient, 2 * n_layers);
-    const unsigned int n_cells = grid->n_cells();
-    shapes.assign(n_cells, Shape());
-    flow.resize(n_cells);
-    inertia.resize(n_cells);
-    divergence.resize(n_cells);
-    gradients.resize(n_cells);
-    volume_rates_.assign(grid->n_cells(),
-                         std::numeric_limits<double>::quiet_NaN());
+    shapes.assign(grid->n_cells(), {});
+    divergence.assign(grid->n_cells(), {});
+    force_of.assign(grid->n_cells(), {});
+    volumes.assign(grid->n_cells(), 0.);
+    was_wet.assign(grid->n_cells(), false);
+    knows_wet_cells = false;
+    acting.assign(grid->n_cells(), 0.);
   }
 
   void
-  PressureProjection::find_equations(const unsigned int           cell,
-                                     const Kernels::CellGeometry &geometry,
-                                     const double                 filled,
-                                     const WaterProperties       &properties)
+  PressureProjection::register_totals(RunTotals &totals)
   {
-    Shape       &shape   = shapes[cell];
-    const double rise    = geometry.bottom_right - geometry.bottom_left;
-    const auto   differs = [](const double a, const double b, const double of) {
-      return std::abs(a - b) > largest_change * of;
-    };
-    if (!differs(shape.width, geometry.width, geometry.width) &&
-        !differs(shape.left, geometry.left, geometry.width) &&
-        !differs(shape.heights[0],
-                 geometry.height_left,
-                 geometry.height_left) &&
-        !differs(shape.heights[1],
-                 geometry.height_right,
-                 geometry.height_right) &&
-        !differs(shape.rise, rise, geometry.height_left) &&
-        !differs(shape.filled, filled, filled) &&
-        shape.properties.mobility == properties.mobility &&
-        shape.properties.specific_volume == properties.specific_volume &&
-        shape.properties.layer == properties.layer)
-      return;
-    shape = {geometry.width,
-             geometry.left,
-             {geometry.height_left, geometry.height_right},
-             rise,
-             filled,
-             properties};
+    totals.carry("water_known_in_plug", known_[static_cast<int>(Beyond::plug)]);
+    totals.carry("water_known_at_bottom",
+                 known_[static_cast<int>(Beyond::bottom)]);
+  }
 
-    const CellIntegrals integrals(geometry, grid->axisymmetric() ? 1. : 0.);
-    const double        per_mass = properties.specific_volume;
-    flow[cell] =
-      integrals.stiffness(of_lower_part(properties.mobility, filled));
-    inertia[cell] =
-      integrals.stiffness(of_lower_part({per_mass, per_mass}, filled));
-    divergence[cell] = integrals.divergence();
-    gradients[cell]  = {integrals.mean_gradient(),
-                        integrals.volumes(),
-                        per_mass,
-                        properties.layer};
-    for (unsigned int i = 0; i < 4; ++i)
+  void
+  PressureProjection::begin_with(const KnownPressures &known)
+  {
+    known_[static_cast<int>(Beyond::plug)]   = known.plug;
+    known_[static_cast<int>(Beyond::bottom)] = known.bottom;
+  }
+
+  void
+  PressureProjection::find_known_nodes(const PressureSolver::OpenSides &open)
+  {
+    beyond_node.assign(grid->n_nodes(), Beyond::cell);
+    const auto know = [this](const unsigned int node, const Beyond beyond) {
+      Beyond &other = beyond_node[node];
+      if (other == Beyond::cell || beyond == Beyond::plug)
+        other = beyond;
+    };
+    for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
       {
-        gradients[cell].volumes[i] *= filled;
-        gradients[cell].mean[1][i] /= filled;
-        for (auto &b : divergence[cell])
-          b[i] *= filled;
+        if (mudline->filled()[cell] == 0.)
+          continue;
+        const auto &node    = grid->cell_nodes(cell).node;
+        const bool  in_plug = mudline->side_of(cell) == Mudline::Side::plug;
+        if (mudline->is_top(cell) && (in_plug || open.surface))
+          for (unsigned int k = 2; k < 4; ++k)
+            know(node[k], in_plug ? Beyond::plug : Beyond::outside);
+        for (const unsigned int n : node)
+          if (open.outer && grid->is_at(n, GridLines::Side::outer))
+            know(n, Beyond::outside);
+          else if (open.bottom && grid->is_at(n, GridLines::Side::bottom))
+            know(n, Beyond::bottom);
       }
+  }
+
+  void
+  PressureProjection::subtract_pressure_of_body(const unsigned int cell,
+                                                OfCorners         &of) const
+  {
+    // sides left, right, below, above, and their corners
+    constexpr int corners[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
+    const auto   &g             = grid->geometry(cell);
+    const double  round         = grid->axisymmetric() ? 1. : 0.;
+    for (int side = 0; side < 4; ++side)
+      {
+        const int other = grid->neighbor(cell, side);
+        if (other < 0 || !grid->is_rigid(other))
+          continue;
+        const bool   is_right = side == 1;
+        const double rise     = side == 3 ? g.bottom_right + g.height_right -
+                                          g.bottom_left - g.height_left :
+                                            g.bottom_right - g.bottom_left;
+        const double along[2] = {side < 2 ? 0. : g.width,
+                                 side < 2 ?
+                                   (is_right ? g.height_right : g.height_left) :
+                                   rise};
+        const double sign = side == 0 || side == 3 ? 1. : -1.;
+        const double r_0  = g.left + is_right * g.width,
+                     r[2] = {r_0, r_0 + along[0]};
+        for (int i = 0; i < 2; ++i)
+          {
+            const double weight =
+              round * (2. * r[i] + r[1 - i]) / 6. + (1. - round) * .5;
+            const int j = corners[side][i];
+            of[2 * j] += sign * weight * along[1];
+            of[2 * j + 1] -= sign * weight * along[0];
+          }
+      }
+  }
+
+  void
+  PressureProjection::find_integrals(const unsigned int cell)
+  {
+    const Kernels::CellGeometry &now = grid->geometry(cell);
+    if (have_same_shape(now, shapes[cell]))
+      return;
+    shapes[cell] = now;
+    const CellIntegrals integrals(now, grid->axisymmetric() ? 1. : 0.);
+    volumes[cell]    = integrals.volume();
+    divergence[cell] = integrals.divergence();
+    force_of[cell]   = divergence[cell];
+    subtract_pressure_of_body(cell, force_of[cell]);
   }
 
   void
   PressureProjection::set_up(const BackgroundGrid               &grid,
-                             const Mudline                      &mudline,
+                             const Mudline                      &mudline_now,
                              const std::vector<WaterProperties> &properties,
                              const PressureSolver::OpenSides    &sides,
+                             const BoundaryConditions           &conditions,
                              const double                        dt)
   {
-    step = dt;
-    solver_.find_states(grid, mudline, sides);
-    double largest = 0.;
-    has_water.assign(grid.n_cells(), 0);
+    // In a step that is shorter than the last one, the pressure need not do at
+    // once what a whole step would do.
+    long_step = std::max(dt, step);
+    step      = dt;
+    mudline   = &mudline_now;
+    find_known_nodes(sides);
+    solver_.find_faces(*mudline, sides, conditions);
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (!grid.is_rigid(cell))
+        find_integrals(cell);
+    begin_in_new_cells();
+    find_conductances(properties);
+    find_acting();
+  }
+
+  void
+  PressureProjection::begin_in_new_cells()
+  {
+    for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
+      {
+        const bool is_wet = mudline->filled()[cell] > 0.;
+        if (is_wet && knows_wet_cells && !was_wet[cell])
+          pressure_.local_element(solver_.place(cell)) = pressure_above(cell);
+        was_wet[cell] = is_wet;
+      }
+    knows_wet_cells = true;
+  }
+
+  double
+  PressureProjection::pressure_above(const unsigned int cell) const
+  {
+    return mudline->side_of(cell) == Mudline::Side::plug ?
+             known_[static_cast<int>(Beyond::plug)] :
+             known_[static_cast<int>(Beyond::outside)];
+  }
+
+  void
+  PressureProjection::find_conductances(
+    const std::vector<WaterProperties> &properties)
+  {
+    for (CellData *v : {&mobility[0], &mobility[1], &inverse_density})
+      v->zero_out_ghost_values();
     for (const unsigned int cell : solver_.cells())
       {
-        const WaterProperties &p = properties[cell];
-        has_water[cell]          = 1;
-        find_equations(cell, grid.geometry(cell), mudline.filled()[cell], p);
-        largest = std::max({largest,
-                            p.mobility.horizontal + dt * p.specific_volume,
-                            p.mobility.vertical + dt * p.specific_volume});
+        const unsigned int i             = solver_.place(cell);
+        mobility[0].local_element(i)     = properties[cell].mobility.horizontal;
+        mobility[1].local_element(i)     = properties[cell].mobility.vertical;
+        inverse_density.local_element(i) = properties[cell].specific_volume;
       }
-    scale = Utilities::MPI::max(largest, grid.communicator());
-    for (std::size_t i = 0; i < solver_.cells().size(); ++i)
-      {
-        const unsigned int cell   = solver_.cells()[i];
-        auto              &matrix = solver_.matrices()[i];
-        for (std::size_t k = 0; k < matrix.size(); ++k)
-          matrix[k] = (flow[cell][k] + dt * inertia[cell][k]) / scale;
-      }
-    find_volumes();
-    find_uniform();
-  }
+    for (CellData *v : {&mobility[0], &mobility[1], &inverse_density})
+      v->update_ghost_values();
 
-  template <typename Action>
-  void
-  PressureProjection::sum_cells(NodalData         &to,
-                                const unsigned int n_components,
-                                const Action      &add) const
-  {
-    to = 0.;
-    to.zero_out_ghost_values();
-    for (const unsigned int cell : solver_.cells())
-      add(cell, grid->cell_nodes(cell).node, to.begin());
-    add_up(to, n_components);
-  }
-
-  void
-  PressureProjection::add_up(NodalData         &of_cells,
-                             const unsigned int n_components) const
-  {
-    grid->hanging_nodes().distribute(of_cells, n_components);
-    of_cells.compress(VectorOperation::add);
-  }
-
-  void
-  PressureProjection::find_divergence(
-    const Kernels::NodalVector             *velocity,
-    const std::vector<Kernels::CornerView> &corners,
-    NodalData                              &to) const
-  {
-    // what velocity v at the corner j of a cell drives out at its nodes
-    const auto add = [this](const unsigned int cell,
-                            const unsigned int j,
-                            const double      *v,
-                            double            *of_cell) {
-      const Divergence &of = divergence[cell];
-      for (unsigned int i = 0; i < 4; ++i)
-        of_cell[i] += of[2 * j][i] * v[0] + of[2 * j + 1][i] * v[1];
+    // the resistances of both halves add up
+    const auto through = [](const CellPressureSolver::Face &face,
+                            const CellData                 &property) {
+      const double a     = property.local_element(face.place),
+                   b     = property.local_element(face.other_place);
+      const double per_a = face.distance / a, per_b = face.other_distance / b;
+      return face.area / (per_a + per_b);
     };
-    to = 0.;
-    to.zero_out_ghost_values();
-    double *const sums = to.begin();
-    for (const unsigned int cell : solver_.cells())
+    // On inclined rows, differences along and across the row act together.
+    const auto for_slope = [this](const CellPressureSolver::Face &face) {
+      const double s = std::max(slope_of(grid->geometry(face.cell)),
+                                slope_of(grid->geometry(face.other)));
+      return (1. + s / std::sqrt(1. + s * s)) *
+             (face.is_horizontal ? 1. + s * s : 1.);
+    };
+    const auto &faces = solver_.faces();
+    seepage.resize(faces.size());
+    inertia.resize(faces.size());
+    conductances.resize(faces.size());
+    double largest = 0., open = 0.;
+    for (std::size_t f = 0; f < faces.size(); ++f)
       {
-        const unsigned int *const node       = grid->cell_nodes(cell).node;
-        double                    of_cell[4] = {};
-        for (unsigned int j = 0; j < 4; ++j)
-          add(cell, j, velocity[node[j]].value, of_cell);
-        for (unsigned int i = 0; i < 4; ++i)
-          sums[node[i]] += of_cell[i];
+        seepage[f] = faces[f].is_open ?
+                       through(faces[f], mobility[faces[f].is_horizontal]) :
+                       0.;
+        inertia[f] =
+          faces[f].free_share > 0. ?
+            for_slope(faces[f]) * through(faces[f], inverse_density) :
+            0.;
+        conductances[f] = seepage[f] + long_step * inertia[f];
+        largest         = std::max(largest, conductances[f]);
+        if (faces[f].beyond != Beyond::cell)
+          open += conductances[f];
       }
-    for (const Kernels::CornerView &corner : corners)
-      if (has_water[corner.cell])
+    find_faces_below();
+    scale            = Utilities::MPI::max(largest, grid->communicator());
+    open_conductance = Utilities::MPI::sum(open, grid->communicator());
+    for (double &g : conductances)
+      g /= scale;
+  }
+
+  void
+  PressureProjection::find_acting()
+  {
+    for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
+      {
+        if (grid->is_rigid(cell))
+          continue;
+        const double filled = mudline->filled()[cell];
+        const double above  = pressure_above(cell);
+        acting[cell]        = filled > 0. ?
+                                filled * pressure_in(cell) + (1. - filled) * above :
+                                above;
+      }
+  }
+
+  void
+  PressureProjection::add_force(Kernels::NodalVector *force) const
+  {
+    for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
+      if (acting[cell] != 0. && grid->is_owned(cell))
         {
-          const unsigned int *const node = grid->cell_nodes(corner.cell).node;
-          double                    of_cell[4] = {};
-          add(corner.cell,
-              corner.corner,
-              change_at(corner, velocity[node[corner.corner]]).data(),
-              of_cell);
-          for (unsigned int i = 0; i < 4; ++i)
-            sums[node[i]] += of_cell[i];
+          const OfCorners &of = force_of[cell];
+          for (unsigned int j = 0; j < 4; ++j)
+            for (unsigned int d = 0; d < 2; ++d)
+              force[grid->cell_nodes(cell).node[j]].value[d] +=
+                acting[cell] * of[2 * j + d];
         }
-    add_up(to, 1);
-  }
-
-  void
-  PressureProjection::find_gradient()
-  {
-    const double *const p = pressure_.begin();
-    sum_cells(gradient,
-              2 * n_layers,
-              [&](const unsigned int        cell,
-                  const unsigned int *const node,
-                  double *const             sums) {
-                const Gradient &of = gradients[cell];
-                for (unsigned int d = 0; d < 2; ++d)
-                  {
-                    double mean = 0.;
-                    for (unsigned int j = 0; j < 4; ++j)
-                      mean += of.mean[d][j] * p[node[j]];
-                    for (unsigned int j = 0; j < 4; ++j)
-                      sums[2 * (node[j] * n_layers + of.layer) + d] +=
-                        of.volumes[j] * mean;
-                  }
-              });
-    double       *values = gradient.begin();
-    const double *volume = of_nodes.begin();
-    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node, ++volume)
-      for (unsigned int layer = 0; layer < n_layers; ++layer, ++volume)
-        for (unsigned int d = 0; d < 2; ++d, ++values)
-          if (*volume > 0.)
-            *values /= *volume;
-    gradient.update_ghost_values();
-    grid->hanging_nodes().interpolate(gradient, 2 * n_layers);
-  }
-
-  void
-  PressureProjection::find_kept(const double smoothing)
-  {
-    find_gradient();
-    find_product(inertia, pressure_, source);
-    const double *const at_nodes = gradient.begin();
-    sum_cells(rate,
-              1,
-              [&](const unsigned int        cell,
-                  const unsigned int *const node,
-                  double *const             sums) {
-                const Gradient &of = gradients[cell];
-                for (unsigned int d = 0; d < 2; ++d)
-                  {
-                    double mean = 0.;
-                    for (unsigned int j = 0; j < 4; ++j)
-                      mean += of.volumes[j] *
-                              at_nodes[2 * (node[j] * n_layers + of.layer) + d];
-                    mean *= of.specific_volume;
-                    for (unsigned int i = 0; i < 4; ++i)
-                      sums[node[i]] += of.mean[d][i] * mean;
-                  }
-              });
-    kept_.zero_out_ghost_values();
-    kept_.copy_locally_owned_data_from(pressure_);
-    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
-      {
-        const double diagonal =
-          of_nodes.local_element(node * (n_layers + 1) + n_layers);
-        if (solver_.state(node) == PressureSolver::unknown && diagonal > 0.)
-          kept_.local_element(node) -=
-            smoothing *
-            (source.local_element(node) - rate.local_element(node)) / diagonal;
-      }
-    kept_.update_ghost_values();
-    grid->hanging_nodes().interpolate(kept_, 1);
   }
 
   void
@@ -283,137 +313,219 @@ namespace CaissonMPM
                             const std::vector<Kernels::CornerView> &corners,
                             const KnownPressures                   &known)
   {
-    find_divergence(velocity, corners, rate);
-    find_product(inertia, kept_, source);
-    source.sadd(step / scale, -1. / scale, rate);
-    // A step that is shorter than the last one makes good its share of what
-    // that one left: all of it at once would be a flood.
-    const double share = std::min(1., step / std::max(step_before, step));
-    step_before        = step;
-    source.add(share / (step * scale), remainder_);
+    find_volume_rates(velocity, corners);
+    const CellPressureSolver::Known before = known_;
+    begin_with(known);
 
-    pressure_.zero_out_ghost_values();
-    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
-      if (solver_.state(node) == PressureSolver::plug)
-        pressure_.local_element(node) = known.plug;
-      else if (solver_.state(node) == PressureSolver::open)
-        pressure_.local_element(node) =
-          grid->is_at(node, GridLines::Side::bottom) ? known.bottom : 0.;
-    solver_.solve(source, accuracy, pressure_);
-    solver_.apply(pressure_, outflow_);
-    outflow_.sadd(-1., 1., source);
-    close_balance();
-    outflow_ *= scale;
+    source = 0.;
+    source.zero_out_ghost_values();
+    const auto &faces = solver_.faces();
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      {
+        const auto  &face  = faces[f];
+        const double other = face.beyond == Beyond::cell ?
+                               pressure_.local_element(face.other_place) :
+                               before[static_cast<int>(face.beyond)];
+        const double drive = long_step * inertia[f] *
+                             (pressure_.local_element(face.place) - other);
+        source.local_element(face.place) += drive;
+        if (face.beyond == Beyond::cell)
+          source.local_element(face.other_place) -= drive;
+      }
+    for (const unsigned int cell : solver_.cells())
+      {
+        const unsigned int i = solver_.place(cell);
+        const double       x = mudline->filled()[cell];
+        source.local_element(i) += remainder_.local_element(i) / long_step -
+                                   x * volumes[cell] * volume_rates_[cell];
+        source.local_element(i) *= share_of_own(x);
+      }
+    source.zero_out_ghost_values();
+    source *= 1. / scale;
+    solver_.solve(conductances, source, known_, accuracy, pressure_);
+
+    // What the solver left of each equation is small, but adds up. Shifted
+    // pressures take the sum away.
+    double sum = 0.;
+    for (const unsigned int cell : solver_.cells())
+      sum += solver_.residual().local_element(solver_.place(cell));
+    sum                = Utilities::MPI::sum(sum, grid->communicator());
+    CellData &left_now = source;
+    left_now.zero_out_ghost_values();
+    left_now.copy_locally_owned_data_from(solver_.residual());
+    if (open_conductance > 0.)
+      {
+        const double rise = sum * scale / open_conductance;
+        for (const unsigned int cell : solver_.cells())
+          pressure_.local_element(solver_.place(cell)) += rise;
+        for (std::size_t f = 0; f < faces.size(); ++f)
+          if (faces[f].beyond != Beyond::cell)
+            left_now.local_element(faces[f].place) -= rise * conductances[f];
+      }
     remainder_.zero_out_ghost_values();
-    remainder_.sadd(1. - share, step, outflow_);
-    solver_.keep_unknown(remainder_);
-  }
-
-  void
-  PressureProjection::close_balance()
-  {
-    // What the solver left of each equation is small, but adds up. A uniform
-    // pressure where it is not known takes the sum away.
-    if (conductance <= 0.)
-      return;
-    const double rise =
-      solver_.sums_by_state(outflow_)[PressureSolver::unknown] / conductance;
-    pressure_.zero_out_ghost_values();
-    pressure_.add(rise, uniform);
+    remainder_.sadd(1. - step / long_step, scale * step, left_now);
     pressure_.update_ghost_values();
-    grid->hanging_nodes().interpolate(pressure_, 1);
-    outflow_.add(-rise, of_uniform);
+    find_acting();
+    find_flow(left_now);
   }
 
   void
-  PressureProjection::find_flux(NodalData &flux) const
+  PressureProjection::find_flow(const CellData &left_now)
   {
-    grid->reinit(flux, 1);
-    find_product(flow, pressure_, flux);
-    flux *= -1.;
+    // out of the plug, out elsewhere, and what is left of the equations
+    std::array<double, 3> sums = {};
+    for (std::size_t f = 0; f < solver_.faces().size(); ++f)
+      {
+        const Beyond beyond = solver_.faces()[f].beyond;
+        if (beyond != Beyond::cell)
+          sums[beyond != Beyond::plug] += outflow_through(f);
+      }
+    for (const unsigned int cell : solver_.cells())
+      sums[2] += scale * left_now.local_element(solver_.place(cell));
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                        grid->communicator(),
+                        ArrayView<double>(sums.data(), sums.size()));
+    flow_.out  = sums[0] * grid->circumference();
+    flow_.in   = -sums[1] * grid->circumference();
+    flow_.left = sums[2] * grid->circumference();
   }
 
   void
-  PressureProjection::find_product(
-    const std::vector<PressureSolver::CellMatrix> &matrices,
-    const NodalData                               &p,
-    NodalData                                     &to) const
+  PressureProjection::find_faces_below()
   {
-    const double *const value = p.begin();
-    sum_cells(to,
-              1,
-              [&](const unsigned int        cell,
-                  const unsigned int *const node,
-                  double *const             sums) {
-                const auto &k          = matrices[cell];
-                double      of_cell[4] = {};
-                for (unsigned int j = 0; j < 4; ++j)
-                  for (unsigned int i = 0; i < 4; ++i)
-                    of_cell[i] += k[4 * j + i] * value[node[j]];
-                for (unsigned int i = 0; i < 4; ++i)
-                  sums[node[i]] += of_cell[i];
-              });
+    const auto      &faces = solver_.faces();
+    std::vector<int> below(grid->n_cells(), -1);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      if (faces[f].is_horizontal && faces[f].beyond == Beyond::cell)
+        {
+          const auto &face     = faces[f];
+          const bool  is_upper = grid->geometry(face.cell).bottom_left >
+                                grid->geometry(face.other).bottom_left;
+          below[is_upper ? face.cell : face.other] = f;
+        }
+    face_below.assign(faces.size(), -1);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      if (faces[f].is_horizontal && faces[f].beyond != Beyond::cell &&
+          mudline->is_top(faces[f].cell) &&
+          mudline->filled()[faces[f].cell] < well_filled)
+        face_below[f] = below[faces[f].cell];
   }
 
-  void
-  PressureProjection::find_volumes()
+  double
+  PressureProjection::outflow_through(const std::size_t side) const
   {
-    sum_cells(of_nodes,
-              n_layers + 1,
-              [&](const unsigned int        cell,
-                  const unsigned int *const node,
-                  double *const             sums) {
-                for (unsigned int i = 0; i < 4; ++i)
-                  {
-                    double *const of_node = sums + node[i] * (n_layers + 1);
-                    of_node[gradients[cell].layer] +=
-                      gradients[cell].volumes[i];
-                    of_node[n_layers] += inertia[cell][5 * i];
-                  }
-              });
+    const auto  &face  = solver_.faces()[side];
+    const double known = known_[static_cast<int>(face.beyond)];
+    if (face_below[side] < 0)
+      return seepage[side] * (pressure_.local_element(face.place) - known);
+    const auto  &below   = solver_.faces()[face_below[side]];
+    const double through = seepage[face_below[side]];
+    return seepage[side] * through / (seepage[side] + through) *
+           (pressure_.local_element(
+              below.cell == face.cell ? below.other_place : below.place) -
+            known);
   }
 
-  void
-  PressureProjection::find_uniform()
+  const NodalData &
+  PressureProjection::find_outflow()
   {
+    outflow_ = 0.;
+    outflow_.zero_out_ghost_values();
+    const auto &faces = solver_.faces();
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      {
+        const auto &face = faces[f];
+        if (face.beyond == Beyond::cell || !face.is_open)
+          continue;
+        const double out = outflow_through(f);
+        const auto  &g   = grid->geometry(face.cell);
+        const auto  &n   = grid->cell_nodes(face.cell).node;
+        if (!face.is_horizontal)
+          {
+            outflow_.local_element(n[1]) += .5 * out;
+            outflow_.local_element(n[3]) += .5 * out;
+            continue;
+          }
+        const unsigned int first = face.beyond == Beyond::bottom ? 0 : 2;
+        const double       left =
+          grid->axisymmetric() ?
+                  (3. * g.left + g.width) / (3. * (2. * g.left + g.width)) :
+                  .5;
+        outflow_.local_element(n[first]) += left * out;
+        outflow_.local_element(n[first + 1]) += (1. - left) * out;
+      }
+    grid->hanging_nodes().distribute(outflow_, 1);
+    outflow_.compress(VectorOperation::add);
+    return outflow_;
+  }
+
+  std::optional<double>
+  PressureProjection::known_at(const unsigned int node) const
+  {
+    const Beyond beyond = beyond_node[node];
+    if (beyond == Beyond::cell)
+      return std::nullopt;
+    return known_[static_cast<int>(beyond)];
+  }
+
+  const NodalData &
+  PressureProjection::find_nodal_pressure()
+  {
+    for (NodalData *v : {&nodal_pressure, &nodal_volume})
+      {
+        *v = 0.;
+        v->zero_out_ghost_values();
+      }
+    for (const unsigned int cell : solver_.cells())
+      for (const unsigned int node : grid->cell_nodes(cell).node)
+        {
+          const double v = mudline->filled()[cell] * volumes[cell];
+          nodal_pressure.local_element(node) += v * pressure_in(cell);
+          nodal_volume.local_element(node) += v;
+        }
+    for (NodalData *v : {&nodal_pressure, &nodal_volume})
+      {
+        grid->hanging_nodes().distribute(*v, 1);
+        v->compress(VectorOperation::add);
+      }
     for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
-      uniform.local_element(node) =
-        solver_.state(node) == PressureSolver::unknown ? 1. : 0.;
-    uniform.update_ghost_values();
-    grid->hanging_nodes().interpolate(uniform, 1);
-    solver_.apply(uniform, of_uniform);
-    conductance = solver_.sums_by_state(of_uniform)[PressureSolver::unknown];
+      {
+        double &p = nodal_pressure.local_element(node);
+        if (nodal_volume.local_element(node) > 0.)
+          p /= nodal_volume.local_element(node);
+        p = known_at(node).value_or(p);
+      }
+    nodal_pressure.update_ghost_values();
+    grid->hanging_nodes().interpolate(nodal_pressure, 1);
+    return nodal_pressure;
   }
 
-  void
+  const std::vector<double> &
   PressureProjection::find_volume_rates(
     const Kernels::NodalVector             *velocity,
     const std::vector<Kernels::CornerView> &corners)
   {
-    find_divergence(velocity, corners, rate);
-    const double *of_node = of_nodes.begin();
-    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
-      {
-        const double volume = std::accumulate(of_node, of_node + n_layers, 0.);
-        if (volume > 0.)
-          rate.local_element(node) /= volume;
-        of_node += n_layers + 1;
-      }
-    rate.update_ghost_values();
-    grid->hanging_nodes().interpolate(rate, 1);
-
     volume_rates_.assign(grid->n_cells(),
                          std::numeric_limits<double>::quiet_NaN());
     for (const unsigned int cell : solver_.cells())
       {
-        double sum = 0., of_cell = 0.;
-        for (unsigned int i = 0; i < 4; ++i)
-          {
-            const double own = gradients[cell].volumes[i];
-            sum += own * rate.local_element(grid->cell_nodes(cell).node[i]);
-            of_cell += own;
-          }
-        volume_rates_[cell] = sum / of_cell;
+        const OfCorners          &of   = divergence[cell];
+        const unsigned int *const node = grid->cell_nodes(cell).node;
+        double                    sum  = 0.;
+        for (unsigned int j = 0; j < 4; ++j)
+          sum += of[2 * j] * velocity[node[j]].value[0] +
+                 of[2 * j + 1] * velocity[node[j]].value[1];
+        volume_rates_[cell] = sum / volumes[cell];
       }
+    for (const Kernels::CornerView &corner : corners)
+      {
+        const auto change = change_at(
+          corner, velocity[grid->cell_nodes(corner.cell).node[corner.corner]]);
+        const OfCorners &of = divergence[corner.cell];
+        volume_rates_[corner.cell] += (of[2 * corner.corner] * change[0] +
+                                       of[2 * corner.corner + 1] * change[1]) /
+                                      volumes[corner.cell];
+      }
+    return volume_rates_;
   }
 } // namespace CaissonMPM

@@ -58,6 +58,14 @@ namespace CaissonMPM
     void
     prepare(const BackgroundGrid &grid, const double time, const double dt);
 
+    /** Return whether the side or the last prepare() sets a component of the
+     * velocity of a node. */
+    bool
+    holds(const unsigned int node, const unsigned int component) const
+    {
+      return is_held[component][node];
+    }
+
     /**
      * Set the fixed and the prescribed components of the new velocities @p v
      * [n_nodes] of nodes with the given @p mass [n_nodes].
@@ -105,7 +113,8 @@ namespace CaissonMPM
                                           SideCondition::fixed,
                                           SideCondition::free};
     std::string               region_text, velocity_text = "0 ; 0";
-    std::vector<unsigned int> fixed[2]; // nodes by component
+    std::vector<unsigned int> fixed[2];   // nodes by component
+    std::vector<bool>         is_held[2]; // [n_nodes] by component
     Expression                region;
     VectorExpression          velocity;
     std::vector<Prescribed>   prescribed; // in this step

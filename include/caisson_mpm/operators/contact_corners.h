@@ -27,6 +27,7 @@
 
 #include <caisson_mpm/bodies/body_surface.h>
 #include <caisson_mpm/operators/contact_face.h>
+#include <caisson_mpm/operators/nodal_forces.h>
 
 #include <array>
 #include <utility>
@@ -62,11 +63,13 @@ namespace CaissonMPM
     is_corner(const unsigned int node) const;
 
     /** Collect what the cells at the corners brought to them in this step, in
-     * which points keep the share @p keep of their velocity. */
+     * which points keep the share @p keep of their velocity, with what the
+     * nodal @p forces add there. */
     void
     collect(const Kernels::KernelTable &kernels,
             const Kernels::StepContext &step,
-            const double                keep);
+            const double                keep,
+            const NodalForces          &forces);
 
     /** Replace the velocities @p v before and @p u after the step by those that
      * follow from virtual power, if the body has the given velocity. */

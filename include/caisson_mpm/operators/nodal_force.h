@@ -5,6 +5,7 @@
 #ifndef caisson_mpm_operators_nodal_force_h
 #define caisson_mpm_operators_nodal_force_h
 
+#include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/kernels/dispatch.h>
@@ -58,6 +59,16 @@ namespace CaissonMPM
      * nothing. */
     virtual bool
     acts() const = 0;
+
+    /** Return what a cell adds to its corner, if that is a convex corner of the
+     * body, which takes it from each cell on its own. Units: N per radian. */
+    virtual Vector2
+    at_corner(const unsigned int cell, const unsigned int corner) const
+    {
+      (void)cell;
+      (void)corner;
+      return Vector2();
+    }
 
     /** Find the force of this step, keep it, and add it to @p nodes
      * [n_nodes]. */

@@ -42,6 +42,10 @@ namespace CaissonMPM
     void
     correct(const ForceContext &context, Kernels::NodalVector *change);
 
+    /** Return the sum of NodalForce::at_corner(). */
+    Vector2
+    at_corner(const unsigned int cell, const unsigned int corner) const;
+
     /** Return the work of all forces, see NodalForce::work(). */
     double
     work(const double                dt,

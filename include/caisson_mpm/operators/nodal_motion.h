@@ -44,9 +44,10 @@ namespace CaissonMPM
 
     /** v = p / m, and v+ = v + dt f / m. Small masses are raised first. */
     void
-    accelerate(const StepSize &step_size,
-               const Vector2  &body_velocity,
-               Contact        &contact);
+    accelerate(const StepSize    &step_size,
+               const NodalForces &forces,
+               const Vector2     &body_velocity,
+               Contact           &contact);
 
     /** Return v+ held to contact and boundary conditions, before those forces
      * are corrected that follow from it; see NodalForce::is_corrected(). */

@@ -16,12 +16,6 @@ namespace CaissonMPM
   struct Conductance
   {
     double horizontal = 0., vertical = 0.;
-
-    bool
-    operator==(const Conductance &other) const
-    {
-      return horizontal == other.horizontal && vertical == other.vertical;
-    }
   };
 
   /** Shape functions and gradients at the Gauss points of a cell. */
@@ -36,17 +30,12 @@ namespace CaissonMPM
     PressureSolver::CellMatrix
     stiffness(const Conductance &c) const;
 
-    /** int N_i div v for the nodal velocities v_r and v_z in turn. [2 j][i] */
-    std::array<std::array<double, 4>, 8>
+    /** int div v for the nodal velocities v_r and v_z in turn. */
+    std::array<double, 8>
     divergence() const;
 
-    /** The means of dN_i/dr and dN_i/dz over the volume of the cell. [d][i] */
-    std::array<std::array<double, 4>, 2>
-    mean_gradient() const;
-
-    /** int N_i. */
-    std::array<double, 4>
-    volumes() const;
+    double
+    volume() const;
 
   private:
     static constexpr unsigned int n_points = 4;

@@ -10,6 +10,7 @@
 #include <caisson_mpm/bodies/rest.h>
 #include <caisson_mpm/bodies/rigid_body.h>
 #include <caisson_mpm/materials/soil.h>
+#include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/water/plug_balance.h>
 #include <caisson_mpm/water/pressure_projection.h>
 #include <caisson_mpm/water/seepage.h>
@@ -158,7 +159,7 @@ namespace CaissonMPM
      * known well enough from an earlier one, or prepare to find the pressure.
      * Collective. Units: s. */
     void
-    update(const double dt);
+    update(const double dt, const BoundaryConditions &conditions);
 
     /** Find the pressure of a coupled step from the velocity that the soil
      * would have with the force of the last one. Collective. See
@@ -191,10 +192,18 @@ namespace CaissonMPM
     const std::vector<double> &
     pressure();
 
-    /** Return the pressure that acts on the soil now: within a coupled step,
-     * before correct(), what is kept of the last one. [n_nodes], Pa */
-    const std::vector<double> &
-    acting_pressure();
+    /** Return what the coupled pressure of a cell does to one of its corners.
+     * N per radian */
+    Vector2
+    coupled_force_at(const unsigned int cell, const unsigned int corner) const
+    {
+      return projection.force_at(cell, corner);
+    }
+
+    /** Add the force of the coupled pressure to @p force [n_nodes]: within a
+     * step before correct(), that of the last one. N per radian */
+    void
+    add_coupled_force(Kernels::NodalVector *force) const;
 
     /** Return the share of each cell below the mudline. [n_cells] */
     const std::vector<double> &
@@ -243,11 +252,9 @@ namespace CaissonMPM
     std::vector<std::pair<std::string, std::string>>
     description(const std::vector<Kernels::Material> &materials) const;
 
-    /** Return warnings of what is known to change the drainage, with steps of
-     * length @p dt. Units: s. */
+    /** Return warnings of what is known to change the drainage. */
     std::vector<std::string>
-    known_limits(const std::vector<Kernels::Material> &materials,
-                 const double                          dt) const;
+    known_limits(const std::vector<Kernels::Material> &materials) const;
 
     /** Return warnings of what the water does to the plug, and of what it does
      * not do in this program, each once; after columns(). */
@@ -284,15 +291,18 @@ namespace CaissonMPM
     for_each_place(const Action &action) const;
     std::size_t
     n_places() const;
-    /** The field that an equation is solved for. */
-    const NodalData &
-    field() const;
     /** A field that the water goes on from, and its name in a checkpoint. */
     struct KeptField
     {
       std::string name;
       NodalData  *field;
     };
+    /** Return the numbers of a field in the state of a run. */
+    std::vector<double>
+    values_at_places(const NamedNumbers &state, const std::string &field) const;
+    /** Begin coupled water with the pressures of steady seepage. */
+    void
+    begin_with_seepage(const NamedNumbers &state);
     std::vector<KeptField>
     kept_fields();
     /** Return the values [n_places()] on all ranks, NaN without a node. */
@@ -303,7 +313,7 @@ namespace CaissonMPM
     void
     solve();
     void
-    set_up_step(const double dt);
+    set_up_step(const double dt, const BoundaryConditions &conditions);
     void
     find_properties();
     /** Find where the soil touches a lid of the mesh. Collective. */
@@ -341,9 +351,13 @@ namespace CaissonMPM
     double
     flow_scale() const;
     const NodalData &
-    outflow() const;
-    const PressureSolver &
-    solver() const;
+    outflow();
+    unsigned int
+    n_iterations() const
+    {
+      return is_coupled() ? projection.solver().n_iterations() :
+                            seepage.solver().n_iterations();
+    }
     void
     find_tip_integral();
     void
@@ -394,7 +408,6 @@ namespace CaissonMPM
 
     Level                     level            = Level::drained;
     double                    renewal          = 0.25;
-    double                    smoothing        = 0.05;
     double                    time_compression = 1.;
     double                    bulk_modulus     = 1e8; // Pa
     PressureSolver::OpenSides sides;

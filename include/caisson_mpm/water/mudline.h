@@ -116,6 +116,7 @@ namespace CaissonMPM
     std::vector<double> heights;     // m; of no use at the body
     std::vector<double> cell_height; // m, of the cell at the mudline
     bool                axisymmetric = true;
+    double              tolerance    = 0.; // of heights, m
     // [n_cells]
     std::vector<unsigned int>  first_column, n_columns;
     std::vector<double>        filled_;

@@ -38,14 +38,24 @@ namespace CaissonMPM
       return water.is_coupled();
     }
 
+    Vector2
+    at_corner(const unsigned int cell, const unsigned int corner) const override
+    {
+      return water.is_coupled() ? water.coupled_force_at(cell, corner) :
+                                  Vector2();
+    }
+
   private:
     void
     add(const ForceContext &context, Kernels::NodalVector *force) override
     {
-      context.kernels.pressure_gradient_force(context.step,
-                                              water.acting_pressure().data(),
-                                              water.filled().data(),
-                                              force);
+      if (water.is_coupled())
+        water.add_coupled_force(force);
+      else
+        context.kernels.pressure_gradient_force(context.step,
+                                                water.pressure().data(),
+                                                water.filled().data(),
+                                                force);
     }
 
     GroundWater &water;

@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Pore pressure and motion of the soil together, in time:
-//   rho dv/dt = div sigma' - grad p + rho g,   div v = div(k / gamma_w grad p).
-//
-// Each step predicts the velocity with a pressure p_kept, and projects it
-// (Chorin 1968, doi:10.1090/S0025-5718-1968-0242392-2):
-//   (k / gamma_w + dt / rho) grad N . grad p =
-//       -N div v* + dt / rho grad N . grad p_kept,
-// integrated over the soil below the mudline, with the density rho that mass
-// scaling has made larger. p_kept is the old pressure without a share of its
-// oscillation from node to node. See doc/theory.md, section 16.
+//   rho dv/dt = div sigma' - grad p + rho g,   div v = div(k / gamma_w grad p),
+// with one pressure in each cell. Each step predicts the velocity with the old
+// pressure p', and projects it (Chorin 1968,
+// doi:10.1090/S0025-5718-1968-0242392-2):
+//   int_c div v* + sum_f (F_f + dt I_f) (p_c - p_f) = dt sum_f I_f (p'_c -
+//   p'_f)
+// over the faces of the cell c below the mudline. A face of the area A between
+// centers at the distance d has F = k / gamma_w A / d and I = A / (rho d), with
+// the density rho that mass scaling has made larger. See doc/theory.md, section
+// 16.
 #ifndef caisson_mpm_water_pressure_projection_h
 #define caisson_mpm_water_pressure_projection_h
 
+#include <caisson_mpm/base/run_totals.h>
 #include <caisson_mpm/water/cell_integrals.h>
+#include <caisson_mpm/water/cell_pressure_solver.h>
 
+#include <optional>
 #include <vector>
 
 namespace CaissonMPM
@@ -22,9 +26,8 @@ namespace CaissonMPM
   /** What the soil of a cell is to the water. */
   struct WaterProperties
   {
-    Conductance  mobility;             // k / gamma_w, m4/(N s)
-    double       specific_volume = 0.; // 1 / rho, m3/kg
-    unsigned int layer           = 0;  // where the permeability may jump
+    Conductance mobility;             // k / gamma_w, m4/(N s)
+    double      specific_volume = 0.; // 1 / rho, m3/kg
   };
 
   /** The pressures that are known: at the mudline of the plug, and at an open
@@ -36,14 +39,21 @@ namespace CaissonMPM
 
   /**
    * Owns the pressure, which a step takes over from the one before. All
-   * functions are collective.
+   * functions are collective but where it says so.
    */
   class PressureProjection
   {
   public:
-    /** Set up what knows the nodes of this rank; the pressure becomes zero. */
+    /** Set up what knows the cells of this rank; the pressure becomes zero. */
     void
-    initialize(const BackgroundGrid &grid, const unsigned int n_layers);
+    initialize(const BackgroundGrid &grid);
+
+    void
+    register_totals(RunTotals &totals);
+
+    /** Take the known pressures of the step before from another run. */
+    void
+    begin_with(const KnownPressures &known);
 
     /** Find the equations at the start of a step. @p properties [n_cells] are
      * read of the cells of this rank. */
@@ -52,166 +62,154 @@ namespace CaissonMPM
            const Mudline                      &mudline,
            const std::vector<WaterProperties> &properties,
            const PressureSolver::OpenSides    &sides,
+           const BoundaryConditions           &conditions,
            const double                        dt);
 
     /**
-     * Find the kept() pressure: the present one, less the share @p smoothing of
-     * its oscillation. At each unknown node this is what the gradient in the
-     * cells drives out, less what the mean gradient at the nodes would, in
-     * pressure of this node alone. Each layer has gradients of its own, so that
-     * it is zero for pressures that are linear in each layer.
-     */
-    void
-    find_kept(const double smoothing);
-
-    /** The pressure with which the step predicts. [n_nodes], Pa */
-    const NodalData &
-    kept() const
-    {
-      return kept_;
-    }
-
-    /**
      * Solve for the pressure. @p velocity [n_nodes] is predicted with the
-     * kept() pressure and held to all constraints, and cells at @p corners of
-     * the body see it as these say. What the solver leaves of an equation is
-     * made good in the next step. Throws RunFailure where it does not converge.
+     * present one and held to all constraints, and cells at @p corners of the
+     * body see it as these say. What the solver leaves of an equation is made
+     * good in the next step. Throws RunFailure where it does not converge.
      */
     void
     solve(const Kernels::NodalVector             *velocity,
           const std::vector<Kernels::CornerView> &corners,
           const KnownPressures                   &known);
 
-    /**
-     * Find the rate of volume change of the cells of this rank, as the pressure
-     * sees it: the mean over the cell of what the nodes have. A volume change
-     * that alternates from cell to cell meets no pressure, and must not strain
-     * the soil.
-     */
+    /** Add the force of the pressure to @p force [n_nodes]: that of the water
+     * in the soil and above it, less what the body bears. A uniform pressure
+     * has none. Not collective. Units: N per radian. */
     void
+    add_force(Kernels::NodalVector *force) const;
+
+    /** Return what a cell of this rank adds to the force at a corner. */
+    Vector2
+    force_at(const unsigned int cell, const unsigned int corner) const
+    {
+      Vector2 force;
+      for (unsigned int d = 0; d < 2; ++d)
+        force[d] = acting[cell] * force_of[cell][2 * corner + d];
+      return force;
+    }
+
+    /** Return the mean rate of volume change of the cells of this rank, NaN
+     * where there is no water. [n_cells], 1/s. Not collective. */
+    const std::vector<double> &
     find_volume_rates(const Kernels::NodalVector             *velocity,
                       const std::vector<Kernels::CornerView> &corners);
 
-    /** These rates, and NaN in cells without water. [n_cells], 1/s */
-    const std::vector<double> &
-    volume_rates() const
-    {
-      return volume_rates_;
-    }
-
-    /** The pressure, of all nodes that this rank knows. [n_nodes], Pa */
-    const NodalData &
+    /** The pressure, at CellPressureSolver::place(). Units: Pa. */
+    const CellData &
     pressure() const
     {
       return pressure_;
     }
-    NodalData &
+    CellData &
     pressure()
     {
       return pressure_;
     }
+    /** Return that of a cell that this rank knows. */
+    double
+    pressure_in(const unsigned int cell) const
+    {
+      return pressure_.local_element(solver_.place(cell));
+    }
 
-    /** What the solver left of the equations at unknown nodes, which the next
-     * step begins with as with the pressure. [n_nodes], m3 per radian */
-    NodalData &
+    /** What the solver left of the equations, which the next step begins with
+     * as with the pressure. Units: m3 per radian. */
+    CellData &
     remainder()
     {
       return remainder_;
     }
 
-    /** The water that leaves the soil at each node. [n_nodes], m3/s per radian
-     */
+    /** Return the pressure at the nodes: the known one where there is one, else
+     * the mean of the cells around. [n_nodes], Pa */
     const NodalData &
-    outflow() const
+    find_nodal_pressure();
+
+    /** Return the pressure that is known at a node, if it is. */
+    std::optional<double>
+    known_at(const unsigned int node) const;
+
+    /** Return the water that leaves the soil at the nodes of open faces.
+     * [n_nodes], m3/s per radian */
+    const NodalData &
+    find_outflow();
+
+    /** What flows out of the plug and in everywhere else, and what the solver
+     * left of all equations, in the last step. Units: m3/s. */
+    struct Flow
     {
-      return outflow_;
+      double out = 0., in = 0., left = 0.;
+    };
+    const Flow &
+    flow() const
+    {
+      return flow_;
     }
 
-    /** Find what the gradient of the pressure drives out at each node: the
-     * outflow() less what the soil around the node gives off. [n_nodes], m3/s
-     * per radian */
-    void
-    find_flux(NodalData &flux) const;
-
-    const PressureSolver &
+    const CellPressureSolver &
     solver() const
     {
       return solver_;
     }
 
   private:
-    /** What the equations of a cell were found for. */
-    struct Shape
-    {
-      double          width = 0., left = 0., heights[2], rise = 0.;
-      double          filled = 0.;
-      WaterProperties properties;
-    };
-    using Divergence = std::array<std::array<double, 4>, 8>;
-    struct Gradient
-    {
-      std::array<std::array<double, 4>, 2> mean;
-      std::array<double, 4>                volumes;
-      double                               specific_volume = 0.;
-      unsigned int                         layer           = 0;
-    };
-    /** Find the equations of a cell whose shape or soil has changed. */
+    using OfCorners = std::array<double, 8>; // r and z in turn
+    using Beyond    = CellPressureSolver::Beyond;
+    /** Find the nodes at open faces. */
     void
-    find_equations(const unsigned int           cell,
-                   const Kernels::CellGeometry &geometry,
-                   const double                 filled,
-                   const WaterProperties       &properties);
-    /** to_I = sum_J K_IJ p_J with these matrices of the cells. */
+    find_known_nodes(const PressureSolver::OpenSides &open);
+    /** Find the integrals over a cell whose shape has changed. */
     void
-    find_product(const std::vector<PressureSolver::CellMatrix> &matrices,
-                 const NodalData                               &p,
-                 NodalData                                     &to) const;
-    /** Let @p add put in what each cell gives to the nodes, and add it up. */
-    template <typename Action>
+    find_integrals(const unsigned int cell);
     void
-    sum_cells(NodalData         &to,
-              const unsigned int n_components,
-              const Action      &add) const;
-    /** Add what cells gave to hanging nodes and to nodes of other ranks. */
+    find_conductances(const std::vector<WaterProperties> &properties);
+    /** Begin with the pressure of the free water in cells that soil enters. */
     void
-    add_up(NodalData &of_cells, const unsigned int n_components) const;
-    /** Find the mean gradient of the pressure at each node in each layer. */
+    begin_in_new_cells();
+    /** Return the pressure of the free water above a cell. */
+    double
+    pressure_above(const unsigned int cell) const;
     void
-    find_gradient();
-    /** Find the volume and the stiffness of each node, and what a uniform
-     * pressure does. */
+    subtract_pressure_of_body(const unsigned int cell, OfCorners &of) const;
+    /** Find the pressure of each cell with that of the free water in it. */
     void
-    find_volumes();
+    find_acting();
+    /** Find flow(), with what the solver left of the equations. */
     void
-    find_uniform();
-    /** Let the equations at unknown nodes add up to zero. */
+    find_flow(const CellData &left_now);
+    /** Find the lower faces of hardly filled cells. */
     void
-    close_balance();
-    /** to_I = int N_I div v. */
-    void
-    find_divergence(const Kernels::NodalVector             *velocity,
-                    const std::vector<Kernels::CornerView> &corners,
-                    NodalData                              &to) const;
+    find_faces_below();
+    /** Return what leaves through a side: that of a hardly filled cell, whose
+     * own pressure hardly differs from that above it, comes from the cell
+     * below. m3/s per radian */
+    double
+    outflow_through(const std::size_t side) const;
 
-    const BackgroundGrid *grid = nullptr;
-    PressureSolver        solver_;
-    // Each in an array of its own, because a step reads one after the other.
-    // [n_cells]
-    std::vector<Shape>                      shapes;
-    std::vector<PressureSolver::CellMatrix> flow, inertia;
-    std::vector<Divergence>                 divergence;
-    std::vector<Gradient>                   gradients;
-    std::vector<char>                       has_water;
-    std::vector<double>                     volume_rates_;
-    double       scale = 1., step = 0., step_before = 0.;
-    NodalData    pressure_, kept_, outflow_, remainder_, source, rate;
-    unsigned int n_layers = 1;
-    // the volumes of the layers at a node, and the diagonal of the inertia
-    NodalData of_nodes; // [n_nodes][n_layers + 1]
-    NodalData gradient; // [n_nodes][n_layers][2]
-    // 1 at unknown nodes; K times it, and the sum of that
-    NodalData uniform, of_uniform;
-    double    conductance = 0.;
+    const BackgroundGrid     *grid    = nullptr;
+    const Mudline            *mudline = nullptr;
+    CellPressureSolver        solver_;
+    double                    step = 0., long_step = 0., scale = 1.;
+    Flow                      flow_;
+    CellPressureSolver::Known known_ = {};
+    // [n_cells]: the shape for which there are the integrals, int div N_j, the
+    // same less the faces of the body, the volume
+    std::vector<Kernels::CellGeometry> shapes;
+    std::vector<OfCorners>             divergence, force_of;
+    std::vector<double>                volumes, acting, volume_rates_;
+    std::vector<bool>                  was_wet;
+    bool                knows_wet_cells = false; // since initialize()
+    std::vector<Beyond> beyond_node; // [n_nodes], cell: nothing is known
+    // [n_faces]
+    std::vector<double> seepage, inertia, conductances;
+    std::vector<int>    face_below; // -1 at most faces
+    double              open_conductance = 0.;
+    CellData  pressure_, remainder_, source, mobility[2], inverse_density;
+    NodalData outflow_, nodal_pressure, nodal_volume;
   };
 } // namespace CaissonMPM
 

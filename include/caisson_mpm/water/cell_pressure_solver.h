@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Linear equations for one pressure in each cell of the soil below the mudline.
+// What passes a face follows from the pressures on both sides of it:
+//   sum_f G_f (p_c - p_f) = q_c   for all cells c with water,
+// with p_f of the cell beyond the face, or known at an open face.
+#ifndef caisson_mpm_water_cell_pressure_solver_h
+#define caisson_mpm_water_cell_pressure_solver_h
+
+#include <caisson_mpm/operators/boundary_conditions.h>
+#include <caisson_mpm/water/mudline.h>
+#include <caisson_mpm/water/pressure_solver.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/fe/fe_dgq.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <array>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** A number for each cell that a rank knows, at the place of the cell. */
+  using CellData = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /**
+   * Finds the faces through which water passes, and solves with conjugate
+   * gradients and algebraic multigrid. The matrix is applied face by face, and
+   * assembled only to set the multigrid up; that of an earlier matrix is kept
+   * as long as it serves. All functions are collective but where it says so.
+   */
+  class CellPressureSolver
+  {
+  public:
+    /** What is beyond a face. */
+    enum class Beyond : unsigned char
+    {
+      cell,
+      plug,    // the water above the mudline inside the body
+      outside, // the open water
+      bottom,  // of the mesh, if it is open
+      n_kinds
+    };
+
+    struct Face
+    {
+      Beyond       beyond;
+      bool         is_horizontal; // water passes in z
+      unsigned int cell, other;   // other: the same cell at an open face
+      unsigned int place, other_place;
+      bool         is_open;    // water passes
+      double       free_share; // of its nodes, which give way to pressure
+      double       area;       // m2 per radian
+      double       distance, other_distance; // from the centers, m
+    };
+
+    /** The known pressures by Beyond; that of cell is not used. Pa */
+    using Known = std::array<double, static_cast<int>(Beyond::n_kinds)>;
+
+    /** Set up what knows the cells of this rank. */
+    void
+    initialize(const BackgroundGrid &grid);
+
+    /** Find cells with water and the faces, also those at sides of the domain
+     * that are open or give way. Where two cells share a face, and
+     * one of them belongs to another rank, both ranks know it. */
+    void
+    find_faces(const Mudline                   &mudline,
+               const PressureSolver::OpenSides &open,
+               const BoundaryConditions        &conditions);
+
+    /** The cells of this rank with water. */
+    const std::vector<unsigned int> &
+    cells() const
+    {
+      return cells_;
+    }
+    const std::vector<Face> &
+    faces() const
+    {
+      return faces_;
+    }
+    /** The place of a cell that this rank knows in CellData. */
+    unsigned int
+    place(const unsigned int cell) const
+    {
+      return places[cell];
+    }
+    void
+    reinit(CellData &data) const
+    {
+      data.reinit(partitioner);
+    }
+
+    /** Return whether some pressure is known. */
+    bool
+    has_known_value() const
+    {
+      return is_known;
+    }
+
+    /**
+     * Solve for @p p, which is the first guess, with these @p conductances of
+     * the faces [n_faces]. They should be of order one. Throws RunFailure where
+     * the solver does not reach the @p accuracy.
+     */
+    void
+    solve(const std::vector<double>      &conductances,
+          const CellData                 &source,
+          const Known                    &known,
+          const PressureSolver::Accuracy &accuracy,
+          CellData                       &p);
+
+    /** What is left of the equations after solve(): q_c - sum_f G_f (p_c -
+     * p_f). */
+    const CellData &
+    residual() const
+    {
+      return residual_;
+    }
+
+    /** to_c = sum_f G_f (p_c - p_f), with p_f = 0 at open faces, for
+     * SolverCG. */
+    void
+    vmult(CellData &to, const CellData &from) const;
+
+    unsigned int
+    n_iterations() const
+    {
+      return n_iterations_;
+    }
+
+  private:
+    void
+    add_face(const Beyond       beyond,
+             const unsigned int cell,
+             const unsigned int other,
+             const unsigned int face,
+             const bool         is_open    = true,
+             const double       free_share = 1.);
+    /** Add those faces of a cell that are the surface or a side of the domain,
+     * where they are open or give way. */
+    void
+    add_sides(const unsigned int               cell,
+              const Mudline                   &mudline,
+              const PressureSolver::OpenSides &open,
+              const BoundaryConditions        &conditions);
+    /** Return the share of the nodes of a face that may move across it. */
+    double
+    free_nodes_of(const unsigned int        cell,
+                  const unsigned int        face,
+                  const BoundaryConditions &conditions) const;
+    void
+    assemble();
+    bool
+    iterate(const unsigned int max_iterations, const double tolerance);
+    /** Subtract what passes the faces from @p to. */
+    void
+    subtract_flow(const CellData &p, const Known &known, CellData &to) const;
+
+    const BackgroundGrid     *grid = nullptr;
+    dealii::FE_DGQ<2>         fe{0};
+    dealii::DoFHandler<2>     dofs;
+    std::vector<unsigned int> places; // [n_cells]
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+    dealii::TrilinosWrappers::SparseMatrix                     matrix;
+    dealii::TrilinosWrappers::PreconditionAMG                  multigrid;
+    unsigned int                                               n_at_setup = 0;
+    unsigned int              n_iterations_                               = 0;
+    std::vector<unsigned int> cells_;
+    std::vector<Face>         faces_;
+    const double             *filled   = nullptr; // [n_cells]
+    bool                      is_known = false;
+    std::vector<double>       conductance; // [n_faces]
+    std::vector<char>         has_water;   // [n_places]
+    CellData                  residual_, correction;
+    mutable CellData          with_ghosts; // memory of vmult()
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/compat.h>
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/water/cell_pressure_solver.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/sparsity_tools.h>
+
+#include <algorithm>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int max_iterations = 1000;
+
+    /** Incomplete factors smooth best where cells are long and flat. */
+    TrilinosWrappers::PreconditionAMG::AdditionalData
+    multigrid_settings()
+    {
+      TrilinosWrappers::PreconditionAMG::AdditionalData settings;
+      settings.smoother_type         = "ILU";
+      settings.smoother_sweeps       = 1;
+      settings.aggregation_threshold = .02;
+      return settings;
+    }
+
+    double
+    mean_height(const Kernels::CellGeometry &g)
+    {
+      return .5 * (g.height_left + g.height_right);
+    }
+  } // namespace
+
+  void
+  CellPressureSolver::initialize(const BackgroundGrid &grid_of_run)
+  {
+    grid = &grid_of_run;
+    dofs.reinit(grid->triangulation());
+    dofs.distribute_dofs(fe);
+    const IndexSet own = dofs.locally_owned_dofs(),
+                   all = Compat::locally_relevant_dofs(dofs);
+    partitioner =
+      std::make_shared<const Utilities::MPI::Partitioner>(own,
+                                                          all,
+                                                          grid->communicator());
+    places.resize(grid->n_cells());
+    std::vector<types::global_dof_index> of_cell(1);
+    for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
+      {
+        const auto &of_mesh = grid->cell_iterator(cell);
+        DoFHandler<2>::active_cell_iterator(&grid->triangulation(),
+                                            of_mesh->level(),
+                                            of_mesh->index(),
+                                            &dofs)
+          ->get_dof_indices(of_cell);
+        places[cell] = partitioner->global_to_local(of_cell[0]);
+      }
+    for (CellData *v : {&residual_, &correction, &with_ghosts})
+      reinit(*v);
+
+    DynamicSparsityPattern pattern(all);
+    for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
+      {
+        const auto row = partitioner->local_to_global(places[cell]);
+        pattern.add(row, row);
+        for (unsigned int face = 0; face < 4; ++face)
+          for (const bool second : {false, true})
+            {
+              const int other = grid->neighbor(cell, face, second);
+              if (other >= 0)
+                pattern.add(row, partitioner->local_to_global(places[other]));
+            }
+      }
+    multigrid.clear(); // it refers to the matrix
+    n_at_setup = 0;
+    matrix.reinit(own, own, pattern, grid->communicator());
+  }
+
+  void
+  CellPressureSolver::add_face(const Beyond       beyond,
+                               const unsigned int cell,
+                               const unsigned int other,
+                               const unsigned int face,
+                               const bool         is_open,
+                               const double       free_share)
+  {
+    const auto  &a = grid->geometry(cell), &b = grid->geometry(other);
+    const double height       = filled[cell] * mean_height(a),
+                 other_height = filled[other] * mean_height(b);
+    const bool  is_horizontal = face >= 2, is_side = beyond != Beyond::cell;
+    const auto &narrow = a.width < b.width ? a : b;
+    double      area   = is_horizontal ? narrow.width :
+                         is_side       ? height :
+                                         std::min(height, other_height);
+    if (grid->axisymmetric())
+      area *= is_horizontal ? narrow.left + .5 * narrow.width :
+              face == 0     ? a.left :
+                              a.left + a.width;
+    const auto distance = [&](const Kernels::CellGeometry &g, const double h) {
+      return .5 * (is_horizontal ? h : g.width);
+    };
+    faces_.push_back({beyond,
+                      is_horizontal,
+                      cell,
+                      other,
+                      places[cell],
+                      places[other],
+                      is_open,
+                      free_share,
+                      area,
+                      distance(a, height),
+                      is_side ? 0. : distance(b, other_height)});
+  }
+
+  double
+  CellPressureSolver::free_nodes_of(const unsigned int        cell,
+                                    const unsigned int        face,
+                                    const BoundaryConditions &conditions) const
+  {
+    // left, right, below, above
+    constexpr unsigned int corners[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
+    double                 share         = 0.;
+    for (const unsigned int corner : corners[face])
+      if (!conditions.holds(grid->cell_nodes(cell).node[corner], face / 2))
+        share += .5;
+    return share;
+  }
+
+  void
+  CellPressureSolver::add_sides(const unsigned int               cell,
+                                const Mudline                   &mudline,
+                                const PressureSolver::OpenSides &open,
+                                const BoundaryConditions        &conditions)
+  {
+    const bool in_plug    = mudline.side_of(cell) == Mudline::Side::plug;
+    const bool is_open[4] = {false,
+                             open.outer,
+                             open.bottom,
+                             in_plug || open.surface};
+    for (unsigned int face = 0; face < 4; ++face)
+      {
+        if (face == 3 ? !mudline.is_top(cell) : !grid->at_side(cell, face))
+          continue;
+        const double free_share = free_nodes_of(cell, face, conditions);
+        if (is_open[face] || free_share > 0.)
+          add_face(face == 2            ? Beyond::bottom :
+                   face == 3 && in_plug ? Beyond::plug :
+                                          Beyond::outside,
+                   cell,
+                   cell,
+                   face,
+                   is_open[face],
+                   free_share);
+      }
+  }
+
+  void
+  CellPressureSolver::find_faces(const Mudline                   &mudline,
+                                 const PressureSolver::OpenSides &open,
+                                 const BoundaryConditions        &conditions)
+  {
+    filled = mudline.filled().data();
+    cells_.clear();
+    faces_.clear();
+    has_water.assign(partitioner->locally_owned_size() +
+                       partitioner->n_ghost_indices(),
+                     0);
+    double any = 0.;
+    for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
+      {
+        if (filled[cell] == 0.)
+          continue;
+        has_water[places[cell]] = 1;
+        if (grid->is_owned(cell))
+          cells_.push_back(cell);
+        // faces to cells with a larger number, or to smaller ones
+        for (unsigned int face = 0; face < 4; ++face)
+          for (const bool second : {false, true})
+            {
+              const int other = grid->neighbor(cell, face, second);
+              if (other < 0 || filled[other] == 0. ||
+                  (second && other == grid->neighbor(cell, face)))
+                continue;
+              const bool is_finer = grid->neighbor(cell, face, true) !=
+                                    grid->neighbor(cell, face),
+                         is_coarser = grid->neighbor(other, face ^ 1u, true) !=
+                                      grid->neighbor(other, face ^ 1u);
+              if (is_finer || (!is_coarser && face % 2 == 1))
+                if (grid->is_owned(cell) || grid->is_owned(other))
+                  add_face(Beyond::cell, cell, other, face);
+            }
+        if (grid->is_owned(cell))
+          add_sides(cell, mudline, open, conditions);
+      }
+    for (const Face &face : faces_)
+      if (face.beyond != Beyond::cell && face.is_open)
+        any = 1.;
+    is_known = Utilities::MPI::max(any, grid->communicator()) > 0.;
+  }
+
+  void
+  CellPressureSolver::vmult(CellData &to, const CellData &from) const
+  {
+    with_ghosts.zero_out_ghost_values();
+    with_ghosts.copy_locally_owned_data_from(from);
+    with_ghosts.update_ghost_values();
+    to = 0.;
+    to.zero_out_ghost_values();
+    subtract_flow(with_ghosts, {}, to);
+    to *= -1.;
+    for (unsigned int i = 0; i < partitioner->locally_owned_size(); ++i)
+      if (!has_water[i])
+        to.local_element(i) = from.local_element(i);
+    to.zero_out_ghost_values();
+  }
+
+  void
+  CellPressureSolver::subtract_flow(const CellData &p,
+                                    const Known    &known,
+                                    CellData       &to) const
+  {
+    const double *const x = p.begin();
+    double *const       y = to.begin();
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+      {
+        const Face &face = faces_[f];
+        if (face.beyond == Beyond::cell)
+          {
+            const double flow =
+              conductance[f] * (x[face.place] - x[face.other_place]);
+            y[face.place] -= flow;
+            y[face.other_place] += flow;
+          }
+        else
+          y[face.place] -=
+            conductance[f] *
+            (x[face.place] - known[static_cast<int>(face.beyond)]);
+      }
+  }
+
+  void
+  CellPressureSolver::assemble()
+  {
+    matrix            = 0.;
+    const auto row_of = [this](const unsigned int i) {
+      return partitioner->local_to_global(i);
+    };
+    const unsigned int n_owned = partitioner->locally_owned_size();
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+      {
+        const Face        &face = faces_[f];
+        const double       g    = conductance[f];
+        const unsigned int a = face.place, b = face.other_place;
+        if (a < n_owned)
+          matrix.add(row_of(a), row_of(a), g);
+        if (face.beyond != Beyond::cell)
+          continue;
+        if (a < n_owned)
+          matrix.add(row_of(a), row_of(b), -g);
+        if (b < n_owned)
+          {
+            matrix.add(row_of(b), row_of(b), g);
+            matrix.add(row_of(b), row_of(a), -g);
+          }
+      }
+    for (unsigned int i = 0; i < n_owned; ++i)
+      if (!has_water[i])
+        matrix.add(row_of(i), row_of(i), 1.);
+    matrix.compress(VectorOperation::add);
+  }
+
+  void
+  CellPressureSolver::solve(const std::vector<double>      &conductances,
+                            const CellData                 &source,
+                            const Known                    &known,
+                            const PressureSolver::Accuracy &accuracy,
+                            CellData                       &p)
+  {
+    conductance              = conductances;
+    const auto find_residual = [&](CellData &field) {
+      field.update_ghost_values();
+      residual_.zero_out_ghost_values();
+      residual_.copy_locally_owned_data_from(source);
+      subtract_flow(field, known, residual_);
+      residual_.zero_out_ghost_values();
+    };
+    for (unsigned int i = 0; i < partitioner->locally_owned_size(); ++i)
+      if (!has_water[i])
+        p.local_element(i) = 0.;
+    double tolerance = 0.;
+    if (accuracy.of_known_values > 0.)
+      {
+        correction = 0.;
+        find_residual(correction);
+        tolerance = accuracy.of_known_values * residual_.l2_norm();
+        correction.zero_out_ghost_values();
+      }
+    find_residual(p);
+    tolerance =
+      std::max(tolerance, accuracy.of_first_guess * residual_.l2_norm());
+
+    // The multigrid of an earlier matrix serves as long as it costs only some
+    // more iterations than a new one.
+    if (n_at_setup == 0 || !iterate(n_at_setup + n_at_setup / 2 + 2, tolerance))
+      {
+        assemble();
+        multigrid.initialize(matrix, multigrid_settings());
+        if (!iterate(max_iterations, tolerance))
+          throw RunFailure(
+            "the pressure of the pore water was not found in " +
+            to_text(max_iterations) +
+            " iterations. Reduce the contrast of the permeabilities, or the "
+            "ratio of width to height of the cells.");
+        n_at_setup = std::max(n_iterations_, 1u);
+      }
+    p.zero_out_ghost_values();
+    p.add(1., correction);
+    find_residual(p);
+  }
+
+  bool
+  CellPressureSolver::iterate(const unsigned int max_iterations,
+                              const double       tolerance)
+  {
+    correction = 0.;
+    correction.zero_out_ghost_values();
+    SolverControl      control(max_iterations, tolerance);
+    SolverCG<CellData> solver(control);
+    try
+      {
+        solver.solve(*this, correction, residual_, multigrid);
+      }
+    catch (const SolverControl::NoConvergence &)
+      {}
+    n_iterations_ = control.last_step();
+    return control.last_check() == SolverControl::success;
+  }
+} // namespace CaissonMPM
