@@ -91,6 +91,7 @@ namespace CaissonMPM
   void
   PressureProjection::register_totals(RunTotals &totals)
   {
+    totals.keep("water_step", step);
     totals.carry("water_known_in_plug", known_[static_cast<int>(Beyond::plug)]);
     totals.carry("water_known_at_bottom",
                  known_[static_cast<int>(Beyond::bottom)]);
@@ -263,10 +264,8 @@ namespace CaissonMPM
         seepage[f] = faces[f].is_open ?
                        through(faces[f], mobility[faces[f].is_horizontal]) :
                        0.;
-        inertia[f] =
-          faces[f].free_share > 0. ?
-            for_slope(faces[f]) * through(faces[f], inverse_density) :
-            0.;
+        inertia[f] = faces[f].free_share * for_slope(faces[f]) *
+                     through(faces[f], inverse_density);
         conductances[f] = seepage[f] + long_step * inertia[f];
         largest         = std::max(largest, conductances[f]);
         if (faces[f].beyond != Beyond::cell)
