@@ -23,7 +23,7 @@ namespace CaissonMPM
     constexpr unsigned int steps_between_properties = 20;
 
     // In this many steps, the soil moves by a small part of a cell.
-    constexpr unsigned int steps_between_set_ups = 8;
+    constexpr unsigned int steps_between_set_ups = 4;
 
     // The heave is known when the flow is found; the pump sees it smoothed.
     constexpr double time_of_heave = 1.; // s

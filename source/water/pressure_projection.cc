@@ -14,7 +14,7 @@ namespace CaissonMPM
   namespace
   {
     // What is left is made good in the next step.
-    constexpr PressureSolver::Accuracy accuracy = {0., .3};
+    constexpr PressureSolver::Accuracy accuracy = {0., .1};
 
     // Where soil fills a cell by less than the first share, its velocities say
     // nothing of its volume; from the second one on they do.
