@@ -119,11 +119,8 @@ namespace CaissonMPM
     circumference = grid.circumference();
     n_owned_nodes = grid.n_owned_nodes();
     prescribed.clear();
-    for (unsigned int d = 0; d < 2; ++d)
-      {
-        fixed[d].clear();
-        is_held[d].assign(grid.n_nodes(), false);
-      }
+    fixed[0].clear();
+    fixed[1].clear();
     for (unsigned int node = 0; node < grid.n_nodes(); ++node)
       {
         bool is_fixed[2] = {false, false};
@@ -135,10 +132,7 @@ namespace CaissonMPM
                 (sides[side] == SideCondition::roller && d == side / 2);
         for (unsigned int d = 0; d < 2; ++d)
           if (is_fixed[d])
-            {
-              fixed[d].push_back(node);
-              is_held[d][node] = true;
-            }
+            fixed[d].push_back(node);
       }
   }
 
@@ -149,11 +143,6 @@ namespace CaissonMPM
   {
     if (region.empty())
       return;
-    for (const Prescribed &p : prescribed)
-      is_held[p.component][p.node] = false;
-    for (unsigned int d = 0; d < 2; ++d)
-      for (const unsigned int node : fixed[d])
-        is_held[d][node] = true;
     prescribed.clear();
     // for messages; not made anew for each node
     const std::string of_region = region_entry(),
@@ -167,14 +156,26 @@ namespace CaissonMPM
           continue;
         for (unsigned int d = 0; d < 2; ++d)
           if (!velocity[d].empty())
-            {
-              prescribed.push_back(
-                {node,
-                 d,
-                 finite_value(velocity[d], x, time + .5 * dt, of_velocity)});
-              is_held[d][node] = true;
-            }
+            prescribed.push_back(
+              {node,
+               d,
+               finite_value(velocity[d], x, time + .5 * dt, of_velocity)});
       }
+  }
+
+  std::array<std::vector<bool>, 2>
+  BoundaryConditions::held_nodes(const unsigned int n_nodes) const
+  {
+    std::array<std::vector<bool>, 2> held;
+    for (unsigned int d = 0; d < 2; ++d)
+      {
+        held[d].assign(n_nodes, false);
+        for (const unsigned int node : fixed[d])
+          held[d][node] = true;
+      }
+    for (const Prescribed &p : prescribed)
+      held[p.component][p.node] = true;
+    return held;
   }
 
   PrescribedResult

@@ -134,6 +134,7 @@ namespace CaissonMPM
         cell.index =
           std::lower_bound(all.begin(), all.end(), key(cell)) - all.begin();
     sums_.assign(n_sums * all.size(), 0.);
+    of_points    = sums_;
     communicator = grid.communicator();
   }
 
@@ -159,7 +160,7 @@ namespace CaissonMPM
     for (Corner &corner : corners)
       for (Cell &cell : corner.cells)
         cell.closed = cell.closed_next;
-    std::fill(sums_.begin(), sums_.end(), 0.);
+    std::fill(of_points.begin(), of_points.end(), 0.);
     Kernels::StepContext alone  = step; // a step in which one cell has points
     alone.points.n_active_cells = 1;
     for (const Corner &corner : corners)
@@ -172,15 +173,32 @@ namespace CaissonMPM
             step.points.changed[cell.cell] = true;
             alone.points.active_cells      = &cell.cell;
             kernels.points_to_grid(alone, of_cell.data());
-            const NodalSums &own  = of_cell[corner.node];
-            double *const    sum  = &sums_[n_sums * cell.index];
-            const Vector2    more = forces.at_corner(cell.cell, cell.corner);
-            sum[0]                = own.mass;
+            const NodalSums &own = of_cell[corner.node];
+            double *const    sum = &of_points[n_sums * cell.index];
+            sum[0]               = own.mass;
             for (unsigned int d = 0; d < 2; ++d)
               {
                 sum[1 + d] = own.momentum[d];
-                sum[3 + d] = own.force[d] + more[d];
+                sum[3 + d] = own.force[d];
               }
+          }
+    add_forces(step, forces);
+  }
+
+  void
+  ContactCorners::add_forces(const Kernels::StepContext &step,
+                             const NodalForces          &forces)
+  {
+    if (sums_.empty())
+      return;
+    sums_ = of_points;
+    for (const Corner &corner : corners)
+      for (const Cell &cell : corner.cells)
+        if (cell.is_owned && step.points.first_block[cell.cell] >= 0)
+          {
+            const Vector2 more = forces.at_corner(cell.cell, cell.corner);
+            for (unsigned int d = 0; d < 2; ++d)
+              sums_[n_sums * cell.index + 3 + d] += more[d];
           }
     Utilities::MPI::sum(sums_, communicator, sums_);
   }

@@ -96,10 +96,7 @@ namespace CaissonMPM
                        Contact          &contact)
   {
     momentum.correct({*kernels, step, soil.points, soil.grid, time}, forces);
-    contact.corners().collect(*kernels,
-                              step,
-                              settings_.keep_velocity(size),
-                              forces);
+    contact.corners().add_forces(step, forces);
     accelerate(body_velocity, contact);
   }
 

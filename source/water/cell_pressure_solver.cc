@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/compat.h>
-#include <caisson_mpm/base/exceptions.h>
-#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/water/cell_pressure_solver.h>
 
 #include <deal.II/base/mpi.h>
@@ -9,8 +7,6 @@
 #include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/solver_cg.h>
-#include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
 
@@ -20,19 +16,6 @@ namespace CaissonMPM
 
   namespace
   {
-    constexpr unsigned int max_iterations = 1000;
-
-    /** Incomplete factors smooth best where cells are long and flat. */
-    TrilinosWrappers::PreconditionAMG::AdditionalData
-    multigrid_settings()
-    {
-      TrilinosWrappers::PreconditionAMG::AdditionalData settings;
-      settings.smoother_type         = "ILU";
-      settings.smoother_sweeps       = 1;
-      settings.aggregation_threshold = .02;
-      return settings;
-    }
-
     double
     mean_height(const Kernels::CellGeometry &g)
     {
@@ -80,9 +63,7 @@ namespace CaissonMPM
                 pattern.add(row, partitioner->local_to_global(places[other]));
             }
       }
-    multigrid.clear(); // it refers to the matrix
-    n_at_setup = 0;
-    matrix.reinit(own, own, pattern, grid->communicator());
+    multigrid.initialize(own, pattern, grid->communicator(), .02);
   }
 
   void
@@ -122,15 +103,15 @@ namespace CaissonMPM
   }
 
   double
-  CellPressureSolver::free_nodes_of(const unsigned int        cell,
-                                    const unsigned int        face,
-                                    const BoundaryConditions &conditions) const
+  CellPressureSolver::free_nodes_of(const unsigned int cell,
+                                    const unsigned int face,
+                                    const HeldNodes   &held) const
   {
     // left, right, below, above
     constexpr unsigned int corners[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
     double                 share         = 0.;
     for (const unsigned int corner : corners[face])
-      if (!conditions.holds(grid->cell_nodes(cell).node[corner], face / 2))
+      if (!held[face / 2][grid->cell_nodes(cell).node[corner]])
         share += .5;
     return share;
   }
@@ -139,7 +120,7 @@ namespace CaissonMPM
   CellPressureSolver::add_sides(const unsigned int               cell,
                                 const Mudline                   &mudline,
                                 const PressureSolver::OpenSides &open,
-                                const BoundaryConditions        &conditions)
+                                const HeldNodes                 &held)
   {
     const bool in_plug    = mudline.side_of(cell) == Mudline::Side::plug;
     const bool is_open[4] = {false,
@@ -150,7 +131,7 @@ namespace CaissonMPM
       {
         if (face == 3 ? !mudline.is_top(cell) : !grid->at_side(cell, face))
           continue;
-        const double free_share = free_nodes_of(cell, face, conditions);
+        const double free_share = free_nodes_of(cell, face, held);
         if (is_open[face] || free_share > 0.)
           add_face(face == 2            ? Beyond::bottom :
                    face == 3 && in_plug ? Beyond::plug :
@@ -168,7 +149,8 @@ namespace CaissonMPM
                                  const PressureSolver::OpenSides &open,
                                  const BoundaryConditions        &conditions)
   {
-    filled = mudline.filled().data();
+    const HeldNodes held = conditions.held_nodes(grid->n_nodes());
+    filled               = mudline.filled().data();
     cells_.clear();
     faces_.clear();
     has_water.assign(partitioner->locally_owned_size() +
@@ -199,7 +181,7 @@ namespace CaissonMPM
                   add_face(Beyond::cell, cell, other, face);
             }
         if (grid->is_owned(cell))
-          add_sides(cell, mudline, open, conditions);
+          add_sides(cell, mudline, open, held);
       }
     for (const Face &face : faces_)
       if (face.beyond != Beyond::cell && face.is_open)
@@ -236,13 +218,13 @@ namespace CaissonMPM
         if (face.beyond == Beyond::cell)
           {
             const double flow =
-              conductance[f] * (x[face.place] - x[face.other_place]);
+              conductances_[f] * (x[face.place] - x[face.other_place]);
             y[face.place] -= flow;
             y[face.other_place] += flow;
           }
         else
           y[face.place] -=
-            conductance[f] *
+            conductances_[f] *
             (x[face.place] - known[static_cast<int>(face.beyond)]);
       }
   }
@@ -250,6 +232,7 @@ namespace CaissonMPM
   void
   CellPressureSolver::assemble()
   {
+    auto &matrix      = multigrid.matrix();
     matrix            = 0.;
     const auto row_of = [this](const unsigned int i) {
       return partitioner->local_to_global(i);
@@ -258,7 +241,7 @@ namespace CaissonMPM
     for (std::size_t f = 0; f < faces_.size(); ++f)
       {
         const Face        &face = faces_[f];
-        const double       g    = conductance[f];
+        const double       g    = conductances_[f];
         const unsigned int a = face.place, b = face.other_place;
         if (a < n_owned)
           matrix.add(row_of(a), row_of(a), g);
@@ -279,69 +262,30 @@ namespace CaissonMPM
   }
 
   void
-  CellPressureSolver::solve(const std::vector<double>      &conductances,
-                            const CellData                 &source,
-                            const Known                    &known,
-                            const PressureSolver::Accuracy &accuracy,
-                            CellData                       &p)
+  CellPressureSolver::solve(const CellData &source,
+                            const Known    &known,
+                            const double    accuracy,
+                            CellData       &p)
   {
-    conductance              = conductances;
-    const auto find_residual = [&](CellData &field) {
-      field.update_ghost_values();
+    const auto find_residual = [&]() {
+      p.update_ghost_values();
       residual_.zero_out_ghost_values();
       residual_.copy_locally_owned_data_from(source);
-      subtract_flow(field, known, residual_);
+      subtract_flow(p, known, residual_);
       residual_.zero_out_ghost_values();
     };
     for (unsigned int i = 0; i < partitioner->locally_owned_size(); ++i)
       if (!has_water[i])
         p.local_element(i) = 0.;
-    double tolerance = 0.;
-    if (accuracy.of_known_values > 0.)
-      {
-        correction = 0.;
-        find_residual(correction);
-        tolerance = accuracy.of_known_values * residual_.l2_norm();
-        correction.zero_out_ghost_values();
-      }
-    find_residual(p);
-    tolerance =
-      std::max(tolerance, accuracy.of_first_guess * residual_.l2_norm());
-
-    // The multigrid of an earlier matrix serves as long as it costs only some
-    // more iterations than a new one.
-    if (n_at_setup == 0 || !iterate(n_at_setup + n_at_setup / 2 + 2, tolerance))
-      {
-        assemble();
-        multigrid.initialize(matrix, multigrid_settings());
-        if (!iterate(max_iterations, tolerance))
-          throw RunFailure(
-            "the pressure of the pore water was not found in " +
-            to_text(max_iterations) +
-            " iterations. Reduce the contrast of the permeabilities, or the "
-            "ratio of width to height of the cells.");
-        n_at_setup = std::max(n_iterations_, 1u);
-      }
+    find_residual();
+    multigrid.solve(
+      *this,
+      [this]() { assemble(); },
+      accuracy * residual_.l2_norm(),
+      residual_,
+      correction);
     p.zero_out_ghost_values();
     p.add(1., correction);
-    find_residual(p);
-  }
-
-  bool
-  CellPressureSolver::iterate(const unsigned int max_iterations,
-                              const double       tolerance)
-  {
-    correction = 0.;
-    correction.zero_out_ghost_values();
-    SolverControl      control(max_iterations, tolerance);
-    SolverCG<CellData> solver(control);
-    try
-      {
-        solver.solve(*this, correction, residual_, multigrid);
-      }
-    catch (const SolverControl::NoConvergence &)
-      {}
-    n_iterations_ = control.last_step();
-    return control.last_check() == SolverControl::success;
+    find_residual();
   }
 } // namespace CaissonMPM

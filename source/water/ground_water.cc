@@ -336,9 +336,8 @@ namespace CaissonMPM
       throw RunFailure(
         "the pore water has nowhere to drain to: its pressure is known nowhere. "
         "Set Water/Drained surface, Drained outer side or Drained bottom.");
-    is_solved    = true;
-    is_corrected = false;
-    step         = dt;
+    is_solved = true;
+    step      = dt;
   }
 
   void
@@ -349,7 +348,6 @@ namespace CaissonMPM
                      corners,
                      {-suction.value(),
                       bottom_pressure.at_time(time + .5 * step)});
-    is_corrected = true;
     find_flow();
     unbalanced += step * std::abs(flow_remaining);
     through_surfaces += step * (std::abs(flow_out) + std::abs(flow_in));

@@ -14,7 +14,7 @@ namespace CaissonMPM
   namespace
   {
     // What is left is made good in the next step.
-    constexpr PressureSolver::Accuracy accuracy = {0., .1};
+    constexpr double accuracy = .1;
 
     // Where soil fills a cell by less than the first share, its velocities say
     // nothing of its volume; from the second one on they do.
@@ -257,6 +257,7 @@ namespace CaissonMPM
     const auto &faces = solver_.faces();
     seepage.resize(faces.size());
     inertia.resize(faces.size());
+    auto &conductances = solver_.conductances();
     conductances.resize(faces.size());
     double largest = 0., open = 0.;
     for (std::size_t f = 0; f < faces.size(); ++f)
@@ -341,7 +342,7 @@ namespace CaissonMPM
       }
     source.zero_out_ghost_values();
     source *= 1. / scale;
-    solver_.solve(conductances, source, known_, accuracy, pressure_);
+    solver_.solve(source, known_, accuracy, pressure_);
 
     // What the solver left of each equation is small, but adds up. Shifted
     // pressures take the sum away.
@@ -359,7 +360,8 @@ namespace CaissonMPM
           pressure_.local_element(solver_.place(cell)) += rise;
         for (std::size_t f = 0; f < faces.size(); ++f)
           if (faces[f].beyond != Beyond::cell)
-            left_now.local_element(faces[f].place) -= rise * conductances[f];
+            left_now.local_element(faces[f].place) -=
+              rise * solver_.conductances()[f];
       }
     remainder_.zero_out_ghost_values();
     remainder_.sadd(1. - step / long_step, scale * step, left_now);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/compat.h>
-#include <caisson_mpm/base/exceptions.h>
-#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/water/pressure_solver.h>
 
 #include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
@@ -16,23 +13,6 @@
 namespace CaissonMPM
 {
   using namespace dealii;
-
-  namespace
-  {
-    constexpr unsigned int max_iterations = 1000;
-
-    /** Incomplete factors smooth best where cells are long and flat: with
-     * Chebyshev polynomials, six times as many iterations are needed. */
-    TrilinosWrappers::PreconditionAMG::AdditionalData
-    multigrid_settings()
-    {
-      TrilinosWrappers::PreconditionAMG::AdditionalData settings;
-      settings.smoother_type         = "ILU";
-      settings.smoother_sweeps       = 1;
-      settings.aggregation_threshold = .1;
-      return settings;
-    }
-  } // namespace
 
   void
   PressureSolver::initialize(const BackgroundGrid &grid_of_run)
@@ -56,9 +36,7 @@ namespace CaissonMPM
                                                own,
                                                grid->communicator(),
                                                known);
-    multigrid.clear(); // it refers to the matrix
-    n_at_setup = 0;
-    matrix.reinit(own, own, pattern, grid->communicator());
+    multigrid.initialize(own, pattern, grid->communicator(), .1);
 
     for (NodalData *v :
          {&states, &right_side, &correction, &product, &with_ghosts})
@@ -115,16 +93,6 @@ namespace CaissonMPM
     states.update_ghost_values();
   }
 
-  bool
-  PressureSolver::has_known_value() const
-  {
-    double any = 0.;
-    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
-      if (state(node) == open || state(node) == plug)
-        any = 1.;
-    return Utilities::MPI::max(any, grid->communicator()) > 0.;
-  }
-
   void
   PressureSolver::assemble()
   {
@@ -136,7 +104,8 @@ namespace CaissonMPM
         constraints.add_line(dof_of_node[node]);
     constraints.close();
 
-    matrix = 0.;
+    auto &matrix = multigrid.matrix();
+    matrix       = 0.;
     std::vector<types::global_dof_index> dofs(4);
     FullMatrix<double>                   of_cell(4, 4);
     for (std::size_t i = 0; i < cells_.size(); ++i)
@@ -210,7 +179,7 @@ namespace CaissonMPM
 
   void
   PressureSolver::solve(const NodalData &source,
-                        const Accuracy  &accuracy,
+                        const double     accuracy,
                         NodalData       &field)
   {
     // f - K p, and its norm for the known values alone
@@ -231,51 +200,14 @@ namespace CaissonMPM
         else if (state(node) == no_water)
           correction.local_element(node) = field.local_element(node) = 0.;
       }
-    double tolerance = accuracy.of_known_values * find_residual(correction);
-    tolerance =
-      std::max(tolerance, accuracy.of_first_guess * find_residual(field));
-
-    // The multigrid of an earlier matrix serves as long as it costs only some
-    // more iterations than a new one.
-    if (n_at_setup == 0 || !iterate(n_at_setup + n_at_setup / 2 + 2,
-                                    tolerance,
-                                    right_side,
-                                    correction))
-      {
-        assemble();
-        multigrid.initialize(matrix, multigrid_settings());
-        if (!iterate(max_iterations, tolerance, right_side, correction))
-          throw RunFailure(
-            "the pressure of the pore water was not found in " +
-            to_text(max_iterations) +
-            " iterations. Reduce the contrast of the permeabilities, or the "
-            "ratio of width to height of the cells.");
-        n_at_setup = std::max(n_iterations_, 1u);
-      }
+    const double tolerance = accuracy * find_residual(correction);
+    find_residual(field);
+    multigrid.solve(
+      *this, [this]() { assemble(); }, tolerance, right_side, correction);
     field.zero_out_ghost_values();
     field.add(1., correction);
     field.update_ghost_values();
     grid->hanging_nodes().interpolate(field, 1);
-  }
-
-  bool
-  PressureSolver::iterate(const unsigned int max_iterations,
-                          const double       tolerance,
-                          const NodalData   &right_side,
-                          NodalData         &correction)
-  {
-    correction = 0.;
-    correction.zero_out_ghost_values();
-    SolverControl       control(max_iterations, tolerance);
-    SolverCG<NodalData> solver(control);
-    try
-      {
-        solver.solve(*this, correction, right_side, multigrid);
-      }
-    catch (const SolverControl::NoConvergence &)
-      {}
-    n_iterations_ = control.last_step();
-    return control.last_check() == SolverControl::success;
   }
 
   PressureSolver::SumsByState

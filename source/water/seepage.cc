@@ -46,7 +46,7 @@ namespace CaissonMPM
         phi.local_element(node) = 1.;
       else if (solver_.state(node) == PressureSolver::open)
         phi.local_element(node) = 0.;
-    solver_.solve(no_source, {tolerance, 0.}, phi);
+    solver_.solve(no_source, tolerance, phi);
     solver_.apply(phi, residual_);
     residual_ *= scale;
   }

@@ -11,6 +11,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -58,13 +59,10 @@ namespace CaissonMPM
     void
     prepare(const BackgroundGrid &grid, const double time, const double dt);
 
-    /** Return whether the side or the last prepare() sets a component of the
-     * velocity of a node. */
-    bool
-    holds(const unsigned int node, const unsigned int component) const
-    {
-      return is_held[component][node];
-    }
+    /** Return by component which nodes [n_nodes] have a velocity that their
+     * side or the last prepare() sets. */
+    std::array<std::vector<bool>, 2>
+    held_nodes(const unsigned int n_nodes) const;
 
     /**
      * Set the fixed and the prescribed components of the new velocities @p v
@@ -113,8 +111,7 @@ namespace CaissonMPM
                                           SideCondition::fixed,
                                           SideCondition::free};
     std::string               region_text, velocity_text = "0 ; 0";
-    std::vector<unsigned int> fixed[2];   // nodes by component
-    std::vector<bool>         is_held[2]; // [n_nodes] by component
+    std::vector<unsigned int> fixed[2]; // nodes by component
     Expression                region;
     VectorExpression          velocity;
     std::vector<Prescribed>   prescribed; // in this step

@@ -46,8 +46,8 @@ namespace CaissonMPM
 
   /**
    * The convex corners that this rank knows, and their state. Every rank treats
-   * all of them in the same way. initialize() and collect() are collective over
-   * MPI, all other functions are not.
+   * all of them in the same way. initialize(), collect() and add_forces() are
+   * collective over MPI, all other functions are not.
    */
   class ContactCorners
   {
@@ -70,6 +70,11 @@ namespace CaissonMPM
             const Kernels::StepContext &step,
             const double                keep,
             const NodalForces          &forces);
+
+    /** Take the nodal @p forces that have been corrected in place of those of
+     * collect() in this step. */
+    void
+    add_forces(const Kernels::StepContext &step, const NodalForces &forces);
 
     /** Replace the velocities @p v before and @p u after the step by those that
      * follow from virtual power, if the body has the given velocity. */
@@ -248,8 +253,8 @@ namespace CaissonMPM
     void
     update_views();
 
-    std::vector<Corner>              corners;
-    std::vector<double>              sums_;   // contributions of all cells
+    std::vector<Corner> corners;
+    std::vector<double> of_points, sums_;     // contributions of all cells
     std::vector<Kernels::NodalSums>  of_cell; // memory of collect()
     std::vector<Kernels::CornerView> views_;
     Vector2                          velocity;           // of the body

@@ -16,8 +16,6 @@
 #include <deal.II/fe/fe_dgq.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
-#include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <array>
 #include <vector>
@@ -103,17 +101,27 @@ namespace CaissonMPM
       return is_known;
     }
 
-    /**
-     * Solve for @p p, which is the first guess, with these @p conductances of
-     * the faces [n_faces]. They should be of order one. Throws RunFailure where
-     * the solver does not reach the @p accuracy.
-     */
+    /** G of the faces [n_faces], to be filled before solve(). They should be of
+     * order one. */
+    std::vector<double> &
+    conductances()
+    {
+      return conductances_;
+    }
+    const std::vector<double> &
+    conductances() const
+    {
+      return conductances_;
+    }
+
+    /** Solve for @p p, which is the first guess. The residual becomes smaller
+     * than @p accuracy times that of the guess; throws RunFailure where it does
+     * not. */
     void
-    solve(const std::vector<double>      &conductances,
-          const CellData                 &source,
-          const Known                    &known,
-          const PressureSolver::Accuracy &accuracy,
-          CellData                       &p);
+    solve(const CellData &source,
+          const Known    &known,
+          const double    accuracy,
+          CellData       &p);
 
     /** What is left of the equations after solve(): q_c - sum_f G_f (p_c -
      * p_f). */
@@ -131,10 +139,11 @@ namespace CaissonMPM
     unsigned int
     n_iterations() const
     {
-      return n_iterations_;
+      return multigrid.n_iterations();
     }
 
   private:
+    using HeldNodes = std::array<std::vector<bool>, 2>; // by component
     void
     add_face(const Beyond       beyond,
              const unsigned int cell,
@@ -148,16 +157,14 @@ namespace CaissonMPM
     add_sides(const unsigned int               cell,
               const Mudline                   &mudline,
               const PressureSolver::OpenSides &open,
-              const BoundaryConditions        &conditions);
+              const HeldNodes                 &held);
     /** Return the share of the nodes of a face that may move across it. */
     double
-    free_nodes_of(const unsigned int        cell,
-                  const unsigned int        face,
-                  const BoundaryConditions &conditions) const;
+    free_nodes_of(const unsigned int cell,
+                  const unsigned int face,
+                  const HeldNodes   &held) const;
     void
     assemble();
-    bool
-    iterate(const unsigned int max_iterations, const double tolerance);
     /** Subtract what passes the faces from @p to. */
     void
     subtract_flow(const CellData &p, const Known &known, CellData &to) const;
@@ -167,18 +174,15 @@ namespace CaissonMPM
     dealii::DoFHandler<2>     dofs;
     std::vector<unsigned int> places; // [n_cells]
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
-    dealii::TrilinosWrappers::SparseMatrix                     matrix;
-    dealii::TrilinosWrappers::PreconditionAMG                  multigrid;
-    unsigned int                                               n_at_setup = 0;
-    unsigned int              n_iterations_                               = 0;
-    std::vector<unsigned int> cells_;
-    std::vector<Face>         faces_;
-    const double             *filled   = nullptr; // [n_cells]
-    bool                      is_known = false;
-    std::vector<double>       conductance; // [n_faces]
-    std::vector<char>         has_water;   // [n_places]
-    CellData                  residual_, correction;
-    mutable CellData          with_ghosts; // memory of vmult()
+    KeptMultigrid                                              multigrid;
+    std::vector<unsigned int>                                  cells_;
+    std::vector<Face>                                          faces_;
+    const double       *filled   = nullptr; // [n_cells]
+    bool                is_known = false;
+    std::vector<double> conductances_; // [n_faces]
+    std::vector<char>   has_water;     // [n_places]
+    CellData            residual_, correction;
+    mutable CellData    with_ghosts; // memory of vmult()
   };
 } // namespace CaissonMPM
 

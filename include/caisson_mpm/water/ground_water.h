@@ -433,7 +433,6 @@ namespace CaissonMPM
     double        touched_lid      = 0.; // share of its area
     double        travel_at_solve  = 0.;
     bool          is_solved        = false; // since the last initialize()
-    bool          is_corrected     = false; // the pressure is that of this step
     unsigned int  steps_since_look = 0;
     ExitGradient  exit;
     BoilingMargin boiling_margin; // of the last record

@@ -205,7 +205,7 @@ namespace CaissonMPM
     bool                knows_wet_cells = false; // since initialize()
     std::vector<Beyond> beyond_node; // [n_nodes], cell: nothing is known
     // [n_faces]
-    std::vector<double> seepage, inertia, conductances;
+    std::vector<double> seepage, inertia;
     std::vector<int>    face_below; // -1 at most faces
     double              open_conductance = 0.;
     CellData  pressure_, remainder_, source, mobility[2], inverse_density;

@@ -5,11 +5,10 @@
 #ifndef caisson_mpm_water_pressure_solver_h
 #define caisson_mpm_water_pressure_solver_h
 
+#include <caisson_mpm/water/kept_multigrid.h>
 #include <caisson_mpm/water/mudline.h>
 
 #include <deal.II/lac/affine_constraints.h>
-#include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <array>
 #include <vector>
@@ -20,9 +19,8 @@ namespace CaissonMPM
    * Knows at which nodes the water has a pressure that is to be found, and
    * solves for it with conjugate gradients and algebraic multigrid. K is the
    * sum of the symmetric matrices of cells, which the caller sets. It is
-   * applied cell by cell; only to set the multigrid up is it assembled, and the
-   * multigrid of an earlier K is kept as long as it serves. All functions are
-   * collective.
+   * applied cell by cell; only to set the multigrid up is it assembled. All
+   * functions are collective.
    */
   class PressureSolver
   {
@@ -46,13 +44,6 @@ namespace CaissonMPM
       bool outer = false, bottom = false, surface = true;
     };
 
-    /** The residual may be as large as the larger of these shares: of the
-     * residual of the known values alone, and of that of the first guess. */
-    struct Accuracy
-    {
-      double of_known_values, of_first_guess;
-    };
-
     /** Set up what knows the nodes of this rank. */
     void
     initialize(const BackgroundGrid &grid);
@@ -68,10 +59,6 @@ namespace CaissonMPM
     {
       return static_cast<State>(static_cast<int>(states.local_element(node)));
     }
-
-    /** Return whether the value of some node is known. */
-    bool
-    has_known_value() const;
 
     /** The cells of this rank with water, and room for the matrix of each, to
      * be filled before solve(). Their entries should be of order one. */
@@ -90,17 +77,17 @@ namespace CaissonMPM
      * Solve for @p field [n_nodes], which is the first guess, and has the known
      * values at open and plug; the rest but hanging nodes is set to zero where
      * there is no water. @p source [n_nodes] is f, with hanging nodes already
-     * at their masters. Throws RunFailure where the solver does not reach the
-     * @p accuracy.
+     * at their masters. The residual becomes smaller than @p accuracy times
+     * that of the known values alone; throws RunFailure where it does not.
      */
     void
-    solve(const NodalData &source, const Accuracy &accuracy, NodalData &field);
+    solve(const NodalData &source, const double accuracy, NodalData &field);
 
     /** The iterations of the last solution. */
     unsigned int
     n_iterations() const
     {
-      return n_iterations_;
+      return multigrid.n_iterations();
     }
 
     /** to = K from, at all nodes. @p from is current at ghost nodes and hanging
@@ -119,26 +106,16 @@ namespace CaissonMPM
     SumsByState
     sums_by_state(const NodalData &of_nodes) const;
 
+  private:
+    void
+    assemble();
     /** Take away what is not at unknown nodes of this rank. */
     void
     keep_unknown(NodalData &field) const;
 
-  private:
-    void
-    assemble();
-    /** Iterate with the present multigrid; return whether that converged. */
-    bool
-    iterate(const unsigned int max_iterations,
-            const double       tolerance,
-            const NodalData   &right_side,
-            NodalData         &correction);
-
-    const BackgroundGrid                     *grid = nullptr;
-    dealii::AffineConstraints<double>         hanging, constraints;
-    dealii::TrilinosWrappers::SparseMatrix    matrix;
-    dealii::TrilinosWrappers::PreconditionAMG multigrid;
-    unsigned int                              n_iterations_ = 0;
-    unsigned int n_at_setup = 0; // of the multigrid, 0: there is none
+    const BackgroundGrid                        *grid = nullptr;
+    dealii::AffineConstraints<double>            hanging, constraints;
+    KeptMultigrid                                multigrid;
     std::vector<dealii::types::global_dof_index> dof_of_node; // [n_nodes]
     std::vector<unsigned int>                    cells_;
     std::vector<CellMatrix>                      matrices_; // [n_cells_]
