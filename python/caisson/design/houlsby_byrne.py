@@ -26,6 +26,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import exp, inf, pi, radians, tan
 
+from caisson.design.method import Forces
+
 # N_gamma of a rough strip footing by the method of characteristics (Martin
 # 2005, Exact bearing capacity calculations using the method of
 # characteristics): {friction angle in degrees: N_gamma}.
@@ -205,3 +207,21 @@ class Caisson:
         """Return the friction on both walls and the force on the tip."""
         parts = (self.outer_friction, self.inner_friction, self.tip)
         return sum(part(h, enhanced, seepage) for part in parts)
+
+
+class HoulsbyByrne:
+    """The forces of jacking as a method: plain, and with stress enhancement."""
+
+    cases = ("plain", "enhanced")
+
+    def __init__(self, caisson: Caisson) -> None:
+        self.caisson = caisson
+
+    def forces(self, h: float, case: str) -> Forces:
+        """Return the forces at an embedment."""
+        parts = (
+            self.caisson.tip,
+            self.caisson.inner_friction,
+            self.caisson.outer_friction,
+        )
+        return Forces(*(part(h, case == "enhanced") for part in parts))

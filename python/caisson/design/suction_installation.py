@@ -14,8 +14,8 @@ suction changes these forces:
     -(1 - a) s / h inside and at the tip.
     Senders and Randolph (2009), J. Geotech. Geoenviron. Eng. 135(1): F_o is that of
     jacking, and F_i and Q decrease in proportion to 1 - s / s_cr. They take the
-    forces of jacking from cone tests; here these are the plain ones of Houlsby and
-    Byrne.
+    forces of jacking from a cone test (senders_randolph); without one, these are here
+    the plain ones of Houlsby and Byrne.
 
 The formulas are those of one unit weight. With several layers the gradient is the
 same in all of them, and s_cr follows from the mean unit weight down to the tip.
@@ -28,7 +28,8 @@ SI units; h is the embedment of the tip (m), forces are N, suctions are Pa.
 from collections.abc import Callable
 from math import inf, nan, pi
 
-from caisson.design.houlsby_byrne import Caisson, Seepage
+from caisson.design.houlsby_byrne import Caisson, HoulsbyByrne, Seepage
+from caisson.design.method import Forces
 from caisson.design.seepage import houlsby_byrne, pressure_factor, senders_randolph
 
 
@@ -133,18 +134,31 @@ def critical_suction(caisson: Caisson, h: float) -> float:
     return senders_randolph(mean_unit_weight(caisson, h), h, caisson.outer_diameter)
 
 
+def relieved_suction(
+    jacking: Forces, weight: float, area: float, critical: float
+) -> float:
+    """Return the suction by Senders and Randolph that moves the tip on.
+
+    jacking: the forces without suction; area: that suction acts on (m2); critical:
+    s_cr. It is 0 where the weight suffices, and nan where no suction up to s_cr does.
+    """
+    missing = jacking.total - weight
+    if missing <= 0:
+        return 0.0
+    relieved = jacking.inner_friction + jacking.tip
+    loss = relieved / critical if critical > 0 else inf
+    suction = missing / (area + loss)
+    return suction if 0 < suction <= critical else nan
+
+
 def required_suction_senders_randolph(
     caisson: Caisson, weight: float, h: float
 ) -> float:
-    """Return the suction by Senders and Randolph that moves the tip on at h.
-
-    It is 0 where the weight suffices, and nan where no suction up to s_cr does.
-    """
-    missing = caisson.resistance(h, False) - weight
-    if missing <= 0:
-        return 0.0
-    critical = critical_suction(caisson, h)
-    relieved = caisson.inner_friction(h, False) + caisson.tip(h, False)
-    loss = relieved / critical if critical > 0 else inf
-    suction = missing / (plug_area(caisson) + loss)
-    return suction if 0 < suction <= critical else nan
+    """Return the suction by Senders and Randolph that moves the tip on at h, with the
+    plain forces of Houlsby and Byrne."""
+    return relieved_suction(
+        HoulsbyByrne(caisson).forces(h, "plain"),
+        weight,
+        plug_area(caisson),
+        critical_suction(caisson, h),
+    )

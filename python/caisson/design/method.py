@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What all methods for the penetration resistance of a caisson have in common.
+
+A method knows the caisson and the layers of the soil, and tells the forces at each
+embedment for two cases: a lower one, which is the first, and an upper one. What the
+cases mean is the method's own: without and with stress enhancement, most probable and
+highest, or the ends of a range of coefficients.
+
+SI units; forces are those of the whole circumference, upward positive.
+"""
+from typing import NamedTuple, Protocol
+
+
+class Forces(NamedTuple):
+    """The forces at one embedment (N)."""
+
+    tip: float
+    inner_friction: float
+    outer_friction: float
+
+    @property
+    def total(self) -> float:
+        """The penetration resistance (N)."""
+        return self.tip + self.inner_friction + self.outer_friction
+
+
+class Method(Protocol):
+    """A design method for one caisson in one soil."""
+
+    cases: tuple[str, str]
+
+    def forces(self, h: float, case: str) -> Forces:
+        """Return the forces at the embedment h (m) of the tip in one of the cases;
+        nan where the method has no answer at this embedment."""

@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Design methods, most of them from a cone test, against numbers worked out by hand."""
+import tempfile
+import unittest
+from math import isnan, pi
+from pathlib import Path
+
+import numpy as np
+
+from caisson.design import andersen, cone, dnv, senders_randolph
+from caisson.design.houlsby_byrne import Caisson, HoulsbyByrne, Layer
+from caisson.design.method import Forces
+from caisson.results import ResultsError
+
+# 6 m with a wall of 0.1 m: the tip has pi 5.9 0.1 = 1.853540 m2
+SKIRT = cone.Skirt(6, 0.1, 20, 20)
+# 2 MPa per meter: at 4 m 8 MPa, and an integral of 16 MN/m
+LINEAR = cone.Profile([0, 10], [0, 20e6])
+
+
+def assert_forces(found: Forces, kilonewtons: tuple[float, float, float]) -> None:
+    """Compare tip, inner and outer friction with values in kN, six digits."""
+    np.testing.assert_allclose(np.array(found) / 1e3, kilonewtons, rtol=2e-6)
+
+
+class ByHand(unittest.TestCase):
+    """Forces at 4 m under a cone resistance of 2 MPa per meter."""
+
+    def test_dnv_in_sand(self) -> None:
+        """0.3 8 MPa 1.853540 m2; 0.001 16 MN/m on pi 5.8 m and on pi 6 m."""
+        method = dnv.method(SKIRT, LINEAR, [(0, "sand")])
+        probable = method.forces(4, "most probable")
+        assert_forces(probable, (4448.495, 291.5398, 301.5929))
+        self.assertAlmostEqual(probable.total / 5041.628e3, 1, places=6)
+        assert_forces(method.forces(4, "highest"), (8896.990, 874.6194, 904.7787))
+
+    def test_dnv_in_clay_over_sand(self) -> None:
+        """Clay down to 1 m has 1 MN/m of the 16: 0.03 1 + 0.001 15 = 0.045 MN/m."""
+        method = dnv.method(SKIRT, LINEAR, [(0, "clay"), (1, "sand")])
+        found = method.forces(4, "most probable")
+        assert_forces(found, (4448.495, 45 * pi * 5.8, 45 * pi * 6))
+        # at its lower boundary the tip is still in the clay: 0.6 2 MPa 1.853540 m2
+        found = method.forces(1, "highest")
+        assert_forces(found, (2224.248, 50 * pi * 5.8, 50 * pi * 6))
+
+    def test_senders_randolph(self) -> None:
+        """1 - (5.8 / 6)^2 = 0.0655556, to the power of 0.3 0.441554; times
+        tan 20 = 0.363970 and 0.012: k_f = 0.00192855."""
+        method = senders_randolph.method(SKIRT, LINEAR)
+        low, high = [method.forces(4, case) for case in method.cases]
+        for found, factor in ((low, 1), (high, 0.0212132 / 0.012)):
+            self.assertAlmostEqual(found.tip / 2965.663e3, 1, places=6)
+            walls = np.array(found[1:]) / factor
+            np.testing.assert_allclose(walls, [562.248e3, 581.636e3], rtol=3e-6)
+
+    def test_senders_randolph_has_two_walls(self) -> None:
+        """A smooth wall has no friction, and the tip does not feel it."""
+        smooth = senders_randolph.method(cone.Skirt(6, 0.1, 0, 20), LINEAR)
+        rough = senders_randolph.method(SKIRT, LINEAR)
+        for case in smooth.cases:
+            found, whole = smooth.forces(3, case), rough.forces(3, case)
+            self.assertEqual(found, (whole.tip, 0, whole.outer_friction))
+
+    def test_andersen(self) -> None:
+        """0.01 and 0.55 8 MPa 1.853540 m2; 0.0015 16 MN/m."""
+        method = andersen.method(SKIRT, LINEAR)
+        assert_forces(method.forces(4, "low"), (148.2832, 437.3097, 452.3893))
+        assert_forces(method.forces(4, "high"), (8155.574, 437.3097, 452.3893))
+
+    def test_houlsby_byrne(self) -> None:
+        """The same caisson has 1518 kN on the tip plain, 1962 kN enhanced, and 378.6
+        and 448 kN on the outer wall at 5 m (VALUES of test_design)."""
+        body = Caisson(6, 0.1, [Layer(0, 8829, 30, 0.5)], 20, 20)
+        method = HoulsbyByrne(body)
+        for case, tip, outer in (("plain", 1518, 378.6), ("enhanced", 1962, 448)):
+            found = method.forces(5, case)
+            np.testing.assert_allclose(found.tip / 1e3, tip, rtol=2e-3)
+            np.testing.assert_allclose(found.outer_friction / 1e3, outer, rtol=2e-3)
+            parts = found.tip + found.inner_friction + found.outer_friction
+            self.assertEqual(found.total, parts)
+
+
+class Limits(unittest.TestCase):
+    """Layers, ends of the test, and nothing at all."""
+
+    def test_equal_layers_are_one(self) -> None:
+        one = dnv.method(SKIRT, LINEAR, [(0, "sand")])
+        many = dnv.method(SKIRT, LINEAR, [(0, "sand"), (1.3, "sand"), (3, "sand")])
+        for h in (0.4, 1.3, 2, 3, 7):
+            np.testing.assert_allclose(
+                many.forces(h, "highest"), one.forces(h, "highest"), rtol=1e-12
+            )
+
+    def test_nothing_at_the_mudline(self) -> None:
+        for method in (
+            dnv.method(SKIRT, LINEAR, [(0, "sand")]),
+            senders_randolph.method(SKIRT, LINEAR),
+            andersen.method(SKIRT, LINEAR),
+        ):
+            for case in method.cases:
+                self.assertEqual(method.forces(0, case), (0, 0, 0))
+
+    def test_profile_between_and_beyond_its_rows(self) -> None:
+        """4 MPa at 0.5 m and 12 at 2.5 m: 4 above; 8 at 1.5 m, and 2 + 6 MN/m."""
+        profile = cone.Profile([0.5, 2.5], [4e6, 12e6])
+        at = [profile.at(z) for z in (0, 0.2, 1.5, 2.5)]
+        np.testing.assert_allclose(at, [4e6, 4e6, 8e6, 12e6])
+        found = [profile.integral(z) for z in (0, 0.5, 1.5, 2.5)]
+        np.testing.assert_allclose(found, [0, 2e6, 8e6, 18e6])
+        self.assertTrue(isnan(profile.at(2.51)) and isnan(profile.integral(2.51)))
+        deep = andersen.method(SKIRT, profile).forces(2.51, "low")
+        self.assertTrue(all(map(isnan, (*deep, deep.total))))
+
+    def test_linear_resistance_has_a_closed_integral(self) -> None:
+        """a z + b: a z^2 / 2 + b z, also from many uneven rows."""
+        depth = [0.0, 0.01, 0.3, 0.35, 1.9, 2, 6]
+        profile = cone.Profile(depth, [3e6 * z + 1e6 for z in depth])
+        for z in (0.005, 0.32, 1.95, 5.9, 6):
+            exact = 1.5e6 * z**2 + 1e6 * z
+            self.assertAlmostEqual(profile.integral(z) / exact, 1, places=12)
+
+
+class Files(unittest.TestCase):
+    """Tests in files."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name) / "mine.csv"
+
+    def read(self, text: str) -> cone.Profile:
+        """Return the test of a file with this text."""
+        self.path.write_text(text, encoding="utf-8")
+        return cone.read(self.path)
+
+    def test_units_and_dividers(self) -> None:
+        for text in (
+            "depth_m,qc_MPa\n0,1\n2,5\n",
+            "# of site 3\n\nfs_kPa,Depth [m],qc (kPa)\n9,0,1000\n,2,5e3\n",
+            "\ufeffdepth (m);qc (Pa)\r\n0;1e6\r\n2;5e6\r\n",
+            "qc_MPa\tdepth_m\n1.0\t0\n5.0\t2.0",
+        ):
+            profile = self.read(text)
+            np.testing.assert_array_equal(profile.depth, [0, 2], text)
+            np.testing.assert_allclose(profile.resistance, [1e6, 5e6], err_msg=text)
+
+    def test_wrong_rows_are_named(self) -> None:
+        """Comments and empty rows count, as in an editor."""
+        head = "# comment\ndepth_m,qc_MPa\n0,1\n\n"
+        for rows, row, words in (
+            ("1,x\n2,3", 5, "'x' is no number"),
+            ("1,nan\n2,3", 5, "'nan' is no number"),
+            ("1\n2,3", 5, "'' is no number"),
+            ("1,2\n1,3", 6, "not below that of the row before"),
+            ("1,2\n2,-0.1", 6, "not between 0 and 200 MPa"),
+            ("1,2\n2,5000", 6, "5000 MPa.* check the unit"),
+        ):
+            expected = rf"mine.csv, row {row}: .*{words}"
+            with self.assertRaisesRegex(ResultsError, expected):
+                self.read(head + rows)
+        with self.assertRaisesRegex(ResultsError, "row 2: the test begins at .* 3 m"):
+            self.read("depth_m,qc_MPa\n3,1\n4,2")
+        with self.assertRaisesRegex(ResultsError, "row 2: .*begins at .* -1 m"):
+            self.read("depth_m,qc_MPa\n-1,1\n-2,2")
+
+    def test_wrong_heads_and_files(self) -> None:
+        for text in (
+            "z,q\n0,1\n1,2",
+            "depth_m,qc\n0,1\n1,2",
+            "depth_ft,qc_MPa\n0,1\n1,2",
+        ):
+            with self.assertRaisesRegex(ResultsError, "depth_m and qc_MPa.*; it is"):
+                self.read(text)
+        with self.assertRaisesRegex(ResultsError, "needs a row of heads"):
+            self.read("depth_m,qc_MPa\n0,1\n")
+        with self.assertRaisesRegex(ResultsError, "none.csv cannot be read"):
+            cone.read(self.path.parent / "none.csv")
+        self.path.write_bytes(b"\xff\xfe\x00")
+        with self.assertRaisesRegex(ResultsError, "cannot be read as a cone test"):
+            cone.read(self.path)
+
+    def test_kept_with_a_run(self) -> None:
+        """Only a good file is kept, and it may be the kept one itself."""
+        directory = self.path.parent / "run"
+        with self.assertRaises(ResultsError):
+            self.read("depth_m,qc_MPa\n0,1\n2,5\n")
+            cone.adopt(self.path, directory)
+        directory.mkdir()
+        self.assertIsNone(cone.of_run(directory))
+        cone.adopt(self.path, directory)
+        kept = cone.of_run(directory)
+        assert kept is not None
+        self.assertEqual(kept.at(1), 3e6)
+        cone.adopt(directory / cone.NAME, directory)
+        self.path.write_text("nothing", encoding="utf-8")
+        with self.assertRaises(ResultsError):
+            cone.adopt(self.path, directory)
+        self.assertIsNotNone(cone.of_run(directory))
+
+
+if __name__ == "__main__":
+    unittest.main()
