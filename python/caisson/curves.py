@@ -53,6 +53,19 @@ def window_means(
     return np.array([window_mean(position, values, x, width) for x in at])
 
 
+def on_the_way_down(position: np.ndarray) -> np.ndarray:
+    """Return which positions [n] are deeper than all before them."""
+    before = np.maximum.accumulate(position)[:-1]
+    return np.concatenate([[True], position[1:] > before])
+
+
+def smoothed_at(position: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Return the means over FORCE_WINDOW about each of at [m]: [m]; where the window
+    is not whole, the values there, linear between the positions [n], which grow."""
+    means = window_means(position, values, at, FORCE_WINDOW)
+    return np.where(np.isfinite(means), means, np.interp(at, position, values))
+
+
 def path_of(position: np.ndarray) -> np.ndarray:
     """Return the travelled path [n] at each position [n], which may go back."""
     return np.concatenate([[0.0], np.cumsum(np.abs(np.diff(position)))])

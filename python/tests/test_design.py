@@ -9,7 +9,6 @@ import numpy as np
 from caisson.design.bearing_capacity import Footing, converged, factors, pressure
 from caisson.design.cavity_expansion import MohrCoulomb, Tresca, comparison
 from caisson.design.houlsby_byrne import Caisson, Layer, bearing_factor_weight
-from caisson.plot import theory
 
 SAND = Layer(top=0, unit_weight=8829, friction_angle=30, lateral_stress_ratio=0.5)
 # kN, D = 6 m: {h: (tip of walls of 0.05, 0.1, 0.2 m, outer friction)}, each without
@@ -21,20 +20,6 @@ TABLE: dict[float, tuple[list[float], list[float]]] = {
 }
 # limit pressure over p0 of (G/p0, dilatancy angle)
 LIMITS = {(50, 0): 6.312, (50, 30): 11.641, (100, 0): 7.914, (100, 30): 16.194}
-SCENE: dict[str, Any] = {
-    "diameter_m": 6,
-    "wall_thickness_m": 0.2,
-    "inner_wall_friction_angle_deg": 20,
-    "outer_wall_friction_angle_deg": 20,
-}
-LAYER: dict[str, Any] = {
-    "top_depth_m": 0,
-    "law": "Mohr-Coulomb",
-    "submerged_unit_weight_N_m3": 8829,
-    "friction_angle_deg": 30,
-    "cohesion_Pa": 0,
-    "K0": 0.5,
-}
 
 
 def caisson(wall: float, *layers: Layer, angles: tuple[float, float] = (20, 20)) -> Any:
@@ -142,37 +127,6 @@ class HoulsbyByrne(unittest.TestCase):
         factors = [bearing_factor_weight(angle) for angle in angles]
         self.assertTrue(all(a < b for a, b in pairwise(factors)))
         self.assertEqual(bearing_factor_weight(50), 0)
-
-
-class Bands(unittest.TestCase):
-    """The band of forces.png, from run.json."""
-
-    def why_not(self, **change: Any) -> str:
-        """Return why a scene with a changed first layer has no band."""
-        scene = {**SCENE, "layers": [{**LAYER, **change}]}
-        return theory.bands_of(scene, 2).why_not
-
-    def test_layers_of_sand(self) -> None:
-        layers = [LAYER, {**LAYER, "top_depth_m": 1, "friction_angle_deg": 40}]
-        bands = theory.bands_of({**SCENE, "layers": layers}, 2)
-        self.assertEqual(bands.why_not, "")
-        plain, enhanced = bands.forces["tip"]
-        self.assertTrue((plain <= enhanced).all())
-        self.assertGreater(plain[-1], 3 * plain[45])
-
-    def test_file_without_layers(self) -> None:
-        old = {**SCENE, **LAYER, "wall_friction_angle_deg": 20}
-        new = {**SCENE, "layers": [LAYER]}
-        a, b = theory.bands_of(old, 2), theory.bands_of(new, 2)
-        np.testing.assert_array_equal(a.forces["tip"], b.forces["tip"])
-
-    def test_why_there_is_none(self) -> None:
-        self.assertEqual(self.why_not(), "")
-        self.assertIn("cohesion", self.why_not(cohesion_Pa=5e3))
-        self.assertIn("hypoplastic", self.why_not(law="hypoplastic sand"))
-        self.assertIn("softening", self.why_not(law="Mohr-Coulomb with softening"))
-        self.assertIn("friction angle", self.why_not(friction_angle_deg=None))
-        self.assertIn("no caisson", theory.bands_of({}, 2).why_not)
 
 
 class CavityExpansion(unittest.TestCase):

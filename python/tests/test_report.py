@@ -144,6 +144,39 @@ class Report(unittest.TestCase):
         self.assertEqual(row["unit outer friction (kPa)"], "7.96")
         self.assertEqual(row["required suction (kPa)"], "25")
 
+    def test_design_methods(self) -> None:
+        """The computed 3000 kN at 3 m; DNV with 2 MPa per meter and a tip of 1.2516 m2:
+        0.3 6 MPa 1.2516 m2 = 2252.9 kN, and 0.001 9 MN/m on pi 19.92 m of wall =
+        563.2 kN; without a cone test, why there is nothing."""
+        leave_run(self.path, SUMMARY)
+        found = content.methods_of(Results(self.path))
+        self.assertEqual(len(found["heads"]), 4)
+        (reason,) = found["reasons"]
+        self.assertEqual(reason[0].count(","), 2)
+        self.assertIn("a cone test is needed", reason[1])
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("a cone test is needed (--cpt FILE).", page)
+        (self.path / "cone.csv").write_text("depth_m,qc_kPa\n0,0\n3.5,7000\n")
+        found = content.methods_of(Results(self.path))
+        self.assertEqual(found["reasons"], [])
+        rows = [dict(zip(found["heads"], row)) for row in found["rows"]]
+        self.assertEqual(rows[2]["computed"], "3000")
+        self.assertEqual(rows[2]["DNV, most probable"], "2816")
+        self.assertEqual(rows[3]["DNV, most probable"], "")
+        self.assertGreater(float(rows[3]["Houlsby & Byrne (2005), plain"]), 0)
+        self.assertIn("ends at 3.5 m", report.write(self.path).read_text())
+
+    def test_curves_without_a_point(self) -> None:
+        """The run begins at 0.5 m, and the cone test ends at 0.3 m: no suction follows
+        from it, but forces down to there."""
+        leave_run(self.path, SUMMARY)
+        (self.path / "cone.csv").write_text("depth_m,qc_kPa\n0,0\n0.3,700\n")
+        figures = content.figures_of(Results(self.path))
+        labels = [[c["label"] for c in figure["curves"]] for figure in figures]
+        self.assertIn("total, DNV", labels[0])
+        self.assertFalse([name for name in labels[1] if "by cone" in name])
+        self.assertEqual(len(labels[1]), 6)
+
     def test_error_bar_of_the_suction(self) -> None:
         """A band of means in kPa, which does not go below zero."""
         leave_run(self.path, SUMMARY)

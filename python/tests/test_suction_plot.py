@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """suction.png and design.csv of a made-up run."""
+import argparse
 import csv
 import tempfile
 import unittest
@@ -15,7 +16,8 @@ from caisson import plot
 from caisson.design import seepage
 from caisson.design import suction_installation as installation
 from caisson.design.houlsby_byrne import Caisson, Layer
-from caisson.plot import suction
+from caisson.design.cone import Profile
+from caisson.plot import design, suction, theory
 from caisson.plot import suction_methods as methods
 from caisson.results import Results
 
@@ -36,6 +38,7 @@ SCENE: dict[str, Any] = {
     "layers": [SAND],
     "submerged_weight_N": WEIGHT,
 }
+SITE = theory.Site(SCENE)
 CAISSON = Caisson(D, 0.1, [Layer(0, GAMMA, 30, 0.5)], 20, 20)
 REST = 2.0  # m, of the made-up run
 
@@ -96,7 +99,7 @@ class MadeUpRun(unittest.TestCase):
         of bounds there is none."""
         run = self.write(made_up())
         (axes,) = Figure().subplots(1, 1, squeeze=False)[0]
-        answers = methods.answers_of(run.scene, np.array([1.0, 4.0]))
+        answers = methods.answers_of(SITE, np.array([1.0, 4.0]))
         suction.draw_suction(axes, run, answers)
         self.assertNotIn("error bar", axes.get_legend_handles_labels()[1])
         depth = run.history["penetration_m"]
@@ -116,7 +119,7 @@ class MadeUpRun(unittest.TestCase):
         self.assertAlmostEqual(sides.max(), 10 * (at - REST) + 2)
 
     def test_values_at_one_depth(self) -> None:
-        methods.write(self.path / "design.csv", self.write(made_up()))
+        design.write(self.path / "design.csv", self.write(made_up()))
         rows = self.design()
         depths = [float(row["penetration_m"]) for row in rows]
         np.testing.assert_allclose(depths, np.arange(5, 46) / 10)
@@ -141,7 +144,10 @@ class MadeUpRun(unittest.TestCase):
             "critical_ibsen_thilsted_Pa": fits["Ibsen & Thilsted (2011)"](GAMMA, h, D),
             "critical_houlsby_byrne_Pa": fits["Houlsby & Byrne (2005)"](GAMMA, h, D),
         }
-        self.assertEqual(list(row), list(expected))
+        suctions = [name for name in row if not name.endswith("_N")]
+        empty = [methods.CONE_LOW, methods.CONE_HIGH]
+        self.assertEqual([n for n in suctions if n not in empty], list(expected))
+        self.assertEqual([row[name] for name in empty], ["", ""])
         for name, value in expected.items():
             self.assertGreater(value, 0)
             self.assertAlmostEqual(float(row[name]) / value, 1, 9, name)
@@ -153,7 +159,7 @@ class MadeUpRun(unittest.TestCase):
             "outer_wall_friction_angle_deg": 45,
         }
         layer = {**SAND, "K0": 2}
-        methods.write(
+        design.write(
             self.path / "design.csv", self.write(made_up(), layers=[layer], **change)
         )
         last = self.design()[-1]
@@ -166,7 +172,8 @@ class MadeUpRun(unittest.TestCase):
             {**SAND, "submerged_unit_weight_N_m3": 6e3},
             {**SAND, "submerged_unit_weight_N_m3": 10e3, "top_depth_m": 1},
         ]
-        answers = methods.answers_of({**SCENE, "layers": layers}, np.array([4.0]))
+        site = theory.Site({**SCENE, "layers": layers})
+        answers = methods.answers_of(site, np.array([4.0]))
         found = answers.suctions["critical_feld_Pa"][0]
         self.assertAlmostEqual(found / seepage.feld(9e3, 4, D), 1)
 
@@ -179,7 +186,7 @@ class MadeUpRun(unittest.TestCase):
         self.assertIsNone(suction.rest_of_run(history))
         history["suction_Pa"][:] = 0.0
         self.assertIsNone(suction.rest_of_run(history))
-        answers = methods.answers_of(SCENE, np.array([1.0, 6.0]))
+        answers = methods.answers_of(SITE, np.array([1.0, 6.0]))
         for name, enhanced in ((methods.PLAIN, False), (methods.ENHANCED, True)):
             force = CAISSON.resistance(answers.rest[name], enhanced)
             self.assertAlmostEqual(force / WEIGHT, 1)
@@ -198,47 +205,139 @@ class MadeUpRun(unittest.TestCase):
 
     def test_heavy_caisson(self) -> None:
         answers = methods.answers_of(
-            {**SCENE, "submerged_weight_N": 1e9}, np.array([1.0, 6.0])
+            theory.Site({**SCENE, "submerged_weight_N": 1e9}), np.array([1.0, 6.0])
         )
         self.assertEqual(answers.rest, {})
         self.assertIn("suffices down to 6 m", suction.caption(answers))
 
-    def test_drained_run_has_neither_file(self) -> None:
+    def test_drained_run(self) -> None:
+        """It has forces in design.csv, and no suction. The only record within 0.1 m of
+        4 m is that at 4.01 m."""
         history = made_up()
-        del history["suction_Pa"]
+        for name in ("suction_Pa", "required_suction_Pa"):
+            del history[name]
+        history["tip_force_N"] = 1e5 * history["penetration_m"]
         self.write(history)
         names = [path.name for path in plot.draw(self.path)]
-        self.assertEqual(names, ["forces.png"])
+        self.assertEqual(names, ["forces.png", "design.csv"])
         self.assertFalse((self.path / "suction.png").exists())
-        self.assertFalse((self.path / "design.csv").exists())
+        row = self.design()[35]
+        self.assertEqual([name for name in row if name.endswith("_Pa")], [])
+        self.assertAlmostEqual(float(row["tip_force_N"]), 4.01e5, delta=1)
+        for case, enhanced in (("plain", False), ("enhanced", True)):
+            tip = CAISSON.tip(4, enhanced)
+            known = float(row[f"houlsby_byrne_{case}_tip_N"])
+            self.assertAlmostEqual(known / tip, 1, 9)
+            known = float(row[f"houlsby_byrne_{case}_total_N"])
+            self.assertAlmostEqual(known / CAISSON.resistance(4, enhanced), 1, 9)
+        self.assertEqual(row["dnv_most_probable_total_N"], "")
+
+    def test_cone_test(self) -> None:
+        """2 MPa per meter down to 4.2 m: 0.3 8 MPa pi 5.9 m 0.1 m at 4 m."""
+        run = self.write(made_up())
+        (self.path / "cone.csv").write_text("depth_m,qc_MPa\n0,0\n4.2,8.4\n")
+        design.write(self.path / "design.csv", run)
+        rows = self.design()
+        tip = float(rows[35]["dnv_most_probable_tip_N"])
+        self.assertAlmostEqual(tip / (2.4e6 * np.pi * 5.9 * 0.1), 1, 9)
+        for name in ("senders_randolph_low", "senders_randolph_high", "andersen_low"):
+            self.assertGreater(float(rows[35][f"{name}_total_N"]), 0)
+            self.assertEqual(rows[-1][f"{name}_total_N"], "")
+        names = [path.name for path in plot.draw(self.path)]
+        self.assertEqual(names, ["forces.png", "suction.png", "design.csv"])
+
+    def test_required_suction_by_cone(self) -> None:
+        """Equilibrium with inner friction and tip in proportion to 1 - s / s_cr."""
+        site = SITE._replace(cone=Profile([0, 10], [0, 10e6]))
+        answers, h = methods.answers_of(site, np.array([4.0])), 4.0
+        critical = seepage.CRITICAL_SUCTIONS["Senders & Randolph (2009)"](GAMMA, h, D)
+        tip = 0.2 * 4e6 * np.pi * 5.9 * 0.1
+        wall = (1 - (5.8 / 6) ** 2) ** 0.3 * np.tan(np.radians(20)) * 8e6 * np.pi
+        for column, c in ((methods.CONE_LOW, 0.012), (methods.CONE_HIGH, 0.0212132)):
+            (s,) = answers.suctions[column]
+            relieved = (tip + c * wall * 5.8) * (1 - s / critical)
+            pull = WEIGHT + s * np.pi * 5.8**2 / 4
+            self.assertTrue(0 < s < critical)
+            self.assertAlmostEqual((relieved + c * wall * 6) / pull, 1, 6)
+
+    def test_legend_has_no_method_without_a_line(self) -> None:
+        """No suction is required of a heavy caisson, and none suffices for a light one
+        with much friction outside; the critical suctions are drawn in both."""
+        light: dict[str, Any] = {
+            "submerged_weight_N": 0,
+            "outer_wall_friction_angle_deg": 45,
+            "layers": [{**SAND, "K0": 2}],
+        }
+        heavy: dict[str, Any] = {"submerged_weight_N": 1e9}
+        for change in (heavy, light):
+            site = theory.Site({**SCENE, **change})
+            run = self.write(made_up(), **change)
+            (axes,) = Figure().subplots(1, 1, squeeze=False)[0]
+            answers = methods.answers_of(site, np.linspace(4, 6, 5))
+            suction.draw_suction(axes, run, answers)
+            labels = axes.get_legend_handles_labels()[1]
+            self.assertFalse([n for n in labels if n.startswith("required, H")], change)
+            self.assertFalse([n for n in labels if n.startswith("required, S")], change)
+            self.assertEqual(len([n for n in labels if "critical" in n]), 3)
+
+    def test_cone_test_of_the_command_line(self) -> None:
+        """It is kept where it is good; a wrong one is named with its row."""
+        self.write(made_up())
+        file = self.path / "mine.csv"
+        parser = argparse.ArgumentParser()
+        plot.declare(parser)
+        options = parser.parse_args(["--cpt", str(file), str(self.path)])
+        file.write_text("depth_m,qc_MPa\n0,0\n1,x\n", encoding="utf-8")
+        with mock.patch("builtins.print") as printed:
+            self.assertEqual(plot.main(options), 1)
+        self.assertRegex(
+            printed.call_args.args[0], "^plot: .*mine.csv, row 3: 'x' is no number"
+        )
+        self.assertFalse((self.path / "cone.csv").exists())
+        file.write_text("depth_m,qc_MPa\n0,0\n9,18\n", encoding="utf-8")
+        self.assertEqual(plot.main(options), 0)
+        self.assertTrue((self.path / "cone.csv").exists())
+        self.assertGreater(float(self.design()[9]["andersen_high_tip_N"]), 0)
+
+    def test_no_caisson_that_goes_down(self) -> None:
+        """A cone, and a caisson that is pulled out, have no design.csv."""
+        path = self.path / "design.csv"
+        self.assertIsNone(design.write(path, self.write(made_up(), diameter_m=None)))
+        history = made_up()
+        history["penetration_m"] = history["penetration_m"][::-1]
+        self.assertIsNone(design.write(path, self.write(history)))
+        self.assertFalse(path.exists())
 
     def test_body_at_rest_has_neither_file(self) -> None:
         history = made_up()
         history["penetration_m"][:] = 1.0
-        self.assertEqual(suction.draw(self.path, self.write(history)), [])
+        run = self.write(history)
+        self.assertEqual(suction.draw(self.path, run), [])
+        self.assertIsNone(design.write(self.path / "design.csv", run))
 
     def test_clay_says_why(self) -> None:
         run = self.write(made_up(), layers=[{**SAND, "cohesion_Pa": 5e3}])
-        self.assertEqual(len(suction.draw(self.path, run)), 2)
+        self.assertEqual(len(suction.draw(self.path, run)), 1)
+        design.write(self.path / "design.csv", run)
         row = self.design()[10]
         self.assertEqual({row[name] for name in methods.METHODS}, {""})
         self.assertAlmostEqual(float(row["required_suction_Pa"]), -5e3)
-        answers = methods.answers_of(run.scene, np.array([1.0]))
+        answers = methods.answers_of(theory.site_of(run), np.array([1.0]))
         text = suction.caption(answers)
         self.assertEqual(text, "no design methods: layer 1 has cohesion")
 
     def test_file_without_weight_says_why(self) -> None:
         run = self.write(made_up(), submerged_weight_N=None)
-        answers = methods.answers_of(run.scene, np.array([1.0]))
+        answers = methods.answers_of(theory.site_of(run), np.array([1.0]))
         self.assertIn("submerged_weight_N", answers.why_not)
 
     def test_way_back_is_left_out(self) -> None:
         history = made_up()
         back = {name: np.append(column, -9.0) for name, column in history.items()}
-        depth = methods.depths_of(back)
-        np.testing.assert_allclose(depth, methods.depths_of(history))
+        depth = design.depths_of(back)
+        np.testing.assert_allclose(depth, design.depths_of(history))
         np.testing.assert_allclose(
-            methods.computed_at(back, depth), 1e4 * (depth - REST), atol=1e-6
+            design.suction_at(back, depth), 1e4 * (depth - REST), atol=1e-6
         )
 
 

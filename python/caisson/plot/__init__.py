@@ -10,18 +10,19 @@ from caisson.results import Results, ResultsError
 def draw(directory: Path) -> list[Path]:
     """Write all pictures of a run; return their paths.
 
-    forces.png, with suction also suction.png and design.csv, and where there are
-    frames stress.png, displacement.png and, where the soil changes its volume,
-    void_ratio.png, and with excess pore pressure pore_pressure.png. Raises
-    ResultsError.
+    forces.png, with suction also suction.png, for a caisson that goes down also
+    design.csv, and where there are frames stress.png, displacement.png and, where
+    the soil changes its volume, void_ratio.png, and with excess pore pressure
+    pore_pressure.png. Raises ResultsError.
     """
-    from caisson.plot import fields, forces, pore_pressure, suction
+    from caisson.plot import design, fields, forces, pore_pressure, suction
 
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
     run = Results(directory)
-    pictures = [forces.draw(directory / "forces.png", run, run.title)]
+    pictures = [forces.draw(directory / "forces.png", run)]
     pictures += suction.draw(directory, run)
+    pictures.append(design.write(directory / "design.csv", run))
     if run.has_frames:
         frames = fields.frames_of(run)
         if frames:
@@ -33,8 +34,28 @@ def draw(directory: Path) -> list[Path]:
     return [picture for picture in pictures if picture is not None]
 
 
+def declare_cone(parser: argparse.ArgumentParser) -> None:
+    """Add the option for a cone test."""
+    parser.add_argument(
+        "--cpt",
+        type=Path,
+        metavar="FILE",
+        help="a cone test for the design methods, a table with the columns depth_m and"
+        " qc_MPa; it is kept as cone.csv in the directory of the run",
+    )
+
+
+def keep_cone(file: Path | None, directory: Path) -> None:
+    """Keep a cone test, if one is given, with a run. Raises ResultsError."""
+    if file is not None:
+        from caisson.design import cone
+
+        cone.adopt(file, directory)
+
+
 def declare(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson plot`."""
+    declare_cone(parser)
     parser.add_argument(
         "directories",
         nargs="+",
@@ -49,6 +70,7 @@ def main(options: argparse.Namespace) -> int:
     status = 0
     for directory in options.directories:
         try:
+            keep_cone(options.cpt, directory)
             for picture in draw(directory):
                 print(f"plot: {picture}")
         except (ResultsError, OSError) as error:

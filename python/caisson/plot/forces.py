@@ -52,15 +52,13 @@ def draw_curve(axes: Axes, depth: np.ndarray, force: np.ndarray, name: str) -> N
     axes.plot(smooth(depth, force), depth, color=color, linewidth=1.8, label=name)
 
 
-def draw_bands(axes: Axes, bands: theory.Bands, names: tuple[str, ...]) -> None:
+def draw_bands(axes: Axes, answer: theory.Answer, names: tuple[str, ...]) -> None:
     """Draw the range between plain and enhanced stress of Houlsby and Byrne."""
-    for name in names:
-        if name not in bands.forces:
-            continue
-        plain, enhanced = [force / 1e3 for force in bands.forces[name]]
+    for name in names if answer.forces else ():
+        plain, enhanced = [force / 1e3 for force in answer.band(name)]
         color, hatch = COLORS[name], "////" if name == "outer friction" else None
         axes.fill_betweenx(
-            bands.depth,
+            answer.depth,
             plain,
             enhanced,
             facecolor="none" if hatch else color,
@@ -68,10 +66,10 @@ def draw_bands(axes: Axes, bands: theory.Bands, names: tuple[str, ...]) -> None:
             hatch=hatch,
             alpha=0.3 if hatch else 0.15,
             linewidth=0,
-            label=f"{name}, Houlsby & Byrne (2005)",
+            label=f"{name}, {answer.method.name}",
         )
-        axes.plot(plain, bands.depth, color=color, linewidth=0.8, linestyle="--")
-        axes.plot(enhanced, bands.depth, color=color, linewidth=0.8, linestyle=":")
+        axes.plot(plain, answer.depth, color=color, linewidth=0.8, linestyle="--")
+        axes.plot(enhanced, answer.depth, color=color, linewidth=0.8, linestyle=":")
 
 
 def error_band(
@@ -122,24 +120,54 @@ def set_limits(axes: Axes, depth: np.ndarray) -> None:
     axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
 
 
+def label_axes(axes: Axes, name: str) -> None:
+    """Name the force of a panel, and place its axes and its legend."""
+    axes.xaxis.set_label_position("top")
+    axes.xaxis.tick_top()
+    axes.set_xlabel(f"{name} (kN)")
+    axes.set_ylabel("penetration of the skirt tip (m)")
+    axes.legend(fontsize=8, framealpha=0.9, loc="upper right")
+
+
 def draw_panel(
-    axes: Axes, run: Results, names: tuple[str, ...], bands: theory.Bands
+    axes: Axes, run: Results, names: tuple[str, ...], answer: theory.Answer
 ) -> None:
-    """Draw some forces over the penetration."""
+    """Draw some forces over the penetration, beside those of Houlsby and Byrne."""
     history, depth = run.history, run.history["penetration_m"]
     for name in names:
         if column_of(name) in history:
             draw_curve(axes, depth, history[column_of(name)], name)
     friction_only = names == FRICTION
-    draw_bands(axes, bands, names if friction_only else ("tip",))
+    draw_bands(axes, answer, names if friction_only else ("tip",))
     if not friction_only:
         draw_error_bars(axes, run.error_bounds)
     set_limits(axes, depth)
-    axes.xaxis.set_label_position("top")
-    axes.xaxis.tick_top()
-    axes.set_xlabel("wall friction (kN)" if friction_only else "force (kN)")
-    axes.set_ylabel("penetration of the skirt tip (m)")
-    axes.legend(fontsize=8, framealpha=0.9, loc="upper right")
+    label_axes(axes, "wall friction" if friction_only else "force")
+
+
+def has_line(answer: theory.Answer) -> bool:
+    """Return whether a method has an answer at any depth."""
+    return bool(answer.forces) and bool(np.isfinite(answer.band("total")[0]).any())
+
+
+def draw_methods(axes: Axes, run: Results, answers: list[theory.Answer]) -> None:
+    """Draw the total force beside those of all methods that have one."""
+    history, depth = run.history, run.history["penetration_m"]
+    if column_of("total") in history:
+        draw_curve(axes, depth, history[column_of("total")], "total")
+    for answer in filter(has_line, answers):
+        method = answer.method
+        for case, line, force in zip(method.cases, ("--", ":"), answer.band("total")):
+            axes.plot(
+                force / 1e3,
+                answer.depth,
+                color=method.color,
+                linewidth=1.4,
+                linestyle=line,
+                label=f"{method.name}, {case}",
+            )
+    set_limits(axes, depth)
+    label_axes(axes, "total force, and by design methods")
 
 
 def draw_over_time(axes: Axes, history: Table) -> None:
@@ -153,42 +181,63 @@ def draw_over_time(axes: Axes, history: Table) -> None:
     axes.legend(fontsize=8)
 
 
-def caption(depth: np.ndarray, bands: theory.Bands) -> str:
-    """Return what the lines mean."""
+def caption(depth: np.ndarray, site: theory.Site, answers: list[theory.Answer]) -> str:
+    """Return what the lines mean, and which methods have none."""
     window = window_of(depth)
     text = (
         f"thin: raw, thick: mean over {window:.3g} m, which ends {window / 2:.3g} m"
         " before the ends of the curve"
     )
-    if bands.forces:
-        return text + (
-            "\nband: Houlsby & Byrne (2005), dashed without, dotted with stress"
-            " enhancement (m = 1.5)"
-        )
-    return text + f"\nno band of Houlsby & Byrne (2005): {bands.why_not}"
+    if answers[0].forces:
+        text += "; Houlsby & Byrne: dashed without, dotted with stress enhancement"
+        text += " (m = 1.5)"
+    reasons = [f"{names}: {why}" for names, why in theory.reasons(answers)]
+    silent = f"no answer from {'; '.join(reasons)}" if reasons else ""
+    end = theory.end_of_cone(site, float(depth.max()))
+    return "\n".join(filter(None, [text, silent, end]))
 
 
-def draw(path: Path, run: Results, title: str) -> Path | None:
+def panels_of(figure: Figure, n: int) -> list[Axes]:
+    """Return the panels of a figure, with their grids."""
+    panels = list(figure.subplots(1, n, squeeze=False)[0])
+    for panel in panels:
+        panel.grid(color="0.9")
+        panel.set_axisbelow(True)
+    return panels
+
+
+def draw_over_depth(run: Results, depth: np.ndarray) -> Figure:
+    """Return the figure of a body that penetrates; a panel of all methods is added
+    where there is one besides Houlsby and Byrne."""
+    site = theory.site_of(run)
+    answers = theory.answers_to(site, max(depth.max(), 0))
+    with_methods = any(map(has_line, answers[1:]))
+    figure = Figure(figsize=(16.5 if with_methods else 11, 6.5))
+    figure.suptitle(run.title, fontsize=10)
+    panels = panels_of(figure, 3 if with_methods else 2)
+    draw_panel(panels[0], run, tuple(COLORS), answers[0])
+    draw_panel(panels[1], run, FRICTION, answers[0])
+    if with_methods:
+        draw_methods(panels[2], run, answers)
+    text = caption(depth, site, answers)
+    figure.text(0.5, 0.008, text, ha="center", fontsize=8, color="0.3")
+    figure.tight_layout(rect=(0, 0.015 + 0.02 * len(text.splitlines()), 1, 1))
+    return figure
+
+
+def draw(path: Path, run: Results) -> Path | None:
     """Write the picture; return its path, or None without any force."""
     history = run.history
     if not any(column_of(name) in history for name in COLORS):
         print("plot: no forces in history.csv, so no forces.png")
         return None
     depth = penetration(history)
-    figure = Figure(figsize=(7, 4) if depth is None else (11, 6.5))
-    axes = figure.subplots(1, 1 if depth is None else 2, squeeze=False)[0]
-    for panel in axes:
-        panel.grid(color="0.9")
-        panel.set_axisbelow(True)
-    figure.suptitle(title, fontsize=10)
     if depth is None:
-        draw_over_time(axes[0], history)
+        figure = Figure(figsize=(7, 4))
+        figure.suptitle(run.title, fontsize=10)
+        draw_over_time(panels_of(figure, 1)[0], history)
+        figure.tight_layout()
     else:
-        bands = theory.bands_of(run.scene, max(depth.max(), 0))
-        draw_panel(axes[0], run, tuple(COLORS), bands)
-        draw_panel(axes[1], run, FRICTION, bands)
-        text = caption(depth, bands)
-        figure.text(0.5, 0.008, text, ha="center", fontsize=8, color="0.3")
-    figure.tight_layout(rect=(0, 0 if depth is None else 0.045, 1, 1))
+        figure = draw_over_depth(run, depth)
     figure.savefig(path, dpi=150)
     return path

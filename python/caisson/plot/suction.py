@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson.plot import suction_methods as methods
+from caisson.plot import theory
 from caisson.plot.forces import COLORS, draw_error_bar, error_band, penetration
 from caisson.results import Results, Table
 
@@ -39,36 +40,58 @@ def from_rest_on(suction: np.ndarray) -> np.ndarray:
     return np.where(needed, suction / 1e3, np.nan)
 
 
-def draw_required(axes: Axes, answers: methods.Answers) -> None:
-    """Draw the required suction of the methods, in kPa."""
-    plain, enhanced, senders_randolph = [
-        from_rest_on(answers.suctions[name])
-        for name in (methods.PLAIN, methods.ENHANCED, methods.SENDERS_RANDOLPH)
-    ]
-    depth = answers.depth
+def has_line(*suctions: np.ndarray) -> bool:
+    """Return whether there is anything to draw of suctions [n]."""
+    return any(np.isfinite(values).any() for values in suctions)
+
+
+def draw_band(
+    axes: Axes, answers: methods.Answers, low: str, high: str, color: str, name: str
+) -> None:
+    """Draw the range between two required suctions, in kPa; they are drawn from where
+    the weight no longer suffices."""
+    lines = [from_rest_on(answers.suctions[column]) for column in (low, high)]
+    if not has_line(*lines):
+        return
     axes.fill_betweenx(
-        depth,
-        *[answers.suctions[name] / 1e3 for name in (methods.PLAIN, methods.ENHANCED)],
-        facecolor=BLUE,
+        answers.depth,
+        *[answers.suctions[column] / 1e3 for column in (low, high)],
+        facecolor=color,
         alpha=0.18,
         linewidth=0,
-        label="required, Houlsby & Byrne (2005)",
+        label=f"required, {name}",
     )
-    axes.plot(plain, depth, color=BLUE, linewidth=0.8, linestyle="--")
-    axes.plot(enhanced, depth, color=BLUE, linewidth=0.8, linestyle=":")
-    axes.plot(
-        senders_randolph,
-        depth,
-        color=GREEN,
-        linewidth=1.5,
-        linestyle="-.",
-        label="required, Senders & Randolph (2009)",
-    )
+    for line, style in zip(lines, ("--", ":")):
+        axes.plot(line, answers.depth, color=color, linewidth=0.8, linestyle=style)
+
+
+def draw_required(axes: Axes, answers: methods.Answers) -> None:
+    """Draw the required suction of the methods, in kPa. Senders and Randolph stand
+    on a cone test where there is one."""
+    name = "Houlsby & Byrne (2005)"
+    draw_band(axes, answers, methods.PLAIN, methods.ENHANCED, BLUE, name)
+    name = "Senders & Randolph (2009)"
+    if has_line(answers.suctions[methods.CONE_LOW]):
+        name += ", by cone"
+        draw_band(axes, answers, methods.CONE_LOW, methods.CONE_HIGH, GREEN, name)
+        return
+    line = from_rest_on(answers.suctions[methods.SENDERS_RANDOLPH])
+    if has_line(line):
+        axes.plot(
+            line,
+            answers.depth,
+            color=GREEN,
+            linewidth=1.5,
+            linestyle="-.",
+            label=f"required, {name}",
+        )
 
 
 def draw_critical(axes: Axes, answers: methods.Answers) -> None:
     """Draw the critical suctions as thin lines, in kPa."""
     for column, (name, color, line) in CRITICAL.items():
+        if not has_line(answers.suctions[column]):
+            continue
         axes.plot(
             answers.suctions[column] / 1e3,
             answers.depth,
@@ -131,7 +154,7 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
     if answers.suctions:
         draw_required(axes, answers)
         draw_critical(axes, answers)
-        lines += [suctions / 1e3 for suctions in answers.suctions.values()]
+        lines += [s / 1e3 for s in answers.suctions.values() if has_line(s)]
     most = max(np.nanmax(line, initial=1e-3) for line in lines)
     axes.set_xlim(-0.02 * most, 1.08 * most)
     draw_cavitation(axes, history)
@@ -177,18 +200,33 @@ def draw_heave(axes: Axes, run: Results) -> None:
     axes.set_xlabel("heave of the plug (m)")
 
 
-def caption(answers: methods.Answers) -> str:
-    """Return what the lines of the methods mean, or why there are none."""
+def ends_early(answers: methods.Answers, names: list[str], cone_end: float) -> bool:
+    """Return whether a method has no suction at a depth where it has forces."""
+    known = answers.depth <= cone_end
+    lines = [answers.suctions[name] for name in names]
+    return any(
+        np.isnan(line[known] if "cone" in name else line).any()
+        for name, line in zip(names, lines)
+    )
+
+
+def caption(answers: methods.Answers, cone_end: float = np.inf) -> str:
+    """Return what the lines of the methods mean, or why there are none. cone_end: the
+    depth at which a cone test ends (m)."""
     if not answers.suctions:
         return f"no design methods: {answers.why_not}"
     text = (
         "band: Houlsby & Byrne (2005), dashed without, dotted with stress enhancement"
         " (m = 1.5); both methods with equal permeability inside and outside"
     )
+    required = [methods.PLAIN, methods.ENHANCED, methods.SENDERS_RANDOLPH]
+    if has_line(answers.suctions[methods.CONE_LOW]):
+        required[2:] = [methods.CONE_LOW, methods.CONE_HIGH]
+        text += "\nby cone: dashed C = 0.012, dotted C = 0.021"
     if not answers.rest:
         deepest = answers.depth.max()
         text += f"\nBy the methods the weight suffices down to {deepest:.3g} m."
-    elif any(np.isnan(line).any() for line in answers.suctions.values()):
+    elif ends_early(answers, required, cone_end):
         text += "\nA line ends where no suction suffices."
     return text
 
@@ -204,16 +242,17 @@ def set_depth_axis(axes: Axes, depth: np.ndarray, place: str) -> None:
 
 
 def draw(directory: Path, run: Results) -> list[Path]:
-    """Write suction.png and design.csv; return their paths, none without suction
-    or without penetration."""
+    """Write suction.png; return its path, none without suction or without
+    penetration."""
     history = run.history
     if "suction_Pa" not in history:
         return []
     depth = penetration(history)
     if depth is None:
-        print("plot: no penetration, so no suction.png and no design.csv")
+        print("plot: no penetration, so no suction.png")
         return []
-    answers = methods.answers_of(run.scene, np.linspace(0, max(depth.max(), 0), 200))
+    site, deepest = theory.site_of(run), max(depth.max(), 0)
+    answers = methods.answers_of(site, np.linspace(0, deepest, 200))
     figure = Figure(figsize=(14, 6.5))
     panels = figure.subplots(1, 3, width_ratios=[1.7, 1, 1])
     figure.suptitle(run.title, fontsize=10)
@@ -223,8 +262,11 @@ def draw(directory: Path, run: Results) -> list[Path]:
     for axes, place in zip(panels, ("upper right", "lower left", "upper right")):
         set_depth_axis(axes, depth, place)
     panels[0].set_ylabel("penetration of the skirt tip (m)")
-    figure.text(0.5, 0.008, caption(answers), ha="center", fontsize=8, color="0.3")
-    figure.tight_layout(rect=(0, 0.045, 1, 1))
+    text = "\n".join(
+        filter(None, [caption(answers), theory.end_of_cone(site, deepest)])
+    )
+    figure.text(0.5, 0.008, text, ha="center", fontsize=8, color="0.3")
+    figure.tight_layout(rect=(0, 0.015 + 0.02 * len(text.splitlines()), 1, 1))
     picture = directory / "suction.png"
     figure.savefig(picture, dpi=150)
-    return [picture, methods.write(directory / "design.csv", run)]
+    return [picture]

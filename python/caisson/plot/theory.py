@@ -1,20 +1,62 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The range of Houlsby and Byrne (2005) for the scene of a run, where it holds."""
-from collections.abc import Mapping
+"""What the design methods say of the resistance in the scene of a run, where they
+hold, and why not where they do not.
+
+Layers that the tip does not reach do not count.
+"""
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from caisson.design.houlsby_byrne import Caisson, Layer
+from caisson.design import andersen, dnv, senders_randolph
+from caisson.design.cone import Profile, Skirt, of_run
+from caisson.design.houlsby_byrne import Caisson, HoulsbyByrne, Layer
+from caisson.design.method import Forces, Method
+from caisson.results import Results
 
 Scene = Mapping[str, Any]
 # The laws whose strength is one friction angle; run.json names the law of a layer.
 LAWS = ("Mohr-Coulomb",)
+SOFTENING = "Mohr-Coulomb with softening"
+SAND = "hypoplastic sand"
+SIZES = ("diameter_m", "wall_thickness_m")
+PARTS = ("tip", "inner friction", "outer friction", "total")
 
 
 class NotApplicable(Exception):
-    """Why the theory says nothing about a scene; the text is for the picture."""
+    """Why a method says nothing about a scene: what the method does not know, in a
+    part of a sentence."""
+
+
+class Site(NamedTuple):
+    """What methods know of a run."""
+
+    scene: Scene  # of run.json
+    level: str = "drained"  # Water/Level
+    cone: Profile | None = None  # a cone test, if the user has given one
+    is_running: bool = False  # and has left no run.json yet
+
+    def layers(self, deepest: float) -> list[tuple[int, Scene]]:
+        """Return the layers that begin above a depth (m), with their numbers. Older
+        files have no list of layers, but what counts for the only layer."""
+        pairs = enumerate(self.scene.get("layers", [self.scene]), 1)
+        return [(i, e) for i, e in pairs if i == 1 or top_of(e) < deepest]
+
+
+def site_of(run: Results) -> Site:
+    """Return the site of a run. Raises ResultsError where its cone test is wrong."""
+    test = of_run(run.directory)
+    if not run.scene and run.is_running:
+        return Site({}, cone=test, is_running=True)
+    entries = (run.summary.get("entries") or {}) if run.scene else {}
+    return Site(run.scene, entries.get("Water/Level", "drained"), test)
+
+
+def top_of(entry: Scene) -> float:
+    """Return the depth of the top of a layer (m)."""
+    return float(entry.get("top_depth_m") or 0)
 
 
 def layer_of(entry: Scene, number: int) -> Layer:
@@ -30,31 +72,46 @@ def layer_of(entry: Scene, number: int) -> Layer:
     if entry.get("K0") is None:
         raise NotApplicable(f"layer {number} has no K0")
     return Layer(
-        top=float(entry.get("top_depth_m") or 0),
+        top=top_of(entry),
         unit_weight=float(entry["submerged_unit_weight_N_m3"]),
         friction_angle=float(entry["friction_angle_deg"]),
         lateral_stress_ratio=float(entry["K0"]),
     )
 
 
-def caisson_of(scene: Scene) -> Caisson:
-    """Return the caisson of the scene of run.json. Raises NotApplicable.
+def is_caisson(scene: Scene) -> bool:
+    """Return whether the body of run.json is a caisson."""
+    return all(scene.get(name) is not None for name in SIZES)
 
-    Older files have no list of layers, but what counts for the only layer.
-    """
-    missing = [n for n in ("diameter_m", "wall_thickness_m") if scene.get(n) is None]
-    if missing:
+
+def skirt_of(site: Site) -> Skirt:
+    """Return the wall of the caisson of run.json. Raises NotApplicable."""
+    scene = site.scene
+    if site.is_running:
+        raise NotApplicable("the run goes on, and tells its scene at the end")
+    if not is_caisson(scene):
         raise NotApplicable("the body is no caisson")
-    layers = scene.get("layers", [scene])
+    return Skirt(
+        *(float(scene[name]) for name in SIZES),
+        *(wall_friction(scene, side) for side in ("inner", "outer")),
+    )
+
+
+def caisson_of(site: Site, deepest: float) -> Caisson:
+    """Return the caisson of a scene, with the layers down to deepest (m). Raises
+    NotApplicable."""
+    skirt = skirt_of(site)
     try:
-        return Caisson(
-            float(scene["diameter_m"]),
-            float(scene["wall_thickness_m"]),
-            [layer_of(entry, i) for i, entry in enumerate(layers, 1)],
-            *(wall_friction(scene, side) for side in ("inner", "outer")),
-        )
+        layers = [layer_of(entry, i) for i, entry in site.layers(deepest)]
     except KeyError as error:
         raise NotApplicable(f"run.json does not tell {error.args[0]}") from error
+    return Caisson(
+        skirt.outer_diameter,
+        skirt.wall_thickness,
+        layers,
+        skirt.inner_friction_angle,
+        skirt.outer_friction_angle,
+    )
 
 
 def wall_friction(scene: Scene, side: str) -> float:
@@ -66,33 +123,167 @@ def wall_friction(scene: Scene, side: str) -> float:
     return float(value)
 
 
-@dataclass(frozen=True)
-class Bands:
-    """The theory over depth: forces [n] (N) at embedments depth [n] (m), each
-    without and with stress enhancement; none, and why not."""
+def soil_of(entry: Scene, number: int) -> str:
+    """Return whether a layer is sand or clay. Raises NotApplicable."""
+    law = entry.get("law", LAWS[0])
+    if law == SAND:
+        return "sand"
+    if law not in (*LAWS, SOFTENING):
+        raise NotApplicable(f"layer {number} is {law}, neither sand nor clay")
+    frictional = (entry.get("friction_angle_deg") or 0) > 0
+    cohesive = (entry.get("cohesion_Pa") or 0) > 0
+    if frictional and cohesive:
+        raise NotApplicable(f"layer {number} has both friction and cohesion")
+    if not frictional and not cohesive:
+        raise NotApplicable(f"layer {number} has no strength")
+    return "sand" if frictional else "clay"
 
+
+def refuse_undrained(site: Site) -> None:
+    """Raise NotApplicable where pore water cannot leave the sand."""
+    if site.level == "undrained":
+        raise NotApplicable("the run is undrained, and the method is for drained sand")
+
+
+def soils_of(site: Site, deepest: float) -> list[tuple[float, str]]:
+    """Return (top, soil) of all layers. Raises NotApplicable."""
+    found = [(top_of(e), soil_of(e, i)) for i, e in site.layers(deepest)]
+    if any(soil == "sand" for _, soil in found):
+        refuse_undrained(site)
+    return found
+
+
+def sand_only(site: Site, deepest: float) -> None:
+    """Raise NotApplicable where a layer is no sand, or not drained."""
+    for i, (_, soil) in enumerate(soils_of(site, deepest), 1):
+        if soil != "sand":
+            raise NotApplicable(f"layer {i} is {soil}, and the method is for sand")
+
+
+def cone_of(site: Site) -> Profile:
+    """Return the cone test. Raises NotApplicable."""
+    if site.cone is None:
+        raise NotApplicable("a cone test is needed (--cpt FILE)")
+    return site.cone
+
+
+def houlsby_byrne_of(site: Site, deepest: float) -> Method:
+    """Return Houlsby and Byrne for a site. Raises NotApplicable."""
+    caisson = caisson_of(site, deepest)
+    refuse_undrained(site)
+    return HoulsbyByrne(caisson)
+
+
+def dnv_of(site: Site, deepest: float) -> Method:
+    """Return DNV for a site. Raises NotApplicable."""
+    skirt, soils = skirt_of(site), soils_of(site, deepest)
+    return dnv.method(skirt, cone_of(site), soils)
+
+
+def senders_randolph_of(site: Site, deepest: float) -> Method:
+    """Return Senders and Randolph for a site. Raises NotApplicable."""
+    skirt = skirt_of(site)
+    sand_only(site, deepest)
+    return senders_randolph.method(skirt, cone_of(site))
+
+
+def andersen_of(site: Site, deepest: float) -> Method:
+    """Return Andersen et al. for a site. Raises NotApplicable."""
+    skirt = skirt_of(site)
+    sand_only(site, deepest)
+    return andersen.method(skirt, cone_of(site))
+
+
+class Description(NamedTuple):
+    """A method: its name, the beginning of its columns, and its color in pictures."""
+
+    name: str
+    key: str
+    color: str
+    cases: tuple[str, str]
+    of_site: Callable[[Site, float], Method]
+
+
+METHODS = (
+    Description(
+        "Houlsby & Byrne (2005)",
+        "houlsby_byrne",
+        "#2166ac",
+        HoulsbyByrne.cases,
+        houlsby_byrne_of,
+    ),
+    Description("DNV", "dnv", "#8c510a", dnv.CASES, dnv_of),
+    Description(
+        "Senders & Randolph (2009)",
+        "senders_randolph",
+        "#2e8b57",
+        senders_randolph.CASES,
+        senders_randolph_of,
+    ),
+    Description(
+        "Andersen et al. (2008)", "andersen", "#7b3294", andersen.CASES, andersen_of
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a method says over depth: forces by case and part, [n] (N) at embedments
+    depth [n] (m), nan where it has no answer; none, and why not."""
+
+    method: Description
     depth: np.ndarray
-    forces: dict[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
+    forces: dict[str, dict[str, np.ndarray]] = field(default_factory=dict)
     why_not: str = ""
 
+    def band(self, part: str) -> tuple[np.ndarray, np.ndarray]:
+        """Return a part in the lower and in the upper case (N)."""
+        low, high = [self.forces[case][part] for case in self.method.cases]
+        return low, high
 
-def bands_of(scene: Scene, deepest: float) -> Bands:
-    """Return the bands of tip, inner and outer friction down to an embedment."""
-    h = np.linspace(0, deepest, 100)
-    try:
-        caisson = caisson_of(scene)
-    except NotApplicable as reason:
-        return Bands(h, why_not=str(reason))
-    forces = {
-        "tip": caisson.tip,
-        "inner friction": caisson.inner_friction,
-        "outer friction": caisson.outer_friction,
-    }
-    found = {
-        name: (
-            np.array([force(x, False) for x in h]),
-            np.array([force(x, True) for x in h]),
-        )
-        for name, force in forces.items()
-    }
-    return Bands(h, found)
+
+def by_part(rows: list[Forces]) -> dict[str, np.ndarray]:
+    """Return the parts of forces, [n] each."""
+    columns = [*zip(*rows), [row.total for row in rows]]
+    return {part: np.array(column) for part, column in zip(PARTS, columns)}
+
+
+def answers_of(site: Site, depth: np.ndarray) -> list[Answer]:
+    """Return what each method says at embedments [n] (m)."""
+    found = []
+    for method in METHODS:
+        try:
+            known = method.of_site(site, float(depth.max()))
+        except NotApplicable as reason:
+            found.append(Answer(method, depth, why_not=str(reason)))
+            continue
+        forces = {
+            case: by_part([known.forces(float(h), case) for h in depth])
+            for case in method.cases
+        }
+        found.append(Answer(method, depth, forces))
+    return found
+
+
+def answers_to(site: Site, deepest: float) -> list[Answer]:
+    """Return what each method says down to an embedment, for pictures."""
+    return answers_of(site, np.linspace(0, deepest, 100))
+
+
+def reasons(answers: list[Answer]) -> list[tuple[str, str]]:
+    """Return (methods, why they say nothing), each reason once."""
+    found: dict[str, list[str]] = {}
+    for answer in answers:
+        if answer.why_not:
+            found.setdefault(answer.why_not, []).append(answer.method.name)
+    return [(", ".join(names), reason) for reason, names in found.items()]
+
+
+def end_of_cone(site: Site, deepest: float) -> str:
+    """Return a sentence where the cone test ends above an embedment (m)."""
+    if site.cone is None or site.cone.depth[-1] >= deepest - 1e-9:
+        return ""
+    return (
+        f"The cone test ends at {site.cone.depth[-1]:.4g} m; below, the methods that"
+        " need it have no answer."
+    )

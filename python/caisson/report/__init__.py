@@ -9,6 +9,7 @@ import sys
 import time
 from pathlib import Path
 
+from caisson.plot import declare_cone, draw, keep_cone
 from caisson.results import Results, ResultsError
 
 NAME = "report.html"
@@ -72,6 +73,7 @@ def print_pdf(path: Path) -> Path:
 
 def declare(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson report`."""
+    declare_cone(parser)
     parser.add_argument("directories", nargs="+", type=Path, metavar="DIR")
     parser.add_argument("--pdf", action="store_true", help="print it to report.pdf too")
     parser.add_argument(
@@ -84,6 +86,9 @@ def main(options: argparse.Namespace) -> int:
     status = 0
     for directory in options.directories:
         try:
+            if options.cpt is not None:
+                keep_cone(options.cpt, directory)
+                draw(directory)
             path = follow(directory, INTERVAL) if options.follow else write(directory)
             print(f"report: {path}")
             if options.pdf:

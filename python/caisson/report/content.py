@@ -7,9 +7,16 @@ from typing import Any
 import numpy as np
 
 from caisson import curves
-from caisson.plot import suction_methods, theory
+from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import COLORS, column_of, error_band, penetration, smooth
 from caisson.plot.suction import CRITICAL, rest_of_run
+from caisson.plot.suction_methods import (
+    CONE_HIGH,
+    CONE_LOW,
+    ENHANCED,
+    PLAIN,
+    SENDERS_RANDOLPH,
+)
 from caisson.results import Results, Table
 
 MANY = 1500  # points of a curve that a screen can show
@@ -48,6 +55,22 @@ def band(
     return line(label, color, low, depth, to=listed(high[thinned(depth)]))
 
 
+def method_curves(run: Results, deepest: float) -> list[Curve]:
+    """Return the ranges of the design methods (kN) over depth (m). Only the tip by
+    Houlsby & Byrne is shown at first."""
+    found = []
+    for answer in theory.answers_to(theory.site_of(run), deepest):
+        first = answer.method is theory.METHODS[0]
+        parts = ("tip", "inner friction", "outer friction", "total")
+        for part in (parts if first else ("tip", "total")) if answer.forces else ():
+            low, high = [force / 1e3 for force in answer.band(part)]
+            label = f"{part}, {answer.method.name}"
+            color = COLORS[part] if first else answer.method.color
+            curve = band(label, color, low, high, answer.depth)
+            found.append(curve | {"hidden": not first or part != "tip"})
+    return found
+
+
 def force_curves(run: Results) -> list[Curve]:
     """Return the forces (kN) over depth (m) with their error bars and the range of
     Houlsby & Byrne."""
@@ -59,14 +82,7 @@ def force_curves(run: Results) -> list[Curve]:
             at, low, high = bar
             label = f"{name}, error bar"
             found.append(band(label, color, low / 1e3, high / 1e3, at))
-    bands = theory.bands_of(run.scene, max(depth.max(), 0))
-    for name, (plain, enhanced) in bands.forces.items():
-        label = f"{name}, Houlsby & Byrne (2005)"
-        color = COLORS[name]
-        found.append(
-            band(label, color, plain / 1e3, enhanced / 1e3, bands.depth)
-            | {"hidden": name != "tip"}
-        )
+    found += method_curves(run, max(depth.max(), 0))
     for name, color in COLORS.items():
         if column_of(name) in history:
             force = smooth(depth, history[column_of(name)])
@@ -74,28 +90,34 @@ def force_curves(run: Results) -> list[Curve]:
     return found
 
 
+def method_suctions(run: Results) -> list[Curve]:
+    """Return the required and the critical suctions of the methods (kPa) over depth."""
+    site, depth = theory.site_of(run), design.depths_of(run.history)
+    answers = suction_methods.answers_of(site, depth)
+    if not answers.suctions:
+        return []
+    kilopascals = {name: s / 1e3 for name, s in answers.suctions.items()}
+    found = []
+    for name, color, low, high in (
+        ("Houlsby & Byrne (2005)", "#2166ac", PLAIN, ENHANCED),
+        ("Senders & Randolph (2009), by cone", "#2e8b57", CONE_LOW, CONE_HIGH),
+    ):
+        ends = kilopascals[low], kilopascals[high]
+        found.append(band(f"required, {name}", color, *ends, depth))
+    senders, by_cone = kilopascals[SENDERS_RANDOLPH], kilopascals[CONE_LOW]
+    label = "required, Senders & Randolph (2009)"
+    hidden = bool(np.isfinite(by_cone).any())
+    found.append(line(label, "#2e8b57", senders, depth, hidden=hidden))
+    for column, (name, color, _) in CRITICAL.items():
+        label = f"critical, {name}"
+        found.append(line(label, color, kilopascals[column], depth, hidden=True))
+    return found
+
+
 def suction_curves(run: Results) -> list[Curve]:
     """Return the required suction (kPa) over depth (m), beside the methods."""
     history, depth = run.history, run.history["penetration_m"]
-    found = []
-    answers = suction_methods.answers_of(run.scene, suction_methods.depths_of(history))
-    if answers.suctions:
-        plain, enhanced, senders = [
-            answers.suctions[name] / 1e3
-            for name in (
-                suction_methods.PLAIN,
-                suction_methods.ENHANCED,
-                suction_methods.SENDERS_RANDOLPH,
-            )
-        ]
-        label = "required, Houlsby & Byrne (2005)"
-        found.append(band(label, "#2166ac", plain, enhanced, answers.depth))
-        label = "required, Senders & Randolph (2009)"
-        found.append(line(label, "#2e8b57", senders, answers.depth))
-        for column, (name, color, _) in CRITICAL.items():
-            suction = answers.suctions[column] / 1e3
-            label = f"critical, {name}"
-            found.append(line(label, color, suction, answers.depth, hidden=True))
+    found = method_suctions(run)
     bar = error_band(run.error_bounds, "required_suction", "Pa")
     if bar is not None:
         at, low, high = [bar[0], *(np.maximum(bound, 0) / 1e3 for bound in bar[1:])]
@@ -106,8 +128,17 @@ def suction_curves(run: Results) -> list[Curve]:
     return found
 
 
+def with_points(found: list[Curve]) -> list[Curve]:
+    """Return the curves that have a point to draw."""
+    return [
+        curve
+        for curve in found
+        if any(x is not None for x in [*curve["x"], *curve.get("to", [])])
+    ]
+
+
 def figures_of(run: Results) -> list[dict[str, Any]]:
-    """Return the interactive figures: id, title, axis and curves."""
+    """Return the interactive figures: id, title, axis and curves that have points."""
     if penetration(run.history) is None:
         return []
     found = [
@@ -115,7 +146,7 @@ def figures_of(run: Results) -> list[dict[str, Any]]:
             "id": "forces",
             "title": "Forces on the caisson",
             "axis": "force (kN)",
-            "curves": force_curves(run),
+            "curves": with_points(force_curves(run)),
         }
     ]
     if "required_suction_Pa" in run.history:
@@ -124,7 +155,7 @@ def figures_of(run: Results) -> list[dict[str, Any]]:
                 "id": "suction",
                 "title": "Suction that the motion requires",
                 "axis": "suction (kPa)",
-                "curves": suction_curves(run),
+                "curves": with_points(suction_curves(run)),
             }
         )
     return found
@@ -149,15 +180,12 @@ def table_of(run: Results) -> dict[str, Any]:
     history, scene = run.history, run.scene
     if penetration(history) is None:
         return {"heads": [], "rows": []}
-    rows_down = suction_methods.on_the_way_down(history)
+    rows_down = curves.on_the_way_down(history["penetration_m"])
     depth = history["penetration_m"][rows_down]
     at = depths_of_table(depth)
 
     def mean(column: str) -> np.ndarray:
-        values = history[column][rows_down]
-        exact = np.interp(at, depth, values)
-        smoothed = curves.window_means(depth, values, at, curves.FORCE_WINDOW)
-        return np.where(np.isfinite(smoothed), smoothed, exact)
+        return curves.smoothed_at(depth, history[column][rows_down], at)
 
     columns: dict[str, np.ndarray] = {"depth (m)": at}
     for name in COLORS:
@@ -178,6 +206,35 @@ def table_of(run: Results) -> dict[str, Any]:
         columns["plug heave (m)"] = mean("plug_heave_m")
     texts = [[text_of(value) for value in values] for values in columns.values()]
     return {"heads": list(columns), "rows": [list(row) for row in zip(*texts)]}
+
+
+def methods_of(run: Results) -> dict[str, Any]:
+    """Return the total force by all design methods at each meter, beside that of the
+    run: heads and rows of text; and (methods, why they say nothing).
+
+    There is nothing for a run without a way down.
+    """
+    history = run.history
+    if penetration(history) is None or not design.goes_down(history):
+        return {"heads": [], "rows": [], "reasons": [], "end": ""}
+    rows_down = curves.on_the_way_down(history["penetration_m"])
+    site = theory.site_of(run)
+    at = depths_of_table(history["penetration_m"][rows_down])
+    answers = theory.answers_of(site, at)
+    columns = {"depth (m)": at}
+    total = column_of("total")
+    if total in history:
+        columns["computed"] = design.forces_at(history, at)[total] / 1e3
+    for answer in answers:
+        for case, forces in answer.forces.items():
+            columns[f"{answer.method.name}, {case}"] = forces["total"] / 1e3
+    texts = [[text_of(value) for value in values] for values in columns.values()]
+    return {
+        "heads": list(columns),
+        "rows": [list(row) for row in zip(*texts)],
+        "reasons": theory.reasons(answers),
+        "end": theory.end_of_cone(site, float(at.max())),
+    }
 
 
 def text_of(value: float) -> str:

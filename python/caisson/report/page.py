@@ -110,6 +110,7 @@ def html(run: Results) -> str:
         error=content.error_remark(run),
         figures=data["figures"],
         table=content.table_of(run),
+        methods=content.methods_of(run),
         pictures=pictures_of(run),
         remarks=content.remarks_on_numbers(run),
         warnings=summary.get("warnings", []),

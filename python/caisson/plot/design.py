@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""design.csv: the forces of a caisson, and with suction its suction, beside what the
+design methods say, over the depth of a run."""
+from pathlib import Path
+
+import numpy as np
+
+from caisson import curves
+from caisson.plot import suction_methods, theory
+from caisson.results import Results, Table
+from caisson.table import write_csv
+
+INTERVAL = 0.1  # m, between the rows
+FORCES = ("tip_force_N", "inner_friction_N", "outer_friction_N", "total_force_N")
+SUCTION = "required_suction_Pa"
+
+
+def goes_down(history: Table) -> bool:
+    """Return whether the body ever goes deeper than where it began."""
+    depth = history.get("penetration_m", np.zeros(1))
+    return bool(depth.max() > depth[0] + 1e-9)
+
+
+def depths_of(history: Table) -> np.ndarray:
+    """Return the depths of design.csv, from the start of a run to its deepest."""
+    depth = history["penetration_m"]
+    n = int((depth.max() - depth[0]) / INTERVAL + 1e-6)
+    return np.round(depth[0] + INTERVAL * np.arange(n + 1), 9)
+
+
+def forces_at(history: Table, depth: np.ndarray) -> Table:
+    """Return the forces of a run on its way down at depths [n], as columns [n]: means
+    over 0.2 m, and at both ends values."""
+    rows = curves.on_the_way_down(history["penetration_m"])
+    known = history["penetration_m"][rows]
+    return {
+        name: curves.smoothed_at(known, history[name][rows], depth)
+        for name in FORCES
+        if name in history
+    }
+
+
+def suction_at(history: Table, depth: np.ndarray) -> np.ndarray:
+    """Return the required suction of a run, linear between its records, [n]."""
+    rows = curves.on_the_way_down(history["penetration_m"])
+    known = history["penetration_m"][rows], history[SUCTION][rows]
+    return np.interp(depth, *known)
+
+
+def column_of(method: theory.Description, case: str, part: str) -> str:
+    """Return the column with a part of the resistance by a method."""
+    return "_".join([method.key, *case.split(), *part.split(), "N"])
+
+
+def columns_of(run: Results) -> Table:
+    """Return the columns of design.csv, [n] each, nan where there is no answer."""
+    history, site = run.history, theory.site_of(run)
+    depth = depths_of(history)
+    nothing = np.full(len(depth), np.nan)
+    columns = {"penetration_m": depth, **forces_at(history, depth)}
+    for answer in theory.answers_of(site, depth):
+        for case in answer.method.cases:
+            for part in theory.PARTS:
+                values = answer.forces[case][part] if answer.forces else nothing
+                columns[column_of(answer.method, case, part)] = values
+    if SUCTION in history:
+        columns[SUCTION] = suction_at(history, depth)
+        found = suction_methods.answers_of(site, depth).suctions
+        for name in suction_methods.METHODS:
+            columns[name] = found.get(name, nothing)
+    return columns
+
+
+def write(path: Path, run: Results) -> Path | None:
+    """Write design.csv, with empty cells where a method has no answer; return its
+    path, or None where no caisson goes down."""
+    if not theory.is_caisson(run.scene) or not goes_down(run.history):
+        return None
+    columns = columns_of(run)
+    rows = zip(*(values.tolist() for values in columns.values()))
+    texts = [["" if np.isnan(v) else v for v in row] for row in rows]
+    write_csv(path, list(columns), texts)
+    return path

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Which design methods answer in a scene, and why the others do not."""
+import unittest
+from math import nan
+from typing import Any
+
+import numpy as np
+
+from caisson.design.cone import Profile
+from caisson.plot import theory
+
+LINEAR = Profile([0, 10], [0, 20e6])  # 2 MPa per meter
+SCENE: dict[str, Any] = {
+    "diameter_m": 6,
+    "wall_thickness_m": 0.2,
+    "inner_wall_friction_angle_deg": 20,
+    "outer_wall_friction_angle_deg": 20,
+}
+LAYER: dict[str, Any] = {
+    "top_depth_m": 0,
+    "law": "Mohr-Coulomb",
+    "submerged_unit_weight_N_m3": 8829,
+    "friction_angle_deg": 30,
+    "cohesion_Pa": 0,
+    "K0": 0.5,
+}
+CLAY: dict[str, Any] = {**LAYER, "friction_angle_deg": 0, "cohesion_Pa": 20e3}
+
+
+class Applicability(unittest.TestCase):
+    """Answers in the scene of run.json."""
+
+    def site(self, *layers: dict[str, Any], level: str = "drained") -> theory.Site:
+        """Return a site with a cone test."""
+        return theory.Site({**SCENE, "layers": list(layers)}, level, LINEAR)
+
+    def why(self, site: theory.Site, deepest: float = 2) -> list[str]:
+        """Return why each method says nothing; "" where it answers."""
+        answers = theory.answers_to(site, deepest)
+        for answer in answers:
+            self.assertEqual(bool(answer.forces), not answer.why_not)
+        return [answer.why_not for answer in answers]
+
+    def test_sand(self) -> None:
+        self.assertEqual(self.why(self.site(LAYER)), [""] * 4)
+        without = self.site(LAYER)._replace(cone=None)
+        needs = "a cone test is needed (--cpt FILE)"
+        self.assertEqual(self.why(without), ["", needs, needs, needs])
+
+    def test_clay(self) -> None:
+        """Only DNV has coefficients of clay, also where it is undrained."""
+        for level in ("drained", "undrained", "coupled"):
+            byrne, *others = self.why(self.site(CLAY, level=level))
+            self.assertIn("layer 1 has no friction angle", byrne)
+            only = "layer 1 is clay, and the method is for sand"
+            self.assertEqual(others, ["", only, only])
+
+    def test_undrained_sand(self) -> None:
+        for found in self.why(self.site(LAYER, level="undrained")):
+            self.assertIn("the run is undrained", found)
+
+    def test_hypoplastic_sand(self) -> None:
+        """A cone answers for it; it has no single friction angle."""
+        byrne, *others = self.why(self.site({**LAYER, "law": "hypoplastic sand"}))
+        self.assertIn("hypoplastic", byrne)
+        self.assertEqual(others, [""] * 3)
+
+    def test_soils_that_nobody_knows(self) -> None:
+        changes: list[tuple[dict[str, Any], str]] = [
+            ({"cohesion_Pa": 5e3}, "cohesion"),
+            ({"law": "linear elastic"}, "elastic"),
+            ({"friction_angle_deg": 0}, "no"),
+        ]
+        for change, words in changes:
+            for found in self.why(self.site({**LAYER, **change})):
+                self.assertIn(words, found)
+        softening = self.why(self.site({**LAYER, "law": theory.SOFTENING}))
+        self.assertIn("softening", softening[0])
+
+    def test_layers_that_the_tip_does_not_reach(self) -> None:
+        site = self.site(LAYER, {**CLAY, "top_depth_m": 3})
+        self.assertEqual(self.why(site, 2.9), [""] * 4)
+        self.assertIn("layer 2 has no friction", self.why(site, 3.1)[0])
+
+    def test_bodies(self) -> None:
+        """A cone or a cylinder is no caisson; a run that goes on does not tell."""
+        found = theory.answers_to(theory.Site({}, cone=LINEAR), 2)
+        self.assertEqual(
+            theory.reasons(found),
+            [(", ".join(m.name for m in theory.METHODS), "the body is no caisson")],
+        )
+        running = theory.Site({}, is_running=True)
+        self.assertIn("the run goes on", self.why(running)[0])
+
+    def test_layers_of_sand(self) -> None:
+        """The tip of Houlsby and Byrne is in the stronger layer from 1 m on."""
+        strong = {**LAYER, "top_depth_m": 1, "friction_angle_deg": 40}
+        plain, enhanced = theory.answers_to(self.site(LAYER, strong), 2)[0].band("tip")
+        self.assertTrue((plain <= enhanced).all())
+        self.assertGreater(plain[-1], 3 * plain[45])
+
+    def test_file_without_layers(self) -> None:
+        old = theory.Site({**SCENE, **LAYER, "wall_friction_angle_deg": 20})
+        a, b = [theory.answers_to(s, 2)[0] for s in (old, self.site(LAYER))]
+        np.testing.assert_array_equal(a.band("tip"), b.band("tip"))
+
+    def test_end_of_the_cone_test(self) -> None:
+        """It ends at 10 m."""
+        site = self.site(LAYER)
+        self.assertEqual(theory.end_of_cone(site, 10), "")
+        self.assertIn("ends at 10 m", theory.end_of_cone(site, 10.1))
+        last = theory.answers_of(site, np.array([10.0, 10.1]))[1].band("total")[0]
+        self.assertGreater(last[0], 0)
+        np.testing.assert_equal(last[1], nan)
+
+
+if __name__ == "__main__":
+    unittest.main()
