@@ -212,11 +212,12 @@ class MadeUpRun(unittest.TestCase):
 
     def test_drained_run(self) -> None:
         """It has forces in design.csv, and no suction. The only record within 0.1 m of
-        4 m is that at 4.01 m."""
+        4 m is that at 4.01 m. The first force is that of the second record."""
         history = made_up()
         for name in ("suction_Pa", "required_suction_Pa"):
             del history[name]
         history["tip_force_N"] = 1e5 * history["penetration_m"]
+        history["tip_force_N"][0] = 0
         self.write(history)
         names = [path.name for path in plot.draw(self.path)]
         self.assertEqual(names, ["forces.png", "design.csv"])
@@ -224,6 +225,8 @@ class MadeUpRun(unittest.TestCase):
         row = self.design()[35]
         self.assertEqual([name for name in row if name.endswith("_Pa")], [])
         self.assertAlmostEqual(float(row["tip_force_N"]), 4.01e5, delta=1)
+        first = float(self.design()[0]["tip_force_N"])
+        self.assertAlmostEqual(first, history["tip_force_N"][1])
         for case, enhanced in (("plain", False), ("enhanced", True)):
             tip = CAISSON.tip(4, enhanced)
             known = float(row[f"houlsby_byrne_{case}_tip_N"])

@@ -30,8 +30,10 @@ def depths_of(history: Table) -> np.ndarray:
 
 def forces_at(history: Table, depth: np.ndarray) -> Table:
     """Return the forces of a run on its way down at depths [n], as columns [n]: means
-    over 0.2 m, and at both ends values."""
+    over 0.2 m, and at both ends values. The first row of a history is zero, as no time
+    has passed, and is left out."""
     rows = curves.on_the_way_down(history["penetration_m"])
+    rows[0] = False
     known = history["penetration_m"][rows]
     return {
         name: curves.smoothed_at(known, history[name][rows], depth)

@@ -215,20 +215,25 @@ def caption(answers: methods.Answers, cone_end: float = np.inf) -> str:
     depth at which a cone test ends (m)."""
     if not answers.suctions:
         return f"no design methods: {answers.why_not}"
-    text = (
-        "band: Houlsby & Byrne (2005), dashed without, dotted with stress enhancement"
-        " (m = 1.5); both methods with equal permeability inside and outside"
-    )
     required = [methods.PLAIN, methods.ENHANCED, methods.SENDERS_RANDOLPH]
+    lines = []
+    if has_line(*[from_rest_on(answers.suctions[name]) for name in required[:2]]):
+        lines.append(
+            "band: Houlsby & Byrne (2005), dashed without, dotted with stress"
+            " enhancement (m = 1.5); both methods with equal permeability inside and"
+            " outside"
+        )
     if has_line(answers.suctions[methods.CONE_LOW]):
         required[2:] = [methods.CONE_LOW, methods.CONE_HIGH]
-        text += "\nby cone: dashed C = 0.012, dotted C = 0.021"
+        lines.append("by cone: dashed C = 0.012, dotted C = 0.021")
     if not answers.rest:
         deepest = answers.depth.max()
-        text += f"\nBy the methods the weight suffices down to {deepest:.3g} m."
+        lines.append(
+            f"By Houlsby & Byrne (2005) the weight suffices down to {deepest:.3g} m."
+        )
     elif ends_early(answers, required, cone_end):
-        text += "\nA line ends where no suction suffices."
-    return text
+        lines.append("A line ends where no suction suffices.")
+    return "\n".join(lines)
 
 
 def set_depth_axis(axes: Axes, depth: np.ndarray, place: str) -> None:

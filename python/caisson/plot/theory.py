@@ -88,7 +88,7 @@ def skirt_of(site: Site) -> Skirt:
     """Return the wall of the caisson of run.json. Raises NotApplicable."""
     scene = site.scene
     if site.is_running:
-        raise NotApplicable("the run goes on, and tells its scene at the end")
+        raise NotApplicable("there is no run.json, which a run leaves at its end")
     if not is_caisson(scene):
         raise NotApplicable("the body is no caisson")
     return Skirt(
