@@ -210,11 +210,14 @@ class Report(unittest.TestCase):
 
     @unittest.skipUnless(BROWSER, "needs chromium")
     def test_in_a_browser(self) -> None:
-        """No error on the console; curves are drawn, read, shown and saved."""
-        page = self.page(SUMMARY)
+        """No error on the console; curves are drawn, read, shown and saved; a cone test
+        brings one more."""
         visited = self.path / "visited.html"
-        visited.write_text(page.replace("</body>", VISIT + "</body>"), encoding="utf-8")
-        for width in (400, 1200):
+        for width, curves in ((400, 6), (1200, 7)):
+            if curves == 7:
+                (self.path / "cone.csv").write_text("depth_m,qc_MPa\n0,0\n9,18\n")
+            page = self.page(SUMMARY).replace("</body>", VISIT + "</body>")
+            visited.write_text(page, encoding="utf-8")
             with self.subTest(width=width):
                 result = subprocess.run(
                     [
@@ -240,7 +243,7 @@ class Report(unittest.TestCase):
                 downloads, value = found[1].rsplit("; ", 1)
                 self.assertEqual(
                     sorted(downloads.split("; ")),
-                    ["curves 6", f"{name}_history.csv", f"{name}_suction.png"],
+                    [f"curves {curves}", f"{name}_history.csv", f"{name}_suction.png"],
                 )
                 self.assertRegex(value, r"required, .*: [\d.]+ at [\d.]+ m")
 

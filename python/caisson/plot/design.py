@@ -50,7 +50,8 @@ def suction_at(history: Table, depth: np.ndarray) -> np.ndarray:
 
 
 def column_of(method: theory.Description, case: str, part: str) -> str:
-    """Return the column with a part of the resistance by a method."""
+    """Return the column with a part of the resistance by a method, such as
+    houlsby_byrne_plain_tip_N."""
     return "_".join([method.key, *case.split(), *part.split(), "N"])
 
 
