@@ -15,7 +15,7 @@ namespace CaissonMPM
   {
     threshold = new_threshold;
     multigrid.clear(); // it refers to the matrix
-    n_at_setup = 0;
+    n_more = cost_of_setup;
     matrix_.reinit(own, own, pattern, communicator);
   }
 

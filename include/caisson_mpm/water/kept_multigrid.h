@@ -18,8 +18,8 @@ namespace CaissonMPM
 {
   /**
    * Owns the matrix that the multigrid is made from. The multigrid of an
-   * earlier matrix serves as long as it costs only some more iterations than a
-   * new one. All functions are collective.
+   * earlier matrix serves until the iterations beyond the fewest that it took
+   * have cost as much as making a new one. All functions are collective.
    */
   class KeptMultigrid
   {
@@ -66,13 +66,18 @@ namespace CaissonMPM
         n_iterations_ = control.last_step();
         return control.last_check() == dealii::SolverControl::success;
       };
-      if (n_at_setup > 0 && iterate(n_at_setup + n_at_setup / 2 + 2))
-        return;
+      if (n_more < cost_of_setup && iterate(n_least + cost_of_setup))
+        {
+          n_least = std::min(n_least, n_iterations_);
+          n_more += n_iterations_ - n_least;
+          return;
+        }
       assemble();
       make_multigrid();
       if (!iterate(most_iterations))
         report_no_solution();
-      n_at_setup = std::max(n_iterations_, 1u);
+      n_least = n_iterations_;
+      n_more  = 0;
     }
 
     /** The iterations of the last solution. */
@@ -84,6 +89,8 @@ namespace CaissonMPM
 
   private:
     static constexpr unsigned int most_iterations = 1000;
+    // Making a multigrid takes as long as this many iterations.
+    static constexpr unsigned int cost_of_setup = 40;
 
     void
     make_multigrid();
@@ -94,7 +101,8 @@ namespace CaissonMPM
     dealii::TrilinosWrappers::PreconditionAMG multigrid;
     double                                    threshold     = 0.;
     unsigned int                              n_iterations_ = 0;
-    unsigned int n_at_setup = 0; // of the multigrid, 0: there is none
+    unsigned int n_least = 0; // fewest iterations with this multigrid
+    unsigned int n_more  = cost_of_setup; // beyond these, all together
   };
 } // namespace CaissonMPM
 

@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Writes a scene for your own caisson: domain, mesh, points and mass scaling for the
+error that you want, and what it will cost.
+
+    caisson suggest --diameter 10 --skirt 8 --wall 40mm --error 5 \\
+      --layer "0: Friction angle = 33, Youngs modulus = 20e6" \\
+      --layer "3: Friction angle = 37, Youngs modulus = 40e6" own.prm
+
+Lengths are in meters, or have a unit: 40mm. All else is in SI units, and angles in
+degrees. With --weight the caisson sinks by its weight and is then drawn in by
+suction; without, it is jacked.
+"""
+import argparse
+import re
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import jinja2
+
+from caisson.paths import PROGRAM
+from caisson.run import RunError, environment, read_parameters
+from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
+from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of
+
+UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "": 1.0}
+
+
+def length(text: str) -> float:
+    """Return a length in m; the text may end with mm, cm or m."""
+    found = re.fullmatch(r"([0-9.eE+-]+)\s*(mm|cm|m|)", text.strip())
+    try:
+        value = float(found[1]) * UNITS[found[2]] if found else 0.0
+    except ValueError:
+        value = 0.0
+    if not 0 < value < 1e4:
+        raise argparse.ArgumentTypeError(f"{text!r} is no length, as 0.04 or 40mm are")
+    return value
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
+    add = parser.add_argument
+    add("file", type=Path, help="the scene to write, a .prm file")
+    for name, what in {
+        "diameter": "outer diameter",
+        "skirt": "length of the skirt",
+        "wall": "thickness of its wall",
+    }.items():
+        add(f"--{name}", type=length, required=True, metavar="M", help=what)
+    add(
+        "--layer",
+        action="append",
+        required=True,
+        metavar='"TOP: ENTRY = VALUE, ..."',
+        help="a layer of soil; give one option for each, from the surface down",
+    )
+    add("--wall-friction", type=float, metavar="DEGREES", help="on both sides")
+    add("--penetration", type=length, metavar="M", help="where the run ends")
+    add("--weight", type=float, metavar="N", help="in water; the rest takes suction")
+    add("--water-depth", type=float, metavar="M", help="bounds the suction")
+    add("--error", type=int, choices=LEVELS, default=5, help="wanted, in %%")
+    add("--overwrite", action="store_true", help="replace the file if it exists")
+
+
+def check(options: argparse.Namespace) -> None:
+    """Refuse what cannot be meant. Raises SuggestError."""
+    body, end = options, options.penetration
+    if body.wall > body.diameter / 10:
+        raise SuggestError(
+            f"--wall {body.wall:g} m is more than a tenth of the diameter"
+            f" {body.diameter:g} m; append mm to a length in millimeters"
+        )
+    if not 0.1 < body.skirt / body.diameter < 10:
+        raise SuggestError(
+            f"--skirt {body.skirt:g} m does not go with --diameter"
+            f" {body.diameter:g} m: their ratio must be between 0.1 and 10"
+        )
+    if end is not None and not start_of(body.skirt) < end <= body.skirt:
+        raise SuggestError(
+            f"--penetration must be between {start_of(body.skirt):g} m, where the"
+            f" caisson begins, and the length of the skirt, {body.skirt:g} m"
+        )
+    for name in ("weight", "water_depth"):
+        if (value := getattr(options, name)) is not None and value <= 0:
+            raise SuggestError(f"--{name.replace('_', '-')} must be positive")
+    if options.water_depth and not options.weight:
+        raise SuggestError("--water-depth bounds the suction: give --weight, too")
+    if options.wall_friction is not None and not 0 <= options.wall_friction < 89:
+        raise SuggestError("--wall-friction must be between 0 and 89 degrees")
+    if options.file.exists() and not options.overwrite:
+        raise SuggestError(f"{options.file} exists; --overwrite replaces it")
+
+
+def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
+    """Return the friction angle of the walls. Raises SuggestError."""
+    if given is not None:
+        return Entry("", f"{given:g}")
+    angles = [layer.value("Friction angle") for layer in layers]
+    try:
+        least = min(map(float, angles))
+    except ValueError as error:
+        raise SuggestError(
+            "not all layers have a friction angle: give --wall-friction"
+        ) from error
+    return Entry("", f"{2 / 3 * least:.3g}", " # ASSUMED: 2/3 of the smallest of the soil")
+
+
+def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
+    """Return the layers with a permeability. Raises SuggestError where only some
+    have one."""
+    have = [bool(layer.value("Permeability")) for layer in layers]
+    if all(have):
+        return list(layers)
+    if any(have):
+        raise SuggestError("give Permeability (m/s) for all layers, or for none")
+    same = Entry(
+        "Permeability", "1e-4", " # ASSUMED; does not matter where it is the same"
+    )
+    return [Layer(layer.top, [*layer.entries, same]) for layer in layers]
+
+
+def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level) -> str:
+    """Return the text of the scene."""
+    body = Body(options.diameter, options.skirt, options.wall)
+    start = start_of(body.skirt)
+    end = options.penetration or body.skirt - start
+    mesh = mesh_of(body, end, level)
+    how = "by weight and suction" if options.weight else "jacked"
+    smallest = body.wall / level.cells
+    environment_of_text = jinja2.Environment(
+        loader=jinja2.PackageLoader("caisson.suggest", "."),
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    environment_of_text.filters["number"] = lambda value: f"{float(value):.6g}"
+    return environment_of_text.get_template("scene.prm.jinja").render(
+        title=f"a caisson of {body.diameter:g} m with a wall of"
+        f" {body.wall * 1e3:g} mm, {how}",
+        body=body,
+        level=level,
+        mesh=mesh,
+        smallest_mm=f"{smallest * 1e3:.3g}",
+        start=start,
+        end=end,
+        wall_friction=wall_friction_of(options.wall_friction, layers),
+        layers=with_permeability(layers) if options.weight else layers,
+        weight=options.weight,
+        water_depth=options.water_depth,
+        directory=f"results/{options.file.stem}",
+        frames=frames_of(start, end),
+    )
+
+
+def entries_of_layers() -> list[str]:
+    """Return the names of all entries of a layer, which the program knows. Raises
+    RunError."""
+    head = "Soil/Layer 1/"
+    every = read_parameters(["--set", "Soil/Number of layers=1"])
+    return [name.removeprefix(head) for name in every if name.startswith(head)]
+
+
+def cost_of(file: Path) -> str:
+    """Return what the program says of the scene and its cost. Raises SuggestError
+    where it refuses it."""
+    done = subprocess.run(
+        [str(PROGRAM), str(file), "--validate"],
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        env=environment(),
+    )
+    if done.returncode != 0:
+        raise SuggestError(f"the program refuses {file}:\n{done.stdout.strip()}")
+    return done.stdout.strip()
+
+
+def main(options: argparse.Namespace) -> int:
+    """Write the scene, and say what it will cost."""
+    try:
+        check(options)
+        layers = layers_of(options.layer, entries_of_layers())
+        options.file.write_text(
+            scene_of(options, layers, LEVELS[options.error]), encoding="utf-8"
+        )
+        print(cost_of(options.file))
+    except (SuggestError, RunError, OSError) as error:
+        print(f"suggest: {error}", file=sys.stderr)
+        return 1
+    print(f"written: {options.file}; next: scripts/run {options.file}")
+    return 0

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What mesh, points and mass scaling a caisson needs for an error that is wanted.
+
+The far mesh follows the diameter, as in prm/jack.prm, and the mesh at the tip the
+wall: its lines are as far apart as the wall is thick, and cells around the tip are
+halved until the wanted number lies across the wall, as in prm/jack_thin.prm. What
+errors this leaves was measured (doc/how_to/own_caisson.md).
+
+SI units; depths are positive below the surface.
+"""
+from dataclasses import dataclass
+from math import ceil
+
+
+@dataclass(frozen=True)
+class Level:
+    """The numerics of an error of the total force, in percent.
+
+    levels: how often cells at the tip are halved; far: size of the cells far away, as
+    a multiple of those for 5 %.
+    """
+
+    error: int
+    cells: int
+    levels: int
+    mass_scaling: float
+    far: float
+    growth: float
+
+
+LEVELS = {
+    level.error: level
+    for level in (
+        Level(10, cells=2, levels=1, mass_scaling=100, far=1, growth=1.2),
+        Level(5, cells=4, levels=2, mass_scaling=100, far=1, growth=1.2),
+        Level(2, cells=8, levels=3, mass_scaling=25, far=0.5, growth=1.1),
+    )
+}
+
+
+@dataclass(frozen=True)
+class Body:
+    """A caisson: outer diameter, length of the skirt and thickness of the wall (m)."""
+
+    diameter: float
+    skirt: float
+    wall: float
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Entries of section Grid, and the near distance of the points (m)."""
+
+    outer_radius: float
+    bottom: float
+    top: float
+    cell_width: float
+    cell_height: float
+    growth: float
+    fine: float
+    moving_zone: float
+    levels: int
+    refined_distance: float
+    near_distance: float
+
+
+def to_two_digits(value: float) -> float:
+    """Return a size that reads well."""
+    return float(f"{value:.2g}")
+
+
+def mesh_of(body: Body, end: float, level: Level) -> Mesh:
+    """Return the mesh for a travel to the depth end."""
+    d = body.diameter
+    moving_zone = max(d / 4, 1.0)
+    return Mesh(
+        outer_radius=2.5 * d,
+        bottom=-float(ceil(max(3 * d, end + 1.5 * d))),
+        top=float(ceil(body.skirt) + 1),
+        cell_width=to_two_digits(level.far * d / 5),
+        cell_height=to_two_digits(level.far * d / 15),
+        growth=level.growth,
+        fine=5 * body.wall,
+        moving_zone=to_two_digits(moving_zone),
+        levels=level.levels,
+        refined_distance=3 * body.wall,
+        near_distance=to_two_digits(d / 10),
+    )
+
+
+def start_of(skirt: float) -> float:
+    """Return the depth at which the caisson is wished in place: 6 % of the skirt."""
+    return max(round(0.06 * skirt / 0.05) * 0.05, 0.05)
+
+
+def frames_of(start: float, end: float) -> list[float]:
+    """Return four depths of which pictures are made."""
+    between = [round(end * share / 0.1) * 0.1 for share in (1 / 3, 2 / 3)]
+    return [start, *(depth for depth in between if start < depth < end), end]

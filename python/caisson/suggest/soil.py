@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Layers of soil as they are given in words: "TOP: ENTRY = VALUE, ENTRY = VALUE"."""
+import difflib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+MOHR_COULOMB = "Mohr-Coulomb"
+# what Mohr-Coulomb soil has where nothing is given
+ASSUMED = {
+    "Law": MOHR_COULOMB,
+    "Poisson ratio": "0.3",
+    "Dilatancy angle": "0",
+    "Cohesion": "0",
+    "Porosity": "0.4",
+    "Solid density": "2650",
+}
+NEEDED = ("Friction angle", "Youngs modulus")
+
+
+class SuggestError(Exception):
+    """What is wrong with what was given; the text is for the user."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """An entry of a layer; remark says in the file where it comes from."""
+
+    name: str
+    value: str
+    remark: str = ""
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A layer of soil from top (m below the surface) down to the next one."""
+
+    top: float
+    entries: list[Entry]
+
+    def value(self, name: str) -> str:
+        """Return an entry, "" where the layer has none of this name."""
+        return next((e.value for e in self.entries if e.name == name), "")
+
+
+def name_of(word: str, known: Sequence[str]) -> str:
+    """Return the entry meant. Raises SuggestError."""
+    by_lower = {name.lower(): name for name in known}
+    if word.lower() in by_lower:
+        return by_lower[word.lower()]
+    near = difflib.get_close_matches(word.lower(), by_lower, n=3, cutoff=0.4)
+    hint = "; did you mean " + " or ".join(by_lower[n] for n in near) if near else ""
+    raise SuggestError(f"--layer: a layer has no entry {word!r}{hint}?".replace("??", "?"))
+
+
+def layer_of(text: str, known: Sequence[str]) -> Layer:
+    """Return a layer. known: the names of all entries of a layer. Raises
+    SuggestError."""
+    head, colon, rest = text.partition(":")
+    try:
+        top = float(head)
+    except ValueError:
+        top = -1.0
+    if not colon or top < 0:
+        raise SuggestError(
+            f"--layer {text!r} must begin with the depth of its top in meters and a"
+            ' colon, as in "0: Friction angle = 33, Youngs modulus = 20e6"'
+        )
+    given = {}
+    for part in filter(None, map(str.strip, rest.split(","))):
+        word, equals, value = map(str.strip, part.partition("="))
+        if not equals or not value:
+            raise SuggestError(f"--layer: {part!r} is not of the form ENTRY = VALUE")
+        given[name_of(word, known)] = value
+    return Layer(top, entries_of(given, text))
+
+
+def entries_of(given: dict[str, str], text: str) -> list[Entry]:
+    """Return the entries given and, for Mohr-Coulomb soil, those assumed. Raises
+    SuggestError where one is missing that cannot be assumed."""
+    if given.get("Law", MOHR_COULOMB) != MOHR_COULOMB:
+        return [Entry(*pair) for pair in given.items()]
+    missing = [name for name in NEEDED if name not in given]
+    if missing:
+        raise SuggestError(f"--layer {text!r} needs {' and '.join(missing)}")
+    assumed = {n: v for n, v in ASSUMED.items() if n not in given}
+    return [
+        *(Entry(n, v, "" if n == "Law" else " # ASSUMED") for n, v in assumed.items()),
+        *(Entry(*pair) for pair in given.items()),
+    ]
+
+
+def layers_of(texts: Iterable[str], known: Sequence[str]) -> list[Layer]:
+    """Return all layers. Raises SuggestError."""
+    layers = [layer_of(text, known) for text in texts]
+    tops = [layer.top for layer in layers]
+    if tops[:1] != [0.0]:
+        raise SuggestError("the first --layer must begin at 0")
+    if any(a >= b for a, b in zip(tops, tops[1:])):
+        raise SuggestError("each --layer must begin deeper than the one before")
+    return layers
