@@ -8,6 +8,7 @@ import sys
 STUDY = "caisson.study_command"
 # command: module with declare(parser) and main(options), and what it does
 COMMANDS = {
+    "suggest": ("caisson.suggest", "write a scene for your own caisson"),
     "run": ("caisson.launch", "run a scene and draw its pictures"),
     "plot": ("caisson.plot", "draw the pictures of runs"),
     "report": ("caisson.report", "write a page on each run: report.html"),

@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""caisson suggest: scenes for one's own caisson."""
+import re
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+from program import SUCCESS, HERE, ProgramTest, history
+
+from caisson.run import environment, read_parameters
+
+SAND = "0: Friction angle = 33, Youngs modulus = 20e6"
+
+
+class Suggest(ProgramTest):
+    """Calls the command as a user does."""
+
+    def suggest(
+        self, path: Path, *words: str, status: int = 0, layers: tuple[str, ...] = (SAND,)
+    ) -> str:
+        """Run the command; return what it says."""
+        sizes = {"--diameter": "10", "--skirt": "8", "--wall": "40mm"}
+        given = [w for k, v in sizes.items() if k not in words for w in (k, v)]
+        given += [w for layer in layers for w in ("--layer", layer)]
+        done = subprocess.run(
+            [sys.executable, "-B", "-m", "caisson", "suggest", str(path), *given]
+            + list(words),
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            env={**environment(), "PYTHONPATH": str(HERE.parent / "python")},
+        )
+        self.assertEqual(done.returncode, status, done.stdout)
+        return done.stdout
+
+    def test_scenes_are_accepted(self) -> None:
+        """By the program, without a likely mistake; the cost is told."""
+        cases = [
+            ("4", "4", "20mm", "10"),
+            ("8", "12", "0.03", "5"),
+            ("10", "8", "40mm", "2"),
+            ("15", "6", "50mm", "5"),
+            ("20", "20", "5cm", "10"),
+            ("6", "7", "0.1", "5"),
+        ]
+        for number, (diameter, skirt, wall, error) in enumerate(cases):
+            with self.subTest(diameter=diameter, wall=wall):
+                path = self.made_directory() / f"own{number}.prm"
+                sizes = ["--diameter", diameter, "--skirt", skirt, "--wall", wall]
+                text = self.suggest(path, *sizes, "--error", error)
+                self.assertRegex(text, r"duration +about \d")
+                self.run_program(SUCCESS, path, "--validate", "--strict")
+
+    def test_what_is_given_is_in_effect(self) -> None:
+        path = self.made_directory() / "own.prm"
+        layers = (SAND, "3.5: friction angle = 37, Youngs modulus=4e7, porosity=0.35")
+        words = ["--wall-friction", "25", "--weight", "2e6", "--water-depth", "30"]
+        self.suggest(path, *words, "--penetration", "6", layers=layers)
+        entries = read_parameters([str(path)])
+        for name, value in {
+            "Soil/Number of layers": 2,
+            "Soil/Layer 2/Top depth": 3.5,
+            "Soil/Layer 2/Porosity": 0.35,
+            "Soil/Layer 2/Friction angle": 37,
+            "Rigid body/Friction angle of the inner wall": 25,
+            "Rigid body/Submerged weight": 2e6,
+            "Rigid body/Wall thickness": 0.04,
+            "Water/Water depth": 30,
+            "Time/End penetration": 6,
+        }.items():
+            self.assertAlmostEqual(float(entries[name]), value, msg=name)
+        self.assertEqual(entries["Water/Level"], "seepage")
+        assumed = re.findall(r"set (.*?) *=.*# ASSUMED", path.read_text("utf-8"))
+        self.assertIn("Poisson ratio", assumed)
+        self.assertIn("Permeability", assumed)
+        self.assertNotIn("Friction angle", assumed)
+
+    def test_it_runs(self) -> None:
+        path = self.made_directory()
+        self.suggest(path / "own.prm", "--error", "10")
+        self.run_program(
+            SUCCESS,
+            path / "own.prm",
+            "--output-directory",
+            path / "run",
+            entries={"Time/End penetration": 0.51, "Output/Frame penetrations": ""},
+        )
+        self.assertGreater(history(path / "run")[-1]["tip_force_N"], 1e4)
+
+    def test_refusals(self) -> None:
+        """One clear line each, and no file."""
+        path = self.made_directory() / "own.prm"
+        for words, layers, said in (
+            (["--wall", "40"], (SAND,), "append mm"),
+            (["--wall", "4 inch"], (SAND,), "no length"),
+            (["--penetration", "9"], (SAND,), "length of the skirt"),
+            (["--water-depth", "9"], (SAND,), "give --weight"),
+            (["--weight", "-1"], (SAND,), "must be positive"),
+            ([], ("0: Friction angle = 33",), "needs Youngs modulus"),
+            ([], ("0: Frction angel = 33",), "did you mean Friction angle"),
+            ([], ("1: Friction angle = 33, Youngs modulus = 1e7",), "begin at 0"),
+            ([], (SAND, SAND), "deeper than the one before"),
+            ([], ("Friction angle = 33",), "must begin with the depth"),
+            ([], ("0: Friction angle",), "ENTRY = VALUE"),
+            (["--weight", "1e6"], (SAND, "2: " + SAND[3:] + ", Permeability=1e-5"), "all"),
+        ):
+            with self.subTest(said=said):
+                status = 2 if said == "no length" else 1
+                text = self.suggest(path, *words, status=status, layers=layers)
+                self.assertIn(said, text)
+                self.assertFalse(path.exists())
+        self.suggest(path)
+        self.assertIn("--overwrite", self.suggest(path, status=1))
+
+
+if __name__ == "__main__":
+    unittest.main()
