@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The command line: scripts/caisson COMMAND ..."""
+"""The command line: scripts/caisson COMMAND ..., or caisson COMMAND ... where the
+program is installed."""
 import argparse
 import importlib
 import os
 import sys
+from typing import NoReturn
+
+from caisson.paths import INSTALL_PICTURES, INSTALLED
 
 STUDY = "caisson.study_command"
 # command: module with declare(parser) and main(options), and what it does
 COMMANDS = {
     "suggest": ("caisson.suggest", "write a scene for your own caisson"),
     "run": ("caisson.launch", "run a scene and draw its pictures"),
+    "scenes": ("caisson.scenes", "list the scenes that come with the program"),
     "plot": ("caisson.plot", "draw the pictures of runs"),
     "report": ("caisson.report", "write a page on each run: report.html"),
     "compare": (
@@ -25,8 +30,6 @@ COMMANDS = {
     "suction-error-bar": (STUDY, "make those of the scenes with suction"),
     "tip": (STUDY, "study the tip force of prm/jack_coarse.prm"),
     "drainage": (STUDY, "study the resistance between the limits of drainage"),
-    "speed": (STUDY, "measure the speed of kernels and program, as ratios"),
-    "publish-speed": ("caisson.speed.publish", "take the speed into doc/benchmarks.md"),
     "cavity-expansion": (
         "caisson.design.cavity_expansion",
         "compare a growing cavity with its exact pressure",
@@ -35,13 +38,18 @@ COMMANDS = {
         "caisson.design.bearing_capacity",
         "compute exact bearing capacities of strip and circular footings",
     ),
-    "element-tests": (
-        "caisson.design.hypoplastic_sand",
-        "integrate element tests of hypoplastic sand independently",
-    ),
     "manufactured": (
         "caisson.design.manufactured",
         "check the manufactured solutions against first principles",
+    ),
+}
+# those that need the sources of the program
+SOURCE_COMMANDS = {
+    "speed": (STUDY, "measure the speed of kernels and program, as ratios"),
+    "publish-speed": ("caisson.speed.publish", "take the speed into doc/benchmarks.md"),
+    "element-tests": (
+        "caisson.design.hypoplastic_sand",
+        "integrate element tests of hypoplastic sand independently",
     ),
     "parameter-page": (
         "caisson.docs.parameters",
@@ -60,6 +68,8 @@ COMMANDS = {
     ),
     "check-floors": ("caisson.developer.floors", "check the order of the sources"),
 }
+if not INSTALLED:
+    COMMANDS |= SOURCE_COMMANDS
 
 
 def main(words: list[str]) -> int:
@@ -78,7 +88,7 @@ def main(words: list[str]) -> int:
     try:
         module = importlib.import_module(COMMANDS[name][0])
     except ModuleNotFoundError as error:
-        print(f"caisson: {error}; scripts/setup pictures installs it", file=sys.stderr)
+        print(f"caisson: {error}; {INSTALL_PICTURES} installs it", file=sys.stderr)
         return 1
     own = argparse.ArgumentParser(
         prog=f"caisson {name}",
@@ -89,8 +99,13 @@ def main(words: list[str]) -> int:
     return int(module.main(own.parse_args(words[1:])))
 
 
-if __name__ == "__main__":
+def run() -> NoReturn:
+    """Run the command of this process, and end it."""
     try:
         sys.exit(main(sys.argv[1:]))
     except (BrokenPipeError, KeyboardInterrupt):  # as of `| head`
         os._exit(1)
+
+
+if __name__ == "__main__":
+    run()

@@ -31,7 +31,7 @@ from typing import Any
 import numpy as np
 
 from caisson import curves, table
-from caisson.paths import short
+from caisson.paths import INSTALLED, SCENES, short
 from caisson.results import ResultsError, Table
 from caisson.study import Options, Study, StudyError, StudyRun
 
@@ -207,7 +207,16 @@ def print_tables(
             print_table(study, depths[at], list(zip(names, chosen)), q)
 
 
-def evaluate(studies: Sequence[Study], _: Options, __: float) -> int:
+def file_of(study: Study, options: Options) -> Path:
+    """Return where the error bar goes: beside the study, from where its scene takes
+    it, or to the results if the study is part of an installation."""
+    name = study.keys["output"]
+    if INSTALLED and study.file.resolve().is_relative_to(SCENES):
+        return options.results / Path(name).name
+    return study.file.parent / str(name)
+
+
+def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
     """Write the file of each study and print its tables. Raises StudyError where a
     run is missing."""
     for study in studies:
@@ -216,9 +225,10 @@ def evaluate(studies: Sequence[Study], _: Options, __: float) -> int:
         try:
             terms = [term_errors(t, study, depths) for t in study.keys["errors"]]
             half = combined(terms)
-            path = study.file.parent / study.keys["output"]
+            path = file_of(study, options)
             write_file(path, study, depths, half, terms)
             print_tables(study, depths, half, terms)
+            print(f"error bar: {short(path)}")
         except ResultsError as error:
             raise StudyError(str(error)) from error
     return 0

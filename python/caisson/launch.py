@@ -2,7 +2,8 @@
 """Runs a scene on one or more ranks and draws its pictures.
 
 The exit status is the program's: 0 success, 1 bad input, 2 failure, 3 stopped on
-request. Options of caisson_mpm follow the file.
+request. Options of caisson_mpm follow the file. A scene that is not a file here is
+one of the project, see `caisson scenes`.
 """
 import argparse
 import signal
@@ -11,7 +12,7 @@ import sys
 import time
 from pathlib import Path
 
-from caisson.paths import PROGRAM, ROOT
+from caisson.paths import INSTALLED, PROGRAM, ROOT, SCENES, scene_or_study, short
 from caisson.run import RunError, environment, mpi_command, read_parameters
 
 
@@ -38,7 +39,8 @@ def directory_of(arguments: list[str]) -> Path | None:
 
 def draw(directory: Path) -> None:
     """Draw the pictures and write the report; the results do not need them."""
-    subprocess.run([str(ROOT / "scripts/setup"), "pictures"], check=True)
+    if not INSTALLED:
+        subprocess.run([str(ROOT / "scripts/setup"), "pictures"], check=True)
     from caisson import plot, report
 
     for picture in plot.draw(directory):
@@ -65,10 +67,17 @@ def wait_for(process: "subprocess.Popen[bytes]") -> int:
 def main(options: argparse.Namespace) -> int:
     """Run the program, then draw what it wrote; return its status."""
     if options.ranks < 1 or not options.arguments:
-        print("run: give a parameter file; the scenes are in prm/", file=sys.stderr)
+        scenes = SCENES if INSTALLED else f"{short(SCENES)}/"
+        print(
+            f"run: give a parameter file; the scenes are in {scenes}", file=sys.stderr
+        )
         return 1
-    directory, begin = directory_of(options.arguments), time.time()
-    words = [*mpi_command(options.ranks), str(PROGRAM), *options.arguments]
+    arguments = [
+        str(scene_or_study(word)) if word.endswith(".prm") else word
+        for word in options.arguments
+    ]
+    directory, begin = directory_of(arguments), time.time()
+    words = [*mpi_command(options.ranks), str(PROGRAM), *arguments]
     status = wait_for(subprocess.Popen(words, env=environment()))
     history = directory / "history.csv" if directory else None
     # only what this run wrote is drawn: --validate, say, writes nothing

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from caisson.paths import PROGRAM, ROOT
+from caisson.paths import PROGRAM, WORK
 
 Entries = Mapping[str, Any]
 
@@ -191,7 +191,7 @@ class Run:
         begin = time.monotonic()
         with open(self.directory / "log", "w", encoding="utf-8") as log:
             process = subprocess.Popen(
-                self.command(), stdout=log, stderr=log, cwd=ROOT, env=environment()
+                self.command(), stdout=log, stderr=log, cwd=WORK, env=environment()
             )
             clock = threading.Timer(time_limit or 0, process.kill)
             if time_limit is not None:

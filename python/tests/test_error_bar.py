@@ -4,6 +4,7 @@ import contextlib
 import io
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import numpy as np
@@ -111,6 +112,15 @@ class ErrorBar(unittest.TestCase):
         bars, _ = self.bars(self.study((None, None, None)))
         self.assertEqual([name for name in bars if "suction" in name], [])
         np.testing.assert_allclose(bars["total_error"], 0.05)
+
+    def test_study_of_an_installation(self) -> None:
+        """Its error bar goes to the results: the prefix may be read-only."""
+        study, options = self.study(), Options(results=self.path / "results")
+        with unittest.mock.patch.object(error_bar, "SCENES", self.path.resolve()):
+            self.assertEqual(error_bar.file_of(study, options), self.path / "bar.csv")
+            with unittest.mock.patch.object(error_bar, "INSTALLED", True):
+                found = error_bar.file_of(study, options)
+        self.assertEqual(found, self.path / "results/bar.csv")
 
     def test_missing_run(self) -> None:
         study = self.study()

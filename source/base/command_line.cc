@@ -171,7 +171,8 @@ namespace CaissonMPM
          "Usage: caisson_mpm FILE.prm [options]\n\n"
       << visible_options()
       << "\nExamples are in prm/, from prm/tutorial.prm on; the documentation "
-         "is in doc/,\nfrom doc/quick_start.md on.\n"
+         "is in doc/,\nfrom doc/quick_start.md on. Where the program is "
+         "installed, \"caisson scenes\"\nlists the examples.\n"
          "\nExit status: 0 success, 1 bad input, 2 failure while running, "
          "3 stopped on request\nwith a checkpoint.\n";
     return text.str();

@@ -531,8 +531,9 @@ namespace CaissonMPM
                          ": history.csv, run.json, points.pvd, grid.pvd");
     lines.emplace_back("next",
                        "scripts/plot " + directory +
-                         " draws the results; --restart with a later end "
-                         "continues the run");
+                         " draws the results (of an installed program: "
+                         "caisson plot); --restart with a later end continues "
+                         "the run");
     console->header(lines);
   }
 } // namespace CaissonMPM

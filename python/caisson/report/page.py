@@ -9,6 +9,7 @@ from typing import Any
 import jinja2
 
 from caisson import plot
+from caisson.paths import INSTALL_PICTURES
 from caisson.report import content
 from caisson.results import Results, ResultsError
 
@@ -38,7 +39,7 @@ def script(name: str) -> str:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
         raise ResultsError(
-            f"no {path}: `scripts/setup pictures` installs what a report needs"
+            f"no {path}: `{INSTALL_PICTURES}` installs what a report needs"
         ) from error
     return text.replace("</script", "<\\/script")
 
