@@ -7,12 +7,18 @@ root. A tree that is there is used again, so delete it for a bare one. The log o
 each command is DIR/root/N.log. To be run before every release, with trixie and
 with bookworm; it takes about half an hour, 6 GB and a network.
 
+With --user, the commands are those of an ordinary user with sudo, whom the tree then
+has, as Windows makes it (WSL). With --install, packages that scripts/package has
+built for this release are installed instead of the clone, and an ordinary user runs
+two scenes with them.
+
 Needs root, debootstrap, git and unshare (util-linux). All mounts are made in a
 mount namespace of their own, and so end with the command, however it ends.
 """
 import argparse
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -23,16 +29,25 @@ from caisson.paths import ROOT
 
 RELEASES = ("trixie", "bookworm")
 COMMANDS = ["scripts/run prm/jack.prm", "scripts/test"]
+# of an installed package, in an empty directory
+INSTALLED_COMMANDS = [
+    "caisson scenes",
+    "caisson run column.prm --strict && test -s results/column/report.html",
+    "caisson run --ranks 2 jack_coarse.prm --set 'Time/End penetration=1'"
+    " && caisson report results/jack_coarse && ls -l results/jack_coarse",
+    "caisson_mpm --version && man -w caisson caisson_mpm || test ! -e /usr/bin/man",
+]
+USER = "engineer"
 NEEDED = ("debootstrap", "git", "unshare", "chroot", "mount")
 # git: to clone the project; ca-certificates: for mirrors with https
 INCLUDED = "git,ca-certificates"
-CLONE = "root/caisson_mpm"
+NAME = "caisson_mpm"
 MOUNT = """
 set -e
 mount -t proc proc "$1/proc"
 mount -t sysfs -o ro sysfs "$1/sys" || echo "bare_debian: no /sys" >&2
 mount --rbind /dev "$1/dev"
-exec chroot "$1" /bin/sh -c "cd /root/caisson_mpm && $2"
+exec chroot "$1" /bin/sh -c "$2"
 """
 
 
@@ -59,10 +74,8 @@ def make_tree(release: str, tree: Path, url: str) -> None:
     finished.write_text(release, encoding="utf-8")
 
 
-def clone(tree: Path) -> None:
-    """Put a fresh clone of the last commit into the tree."""
-    shutil.copy("/etc/resolv.conf", tree / "etc/resolv.conf")
-    place = tree / CLONE
+def clone(place: Path) -> None:
+    """Put a fresh clone of the last commit there."""
     shutil.rmtree(place, ignore_errors=True)
     words = ["git", "clone", "--quiet", "--no-hardlinks", str(ROOT), str(place)]
     subprocess.run(words, check=True)
@@ -73,6 +86,51 @@ def clone(tree: Path) -> None:
         print("bare_debian: changes that are not committed are left out")
 
 
+def make_user(tree: Path, with_sudo: bool) -> None:
+    """Make the ordinary user, who owns what is in the home directory."""
+    commands = f"id {USER} || useradd --create-home --shell /bin/bash {USER}"
+    if with_sudo:
+        commands += (
+            " && { which sudo || { apt-get update && apt-get install --yes sudo; }; }"
+            f" && echo '{USER} ALL=(ALL) NOPASSWD: ALL' > /etc/sudoers.d/{USER}"
+        )
+    commands += f" && chown -R {USER}: /home/{USER}"
+    if run_inside(tree, commands, tree / "root/user.log") != 0:
+        raise OSError(f"no user {USER}, see {tree / 'root/user.log'}")
+
+
+def as_user(command: str) -> str:
+    """Return the command as the ordinary user runs it in the home directory."""
+    inner = shlex.quote(f"cd && {command}")
+    return f"runuser --login {USER} --command {inner}"
+
+
+def prepare_clone(options: argparse.Namespace, tree: Path) -> list[str]:
+    """Clone the project for root or for the ordinary user; return the commands to
+    run there."""
+    home = f"/home/{USER}" if options.user else "/root"
+    place = tree / home[1:] / NAME
+    clone(place)
+    commands = [f"cd {home}/{NAME} && {c}" for c in options.command or COMMANDS]
+    if options.user:
+        make_user(tree, with_sudo=True)
+        commands = [as_user(command) for command in commands]
+    return commands
+
+
+def prepare_packages(options: argparse.Namespace, tree: Path) -> list[str]:
+    """Put packages into the tree; return the commands to install and to try them."""
+    make_user(tree, with_sudo=False)
+    for package in options.install:
+        shutil.copy(package, tree / "root")
+    names = " ".join(f"/root/{package.name}" for package in options.install)
+    install = "DEBIAN_FRONTEND=noninteractive apt-get install --yes"
+    return [
+        f"apt-get update && {install} --no-install-recommends {names}",
+        *map(as_user, options.command or INSTALLED_COMMANDS),
+    ]
+
+
 def environment() -> dict[str, str]:
     """Return what a new user has, and the way to the network."""
     own = {"HOME": "/root", "TERM": "dumb", "PATH": "/usr/sbin:/usr/bin:/sbin:/bin"}
@@ -80,7 +138,7 @@ def environment() -> dict[str, str]:
 
 
 def run_inside(tree: Path, command: str, log: Path) -> int:
-    """Run a command in the clone; return its status."""
+    """Run a command of root in the tree; return its status."""
     words = ["unshare", "--mount", "--propagation", "private", "sh", "-c", MOUNT, "sh"]
     with open(log, "w", encoding="utf-8") as file:
         return subprocess.run(
@@ -93,10 +151,13 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("release", choices=RELEASES)
     parser.add_argument("directory", type=Path, metavar="DIR")
     parser.add_argument("--mirror", default=mirror(), help="default: that of apt")
+    add = parser.add_argument
+    add("--user", action="store_true", help="as an ordinary user with sudo")
+    add("--install", nargs="+", type=Path, metavar="FILE.deb", help="try packages")
     parser.add_argument(
         "--command",
         action="append",
-        help="instead of both commands of the README; may be repeated",
+        help="instead of the usual commands; may be repeated",
     )
 
 
@@ -116,12 +177,14 @@ def main(options: argparse.Namespace) -> int:
         return 1
     try:
         make_tree(options.release, tree, options.mirror)
-        clone(tree)
-    except subprocess.CalledProcessError as error:
+        shutil.copy("/etc/resolv.conf", tree / "etc/resolv.conf")
+        prepare = prepare_packages if options.install else prepare_clone
+        commands = prepare(options, tree)
+    except (OSError, subprocess.CalledProcessError) as error:
         print(f"bare_debian: {error}", file=sys.stderr)
         return 1
     worst = 0
-    for number, command in enumerate(options.command or COMMANDS, 1):
+    for number, command in enumerate(commands, 1):
         begin, log = time.monotonic(), tree / f"root/{number}.log"
         status = run_inside(tree, command, log)
         worst = max(worst, abs(status))
