@@ -33,7 +33,7 @@ COMMANDS = ["scripts/run prm/jack.prm", "scripts/test"]
 INSTALLED_COMMANDS = [
     "caisson scenes",
     "caisson run column.prm --strict && test -s results/column/report.html",
-    "caisson run --ranks 2 jack_coarse.prm --set 'Time/End penetration=1'"
+    "caisson run --ranks 2 jack_coarse.prm --set 'Time/End penetration=0.7'"
     " && caisson report results/jack_coarse && ls -l results/jack_coarse",
     "caisson_mpm --version && man -w caisson caisson_mpm || test ! -e /usr/bin/man",
 ]
@@ -124,7 +124,7 @@ def prepare_packages(options: argparse.Namespace, tree: Path) -> list[str]:
     for package in options.install:
         shutil.copy(package, tree / "root")
     names = " ".join(f"/root/{package.name}" for package in options.install)
-    install = "DEBIAN_FRONTEND=noninteractive apt-get install --yes"
+    install = "DEBIAN_FRONTEND=noninteractive apt-get install --yes --reinstall"
     return [
         f"apt-get update && {install} --no-install-recommends {names}",
         *map(as_user, options.command or INSTALLED_COMMANDS),
