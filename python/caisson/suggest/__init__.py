@@ -20,7 +20,7 @@ from typing import Any
 
 import jinja2
 
-from caisson.paths import PROGRAM
+from caisson.paths import INSTALLED, PROGRAM
 from caisson.run import RunError, environment, read_parameters
 from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
 from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of
@@ -191,5 +191,6 @@ def main(options: argparse.Namespace) -> int:
     except (SuggestError, RunError, OSError) as error:
         print(f"suggest: {error}", file=sys.stderr)
         return 1
-    print(f"written: {options.file}; next: scripts/run {options.file}")
+    run = "caisson run" if INSTALLED else "scripts/run"
+    print(f"written: {options.file}; next: {run} {options.file}")
     return 0
