@@ -19,7 +19,7 @@ COMMANDS = {
     "report": ("caisson.report", "write a page on each run: report.html"),
     "compare": (
         "caisson.plot.comparison",
-        "draw the forces of several runs in one picture",
+        "draw the forces of several runs in one picture, and write them to one table",
     ),
     "curve": ("caisson.curve", "print forces and other numbers of runs"),
     "study": (STUDY, "run any study and evaluate it"),

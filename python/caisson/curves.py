@@ -15,12 +15,16 @@ holds for all of them:
 
 Positions are metres of penetration or of travelled path.
 """
+import math
+from collections.abc import Sequence
+
 import numpy as np
 
 from caisson.results import Table
 
 EDGE = 1e-9  # m
 FORCE_WINDOW = 0.2  # m, of the forces of a caisson
+FEW = 5  # rows
 FROM = 1.0  # m, of roughness and energy ratio: the start is left out
 
 
@@ -64,6 +68,52 @@ def smoothed_at(position: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.
     is not whole, the values there, linear between the positions [n], which grow."""
     means = window_means(position, values, at, FORCE_WINDOW)
     return np.where(np.isfinite(means), means, np.interp(at, position, values))
+
+def means_to_the_ends(
+    position: np.ndarray, values: np.ndarray, at: np.ndarray, width: float
+) -> np.ndarray:
+    """Return the means in windows about each of at [m], which near the ends of the
+    curve are as wide as fits about them: [m].
+
+    position [n] only grows or only falls. Where a window holds fewer than FEW rows,
+    whose mean may belong to another place, the value is linear between the rows
+    beside x; beyond the ends it is nan.
+    """
+    order = np.argsort(position)
+    position, values = position[order], values[order]
+    means = np.interp(at, position, values, left=np.nan, right=np.nan)
+    for i, x in enumerate(at):
+        room = min(x - position[0], position[-1] - x)
+        if room < -EDGE:
+            continue
+        chosen = values[in_window(position, x, min(width, 2 * max(room, 0.0)))]
+        chosen = chosen[np.isfinite(chosen)]
+        if len(chosen) >= FEW:
+            means[i] = chosen.mean()
+    return means
+
+
+def way_down(position: np.ndarray) -> np.ndarray:
+    """Return the numbers of the rows that are deeper than all before them."""
+    before = np.maximum.accumulate(position)[:-1]
+    return np.flatnonzero(np.concatenate([[True], position[1:] > before]))
+
+
+def way_up(position: np.ndarray) -> np.ndarray:
+    """Return the numbers of the rows, from the deepest on, that are less deep than
+    all between it and them."""
+    deepest = int(np.argmax(position))
+    return deepest + way_down(-position[deepest:])
+
+
+def common_depths(positions: Sequence[np.ndarray], interval: float) -> np.ndarray:
+    """Return the multiples of the interval (m) that at least one of the curves, each
+    [n_rows], passes."""
+    low = min(float(position.min()) for position in positions)
+    high = max(float(position.max()) for position in positions)
+    first = math.ceil(low / interval - 1e-6)
+    last = math.floor(high / interval + 1e-6)
+    return np.round(interval * np.arange(first, last + 1), 9)
 
 
 def path_of(position: np.ndarray) -> np.ndarray:

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The picture that compares runs."""
+"""The picture and the file that compare runs."""
+import argparse
+import contextlib
+import csv
+import io
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
+from made_up import write_run
 
 from caisson.plot import comparison
-from caisson.results import ResultsError
 
 
 def made_up(directory: Path, depths: list[float]) -> Path:
@@ -32,18 +36,97 @@ class Comparison(unittest.TestCase):
         }
         self.assertEqual(list(comparison.pushing_force(history)), [65, -85])
 
-    def test_picture(self) -> None:
-        with tempfile.TemporaryDirectory() as name:
-            path = Path(name)
-            runs = [
-                made_up(path / "down", [0.5, 1, 2]),
-                made_up(path / "up", [0.5, 2, 1]),
-            ]
-            picture = comparison.draw(path / "both.png", runs)
-            self.assertGreater(picture.stat().st_size, 1000)
-            still = made_up(path / "still", [1, 1])
-            with self.assertRaises(ResultsError):
-                comparison.draw(path / "none.png", [*runs, still])
+
+class Files(unittest.TestCase):
+    """What the command leaves of made-up runs."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name)
+
+    def compare(self, *words: object, interval: float = 0.1) -> int:
+        """Run the command; a picture is given, so that none is left elsewhere."""
+        parser = argparse.ArgumentParser(prog="caisson compare")
+        comparison.declare(parser)
+        picture = str(self.path / "both.png")
+        options = parser.parse_args(
+            ["--interval", str(interval), picture, *map(str, words)]
+        )
+        with contextlib.redirect_stdout(io.StringIO()):
+            return comparison.main(options)
+
+    def columns(self) -> dict[str, list[str]]:
+        """Return the columns of the file as they stand there."""
+        with open(self.path / "both.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.reader(file))
+        return {name: list(cells) for name, *cells in zip(*rows)}
+
+    def test_common_depths(self) -> None:
+        """A force of 1 MN per meter, empty where a run has not been; the columns of
+        a quantity beside each other."""
+        deep = made_up(self.path / "deep", [0.5, 1.05, 2.3])
+        flat = made_up(self.path / "flat", [0.75, 1.25])
+        self.assertEqual(self.compare(deep, flat, interval=0.5), 0)
+        self.assertGreater((self.path / "both.png").stat().st_size, 1000)
+        columns = self.columns()
+        names = ["penetration_m", "total_force_N [deep]", "total_force_N [flat]"]
+        self.assertEqual(list(columns), names)
+        self.assertEqual(columns[names[0]], ["0.5", "1", "1.5", "2"])
+        self.assertEqual(columns[names[1]], ["500000", "1e+06", "1.5e+06", "2e+06"])
+        self.assertEqual(columns[names[2]], ["", "1e+06", "", ""])
+
+    def test_down_and_up(self) -> None:
+        """A pull-out has columns of its own; the mean does not mix both ways."""
+        depths = [0.0, 1.0, 2.0, 3.0, 2.0, 1.0]
+        rows = {
+            "time_s": np.arange(6.0),
+            "penetration_m": np.array(depths),
+            "total_force_N": np.array([0, 1, 2, 3, -4, -5.0]),
+            "lid_force_N": np.zeros(6),
+        }
+        write_run(self.path / "pull", rows, None)
+        self.assertEqual(self.compare(self.path / "pull", interval=1), 0)
+        columns = self.columns()
+        down, up = columns["total_force_N [pull]"], columns["total_force_N [pull up]"]
+        self.assertEqual(down, ["0", "1", "2", "3"])
+        self.assertEqual(up, ["", "-5", "-4", "3"])
+        self.assertEqual(len(columns), 3, "a force that is 0 throughout")
+
+    def test_suction_and_names(self) -> None:
+        """Runs of the same name are told apart; the suction is there for that run
+        which has one."""
+        depth = np.linspace(0, 1, 11)
+        table = {"time_s": depth, "penetration_m": depth, "total_force_N": 5 + depth}
+        write_run(self.path / "a/run", table, None)
+        table |= {name: 0 * depth for name in ("tip_water_force_N", "suction_force_N")}
+        table["required_suction_Pa"] = 100 * depth
+        write_run(self.path / "b/run", table, None)
+        self.assertEqual(self.compare(self.path / "a/run", self.path / "b/run"), 0)
+        columns = self.columns()
+        self.assertNotIn("required_suction_Pa [a/run]", columns)
+        suction = columns["required_suction_Pa [b/run]"]
+        self.assertEqual([suction[0], suction[5], suction[10]], ["0", "50", "100"])
+        self.assertEqual(columns["pushing_force_N [b/run]"][0], "5")
+
+    def test_refused(self) -> None:
+        still = made_up(self.path / "still", [1, 1])
+        short = made_up(self.path / "short", [1.01, 1.02])
+        cases: list[tuple[list[Path], str]] = [
+            ([still], "still does not move"),
+            ([short], "no run passes a multiple of 0.1 m"),
+            ([short, short], "given twice"),
+            ([], "give the output directory"),
+            ([self.path / "none"], "no history.csv"),
+        ]
+        for words, text in cases:
+            said = io.StringIO()
+            with contextlib.redirect_stderr(said):
+                self.assertEqual(self.compare(*words), 1)
+            self.assertIn(text, said.getvalue())
+        with self.assertRaises(SystemExit):
+            with contextlib.redirect_stderr(io.StringIO()):
+                self.compare(short, interval=0)
 
 
 if __name__ == "__main__":

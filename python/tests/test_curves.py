@@ -55,6 +55,30 @@ class WindowMean(unittest.TestCase):
             rms, [np.sqrt(25 / 2), np.sqrt(25 / 3), np.sqrt(16 / 2)]
         )
 
+    def test_means_to_the_ends(self) -> None:
+        """Whole windows, one that shrinks at the end, few rows, none outside; and
+        the same of a curve that goes up."""
+        x = np.array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0])
+        f = x**2
+        at = np.array([-0.1, 0, 1.5, 2, 3, 6, 8, 8.1])
+        # of 0 to 4; of 1 to 5; of 4 to 8, few; few at both ends
+        expected = [np.nan, 0, 2.5, 30 / 5, 55 / 5, 36, 64, np.nan]
+        for order in (slice(None), slice(None, None, -1)):
+            means = curves.means_to_the_ends(x[order], f[order], at, 4)
+            np.testing.assert_allclose(means, expected)
+
+    def test_ways(self) -> None:
+        """Down with a step back, and up with another."""
+        x = np.array([0.0, 2.0, 1.0, 3.0, 2.0, 2.5, 1.0])
+        self.assertEqual(list(curves.way_down(x)), [0, 1, 3])
+        self.assertEqual(list(curves.way_up(x)), [3, 4, 6])
+
+    def test_common_depths(self) -> None:
+        """Rounding does not leave a depth out."""
+        positions = [np.array([0.3 + 1e-9, 0.55]), np.array([0.5, 0.7 - 1e-9])]
+        depths = curves.common_depths(positions, 0.1)
+        np.testing.assert_array_equal(depths, [0.3, 0.4, 0.5, 0.6, 0.7])
+
 
 class Shape(unittest.TestCase):
     """Roughness, energy and errors."""

@@ -1,42 +1,82 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""One picture of the forces that push or pull the caissons of several runs."""
+"""Several runs beside each other: a picture of the forces that push or pull their
+caissons, and a .csv file with all their forces at common depths.
+
+The file has a row for each depth, and a column for each force of each run, as in
+total_force_N [jack]; cells where a run has not been are empty. Where a body goes down
+and up again the way up has columns of its own, total_force_N [jack up]. A value is the
+mean over two intervals of depth, and nearer to the ends of a curve over what fits.
+"""
 import argparse
+import math
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from caisson import curves
 from caisson.plot.forces import penetration
 from caisson.results import Results, ResultsError, Table
+from caisson.table import write_csv
 
 LINES = ("black", "#c0392b", "#2166ac", "#2e8b57", "#8c510a", "#7b3294")
+STYLES = ("-", "--", ":", "-.")
+PUSHING, TOTAL = "pushing_force_N", "total_force_N"
+# columns of history.csv beside those in N
+MORE = ("required_suction_Pa", "suction_Pa", "cavity_pressure_Pa")
+DEPTH = "penetration_m"
+INTERVAL = 0.1  # m
+PICTURE = Path("comparison.png")
+PICTURES = {".png", ".pdf", ".svg"}  # what a word ends with that is no directory
+
+Histories = dict[str, Table]  # by the name of the run
 
 
 def pushing_force(history: Table) -> np.ndarray:
     """Return what pushes the body besides the suction, in N, negative where it
     pulls: the force of the soil less that of the water on lid and tip."""
-    force = history["total_force_N"]
+    force = history[TOTAL]
     if "suction_force_N" in history:
         force = force - history["suction_force_N"] + history["tip_water_force_N"]
     return force
 
 
-def draw(picture: Path, directories: list[Path]) -> Path:
-    """Write the picture; raises ResultsError where a run has no penetration."""
+def names_of(directories: Sequence[Path]) -> list[str]:
+    """Return a name for each directory: its last part, or as many of its last parts
+    as tell it from the others."""
+    parts = [directory.resolve().parts for directory in directories]
+    for length in range(1, max(map(len, parts)) + 1):
+        names = ["/".join(part[-length:]) for part in parts]
+        if len(set(names)) == len(names):
+            return names
+    raise ResultsError("the same directory is given twice")
+
+
+def read(directories: Sequence[Path]) -> Histories:
+    """Return the histories of the runs. Raises ResultsError where one has no
+    penetration."""
+    found = {}
+    for name, directory in zip(names_of(directories), directories):
+        found[name] = Results(directory).history
+        if penetration(found[name]) is None:
+            raise ResultsError(f"the body of {directory} does not move")
+    return found
+
+
+def draw(picture: Path, histories: Histories) -> Path:
+    """Write the picture."""
     figure = Figure(figsize=(7, 7))
     axes = figure.subplots()
-    for i, directory in enumerate(directories):
-        history = Results(directory).history
-        depth = penetration(history)
-        if depth is None:
-            raise ResultsError(f"the body of {directory} does not move")
+    for i, (name, history) in enumerate(histories.items()):
         axes.plot(
             pushing_force(history) / 1e3,
-            depth,
+            history[DEPTH],
             color=LINES[i % len(LINES)],
+            linestyle=STYLES[i // len(LINES) % len(STYLES)],
             linewidth=1.4,
-            label=directory.name,
+            label=name,
         )
     axes.axvline(0, color="0.6", linewidth=0.8)
     axes.grid(color="0.9")
@@ -50,22 +90,96 @@ def draw(picture: Path, directories: list[Path]) -> Path:
     return picture
 
 
+def quantities_of(history: Table) -> Table:
+    """Return the columns [n_rows] of the file of one run: all forces, suctions and
+    the pressure on a cylinder, but those that are 0 throughout."""
+    found = {PUSHING: pushing_force(history)} if "suction_force_N" in history else {}
+    forces = (name for name in history if name.endswith("_N"))
+    for name in [TOTAL, *forces, *MORE]:
+        if name in history and np.any(history[name] != 0):
+            found[name] = history[name]
+    return found
+
+
+def ways_of(name: str, depth: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the rows of the way down and of the way up by the name of the run, the
+    latter marked where there are both."""
+    down, up = curves.way_down(depth), curves.way_up(depth)
+    if len(up) < 2:
+        return {name: down}
+    return {name: up} if len(down) < 2 else {name: down, f"{name} up": up}
+
+
+def columns_of(histories: Histories, interval: float) -> Table:
+    """Return the columns [n_depths] of the file, those of a quantity beside each
+    other."""
+    depths = curves.common_depths([h[DEPTH] for h in histories.values()], interval)
+    if len(depths) == 0:
+        raise ResultsError(f"no run passes a multiple of {interval:g} m")
+    found: dict[str, Table] = {}
+    for run, history in histories.items():
+        for name, rows in ways_of(run, history[DEPTH]).items():
+            depth = history[DEPTH][rows]
+            for quantity, values in quantities_of(history).items():
+                means = curves.means_to_the_ends(
+                    depth, values[rows], depths, 2 * interval
+                )
+                if np.any(np.isfinite(means)):
+                    found.setdefault(quantity, {})[f"{quantity} [{name}]"] = means
+    columns = {DEPTH: depths}
+    for group in found.values():
+        columns |= group
+    return columns
+
+
+def write(path: Path, columns: Table) -> Path:
+    """Write the columns, with six digits and an empty cell where there is no value."""
+    texts = [
+        ["" if math.isnan(value) else f"{value:.6g}" for value in values]
+        for values in columns.values()
+    ]
+    write_csv(path, list(columns), list(zip(*texts)))
+    return path
+
+
+def positive(text: str) -> float:
+    """Return a length of the command line."""
+    value = float(text)
+    if not 0 < value < math.inf:
+        raise ValueError
+    return value
+
+
 def declare(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson compare`."""
-    parser.add_argument("picture", type=Path, metavar="PICTURE.png")
+    parser.usage = "%(prog)s [--interval M] [PICTURE.png] DIR..."
     parser.add_argument(
-        "directories",
+        "words",
         nargs="+",
         type=Path,
         metavar="DIR",
-        help="the output directory of a run, whose name is its label",
+        help="the output directory of a run, whose name is its label; before the first"
+        f" one the name of the picture may stand, default {PICTURE}, beside which the"
+        " .csv file of the same name is written",
+    )
+    text = f"between the depths of the .csv file, in m, default {INTERVAL:g}"
+    parser.add_argument(
+        "--interval", type=positive, default=INTERVAL, metavar="M", help=text
     )
 
 
 def main(options: argparse.Namespace) -> int:
-    """Draw the picture."""
+    """Draw the picture and write the file."""
+    picture, directories = PICTURE, options.words
+    if directories[0].suffix in PICTURES and not directories[0].is_dir():
+        picture, directories = directories[0], directories[1:]
     try:
-        print(f"compare: {draw(options.picture, options.directories)}")
+        if not directories:
+            raise ResultsError("give the output directory of a run")
+        histories = read(directories)
+        columns = columns_of(histories, options.interval)
+        print(f"compare: {draw(picture, histories)}")
+        print(f"compare: {write(picture.with_suffix('.csv'), columns)}")
     except (ResultsError, OSError) as error:
         print(f"compare: {error}", file=sys.stderr)
         return 1
