@@ -116,6 +116,15 @@ def common_depths(positions: Sequence[np.ndarray], interval: float) -> np.ndarra
     return np.round(interval * np.arange(first, last + 1), 9)
 
 
+def round_depths(position: np.ndarray) -> np.ndarray:
+    """Return each meter that a curve passes, or finer steps of a short one."""
+    span = float(np.ptp(position))
+    step = 1.0 if span >= 2 else 10.0 ** math.floor(math.log10(span / 2))
+    first = math.floor(position.min() / step + 1e-9) + 1
+    last = math.floor(position.max() / step + 1e-9)
+    return np.array([i * step for i in range(first, last + 1)])
+
+
 def path_of(position: np.ndarray) -> np.ndarray:
     """Return the travelled path [n] at each position [n], which may go back."""
     return np.concatenate([[0.0], np.cumsum(np.abs(np.diff(position)))])

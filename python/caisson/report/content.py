@@ -161,16 +161,6 @@ def figures_of(run: Results) -> list[dict[str, Any]]:
     return found
 
 
-def depths_of_table(depth: np.ndarray) -> np.ndarray:
-    """Return each meter that the run passes, or finer steps of a short run, and its
-    deepest penetration."""
-    span = float(np.ptp(depth))
-    step = 1.0 if span >= 2 else 10.0 ** math.floor(math.log10(span / 2))
-    first = math.floor(depth.min() / step + 1e-9) + 1
-    last = math.floor(depth.max() / step + 1e-9)
-    return np.array([i * step for i in range(first, last + 1)])
-
-
 def table_of(run: Results) -> dict[str, Any]:
     """Return forces and unit resistances at each meter: heads and rows of text.
 
@@ -182,7 +172,7 @@ def table_of(run: Results) -> dict[str, Any]:
         return {"heads": [], "rows": []}
     rows_down = curves.on_the_way_down(history["penetration_m"])
     depth = history["penetration_m"][rows_down]
-    at = depths_of_table(depth)
+    at = curves.round_depths(depth)
 
     def mean(column: str) -> np.ndarray:
         return curves.smoothed_at(depth, history[column][rows_down], at)
