@@ -10,8 +10,8 @@ from program import HERE, ProgramTest, scene, user_scene
 
 from caisson.paths import SCENES
 from caisson.run import read_parameters
-from caisson.study import Options, Reader
-from caisson.study_command import module_of
+from caisson.study import Options
+from caisson.study_command import module_of, reader_of
 
 CHECKS = '"Verification/Checks"'
 LADDER = f"""
@@ -82,6 +82,71 @@ class Ladder(ProgramTest):
         self.assertNotIn("wave:", done.stdout)
 
 
+PARAMETERS = f"""
+kind = "parameters"
+scene = "{HERE.parent / 'python/tests/tiny_run.prm'}"
+sampling = "one at a time"
+set = {{"Output/Frame penetrations" = ""}}
+[parameters."Soil/Layer 1/Friction angle"]
+values = [VALUES]
+[parameters."wall"]
+entries = ["Rigid body/Friction angle of the inner wall",
+           "Rigid body/Friction angle of the outer wall"]
+values = [30]
+"""
+
+
+class Parameters(ProgramTest):
+    """A study of kind "parameters"."""
+
+    def study(
+        self, path: Path, values: str, *options: str
+    ) -> "subprocess.CompletedProcess[str]":
+        """Run the study above with these friction angles."""
+        file = path / "angles.toml"
+        file.write_text(PARAMETERS.replace("VALUES", values), encoding="utf-8")
+        words = [str(HERE.parent / "scripts/caisson"), "study", str(file)]
+        words += ["--program", str(self.program), "--results", str(path), *options]
+        return subprocess.run(
+            words, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+        )
+
+    def test_angles(self) -> None:
+        """The base is the scene's; a stronger soil and rougher walls resist more; a
+        value that is added later costs one run."""
+        path = self.made_directory()
+        done = self.study(path, "26")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        marks = {p: p.stat().st_mtime_ns for p in path.rglob("run_key.json")}
+        self.assertEqual(len(marks), 3, done.stdout)
+        done = self.study(path, "26, 30, 36")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        after = {p: p.stat().st_mtime_ns for p in path.rglob("run_key.json")}
+        self.assertEqual(marks, {p: after[p] for p in marks})
+        self.assertEqual(len(after), 4)
+        with open(path / "angles/table.csv", encoding="utf-8") as file:
+            rows = {row["run"]: row for row in csv.DictReader(file)}
+        force = {n: float(row["total_force_N at 1.2 m"]) for n, row in rows.items()}
+        self.assertLess(1.1 * force["Friction angle 26"], force["base"])
+        self.assertLess(1.1 * force["base"], force["Friction angle 36"])
+        self.assertLess(force["base"], force["wall 30"])
+        base = rows["base"]
+        self.assertEqual(
+            (base["Soil/Layer 1/Friction angle"], base["wall"]), ("30", "20")
+        )
+        for picture in ("fan.png", "tornado.png"):
+            self.assertGreater((path / "angles" / picture).stat().st_size, 10000)
+
+    def test_refused(self) -> None:
+        """A value that the program refuses is told, with its words, before a run."""
+        path = self.made_directory()
+        done = self.study(path, "26, 75")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        words = ["'Friction angle 75' is refused", "Allowed: a number from 0 to 60"]
+        self.assert_words(words, done.stdout)
+        self.assertEqual(list(path.rglob("history.csv")), [])
+
+
 class ShippedStudies(ProgramTest):
     """The studies of prm/."""
 
@@ -94,9 +159,7 @@ class ShippedStudies(ProgramTest):
         for file in files:
             module = module_of(file)
             for quick in (False, True):
-                reader = Reader(
-                    file, Options(quick=quick), module.STUDY_KEYS, module.RUN_KEYS
-                )
+                reader = reader_of(file, Options(quick=quick), module)
                 for run in (run for study in reader.studies() for run in study.runs):
                     with self.subTest(file=file.name, study=run.study, run=run.name):
                         self.assertEqual(set(run.run.entries) - declared, set())

@@ -13,12 +13,12 @@ above those that it uses:
     design                  solutions to compare with (no program needed)
     plot                    pictures of a run
     study                   the format of all studies, and how they are run
-    verification, accuracy, error_bar, stability, forces, speed
+    verification, accuracy, error_bar, stability, forces, parameters, drainage, speed
                             what a study is for: each evaluates one kind
     developer               checks of the sources
 
 scripts/caisson is the command line. Needed besides Python 3.11: numpy,
-matplotlib and VTK, as Debian packages them.
+SciPy, matplotlib, VTK and Jinja2, as Debian packages them.
 
 Units are SI, angles in degrees, unless a name says otherwise (wall_kN). Arrays
 are given with their shapes, as in [n_rows].

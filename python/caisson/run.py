@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Calls of the program: the only place that knows its command line."""
 import enum
+import fcntl
 import functools
 import hashlib
 import json
+import math
 import os
+import re
 import shutil
 import subprocess
 import threading
@@ -112,10 +115,10 @@ class Run:
     its own.
 
     A finished run leaves run_key.json there: a hash of all that its result
-    depends on (the program's file, all entries in effect, the ranks), the exit
-    status and the times. is_complete() compares the hash, so that a study
-    repeats only what has changed. The class owns its directory and empties it
-    before it runs.
+    depends on (the program's file, all entries in effect, the ranks), the entries
+    that it set, the exit status and the times. is_complete() compares the hash, so
+    that a study repeats only what has changed. The class owns its directory and
+    empties it before it runs, unless another process computes there.
     """
 
     MARK = "run_key.json"
@@ -156,6 +159,24 @@ class Run:
         options = ["--output-directory", str(self.directory)]
         return [str(self.scene), *options, *set_options(self.entries)]
 
+    def validate(self) -> float:
+        """Let the program check the input without running it; return how long the
+        run takes at the speed of its first steps, in s, nan where that is not known.
+        Raises RunError with what it says where it refuses the input."""
+        done = subprocess.run(
+            [str(self.program), *self.arguments(), "--validate"],
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            env=environment(),
+        )
+        if done.returncode != Status.SUCCESS:
+            raise RunError((done.stderr or done.stdout).strip())
+        found = re.search(r"^ *duration +about ([\d.]+) (s|min|h)\b", done.stdout, re.M)
+        if found is None:
+            return math.nan
+        return float(found[1]) * {"s": 1, "min": 60, "h": 3600}[found[2]]
+
     @functools.cached_property
     def key(self) -> str:
         """A hash of what the result depends on. Raises RunError where the program
@@ -165,8 +186,13 @@ class Run:
         text = json.dumps([entries, self.ranks, digest(self.program)], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
 
+    def words(self) -> dict[str, str]:
+        """Return the entries that are set, as a .prm file has them."""
+        return {entry: in_words(value) for entry, value in self.entries.items()}
+
     def mark(self) -> dict[str, Any] | None:
-        """Return what a finished run has left (key, status, wall_s, cpu_s)."""
+        """Return what a finished run has left: key, entries, status, wall_s and
+        cpu_s."""
         try:
             return json.loads((self.directory / self.MARK).read_text("utf-8"))
         except (OSError, ValueError):
@@ -180,12 +206,26 @@ class Run:
         except RunError:
             return False
 
+    def is_in_use(self) -> bool:
+        """Return whether the program runs in the directory, and so has its lock."""
+        try:
+            with (self.directory / ".lock").open(encoding="utf-8") as lock:
+                fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return True
+        except OSError:  # no such file, or a file system without locks
+            return False
+        return False
+
     def execute(self, time_limit: float | None = None) -> Status | None:
         """Run the program into an emptied directory, its words in the file log.
 
         Returns the exit status, None if it took longer than time_limit (s) and
-        was ended, or was ended by a signal.
+        was ended, or was ended by a signal. Raises RunError where another process
+        computes in the directory.
         """
+        if self.is_in_use():
+            raise RunError(f"another process computes in {self.directory}")
         shutil.rmtree(self.directory, ignore_errors=True)
         self.directory.mkdir(parents=True)
         begin = time.monotonic()
@@ -203,6 +243,7 @@ class Run:
             return Status(status) if status in list(Status) else None
         mark = {
             "key": self.key,
+            "entries": self.words(),
             "status": status,
             "wall_s": time.monotonic() - begin,
             "cpu_s": used.ru_utime + used.ru_stime,

@@ -4,7 +4,7 @@
 All studies have one format. A file (TOML) says what it is for,
 
     kind = "verification"   # or accuracy, error bar, stability, forces,
-                            # drainage, speed
+                            # parameters, drainage, speed
 
 and holds studies, or is one itself if it holds none (its id is then its name):
 
@@ -41,9 +41,9 @@ name of a run is made of its variant, mesh and own name, as far as it has them.
 A file that is one study takes all of its [variants].
 
 What a study is for takes further keys, of the study or its runs; each kind says
-which (caisson.verification, accuracy, error_bar, stability, forces, drainage,
-speed). A key
-that nobody knows is an error, so that no misspelt one is left out in silence.
+which (caisson.verification, accuracy, error_bar, stability, forces, parameters,
+drainage, speed). A kind may make the runs of a study itself, from keys of its own. A
+key that nobody knows is an error, so that no misspelt one is left out in silence.
 
 A run that is complete is not repeated while the program, all entries in effect
 and the ranks are the same (caisson.run.Run).
@@ -51,7 +51,7 @@ and the ranks are the same (caisson.run.Run).
 import concurrent.futures
 import re
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -68,6 +68,9 @@ RUN_KEYS = set(
     "name scene set seconds variants h ranks binding until stop_after".split()
 )
 SHARED_KEYS = set("h ranks binding until stop_after".split())
+
+# makes the runs, as lists of their keys, of a study's keys, scene and entries
+MakeRuns = Callable[[dict[str, Any], Run], list[dict[str, Any]]]
 
 
 class StudyError(Exception):
@@ -157,10 +160,13 @@ class Reader:
         options: Options,
         study_keys: set[str],
         run_keys: set[str],
+        make_runs: MakeRuns | None = None,
     ) -> None:
-        """study_keys, run_keys: of the kind, beside those that all have."""
+        """study_keys, run_keys: of the kind, beside those that all have; make_runs:
+        where the kind makes the runs, which then are no key of the study."""
         self.file, self.options = file, options
         self.study_keys, self.run_keys = study_keys, run_keys
+        self.make_runs = make_runs
         self.content = read_toml(file)
         self.set: Entries = self.content.get("set", {})
         self.variants: dict[str, Entries] = {"default": {}}
@@ -201,7 +207,12 @@ class Reader:
         if self.options.quick and isinstance(table["quick"], dict):
             table = {**table, **table["quick"]}
         of = f"study {table['id']}"
-        self.refuse_unknown(table, STUDY_KEYS | SHARED_KEYS | self.study_keys, of)
+        known = STUDY_KEYS | SHARED_KEYS | self.study_keys
+        if self.make_runs is not None:
+            known -= {"runs", "variants", "meshes"}
+        self.refuse_unknown(table, known, of)
+        if self.make_runs is not None:
+            table = {**table, "runs": self.made_runs(table)}
         runs = []
         for number, run in enumerate(table.get("runs", [{}])):
             self.refuse_unknown(run, RUN_KEYS | self.run_keys, f"a run of {of}")
@@ -213,6 +224,16 @@ class Reader:
         return Study(
             table["id"], table.get("title", table["id"]), self.file, runs, keys
         )
+
+    def made_runs(self, study: dict[str, Any]) -> list[dict[str, Any]]:
+        """Return the runs that the kind makes for a study."""
+        entries = {**self.set, **study.get("set", {})}
+        scene = self.one_run(study, {}, "", "", entries).run
+        assert self.make_runs is not None
+        try:
+            return self.make_runs(study, scene)
+        except StudyError as error:
+            raise StudyError(f"{self.file}: study {study['id']}: {error}") from error
 
     def runs(self, study: dict[str, Any], run: dict[str, Any]) -> Iterator[StudyRun]:
         """Yield a run on each mesh with each variant."""

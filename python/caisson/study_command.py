@@ -7,13 +7,24 @@ entries and ranks are the same.
 """
 import argparse
 import importlib
+import os
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 
 from caisson.paths import INSTALLED, PROGRAM, RESULTS, SCENES, scene_or_study, short
-from caisson.study import Options, Reader, Study, StudyError, execute, read_toml
+from caisson.run import Status
+from caisson.study import (
+    Options,
+    Reader,
+    Study,
+    StudyError,
+    StudyRun,
+    execute,
+    read_toml,
+)
 
 # the studies of the project that have a command of their own
 OWN = {
@@ -32,11 +43,33 @@ KINDS = {
     "stability": "caisson.stability",
     "error bar": "caisson.error_bar",
     "forces": "caisson.forces",
+    "parameters": "caisson.parameters",
     "drainage": "caisson.drainage",
     "speed": "caisson.speed",
 }
 if INSTALLED:  # speed is measured on what a build directory has
     del OWN["speed"], KINDS["speed"]
+
+
+def whole_number(text: str) -> int:
+    """Return a number of the command line, 1 or more."""
+    if int(text) < 1:
+        raise ValueError
+    return int(text)
+
+
+def part_of(text: str) -> tuple[int, int]:
+    """Return K and N of K/N."""
+    number, of = map(int, text.split("/"))
+    if not 1 <= number <= of:
+        raise ValueError
+    return number, of
+
+
+def jobs_at_hand(studies: Sequence[Study]) -> int:
+    """Return how many runs at a time the cores of this process bear."""
+    ranks = max(run.run.ranks for study in studies for run in study.runs)
+    return max(1, len(os.sched_getaffinity(0)) // ranks)
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -53,7 +86,10 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--list", action="store_true", help="say what there is, and run nothing")
     add("--evaluate", action="store_true", help="evaluate what is there, run nothing")
     add("--again", action="store_true", help="repeat also runs that are complete")
-    add("--jobs", type=int, default=2, metavar="N", help="runs at a time")
+    text = "runs at a time, default one for each core, or its ranks"
+    add("--jobs", type=whole_number, metavar="N", help=text)
+    text = "run only the K-th of N parts, and evaluate nothing: for an array of jobs"
+    add("--part", type=part_of, metavar="K/N", help=text)
     add("--program", type=Path, default=PROGRAM, help="caisson_mpm")
     add("--results", type=Path, help="directory of the results")
 
@@ -64,7 +100,16 @@ def module_of(file: Path) -> ModuleType:
     if kind not in KINDS:
         kinds = ", ".join(KINDS)
         raise StudyError(f"{file}: kind is {kind!r}, not one of {kinds}")
-    return importlib.import_module(KINDS[kind])
+    try:
+        return importlib.import_module(KINDS[kind])
+    except ModuleNotFoundError as error:
+        raise StudyError(f"{error}; scripts/setup pictures installs it") from error
+
+
+def reader_of(file: Path, options: Options, module: ModuleType) -> Reader:
+    """Return what reads a study of the kind of this module."""
+    make_runs = getattr(module, "make_runs", None)
+    return Reader(file, options, module.STUDY_KEYS, module.RUN_KEYS, make_runs)
 
 
 def print_list(studies: list[Study]) -> None:
@@ -84,13 +129,7 @@ def main(words: argparse.Namespace) -> int:
             program=words.program.resolve(),
             results=words.results or RESULTS / module.NAME.replace(" ", "_"),
         )
-        reader = Reader(
-            words.file,
-            options,
-            module.STUDY_KEYS,
-            module.RUN_KEYS,
-        )
-        studies = reader.studies()
+        studies = reader_of(words.file, options, module).studies()
         if not studies:
             raise StudyError(f"{words.file}: no study fits")
         if words.list:
@@ -112,10 +151,29 @@ def run_and_evaluate(
     """Run what is missing; return the status of the evaluation."""
     begin = time.monotonic()
     if hasattr(module, "measure"):  # its runs take turns
+        if words.part:
+            raise StudyError(f"studies of kind {module.NAME!r} have no parts")
         return int(module.measure(studies, options, words.evaluate))
+    jobs = words.jobs or jobs_at_hand(studies)
     if not words.evaluate:
+        if hasattr(module, "check"):
+            module.check(studies, jobs)
         runs = [run for study in studies for run in study.runs]
-        limit = getattr(module, "TIME_LIMIT", None)
-        execute(runs, words.jobs, words.again, limit)
+        if words.part:
+            runs = runs[words.part[0] - 1 :: words.part[1]]
+        execute(runs, jobs, words.again, getattr(module, "TIME_LIMIT", None))
+        if words.part:
+            return tell_part(runs, words)
     minutes = (time.monotonic() - begin) / 60
     return int(module.evaluate(studies, options, minutes))
+
+
+def tell_part(runs: Sequence[StudyRun], words: argparse.Namespace) -> int:
+    """Say what has become of the runs of a part; return 1 where one is missing."""
+    done = sum(run.status == Status.SUCCESS for run in runs)
+    number, of = words.part
+    print(f"part {number} of {of}: {done} of {len(runs)} runs are complete")
+    for run in runs:
+        if run.status != Status.SUCCESS:
+            print(f"{run.study} {run.name}: {run.trouble or 'failed, see its log'}")
+    return 0 if done == len(runs) else 1

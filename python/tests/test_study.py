@@ -134,8 +134,8 @@ class OwnStudies(unittest.TestCase):
     def studies(self, file: Path) -> list[Study]:
         """Return the studies of a file."""
         module = study_command.module_of(file)
-        keys = module.STUDY_KEYS, module.RUN_KEYS
-        return Reader(file, Options(results=Path("results")), *keys).studies()
+        options = Options(results=Path("results"))
+        return study_command.reader_of(file, options, module).studies()
 
     def test_all_can_be_read(self) -> None:
         """And name scenes that there are, each run a directory of its own."""

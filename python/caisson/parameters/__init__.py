@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Studies of kind "parameters": what entries of a scene do to its forces or suction.
+
+Keys of a study beside the usual ones, of which runs, variants and meshes are left out
+because the parameters make the runs:
+
+    sampling       "grid" (default of one parameter): each combination of all values;
+                   "one at a time": the base, and it with one value changed;
+                   "Latin hypercube": of distributions
+    samples, seed  of a Latin hypercube: the number of runs, and another choice (0)
+    observe        a column of history.csv; default: required_suction_Pa,
+                   total_force_with_water_N or total_force_N, the first there is
+    depths         of the table (m), default each meter
+    tornado_depth  of tornado.png (m), default the deepest of depths in all runs
+    reference = {} runs the scene as it is, too, for fan.png
+
+    [parameters."Soil/Layer 1/Friction angle"]   # and one of
+    values = [28, 31, 34]                  # numbers or words
+    range = {from = 28, to = 36, n = 5}    # logarithmic = true: equal ratios
+    distribution = "normal"                # caisson.parameters.distributions
+    mean = 33
+    standard_deviation = 2
+
+    [parameters.phi]                       # a name of one's own says the entry,
+    entry = "Soil/Layer 1/Friction angle"  # or several in entries = [...]
+    base = 33                              # of one at a time, default: the median of
+                                           # a distribution, or the value of the scene
+    [parameters.dilatancy]                 # follows from others, by their names
+    entry = "Soil/Layer 1/Dilatancy angle"
+    formula = "max(0, phi - 30)"           # caisson.parameters.formula
+
+    [parameters.sand.choices]              # values that set several entries
+    loose = {"Soil/Layer 1/Porosity" = 0.44, "Soil/Layer 1/Friction angle" = 29}
+    dense = {"Soil/Layer 1/Porosity" = 0.38, "Soil/Layer 1/Friction angle" = 36}
+
+A distribution is taken at its quantiles of 5 and 95 % where one parameter changes at a
+time. All runs are checked before the first one starts. Results, besides those of the
+runs, go to the directory of the study: table.csv, fan.csv, fan.png, tornado.png.
+"""
+import concurrent.futures
+import math
+from collections.abc import Sequence
+
+from caisson.parameters import pictures, tables
+from caisson.parameters.outcome import Outcomes
+from caisson.parameters.sampling import runs_of
+from caisson.paths import short
+from caisson.run import RunError
+from caisson.study import Options, Study, StudyError, StudyRun, file_name
+
+NAME = "parameters"
+STUDY_KEYS = set(
+    "parameters sampling samples seed observe depths tornado_depth".split()
+)
+RUN_KEYS = {"sample"}
+make_runs = runs_of
+
+
+def check(studies: Sequence[Study], jobs: int) -> None:
+    """Let the program check all runs that are not complete, without computing them,
+    and say about how long they take. Raises StudyError with what it says of the first
+    that it refuses."""
+
+    def refusal_or_time(run: StudyRun) -> str | float:
+        try:
+            return 0.0 if run.run.is_complete() else run.run.validate()
+        except (RunError, OSError) as error:
+            return f"{run.study}: the run {run.name!r} is refused: {error}"
+
+    runs = [run for study in studies for run in study.runs]
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        found = list(pool.map(refusal_or_time, runs))
+    refused = [text for text in found if isinstance(text, str)]
+    if refused:
+        others = len(refused) - 1
+        more = f"\n(so {'is' if others == 1 else 'are'} {others} of the other runs)"
+        raise StudyError(refused[0] + (more if others else ""))
+    times = [time for time in found if isinstance(time, float) and time != 0]
+    if times and math.isfinite(sum(times)):
+        minutes = sum(times) / jobs / 60
+        print(
+            f"runs to do: {len(times)}, about {minutes:.2g} min on this machine, {jobs}"
+            " at a time",
+            flush=True,
+        )
+
+
+def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
+    """Write and print the results of each study; return 1 where a run is missing."""
+    status = 0
+    for study in studies:
+        outcomes = Outcomes(study)
+        directory = options.results / file_name(study.id)
+        depth = outcomes.tornado_depth()
+        files = [
+            tables.write_runs(directory / "table.csv", outcomes),
+            tables.write_fan(directory / "fan.csv", outcomes),
+            pictures.draw_fan(directory / "fan.png", outcomes),
+            pictures.draw_tornado(directory / "tornado.png", outcomes, depth),
+        ]
+        print("\n".join(tables.lines(outcomes, depth)))
+        for file in filter(None, files):
+            print(f"{study.id}: {short(file)}")
+        if len(outcomes.complete) < len(outcomes.all):
+            status = 1
+    return status

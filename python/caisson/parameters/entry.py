@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A parameter of a study: which entries it sets, and to what."""
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from caisson.parameters.distributions import (
+    ALL_KEYS,
+    Distribution,
+    DistributionError,
+    is_number,
+    require,
+)
+from caisson.parameters.formula import Formula, FormulaError
+from caisson.run import Entries
+from caisson.study import StudyError
+
+Value = float | str | bool
+Sample = dict[str, Value]  # by the name of the parameter
+WAYS = ("values", "range", "distribution", "choices", "formula")
+WHERE = {"entry", "entries"}
+RANGE_KEYS = {"from", "to", "n", "logarithmic"}
+UNCERTAIN = (0.05, 0.95)  # shares of a distribution whose values are taken one by one
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What a study varies.
+
+    It has values (of a list, a range, or the names of choices), or a distribution, or
+    a formula of other parameters. entries: all those that it sets to its value;
+    choices: what each of its values sets instead. base: its value in the run that
+    others are compared with, None where that of the scene counts.
+    """
+
+    name: str
+    entries: tuple[str, ...] = ()
+    values: tuple[Value, ...] = ()
+    distribution: Distribution | None = None
+    choices: Mapping[str, Entries] = field(default_factory=dict)
+    formula: Formula | None = None
+    base: Value | None = None
+
+    @property
+    def label(self) -> str:
+        """Its name in pictures, without the sections before that of an entry."""
+        return self.name.rsplit("/", 1)[-1]
+
+    def set(self, value: Value) -> dict[str, Any]:
+        """Return the entries that it sets to take this value."""
+        if self.choices:
+            return dict(self.choices.get(str(value), {}))
+        return dict.fromkeys(self.entries, value)
+
+    def picked(self, shares: np.ndarray) -> list[Value]:
+        """Return the values at shares [n] from 0 to 1 of its distribution; those of a
+        list are equally likely."""
+        if self.distribution is not None:
+            return [rounded(x) for x in self.distribution.quantiles(shares)]
+        numbers = np.minimum(shares * len(self.values), len(self.values) - 1)
+        return [self.values[i] for i in numbers.astype(int)]
+
+    def ends(self) -> list[Value]:
+        """Return the values that it takes one at a time."""
+        if self.distribution is not None:
+            return self.picked(np.array(UNCERTAIN))
+        return list(self.values)
+
+
+def rounded(value: float) -> float:
+    """Return a value with the digits that matter, so that it is read easily and is
+    the same on each machine."""
+    return float(f"{value:.6g}")
+
+
+def text_of(value: Value) -> str:
+    """Return a value for names and tables."""
+    return f"{value:.6g}" if is_number(value) else str(value)
+
+
+def check_values(values: object) -> tuple[Value, ...]:
+    """Return the values of a list."""
+    require(
+        isinstance(values, list) and len(values) > 0,
+        f"values is {values!r}, not a list such as [28, 31, 34]",
+    )
+    assert isinstance(values, list)
+    for value in values:
+        require(
+            is_number(value) or isinstance(value, (bool, str)),
+            f"{value!r} in values is neither a finite number nor a word",
+        )
+        require(values.count(value) == 1, f"{value!r} is in values twice")
+    return tuple(values)
+
+
+def check_range(given: object) -> tuple[Value, ...]:
+    """Return the values of a range, both ends among them."""
+    require(
+        isinstance(given, dict) and {"from", "to", "n"} <= set(given) <= RANGE_KEYS,
+        f"range is {given!r}; give {{from = 28, to = 36, n = 5}}, and logarithmic ="
+        " true for equal ratios",
+    )
+    assert isinstance(given, dict)
+    first, last, n = given["from"], given["to"], given["n"]
+    require(is_number(first) and is_number(last), "from and to are not both numbers")
+    require(first < last, f"from is {first:g} and must be below to, {last:g}")
+    is_count = isinstance(n, int) and not isinstance(n, bool) and n >= 2
+    require(is_count, f"n is {n!r} and must be a whole number, 2 or more")
+    if not given.get("logarithmic", False):
+        return tuple(rounded(x) for x in np.linspace(first, last, n))
+    require(first > 0, f"from is {first:g}; a logarithmic range begins above 0")
+    return tuple(rounded(x) for x in np.geomspace(first, last, n))
+
+
+def check_choices(given: object) -> dict[str, Entries]:
+    """Return the entries of each choice by its name."""
+    require(
+        isinstance(given, dict)
+        and len(given) > 0
+        and all(isinstance(entries, dict) for entries in given.values()),
+        f"choices is {given!r}; give {{loose = {{"
+        '"Soil/Layer 1/Porosity" = 0.42}, dense = {...}}',
+    )
+    assert isinstance(given, dict)
+    return given
+
+
+def entries_of(name: str, given: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the entries that a parameter sets: those it says, or that of its name."""
+    require(not WHERE <= set(given), "give entry or entries, not both")
+    found = given.get("entries", given.get("entry", name if "/" in name else None))
+    require(
+        found is not None,
+        'it says no entry: give entry = "Section/Entry", or use that as its name',
+    )
+    if isinstance(found, str):
+        found = [found]
+    is_list = isinstance(found, list) and len(found) > 0
+    require(
+        is_list and all(isinstance(entry, str) for entry in found),
+        f"entries is {found!r}, not a list of entries",
+    )
+    return tuple(found)
+
+
+def read(name: str, given: Mapping[str, Any]) -> Parameter:
+    """Return a parameter of a study. Raises DistributionError or FormulaError."""
+    require(isinstance(given, dict), f"it is {given!r}, not a table")
+    ways = [way for way in WAYS if way in given]
+    require(len(ways) == 1, f"give one of {', '.join(WAYS)}, and only one")
+    way = ways[0]
+    known = {way, "base"} | (set() if way == "choices" else WHERE)
+    known |= ALL_KEYS if way == "distribution" else set()
+    unknown = sorted(set(given) - known)
+    require(
+        not unknown,
+        f"it has no key {', '.join(unknown)}; known: {', '.join(sorted(known))}",
+    )
+    found: dict[str, Any] = {"name": name, "base": given.get("base")}
+    if way == "choices":
+        found["choices"] = check_choices(given[way])
+        found["values"] = tuple(found["choices"])
+    else:
+        found["entries"] = entries_of(name, given)
+    if way == "values":
+        found["values"] = check_values(given[way])
+    elif way == "range":
+        found["values"] = check_range(given[way])
+    elif way == "formula":
+        found["formula"] = Formula(str(given[way]))
+    elif way == "distribution":
+        keys = {k: v for k, v in given.items() if k in ALL_KEYS}
+        found["distribution"] = Distribution(given[way], keys)
+    return Parameter(**found)
+
+
+def read_all(tables: object) -> list[Parameter]:
+    """Return the parameters of a study by name, formulas after all others, in an
+    order in which they can be computed. Raises StudyError."""
+    if not isinstance(tables, dict) or not tables:
+        raise StudyError(
+            'a study of parameters needs at least one [parameters."Section/Entry"]'
+        )
+    found = []
+    for name, table in tables.items():
+        try:
+            found.append(read(name, table))
+        except (DistributionError, FormulaError) as error:
+            raise StudyError(f"parameter {name!r}: {error}") from error
+    check_entries(found)
+    free = [parameter for parameter in found if parameter.formula is None]
+    if not free:
+        raise StudyError("each parameter has a formula, so that none varies")
+    return free + sorted_formulas(free, [p for p in found if p.formula is not None])
+
+
+def check_entries(parameters: list[Parameter]) -> None:
+    """Raise StudyError where two parameters set the same entry."""
+    owner: dict[str, str] = {}
+    for parameter in parameters:
+        chosen = (entry for choice in parameter.choices.values() for entry in choice)
+        for entry in {*parameter.entries, *chosen}:
+            if entry in owner:
+                raise StudyError(
+                    f"the parameters {owner[entry]!r} and {parameter.name!r} set the"
+                    f" same entry {entry}"
+                )
+            owner[entry] = parameter.name
+
+
+def sorted_formulas(
+    known: list[Parameter], formulas: list[Parameter]
+) -> list[Parameter]:
+    """Return the formulas, each after those that it needs. Raises StudyError."""
+    names, done = {parameter.name for parameter in known}, list[Parameter]()
+    while len(done) < len(formulas):
+        left = [parameter for parameter in formulas if parameter not in done]
+        ready = [p for p in left if p.formula and p.formula.names <= names]
+        if not ready:
+            formula = left[0].formula
+            assert formula
+            unknown = ", ".join(sorted(formula.names - names))
+            raise StudyError(
+                f"parameter {left[0].name!r}: the formula {formula.text!r} needs"
+                f" {unknown}, which no other parameter gives; known:"
+                f" {', '.join(sorted(names))}"
+            )
+        done += ready
+        names |= {parameter.name for parameter in ready}
+    return done

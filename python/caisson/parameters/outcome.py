@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the runs of a study of parameters have left, at common depths."""
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from caisson import curves
+from caisson.error_bar import QUANTITIES
+from caisson.parameters.entry import Parameter, Sample, read_all
+from caisson.parameters.sampling import sampling_of
+from caisson.plot.suction import rest_of_run
+from caisson.results import ResultsError, Table, read_table
+from caisson.run import Status
+from caisson.study import Study, StudyError, StudyRun
+
+DEPTH = "penetration_m"
+# what is observed unless the study says it: the first that all runs have
+OBSERVED = (
+    "required_suction_Pa",
+    "total_force_with_water_N",
+    "total_force_N",
+    "cavity_pressure_Pa",
+)
+SHOWN = {"_N": ("kN", 1e-3), "_Pa": ("kPa", 1e-3), "_m": ("m", 1.0), "_m3": ("m³", 1.0)}
+COMPLETE, FAILED = "complete", "failed"
+
+
+@dataclass
+class Outcome:
+    """One run: what was varied, how it ended, and what it has computed."""
+
+    name: str
+    sample: Sample
+    status: str  # COMPLETE, FAILED or why there is nothing
+    why: str  # of a failure
+    history: Table | None
+    run: StudyRun
+    wall: float | None  # s
+    is_reference: bool
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether it counts."""
+        return self.status == COMPLETE
+
+    @property
+    def rest(self) -> float | None:
+        """The penetration by weight alone (m), where suction follows it."""
+        if self.history is None or "suction_Pa" not in self.history:
+            return None
+        return rest_of_run(self.history)
+
+
+def why_failed(run: StudyRun) -> str:
+    """Return what the program has said at its end."""
+    path = run.run.directory / "log"
+    try:
+        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return ""
+    for line in reversed(lines):
+        if line.startswith(("failure: ", "bad input: ")):
+            return line.split(": ", 1)[1]
+    return lines[-1] if lines else ""
+
+
+def status_of(run: StudyRun) -> tuple[str, str]:
+    """Return how a run ended, and why if it failed. A result of other entries, as of
+    the study before a change, does not count."""
+    mark = run.run.mark()
+    if mark is None:
+        if run.trouble is None and not (run.run.directory / "log").is_file():
+            return "not run", ""
+        return "no result", why_failed(run) or (run.trouble or "")
+    if mark.get("entries") != run.run.words():
+        return "out of date", "the entries of the study have changed since"
+    if mark["status"] != Status.SUCCESS:
+        return FAILED, why_failed(run)
+    return COMPLETE, ""
+
+
+def outcome_of(run: StudyRun) -> Outcome:
+    """Return what a run has left."""
+    status, why = status_of(run)
+    history = None
+    if status in (COMPLETE, FAILED):
+        try:
+            history = run.results.history
+            if DEPTH not in history or np.ptp(history[DEPTH]) < curves.EDGE:
+                raise ResultsError("the body does not move")
+        except ResultsError as error:
+            status, why, history = FAILED, str(error), None
+    mark = run.run.mark() or {}
+    sample = run.settings.get("sample")
+    return Outcome(
+        run.name,
+        sample or {},
+        status,
+        why,
+        history,
+        run,
+        mark.get("wall_s"),
+        is_reference=sample is None,
+    )
+
+
+def curve_of(history: Table, column: str) -> tuple[np.ndarray, np.ndarray]:
+    """Return depths and values [n] of the way down, of a body that is only pulled of
+    the way up."""
+    rows = curves.way_down(history[DEPTH])
+    if len(rows) < 2:
+        rows = curves.way_up(history[DEPTH])
+    return history[DEPTH][rows], history[column][rows]
+
+
+def values_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
+    """Return the means over 0.2 m, or less at the ends and in short runs, [n]."""
+    depth, values = curve_of(history, column)
+    width = min(curves.FORCE_WINDOW, float(np.ptp(depth)) / 4)
+    return curves.means_to_the_ends(depth, values, depths, width)
+
+
+def unit_of(column: str) -> tuple[str, float]:
+    """Return the unit in which a column of history.csv is shown, and what its values
+    are multiplied by."""
+    for ending, shown in SHOWN.items():
+        if column.endswith(ending):
+            return shown
+    return "", 1.0
+
+
+def title_of(column: str) -> str:
+    """Return a column of history.csv in words, with the unit in which it is shown."""
+    unit, _ = unit_of(column)
+    for ending in SHOWN:
+        column = column.removesuffix(ending)
+    words = column.replace("_", " ")
+    return f"{words} ({unit})" if unit else words
+
+
+def observed_column(keys: dict[str, Any], histories: Sequence[Table]) -> str:
+    """Return the column that the study observes. Raises StudyError."""
+    common = set.intersection(*(set(history) for history in histories))
+    if "observe" in keys:
+        column = keys["observe"]
+        if column not in common:
+            raise StudyError(
+                f"observe = {column!r}: no column of history.csv that all runs have;"
+                f" choose one of {', '.join(n for n in histories[0] if n in common)}"
+            )
+        return str(column)
+    for column in OBSERVED:
+        if column in common and any(np.any(h[column] != 0) for h in histories):
+            return column
+    raise StudyError(
+        "observe is missing: all forces are 0; name a column of history.csv"
+    )
+
+
+def numbers_of(keys: dict[str, Any], key: str) -> list[float]:
+    """Return a list of numbers, or one, of the study. Raises StudyError."""
+    found = keys[key] if isinstance(keys[key], list) else [keys[key]]
+    if not found or not all(
+        type(x) in (int, float) and math.isfinite(x) for x in found
+    ):
+        raise StudyError(f"{key} is {keys[key]!r}; give depths in m, such as [1, 2, 4]")
+    return [float(x) for x in found]
+
+
+class Outcomes:
+    """The outcomes of all runs of a study, at common depths.
+
+    depths [n_depths]: of the table; grid [n_grid]: of the curves, finer. Values of a
+    run are nan where it has not been.
+    """
+
+    def __init__(self, study: Study) -> None:
+        """Raises StudyError where no run has anything to show."""
+        self.study = study
+        self.parameters: list[Parameter] = read_all(study.keys.get("parameters"))
+        self.sampling = sampling_of(study.keys, self.parameters)
+        outcomes = [outcome_of(run) for run in study.runs]
+        self.all = [o for o in outcomes if not o.is_reference]
+        self.reference = next((o for o in outcomes if o.is_reference), None)
+        histories = [o.history for o in outcomes if o.history is not None]
+        if not histories:
+            first = next((o for o in outcomes if o.why), outcomes[0])
+            why = f": {first.why}" if first.why else ""
+            raise StudyError(f"{study.id}: no run has results ({first.status}{why})")
+        self.column = observed_column(study.keys, histories)
+        ways = [curve_of(history, self.column)[0] for history in histories]
+        self.depths = self.table_depths(ways)
+        span = max(float(np.ptp(way)) for way in ways)
+        step = 10.0 ** math.floor(math.log10(span / 20) + 1e-9)
+        self.grid = curves.common_depths(ways, step)
+
+    def table_depths(self, ways: Sequence[np.ndarray]) -> np.ndarray:
+        """Return the depths of the table."""
+        if "depths" in self.study.keys:
+            return np.array(numbers_of(self.study.keys, "depths"))
+        return curves.round_depths(np.concatenate(ways))
+
+    @property
+    def free(self) -> list[Parameter]:
+        """The parameters without a formula."""
+        return [p for p in self.parameters if p.formula is None]
+
+    @property
+    def complete(self) -> list[Outcome]:
+        """The runs that count."""
+        return [o for o in self.all if o.is_complete]
+
+    def values(self, outcome: Outcome, depths: np.ndarray) -> np.ndarray:
+        """Return what is observed in one run, [n_depths]."""
+        if outcome.history is None:
+            return np.full(len(depths), math.nan)
+        return values_at(outcome.history, self.column, depths)
+
+    def matrix(self, depths: np.ndarray) -> np.ndarray:
+        """Return what is observed in the runs that count, [n_runs, n_depths]."""
+        rows = [self.values(outcome, depths) for outcome in self.complete]
+        return np.array(rows).reshape(len(rows), len(depths))
+
+    def tornado_depth(self) -> float:
+        """Return the depth (m) of the tornado: that of the study, or the deepest of
+        the table that all runs reach. Raises StudyError."""
+        if "tornado_depth" in self.study.keys:
+            depth = numbers_of(self.study.keys, "tornado_depth")[0]
+            if not np.isfinite(self.matrix(np.array([depth]))).any():
+                raise StudyError(f"tornado_depth = {depth:g} m: no run has been there")
+            return depth
+        whole = np.isfinite(self.matrix(self.depths)).all(axis=0)
+        if not whole.any():
+            raise StudyError("no depth of the table is passed by all runs; set depths")
+        return float(self.depths[whole].max())
+
+    def half_width(self, depths: np.ndarray, values: np.ndarray) -> np.ndarray | None:
+        """Return the half-width [n_depths] of the error bar that the scene names, for
+        its numerics; None where there is none. values: of what is observed."""
+        quantity = {q.column: q for q in QUANTITIES.values()}.get(self.column)
+        outcome = next(o for o in [*self.all, self.reference] if o and o.history)
+        if quantity is None:
+            return None
+        try:
+            file = outcome.run.results.summary["entries"]["Output/Error bar"]
+            bar = read_table(outcome.run.run.scene.parent / file)
+            half = bar[quantity.half_width]
+        except (ResultsError, KeyError):
+            return None
+        half = np.interp(depths, bar[DEPTH], half, left=math.nan, right=math.nan)
+        return half * np.abs(values) if quantity.is_relative else half

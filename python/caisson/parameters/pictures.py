@@ -1,0 +1,292 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The pictures of a study of parameters: fan.png and tornado.png."""
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from caisson.parameters import effects
+from caisson.parameters.effects import Effect
+from caisson.parameters.entry import text_of
+from caisson.parameters.outcome import Outcome, Outcomes, title_of, unit_of
+from caisson.parameters.sampling import BASE, LATIN, ONE
+
+BLUE, RED = "#2166ac", "#c0392b"
+STYLES = ("-", "--", ":", "-.")
+MANY = 12  # curves that a legend can name
+NO_BAR = "without the error of mesh and method: the scene names no error bar"
+BAR = "error bar of the scene: mesh and method"
+
+
+def draw_quantiles(axes: Axes, outcomes: Outcomes, scale: float) -> np.ndarray | None:
+    """Draw bands between quantiles over the curves they come from; return the median
+    [n_grid]."""
+    matrix = outcomes.matrix(outcomes.grid) * scale
+    for curve in matrix:
+        axes.plot(curve, outcomes.grid, color="0.8", linewidth=0.5, zorder=1)
+    if len(matrix) == 0:
+        return None
+    names, found = effects.spread(matrix)
+    for outer, alpha in ((0, 0.22), (1, 0.35)):
+        last = len(names) - 1 - outer
+        axes.fill_betweenx(
+            outcomes.grid,
+            found[outer],
+            found[last],
+            color=BLUE,
+            alpha=alpha,
+            linewidth=0,
+            zorder=2,
+            label=f"{names[outer]} to {names[last]}",
+        )
+    middle: np.ndarray = found[len(names) // 2]
+    axes.plot(middle, outcomes.grid, color="black", linewidth=1.8, label="median")
+    return middle
+
+
+@dataclass(frozen=True)
+class Line:
+    """How the curve of one run is drawn; label: None where another line has it."""
+
+    outcome: Outcome
+    color: Any
+    style: str
+    label: str | None
+
+
+def lines_of_grid(outcomes: Outcomes) -> tuple[str, list[Line]]:
+    """Return the title of the legend and the lines of a grid or a list, dark to light
+    by the values of the parameter that matters most."""
+    runs, parameter = outcomes.complete, outcomes.free[0]
+    if len(outcomes.free) > 1:
+        _, found = effects.effects_of(outcomes, outcomes.tornado_depth())
+        parameter = found[0].parameter
+    values = {run.sample[parameter.name] for run in runs}
+    ordered = sorted(values, key=lambda value: effects.order(parameter, value))
+    colors = dict(zip(ordered, colormaps["viridis"](np.linspace(0, 0.88, len(values)))))
+    lines, shown = [], set()
+    for run in sorted(runs, key=lambda r: ordered.index(r.sample[parameter.name])):
+        value = run.sample[parameter.name]
+        label = None if value in shown else text_of(value)
+        lines.append(Line(run, colors[value], "-", label))
+        shown.add(value)
+    return parameter.label, lines
+
+
+def lines_of_one(outcomes: Outcomes) -> tuple[str, list[Line]]:
+    """Return the title of the legend and the lines where one parameter changes at a
+    time: a color for each, and a style for each of its values."""
+    base, lines = outcomes.all[0].sample, []
+    for color, parameter in enumerate(outcomes.free):
+        name = parameter.name
+        runs = [r for r in outcomes.complete if r.sample[name] != base[name]]
+        runs.sort(key=lambda r: effects.order(parameter, r.sample[name]))
+        for i, run in enumerate(runs):
+            label: str | None = f"{parameter.label} {text_of(run.sample[name])}"
+            if len(outcomes.all) > MANY:
+                label = None if i else parameter.label
+            lines.append(Line(run, f"C{color % 10}", STYLES[i % len(STYLES)], label))
+    if outcomes.all[0].is_complete:
+        lines.append(Line(outcomes.all[0], "black", "-", BASE))
+    return "", lines
+
+
+def draw_curves(axes: Axes, outcomes: Outcomes, scale: float) -> np.ndarray | None:
+    """Draw the curves of a list or a grid; return that of the base, or the one in the
+    middle, [n_grid]."""
+    is_one = outcomes.sampling == ONE
+    title, lines = (lines_of_one if is_one else lines_of_grid)(outcomes)
+    drawn = []
+    for line in lines:
+        drawn.append(outcomes.values(line.outcome, outcomes.grid) * scale)
+        axes.plot(
+            drawn[-1],
+            outcomes.grid,
+            color=line.color,
+            linestyle=line.style,
+            linewidth=2 if line.label == BASE else 1.3,
+            label=line.label,
+        )
+    axes.legend(title=title)  # the title is kept when the legend is made again
+    return drawn[-1 if is_one else len(drawn) // 2] if drawn else None
+
+
+def draw_error(
+    axes: Axes, outcomes: Outcomes, middle: np.ndarray | None, scale: float
+) -> str:
+    """Draw the error bar of the scene on a curve at the depths of the table; return
+    what the caption says of it."""
+    if middle is None:
+        return NO_BAR
+    values = np.interp(outcomes.depths, outcomes.grid, middle / scale)
+    half = outcomes.half_width(outcomes.depths, values)
+    if half is None:
+        return NO_BAR
+    axes.errorbar(
+        values * scale,
+        outcomes.depths,
+        xerr=half * scale,
+        fmt="none",
+        ecolor="black",
+        capsize=3,
+        linewidth=1,
+        zorder=4,
+        label=BAR,
+    )
+    return "error bar of the scene as for its own entries"
+
+
+def caption(outcomes: Outcomes, text: str) -> str:
+    """Return what the runs are, and what is left out."""
+    complete, n = len(outcomes.complete), len(outcomes.all)
+    words = [f"{complete} runs" if complete == n else f"{complete} of {n} runs"]
+    words[0] += f", {outcomes.sampling}"
+    if complete < n:
+        words[0] += f"; failed or missing: {n - complete}"
+    if outcomes.sampling == LATIN and complete:
+        whole = np.isfinite(outcomes.matrix(outcomes.grid)).all(axis=0)
+        if not whole.all() and whole.any():
+            last = outcomes.grid[whole].max()
+            words.append(f"quantiles as far as all runs reach, {last:.4g} m")
+    return "\n".join([*words, text])
+
+
+def draw_fan(path: Path, outcomes: Outcomes) -> Path:
+    """Write what is observed over depth, of all runs."""
+    _, scale = unit_of(outcomes.column)
+    figure = Figure(figsize=(7.5, 7.5))
+    axes = figure.subplots()
+    is_latin = outcomes.sampling == LATIN
+    middle = (draw_quantiles if is_latin else draw_curves)(axes, outcomes, scale)
+    reference = outcomes.reference
+    if reference is not None and reference.is_complete:
+        axes.plot(
+            outcomes.values(reference, outcomes.grid) * scale,
+            outcomes.grid,
+            color=RED,
+            linewidth=1.3,
+            linestyle="--",
+            label="the scene as it is",
+        )
+    text = draw_error(axes, outcomes, middle, scale)
+    old = axes.get_legend()
+    title = old.get_title().get_text() if old is not None else ""
+    axes.legend(fontsize=8, framealpha=0.9, title=title, title_fontsize=8)
+    axes.grid(color="0.9")
+    axes.set_axisbelow(True)
+    axes.invert_yaxis()
+    axes.xaxis.set_label_position("top")
+    axes.xaxis.tick_top()
+    axes.set_xlabel(title_of(outcomes.column))
+    axes.set_ylabel("penetration (m)")
+    figure.suptitle(outcomes.study.title, fontsize=11)
+    note = caption(outcomes, text)
+    figure.text(0.5, 0.01, note, ha="center", fontsize=8, color="0.3")
+    figure.tight_layout(rect=(0, 0.03 + 0.018 * note.count("\n"), 1, 1))
+    figure.savefig(path, dpi=150)
+    return path
+
+
+def draw_correlations(axes: Axes, found: list[Effect], n: int) -> None:
+    """Draw the rank correlations of n runs, the largest on top."""
+    for i, effect in enumerate(found):
+        color = RED if effect.high > 0 else BLUE
+        axes.barh(i, effect.high, color=color, height=0.6)
+        side = 1 if effect.high >= 0 else -1
+        axes.annotate(
+            f"{effect.high:+.2f}",
+            (effect.high, i),
+            (4 * side, 0),
+            textcoords="offset points",
+            ha="left" if side > 0 else "right",
+            va="center",
+            fontsize=9,
+        )
+    limit = effects.chance(n)
+    axes.axvspan(
+        -limit,
+        limit,
+        color="0.85",
+        zorder=0,
+        label="range of chance (95 %)",
+    )
+    axes.set_xlim(-1.18, 1.18)
+    axes.set_xlabel("rank correlation (Spearman)")
+
+
+def draw_swings(axes: Axes, found: list[Effect], base: float, scale: float) -> None:
+    """Draw the results at both ends of each parameter, with its values there."""
+    shown = set()
+    for i, effect in enumerate(found):
+        ends = zip(
+            (effect.low, effect.high), effect.ends, (not effect.rises, effect.rises)
+        )
+        for result, value, is_larger in ends:
+            label = f"{'larger' if is_larger else 'smaller'} value"
+            axes.barh(
+                i,
+                (result - base) * scale,
+                left=base * scale,
+                color=RED if is_larger else BLUE,
+                height=0.6,
+                label=None if label in shown else label,
+            )
+            shown.add(label)
+            side = -1 if result == effect.low else 1
+            axes.annotate(
+                text_of(value),
+                (result * scale, i),
+                (4 * side, 0),
+                textcoords="offset points",
+                ha="right" if side < 0 else "left",
+                va="center",
+                fontsize=9,
+            )
+    results = np.array([(e.low, e.high) for e in found]).ravel() * scale
+    span = max(float(np.ptp([*results, base * scale])), 1e-9)
+    low, high = min(*results, base * scale), max(*results, base * scale)
+    axes.set_xlim(low - 0.2 * span, high + 0.2 * span)
+    axes.axvline(base * scale, color="black", linewidth=1)
+    axes.ticklabel_format(axis="x", style="plain", useOffset=False)
+
+
+def draw_tornado(path: Path, outcomes: Outcomes, depth: float) -> Path | None:
+    """Write the effects of several parameters at a depth (m); return the path, None
+    where there are none."""
+    base, found = effects.effects_of(outcomes, depth)
+    if len(found) < 2:
+        return None
+    found = found[::-1]  # the largest on top
+    _, scale = unit_of(outcomes.column)
+    figure = Figure(figsize=(8, 2.6 + 0.5 * len(found)))
+    axes = figure.subplots()
+    notes = [f"{len(outcomes.complete)} runs, {outcomes.sampling}"]
+    if outcomes.sampling == LATIN:
+        draw_correlations(axes, found, len(outcomes.complete))
+    else:
+        draw_swings(axes, found, base, scale)
+        axes.set_xlabel(title_of(outcomes.column))
+        half = outcomes.half_width(np.array([depth]), np.array([base]))
+        if half is not None and np.isfinite(half[0]):
+            ends = (base - half[0]) * scale, (base + half[0]) * scale
+            axes.axvspan(*ends, color="0.85", zorder=0, label=BAR)
+        line = "base" if outcomes.sampling == ONE else "mean of all runs"
+        notes[0] += f"; black line: {line}; numbers: values of the parameter"
+        notes += [NO_BAR] if half is None else []
+    axes.set_yticks(range(len(found)), [effect.parameter.label for effect in found])
+    axes.grid(color="0.9", axis="x")
+    axes.set_axisbelow(True)
+    title = f"{outcomes.study.title}\n{title_of(outcomes.column)} at {depth:.4g} m"
+    figure.suptitle(title, fontsize=11)
+    axes.legend(
+        fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1), ncol=3, frameon=False
+    )
+    note = "\n".join(notes)
+    figure.text(0.5, 0.012, note, ha="center", fontsize=8, color="0.3")
+    figure.tight_layout(rect=(0, 0.06 * len(notes), 1, 1))
+    figure.savefig(path, dpi=150)
+    return path

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The runs of a study of parameters: grid, one at a time, Latin hypercube.
+
+A Latin hypercube takes each parameter once from each of n equally likely parts of its
+distribution (McKay, Beckman & Conover 1979, doi:10.2307/1268522), by scipy.stats.qmc.
+"""
+import functools
+import itertools
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from scipy.stats import qmc
+
+from caisson.parameters.entry import Parameter, Sample, Value, read_all, text_of
+from caisson.parameters.formula import FormulaError
+from caisson.run import Run, RunError, read_parameters, set_options
+from caisson.study import StudyError, file_name
+
+GRID, ONE, LATIN = "grid", "one at a time", "Latin hypercube"
+SAMPLINGS = (GRID, ONE, LATIN)
+BASE = "base"  # the name of the run with which others are compared
+AS_IN_SCENE = "as in the scene"  # value of choices at the base of the scene
+FEWEST = 5  # samples
+LONGEST = 100  # characters of the name of a run
+
+SceneValue = Callable[[str], Value]  # of an entry of the scene
+
+
+def sampling_of(study: Mapping[str, Any], parameters: Sequence[Parameter]) -> str:
+    """Return how the study samples. Raises StudyError."""
+    free = [p for p in parameters if p.formula is None]
+    uncertain = [p.name for p in free if p.distribution is not None]
+    default = GRID if len(free) == 1 and not uncertain else None
+    found = study.get("sampling", default)
+    if found not in SAMPLINGS:
+        words = ", ".join(f'"{name}"' for name in SAMPLINGS)
+        says = "is missing" if found is None else f"is {found!r}"
+        raise StudyError(f"sampling {says}; choose one of {words}")
+    if found == GRID and uncertain:
+        raise StudyError(
+            f"a grid needs values, a range or choices, and {uncertain[0]!r} has a"
+            f' distribution; choose sampling = "{LATIN}"'
+        )
+    for key in ("samples", "seed"):
+        if found != LATIN and key in study:
+            raise StudyError(f'{key} is for sampling = "{LATIN}", not for {found!r}')
+    return str(found)
+
+
+def whole_number(study: Mapping[str, Any], key: str, default: int | None) -> int:
+    """Return a whole number of the study, 0 or more. Raises StudyError."""
+    found = study.get(key, default)
+    if not isinstance(found, int) or isinstance(found, bool) or found < 0:
+        says = "is missing" if found is None else f"is {found!r}"
+        raise StudyError(f"{key} {says}; give a whole number, such as {key} = 50")
+    return found
+
+
+def latin(study: Mapping[str, Any], free: Sequence[Parameter]) -> Iterator[Sample]:
+    """Yield the samples of a Latin hypercube. Raises StudyError."""
+    n = whole_number(study, "samples", None)
+    fewest = max(FEWEST, len(free) + 2)
+    if n < fewest:
+        raise StudyError(
+            f"samples = {n} are too few for {len(free)} parameters: at least {fewest},"
+            " and 20 or more for quantiles of 5 and 95 %"
+        )
+    seed = np.random.default_rng(whole_number(study, "seed", 0))
+    shares = qmc.LatinHypercube(d=len(free), seed=seed).random(n)
+    picked = [parameter.picked(shares[:, i]) for i, parameter in enumerate(free)]
+    for values in zip(*picked):
+        yield {parameter.name: value for parameter, value in zip(free, values)}
+
+
+def base_of(parameter: Parameter, scene_value: SceneValue) -> Value:
+    """Return the value of a parameter at the base: what it says, or the median of its
+    distribution, or the value of the scene. Raises StudyError."""
+    if parameter.base is not None:
+        if parameter.choices and parameter.base not in parameter.choices:
+            raise StudyError(
+                f"parameter {parameter.name!r}: base is {parameter.base!r}, not one of"
+                f" {', '.join(parameter.choices)}"
+            )
+        return parameter.base
+    if parameter.distribution is not None:
+        return parameter.picked(np.array([0.5]))[0]
+    if parameter.choices:
+        return AS_IN_SCENE
+    found = {entry: scene_value(entry) for entry in parameter.entries}
+    if len(set(found.values())) > 1:
+        text = ", ".join(f"{entry} = {value}" for entry, value in found.items())
+        raise StudyError(
+            f"parameter {parameter.name!r}: its entries differ in the scene ({text});"
+            " give base"
+        )
+    return next(iter(found.values()))
+
+
+def one_at_a_time(
+    free: Sequence[Parameter], scene_value: SceneValue
+) -> Iterator[Sample]:
+    """Yield the base, and it with one parameter changed, for each of its values."""
+    base = {parameter.name: base_of(parameter, scene_value) for parameter in free}
+    yield base
+    for parameter in free:
+        for value in parameter.ends():
+            if value != base[parameter.name]:
+                yield {**base, parameter.name: value}
+
+
+def grid(free: Sequence[Parameter]) -> Iterator[Sample]:
+    """Yield each combination of all values."""
+    for values in itertools.product(*(parameter.values for parameter in free)):
+        yield {parameter.name: value for parameter, value in zip(free, values)}
+
+
+def samples_of(
+    study: Mapping[str, Any], parameters: Sequence[Parameter], scene_value: SceneValue
+) -> list[Sample]:
+    """Return all samples with the values of formulas. Raises StudyError."""
+    free = [p for p in parameters if p.formula is None]
+    sampling = sampling_of(study, parameters)
+    if sampling == LATIN:
+        samples = list(latin(study, free))
+    elif sampling == ONE:
+        samples = list(one_at_a_time(free, scene_value))
+    else:
+        samples = list(grid(free))
+    for sample in samples:
+        for parameter in parameters:
+            if parameter.formula is None:
+                continue
+            try:
+                value = parameter.formula.value(sample)
+            except FormulaError as error:
+                raise StudyError(f"parameter {parameter.name!r}: {error}") from error
+            sample[parameter.name] = float(f"{value:.6g}")
+    return samples
+
+
+def names_of(
+    sampling: str, free: Sequence[Parameter], samples: list[Sample]
+) -> list[str]:
+    """Return the names of the runs [n_samples]. Those of a grid and of one parameter
+    at a time are made of values, so that a run keeps its name when others are added."""
+    digits = len(str(len(samples)))
+    numbers = [f"sample {i + 1:0{digits}}" for i in range(len(samples))]
+    if sampling == LATIN:
+        return numbers
+    names = []
+    for i, sample in enumerate(samples):
+        if sampling == ONE and i == 0:
+            names.append(BASE)
+            continue
+        changed = [
+            f"{p.label} {text_of(sample[p.name])}"
+            for p in free
+            if sampling == GRID or sample[p.name] != samples[0][p.name]
+        ]
+        names.append(", ".join(changed))
+    is_clear = len({file_name(name) for name in names}) == len(names)
+    return names if is_clear and max(map(len, names)) <= LONGEST else numbers
+
+
+def scene_reader(scene: Run) -> SceneValue:
+    """Return what reads the value of an entry of the scene, with the program when it
+    is first asked for."""
+
+    @functools.cache
+    def entries() -> dict[str, str]:
+        words = [str(scene.scene), *set_options(scene.entries)]
+        try:
+            return read_parameters(words, scene.program)
+        except RunError as error:
+            raise StudyError(f"the scene is refused: {error}") from error
+        except OSError as error:
+            raise StudyError(f"{scene.program} cannot be run: {error}") from error
+
+    def value(entry: str) -> Value:
+        if entry not in entries():
+            raise StudyError(f"the program has no entry {entry}")
+        text = entries()[entry]
+        try:
+            return float(text)
+        except ValueError:
+            return {"true": True, "false": False}.get(text, text)
+
+    return value
+
+
+def runs_of(study: Mapping[str, Any], scene: Run) -> list[dict[str, Any]]:
+    """Return the runs of a study as a list of their keys: name, set, sample. Raises
+    StudyError."""
+    parameters = read_all(study.get("parameters"))
+    samples = samples_of(study, parameters, scene_reader(scene))
+    free = [p for p in parameters if p.formula is None]
+    names = names_of(sampling_of(study, parameters), free, samples)
+    runs = []
+    for name, sample in zip(names, samples):
+        entries: dict[str, Any] = {}
+        for parameter in parameters:
+            entries |= parameter.set(sample[parameter.name])
+        runs.append({"name": name, "set": entries, "sample": sample})
+    return runs

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The tables of a study of parameters: table.csv, fan.csv, and what is printed."""
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from caisson import table
+from caisson.parameters import effects
+from caisson.parameters.entry import text_of
+from caisson.parameters.outcome import DEPTH, Outcome, Outcomes, title_of, unit_of
+from caisson.parameters.sampling import LATIN
+
+PRINTED = 20  # rows of runs; of more runs the quantiles are printed
+
+
+def digits(value: float | None) -> str:
+    """Return six digits, and an empty cell for what is not known."""
+    return "" if value is None or not math.isfinite(value) else f"{value:.6g}"
+
+
+def largest(outcomes: Outcomes, outcome: Outcome) -> tuple[float, float]:
+    """Return the largest value of what is observed, of a body that is pulled the
+    largest pull, and its depth (m); nan where there is none."""
+    values = outcomes.values(outcome, outcomes.grid)
+    if not np.isfinite(values).any():
+        return math.nan, math.nan
+    is_pulled = np.nanmax(values) <= 0 and outcomes.column.endswith("_N")
+    at = int(np.nanargmin(values) if is_pulled else np.nanargmax(values))
+    return float(values[at]), float(outcomes.grid[at])
+
+
+def row_of(outcomes: Outcomes, outcome: Outcome, has_rest: bool) -> list[str]:
+    """Return the row of a run in table.csv."""
+    sample = [outcome.sample.get(p.name, "") for p in outcomes.parameters]
+    row = [outcome.name, outcome.status, *map(text_of, sample)]
+    row += map(digits, outcomes.values(outcome, outcomes.depths))
+    row += map(digits, largest(outcomes, outcome))
+    history = outcome.history
+    row.append(digits(None if history is None else float(history[DEPTH].max())))
+    if has_rest:
+        row.append(digits(outcome.rest))
+    return [*row, digits(outcome.wall), outcome.why]
+
+
+def write_runs(path: Path, outcomes: Outcomes) -> Path:
+    """Write table.csv: a row for each run."""
+    column = outcomes.column
+    runs = outcomes.all + ([outcomes.reference] if outcomes.reference else [])
+    has_rest = any(run.rest is not None for run in runs)
+    names = ["run", "status", *(p.name for p in outcomes.parameters)]
+    names += [f"{column} at {depth:g} m" for depth in outcomes.depths]
+    names += [f"largest_{column}", "depth_of_largest_m", "largest_penetration_m"]
+    names += ["penetration_by_weight_m"] if has_rest else []
+    names += ["wall_time_s", "remark"]
+    table.write_csv(path, names, [row_of(outcomes, run, has_rest) for run in runs])
+    return path
+
+
+def write_fan(path: Path, outcomes: Outcomes) -> Path:
+    """Write fan.csv: what is observed over depth, in each run that counts, and of a
+    Latin hypercube its quantiles first."""
+    column, matrix = outcomes.column, outcomes.matrix(outcomes.grid)
+    columns: dict[str, Any] = {DEPTH: outcomes.grid}
+    if outcomes.sampling == LATIN and len(matrix):
+        for name, values in zip(*effects.spread(matrix)):
+            columns[f"{column} [{name}]"] = values
+    for outcome, values in zip(outcomes.complete, matrix):
+        columns[f"{column} [{outcome.name}]"] = values
+    rows = zip(*(map(digits, values) for values in columns.values()))
+    table.write_csv(path, list(columns), list(rows))
+    return path
+
+
+def lines(outcomes: Outcomes, depth: float) -> Iterator[str]:
+    """Yield what is printed: runs or quantiles, effects, and what has failed."""
+    unit, scale = unit_of(outcomes.column)
+    heads = [f"{x:g} m" for x in outcomes.depths]
+    yield f"{outcomes.study.title}: {title_of(outcomes.column)}"
+    if len(outcomes.all) <= PRINTED:
+        rows = [
+            [o.name, *(cell(x * scale) for x in outcomes.values(o, outcomes.depths))]
+            for o in outcomes.all
+        ]
+        yield table.markdown(["run", *heads], rows)
+    if outcomes.sampling == LATIN and outcomes.complete:
+        names, values = effects.spread(outcomes.matrix(outcomes.depths))
+        rows = [[n, *(cell(x * scale) for x in v)] for n, v in zip(names, values)]
+        yield table.markdown(["quantile", *heads], rows)
+    _, found = effects.effects_of(outcomes, depth)
+    if found and outcomes.sampling == LATIN:
+        rows = [[e.parameter.label, f"{e.high:+.2f}"] for e in found]
+        yield f"rank correlation (Spearman) at {depth:g} m; by chance below" + (
+            f" {effects.chance(len(outcomes.complete)):.2f}:"
+        )
+        yield table.markdown(["parameter", "correlation"], rows)
+    elif found:
+        rows = [effects.text_of_effect(effect, unit, scale) for effect in found]
+        yield f"effects at {depth:g} m:"
+        yield table.markdown(["parameter", "smallest", "largest"], rows)
+    for outcome in outcomes.all:
+        if not outcome.is_complete:
+            yield f"{outcome.name}: {outcome.status}, {outcome.why}".rstrip(", ")
+
+
+def cell(value: float) -> str:
+    """Return a value for the printed tables."""
+    return f"{value:.4g}" if math.isfinite(value) else "-"

@@ -1,0 +1,293 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Studies of parameters with a stand-in for the program: checked, run, resumed in
+parts, and evaluated."""
+import argparse
+import contextlib
+import csv
+import fcntl
+import io
+import json
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from made_up import write_run
+
+from caisson import study_command
+from caisson.parameters import effects
+from caisson.parameters.outcome import Outcomes
+from caisson.results import read_table
+from caisson.study import Options, Study, StudyError
+
+STAND_IN = Path(__file__).resolve().parent / "stand_in.py"
+HEAD = 'kind = "parameters"\nscene = "a.prm"\n'
+PHI = '[parameters."Soil/Friction angle"]\n'
+PUSHED = np.linspace(0.5, 4.5, 401)
+
+
+class WithFiles(unittest.TestCase):
+    """A directory with a scene and a study."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name)
+        (self.path / "a.prm").touch()
+
+    def write(self, text: str) -> Path:
+        """Write the study."""
+        file = self.path / "s.toml"
+        file.write_text(HEAD + text, encoding="utf-8")
+        return file
+
+    def rows(self, name: str) -> list[dict[str, str]]:
+        """Return the rows of a file of the study."""
+        with open(self.path / "results/s" / name, encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+
+class Commands(WithFiles):
+    """caisson study FILE."""
+
+    def study(self, *options: str) -> tuple[int, str]:
+        """Run the command; return its status and all that it says."""
+        parser = argparse.ArgumentParser(prog="caisson study")
+        study_command.declare(parser)
+        words = [str(self.path / "s.toml"), "--program", str(STAND_IN)]
+        words += ["--results", str(self.path / "results"), *options]
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            status = study_command.main(parser.parse_args(words))
+        return status, said.getvalue()
+
+    def calls(self) -> list[str]:
+        """Return the runs that the stand-in has made, in the order of their names."""
+        path = self.path / "results/s/calls"
+        return sorted(path.read_text().split()) if path.exists() else []
+
+    def test_resumed_with_a_failure(self) -> None:
+        """A run that breaks off is in the table as far as it went, and in the status;
+        values that are added are run, the others are not run again."""
+        self.write(PHI + "values = [30, 42]")
+        status, said = self.study()
+        self.assertEqual(status, 1)
+        self.assertIn("Friction angle 42: failed, the soil is too strong", said)
+        self.write("depths = [1, 4]\n" + PHI + "values = [30, 34, 42]")
+        status, said = self.study("--jobs", "3")
+        self.assertIn("runs to do: 1, about 0.5 min on this machine, 3 at a time", said)
+        made = ["Friction_angle_30", "Friction_angle_34", "Friction_angle_42"]
+        self.assertEqual(self.calls(), made)
+        rows = self.rows("table.csv")
+        at = [[row[f"total_force_N at {x} m"] for x in (1, 4)] for row in rows]
+        self.assertEqual(at, [["35000", "140000"], ["39000", "156000"], ["47000", ""]])
+        states = [row["status"] for row in rows]
+        self.assertEqual(states, ["complete", "complete", "failed"])
+        self.assertEqual(rows[2]["largest_penetration_m"], "3")
+        self.assertEqual(rows[0]["largest_total_force_N"], "157500")
+        self.assertGreater(float(rows[0]["wall_time_s"]), 0)
+        curves = read_table(self.path / "results/s/fan.csv")
+        force = curves["total_force_N [Friction angle 34]"]
+        np.testing.assert_allclose(force, 39000 * curves["penetration_m"])
+        self.assertEqual(len(curves), 3, "two runs that count")
+        fan = self.path / "results/s/fan.png"
+        self.assertGreater(fan.stat().st_size, 10000)
+
+    def test_parts(self) -> None:
+        """Two parts make all runs, each its own; what is there is evaluated without
+        the program."""
+        self.write(
+            'sampling = "one at a time"\n'
+            + PHI
+            + 'values = [28, 34]\n[parameters."Soil/Kind"]\nvalues = ["gravel"]'
+        )
+        self.assertEqual(self.study("--part", "2/3")[0], 0)
+        self.assertEqual(self.calls(), ["Friction_angle_28"])
+        status, said = self.study("--evaluate")
+        self.assertEqual(status, 1)
+        self.assertIn("Friction angle 34: not run", said)
+        self.assertIn("base: not run", said)
+        status, said = self.study("--part", "1/3")
+        self.assertEqual(status, 0)
+        self.assertIn("part 1 of 3: 2 of 2 runs are complete", said)
+        self.assertEqual(self.study("--part", "3/3")[0], 0)
+        self.assertEqual(len(self.calls()), 4)
+        status, said = self.study("--evaluate", "--program", "/nowhere")
+        self.assertEqual(status, 1, "the base is read from the scene")
+        self.assertIn("/nowhere cannot be run", said)
+        status, said = self.study("--evaluate")
+        self.assertEqual(status, 0)
+        self.assertIn("132 kN at 28", said)
+        self.assertTrue((self.path / "results/s/tornado.png").exists())
+        for part in ("0/3", "4/3", "3"):
+            with self.assertRaises(SystemExit):
+                self.study("--part", part)
+
+    def test_checked_before_the_first_run(self) -> None:
+        self.write(PHI + "values = [30, -1, -2]")
+        status, said = self.study()
+        self.assertEqual(status, 1)
+        self.assertIn("'Friction angle -1' is refused: bad input", said)
+        self.assertIn("(so is 1 of the other runs)", said)
+        self.write(PHI + 'values = [30]\nentry = "Soil/Frction angle"')
+        status, said = self.study()
+        self.assertIn("there is no entry Soil/Frction angle", said)
+        self.assertEqual((status, self.calls()), (1, []))
+
+    def test_changed_study(self) -> None:
+        """Results of other values under the same name do not count."""
+        text = 'sampling = "Latin hypercube"\nsamples = 5\nseed = {}\n' + PHI
+        text += 'distribution = "uniform"\nmin = 30\nmax = 35'
+        self.write(text.format(1))
+        self.assertEqual(self.study()[0], 0)
+        self.write(text.format(2))
+        status, said = self.study("--evaluate")
+        self.assertEqual(status, 1)
+        self.assertIn("no run has results (out of date", said)
+
+    def test_a_run_that_is_computed_elsewhere(self) -> None:
+        """Its directory is left alone."""
+        self.write(PHI + "values = [30, 34]")
+        place = self.path / "results/s/Friction_angle_30"
+        place.mkdir(parents=True)
+        (place / "precious").touch()
+        with open(place / ".lock", "w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            status, said = self.study()
+        self.assertEqual(status, 1)
+        self.assertIn("another process computes in", said)
+        self.assertTrue((place / "precious").exists())
+        self.assertEqual(self.calls(), ["Friction_angle_34"])
+
+    def test_jobs(self) -> None:
+        """As many runs at a time as there are cores for their ranks."""
+        self.write("ranks = 1000\n" + PHI + "values = [30]")
+        options = Options(program=STAND_IN)
+        file = self.path / "s.toml"
+        module = study_command.module_of(file)
+        studies = study_command.reader_of(file, options, module).studies()
+        self.assertEqual(study_command.jobs_at_hand(studies), 1)
+        self.write(PHI + "values = [30]")
+        studies = study_command.reader_of(file, options, module).studies()
+        cores = len(os.sched_getaffinity(0))
+        self.assertEqual(study_command.jobs_at_hand(studies), cores)
+
+
+class Evaluation(WithFiles):
+    """Effects and quantiles of made-up results."""
+
+    def outcomes(self, text: str, force: str, summary: dict[str, object]) -> Outcomes:
+        """Return the outcomes of a study whose forces, in N, are an expression of the
+        penetration d, the number i of the run and its sample s."""
+        file = self.write(text)
+        options = Options(results=self.path / "results", program=STAND_IN)
+        module = study_command.module_of(file)
+        study: Study
+        (study,) = study_command.reader_of(file, options, module).studies()
+        for i, run in enumerate(study.runs):
+            names = {"d": PUSHED, "i": i, "s": run.settings["sample"]}
+            table = {"time_s": PUSHED, "penetration_m": PUSHED}
+            table["total_force_N"] = eval(force, names) + 0 * PUSHED
+            write_run(run.run.directory, table, summary)
+            mark = {"key": "", "entries": run.run.words(), "status": 0, "wall_s": 1}
+            (run.run.directory / "run_key.json").write_text(json.dumps(mark))
+        return Outcomes(study)
+
+    def test_one_at_a_time(self) -> None:
+        """An effect that is largest between the ends of its parameter, and the larger
+        effect first."""
+        found = self.outcomes(
+            'sampling = "one at a time"\n'
+            + PHI
+            + "values = [28, 31, 34]\nbase = 30\n"
+            + '[parameters."Soil/Stiffness"]\nvalues = [1e6, 9e6]\nbase = 5e6',
+            'd * (9 - (s["Soil/Friction angle"] - 30)**2 + s["Soil/Stiffness"] / 1e6)',
+            {},
+        )
+        base, (first, second) = effects.effects_of(found, 2.0)
+        self.assertAlmostEqual(base, 28)
+        self.assertEqual(first.parameter.name, "Soil/Friction angle")
+        self.assertEqual(first.ends, (34, 30))
+        self.assertAlmostEqual(first.low, -4)
+        self.assertFalse(first.rises)
+        self.assertEqual(second.ends, (1e6, 9e6))
+        np.testing.assert_allclose((second.low, second.high), (20, 36))
+        self.assertTrue(second.rises)
+
+    def test_grid(self) -> None:
+        """Main effects: means over the other parameter."""
+        found = self.outcomes(
+            'sampling = "grid"\n'
+            + PHI
+            + "values = [30, 32]\n"
+            + '[parameters."Soil/Kind"]\nvalues = ["a", "b", "c"]',
+            's["Soil/Friction angle"] + 100 * "cab".index(s["Soil/Kind"])',
+            {},
+        )
+        base, (kind, angle) = effects.effects_of(found, found.tornado_depth())
+        self.assertAlmostEqual(base, 131)
+        self.assertEqual((kind.ends, angle.ends), (("c", "b"), (30, 32)))
+        np.testing.assert_allclose((kind.low, kind.high), (31, 231))
+        np.testing.assert_allclose((angle.low, angle.high), (130, 132))
+        self.assertFalse(kind.rises, "the order of the list")
+
+    LATIN = (
+        'sampling = "Latin hypercube"\nsamples = {}\n'
+        + PHI
+        + 'distribution = "normal"\nmean = 33\nstandard_deviation = 2\n'
+        + '[parameters."Soil/Stiffness"]\ndistribution = "uniform"\nmin = 1\nmax = 2'
+    )
+
+    def test_latin_hypercube(self) -> None:
+        """A force that falls with the angle alone: any monotonic one has a rank
+        correlation of -1. Quantiles of many runs, and of few."""
+        falling = 'd * 2.0**(40 - s["Soil/Friction angle"])'
+        found = self.outcomes(self.LATIN.format(12), falling, {})
+        _, (angle, other) = effects.effects_of(found, 3.0)
+        self.assertAlmostEqual(angle.high, -1)
+        self.assertLess(abs(other.high), effects.chance(12))
+        self.assertAlmostEqual(effects.chance(12), 0.576, 3)
+        few = self.outcomes(self.LATIN.format(11), "1e3 * d * (i + 1)", {})
+        names, values = effects.spread(few.matrix(np.array([2.0])))
+        self.assertEqual((names[0], names[-1]), ("smallest", "largest"))
+        np.testing.assert_allclose(values[[0, 2, 4], 0], [2e3, 12e3, 22e3])
+        many = self.outcomes(self.LATIN.format(21), "1e3 * d * (i + 1)", {})
+        names, values = effects.spread(many.matrix(np.array([2.0])))
+        self.assertEqual(names, ["5 %", "25 %", "50 %", "75 %", "95 %"])
+        np.testing.assert_allclose(values[:, 0], [4e3, 12e3, 22e3, 32e3, 40e3])
+
+    def test_error_bar(self) -> None:
+        """That of the scene, relative to the force."""
+        (self.path / "bar.csv").write_text(
+            "# fingerprint: x\npenetration_m,total_error\n1,0.1\n3,0.2\n"
+        )
+        named: dict[str, object] = {"entries": {"Output/Error bar": "bar.csv"}}
+        found = self.outcomes(PHI + "values = [30]", "1e3 * d", named)
+        depths = np.array([1.0, 2.0, 4.0])
+        half = found.half_width(depths, np.array([10.0, -10.0, 10.0]))
+        assert half is not None
+        np.testing.assert_allclose(half, [1, 1.5, np.nan])
+        found = self.outcomes(PHI + "values = [31]", "1e3 * d", {"entries": {}})
+        self.assertIsNone(found.half_width(depths, depths))
+
+    def test_observed(self) -> None:
+        """What there is; what there is not is refused with the columns there are."""
+        found = self.outcomes(PHI + "values = [30]", "1e3 * d", {})
+        self.assertEqual(found.column, "total_force_N")
+        np.testing.assert_array_equal(found.depths, [1, 2, 3, 4])
+        for text, words in {
+            'observe = "tip_force"': "choose one of time_s, penetration_m, total_force",
+            'depths = "all"': "depths is 'all'",
+        }.items():
+            with self.assertRaisesRegex(StudyError, words):
+                self.outcomes(text + "\n" + PHI + "values = [30]", "d", {})
+        with self.assertRaisesRegex(StudyError, "all forces are 0"):
+            self.outcomes(PHI + "values = [30]", "0 * d", {})
+        deep = self.outcomes("tornado_depth = 9\n" + PHI + "values = [30]", "d", {})
+        with self.assertRaisesRegex(StudyError, "tornado_depth = 9 m: no run"):
+            deep.tornado_depth()
+
+
+if __name__ == "__main__":
+    unittest.main()
