@@ -13,8 +13,8 @@ above those that it uses:
     design                  solutions to compare with (no program needed)
     plot                    pictures of a run
     study                   the format of all studies, and how they are run
-    verification, accuracy, error_bar, stability, forces, parameters, drainage, speed
-                            what a study is for: each evaluates one kind
+    verification, accuracy, error_bar, stability, forces, parameters, drainage,
+    speed                   what a study is for: each evaluates one kind
     developer               checks of the sources
 
 scripts/caisson is the command line. Needed besides Python 3.11: numpy,

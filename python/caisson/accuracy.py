@@ -23,6 +23,7 @@ from caisson.study import Options, Study, StudyRun
 NAME = "accuracy"
 STUDY_KEYS = set("measure check column depths".split())
 RUN_KEYS = set[str]()
+JOBS = 2  # runs at a time: more would take each other's memory and change the times
 ASKED = [0.01, 0.03, 0.1]
 DEFAULT, REFERENCE = "default", "reference"
 COLUMNS = ["problem", "variant", "mesh", "seconds", "relative_error"]

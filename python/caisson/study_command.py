@@ -154,7 +154,7 @@ def run_and_evaluate(
         if words.part:
             raise StudyError(f"studies of kind {module.NAME!r} have no parts")
         return int(module.measure(studies, options, words.evaluate))
-    jobs = words.jobs or jobs_at_hand(studies)
+    jobs = words.jobs or getattr(module, "JOBS", None) or jobs_at_hand(studies)
     if not words.evaluate:
         if hasattr(module, "check"):
             module.check(studies, jobs)

@@ -125,6 +125,13 @@ class Runs(unittest.TestCase):
         places = [run.run.directory for run in study.runs]
         self.assertEqual([run.run.directory for run in more.runs[1:]], places)
 
+    def test_entries_of_the_same_name(self) -> None:
+        """Layers are told apart."""
+        layers = [f'[parameters."Soil/Layer {i}/E"]\nvalues = [{i}]' for i in (1, 2)]
+        (run,) = self.study('sampling = "grid"\n' + "\n".join(layers)).runs
+        self.assertEqual(run.name, "Layer 1/E 1, Layer 2/E 2")
+        self.assertEqual(run.run.directory.name, "Layer_1_E_1_Layer_2_E_2")
+
     def test_grid_with_formula(self) -> None:
         """All combinations; a formula follows, whatever the order of the file; several
         entries of one parameter."""

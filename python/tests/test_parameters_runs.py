@@ -135,6 +135,15 @@ class Commands(WithFiles):
         self.assertIn("there is no entry Soil/Frction angle", said)
         self.assertEqual((status, self.calls()), (1, []))
 
+    def test_all_fail(self) -> None:
+        """There is a table of how far they came, and no picture."""
+        self.write(PHI + "values = [41, 42]")
+        status, said = self.study()
+        self.assertEqual(status, 1)
+        self.assertIn("Friction angle 42: failed, the soil is too strong", said)
+        self.assertEqual(self.rows("table.csv")[1]["total_force_N at 2 m"], "94000")
+        self.assertFalse((self.path / "results/s/fan.png").exists())
+
     def test_changed_study(self) -> None:
         """Results of other values under the same name do not count."""
         text = 'sampling = "Latin hypercube"\nsamples = 5\nseed = {}\n' + PHI
@@ -278,7 +287,7 @@ class Evaluation(WithFiles):
         np.testing.assert_array_equal(found.depths, [1, 2, 3, 4])
         for text, words in {
             'observe = "tip_force"': "choose one of time_s, penetration_m, total_force",
-            'depths = "all"': "depths is 'all'",
+            'depths = "all"': "depths is 'all'; give depths in m",
         }.items():
             with self.assertRaisesRegex(StudyError, words):
                 self.outcomes(text + "\n" + PHI + "values = [30]", "d", {})

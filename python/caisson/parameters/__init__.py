@@ -40,6 +40,7 @@ runs, go to the directory of the study: table.csv, fan.csv, fan.png, tornado.png
 import concurrent.futures
 import math
 from collections.abc import Sequence
+from pathlib import Path
 
 from caisson.parameters import pictures, tables
 from caisson.parameters.outcome import Outcomes
@@ -91,13 +92,16 @@ def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
     for study in studies:
         outcomes = Outcomes(study)
         directory = options.results / file_name(study.id)
-        depth = outcomes.tornado_depth()
-        files = [
-            tables.write_runs(directory / "table.csv", outcomes),
-            tables.write_fan(directory / "fan.csv", outcomes),
-            pictures.draw_fan(directory / "fan.png", outcomes),
-            pictures.draw_tornado(directory / "tornado.png", outcomes, depth),
+        files: list[Path | None] = [
+            tables.write_runs(directory / "table.csv", outcomes)
         ]
+        depth = outcomes.tornado_depth()
+        if outcomes.complete:
+            files += [
+                tables.write_fan(directory / "fan.csv", outcomes),
+                pictures.draw_fan(directory / "fan.png", outcomes),
+                pictures.draw_tornado(directory / "tornado.png", outcomes, depth),
+            ]
         print("\n".join(tables.lines(outcomes, depth)))
         for file in filter(None, files):
             print(f"{study.id}: {short(file)}")

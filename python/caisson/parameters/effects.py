@@ -98,9 +98,11 @@ def levels(
     return {value: float(np.mean(results)) for value, results in found.items()}
 
 
-def effects_of(outcomes: Outcomes, depth: float) -> tuple[float, list[Effect]]:
+def effects_of(outcomes: Outcomes, depth: float | None) -> tuple[float, list[Effect]]:
     """Return what effects are beside and the effects at a depth (m), the largest
-    first; nothing where the base has no result there."""
+    first; nothing where the base has no result there, or no run counts."""
+    if depth is None:
+        return math.nan, []
     at = outcomes.matrix(np.array([depth]))[:, 0]
     known = np.isfinite(at)
     runs = [run for run, is_known in zip(outcomes.complete, known) if is_known]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A parameter of a study: which entries it sets, and to what."""
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -32,7 +32,8 @@ class Parameter:
     It has values (of a list, a range, or the names of choices), or a distribution, or
     a formula of other parameters. entries: all those that it sets to its value;
     choices: what each of its values sets instead. base: its value in the run that
-    others are compared with, None where that of the scene counts.
+    others are compared with, None where that of the scene counts. label: its name in
+    pictures, without the sections before that of an entry.
     """
 
     name: str
@@ -42,11 +43,7 @@ class Parameter:
     choices: Mapping[str, Entries] = field(default_factory=dict)
     formula: Formula | None = None
     base: Value | None = None
-
-    @property
-    def label(self) -> str:
-        """Its name in pictures, without the sections before that of an entry."""
-        return self.name.rsplit("/", 1)[-1]
+    label: str = ""
 
     def set(self, value: Value) -> dict[str, Any]:
         """Return the entries that it sets to take this value."""
@@ -191,10 +188,21 @@ def read_all(tables: object) -> list[Parameter]:
         except (DistributionError, FormulaError) as error:
             raise StudyError(f"parameter {name!r}: {error}") from error
     check_entries(found)
+    found = [replace(p, label=label) for p, label in zip(found, labels_of(found))]
     free = [parameter for parameter in found if parameter.formula is None]
     if not free:
         raise StudyError("each parameter has a formula, so that none varies")
     return free + sorted_formulas(free, [p for p in found if p.formula is not None])
+
+
+def labels_of(parameters: list[Parameter]) -> list[str]:
+    """Return the last part of each name, or as many parts as tell it from others."""
+    parts = [parameter.name.split("/") for parameter in parameters]
+    for length in range(1, max(map(len, parts)) + 1):
+        labels = ["/".join(part[-length:]) for part in parts]
+        if len(set(labels)) == len(labels):
+            break
+    return labels
 
 
 def check_entries(parameters: list[Parameter]) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from caisson import curves
 from caisson.error_bar import QUANTITIES
 from caisson.parameters.entry import Parameter, Sample, read_all
-from caisson.parameters.sampling import sampling_of
+from caisson.parameters.sampling import numbers_of, sampling_of
 from caisson.plot.suction import rest_of_run
 from caisson.results import ResultsError, Table, read_table
 from caisson.run import Status
@@ -160,16 +160,6 @@ def observed_column(keys: dict[str, Any], histories: Sequence[Table]) -> str:
     )
 
 
-def numbers_of(keys: dict[str, Any], key: str) -> list[float]:
-    """Return a list of numbers, or one, of the study. Raises StudyError."""
-    found = keys[key] if isinstance(keys[key], list) else [keys[key]]
-    if not found or not all(
-        type(x) in (int, float) and math.isfinite(x) for x in found
-    ):
-        raise StudyError(f"{key} is {keys[key]!r}; give depths in m, such as [1, 2, 4]")
-    return [float(x) for x in found]
-
-
 class Outcomes:
     """The outcomes of all runs of a study, at common depths.
 
@@ -224,18 +214,21 @@ class Outcomes:
         rows = [self.values(outcome, depths) for outcome in self.complete]
         return np.array(rows).reshape(len(rows), len(depths))
 
-    def tornado_depth(self) -> float:
+    def tornado_depth(self) -> float | None:
         """Return the depth (m) of the tornado: that of the study, or the deepest of
-        the table that all runs reach. Raises StudyError."""
+        the table that as many runs as possible reach; None where no run counts.
+        Raises StudyError where none has been there."""
+        if not self.complete:
+            return None
         if "tornado_depth" in self.study.keys:
             depth = numbers_of(self.study.keys, "tornado_depth")[0]
             if not np.isfinite(self.matrix(np.array([depth]))).any():
                 raise StudyError(f"tornado_depth = {depth:g} m: no run has been there")
             return depth
-        whole = np.isfinite(self.matrix(self.depths)).all(axis=0)
-        if not whole.any():
-            raise StudyError("no depth of the table is passed by all runs; set depths")
-        return float(self.depths[whole].max())
+        reached = np.isfinite(self.matrix(self.depths)).sum(axis=0)
+        if not reached.any():
+            raise StudyError("no run passes a depth of the table; set depths")
+        return float(self.depths[reached == reached.max()].max())
 
     def half_width(self, depths: np.ndarray, values: np.ndarray) -> np.ndarray | None:
         """Return the half-width [n_depths] of the error bar that the scene names, for

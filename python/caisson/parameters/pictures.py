@@ -64,10 +64,10 @@ def lines_of_grid(outcomes: Outcomes) -> tuple[str, list[Line]]:
     runs, parameter = outcomes.complete, outcomes.free[0]
     if len(outcomes.free) > 1:
         _, found = effects.effects_of(outcomes, outcomes.tornado_depth())
-        parameter = found[0].parameter
+        parameter = found[0].parameter if found else parameter
     values = {run.sample[parameter.name] for run in runs}
     ordered = sorted(values, key=lambda value: effects.order(parameter, value))
-    colors = dict(zip(ordered, colormaps["viridis"](np.linspace(0, 0.88, len(values)))))
+    colors = dict(zip(ordered, colormaps["viridis"](np.linspace(0, 0.8, len(values)))))
     lines, shown = [], set()
     for run in sorted(runs, key=lambda r: ordered.index(r.sample[parameter.name])):
         value = run.sample[parameter.name]
@@ -87,9 +87,10 @@ def lines_of_one(outcomes: Outcomes) -> tuple[str, list[Line]]:
         runs.sort(key=lambda r: effects.order(parameter, r.sample[name]))
         for i, run in enumerate(runs):
             label: str | None = f"{parameter.label} {text_of(run.sample[name])}"
+            style = STYLES[i % len(STYLES)]
             if len(outcomes.all) > MANY:
-                label = None if i else parameter.label
-            lines.append(Line(run, f"C{color % 10}", STYLES[i % len(STYLES)], label))
+                label, style = None if i else parameter.label, "-"
+            lines.append(Line(run, f"C{color % 10}", style, label))
     if outcomes.all[0].is_complete:
         lines.append(Line(outcomes.all[0], "black", "-", BASE))
     return "", lines
@@ -137,14 +138,15 @@ def draw_error(
         zorder=4,
         label=BAR,
     )
-    return "error bar of the scene as for its own entries"
+    return "the error bar is that of the scene with its own entries"
 
 
 def caption(outcomes: Outcomes, text: str) -> str:
     """Return what the runs are, and what is left out."""
     complete, n = len(outcomes.complete), len(outcomes.all)
     words = [f"{complete} runs" if complete == n else f"{complete} of {n} runs"]
-    words[0] += f", {outcomes.sampling}"
+    if len(outcomes.free) > 1 or outcomes.sampling == LATIN:
+        words[0] += f", {outcomes.sampling}"
     if complete < n:
         words[0] += f"; failed or missing: {n - complete}"
     if outcomes.sampling == LATIN and complete:
@@ -254,11 +256,11 @@ def draw_swings(axes: Axes, found: list[Effect], base: float, scale: float) -> N
     axes.ticklabel_format(axis="x", style="plain", useOffset=False)
 
 
-def draw_tornado(path: Path, outcomes: Outcomes, depth: float) -> Path | None:
+def draw_tornado(path: Path, outcomes: Outcomes, depth: float | None) -> Path | None:
     """Write the effects of several parameters at a depth (m); return the path, None
     where there are none."""
     base, found = effects.effects_of(outcomes, depth)
-    if len(found) < 2:
+    if depth is None or len(found) < 2:
         return None
     found = found[::-1]  # the largest on top
     _, scale = unit_of(outcomes.column)

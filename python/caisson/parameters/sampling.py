@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import qmc
 
+from caisson.parameters.distributions import is_number
 from caisson.parameters.entry import Parameter, Sample, Value, read_all, text_of
 from caisson.parameters.formula import FormulaError
 from caisson.run import Run, RunError, read_parameters, set_options
@@ -55,6 +56,16 @@ def whole_number(study: Mapping[str, Any], key: str, default: int | None) -> int
         says = "is missing" if found is None else f"is {found!r}"
         raise StudyError(f"{key} {says}; give a whole number, such as {key} = 50")
     return found
+
+
+def numbers_of(study: Mapping[str, Any], key: str) -> list[float]:
+    """Return a list of numbers, or one, of the study. Raises StudyError."""
+    found = study[key] if isinstance(study[key], list) else [study[key]]
+    if not found or not all(is_number(x) for x in found):
+        raise StudyError(
+            f"{key} is {study[key]!r}; give depths in m, such as [1, 2, 4]"
+        )
+    return [float(x) for x in found]
 
 
 def latin(study: Mapping[str, Any], free: Sequence[Parameter]) -> Iterator[Sample]:
@@ -192,6 +203,8 @@ def scene_reader(scene: Run) -> SceneValue:
 def runs_of(study: Mapping[str, Any], scene: Run) -> list[dict[str, Any]]:
     """Return the runs of a study as a list of their keys: name, set, sample. Raises
     StudyError."""
+    for key in {"depths", "tornado_depth"} & set(study):
+        numbers_of(study, key)
     parameters = read_all(study.get("parameters"))
     samples = samples_of(study, parameters, scene_reader(scene))
     free = [p for p in parameters if p.formula is None]

@@ -74,7 +74,7 @@ def write_fan(path: Path, outcomes: Outcomes) -> Path:
     return path
 
 
-def lines(outcomes: Outcomes, depth: float) -> Iterator[str]:
+def lines(outcomes: Outcomes, depth: float | None) -> Iterator[str]:
     """Yield what is printed: runs or quantiles, effects, and what has failed."""
     unit, scale = unit_of(outcomes.column)
     heads = [f"{x:g} m" for x in outcomes.depths]
