@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy import stats
 
 from caisson import study_command
 from caisson.parameters.distributions import Distribution
 from caisson.parameters.formula import Formula, FormulaError
+from caisson.parameters.sampling import correlations_of
 from caisson.study import Options, Study, StudyError, StudyRun
 
 SHARES = (np.arange(20000) + 0.5) / 20000
@@ -238,6 +240,24 @@ standard_deviation = 3e6
         other = self.entries(self.latin(2), "Soil/Friction angle")
         self.assertNotEqual(other, angles)
 
+    def test_correlations(self) -> None:
+        """Values are paired as asked for, and otherwise as if nothing linked them;
+        each parameter keeps its values."""
+        text = 'sampling = "Latin hypercube"\nsamples = 200\nCORRELATIONS'
+        for name in "abc":
+            text += f'\n[parameters.{name}]\nentry = "Soil/{name}"\n'
+            text += 'distribution = "lognormal"\nmean = 3\nstandard_deviation = 2'
+        found, values = {}, {}
+        for given in ("", 'correlations = [["a", "c", -0.7]]'):
+            runs = self.study(text.replace("CORRELATIONS", given)).runs
+            columns = [self.entries(runs, f"Soil/{name}") for name in "abc"]
+            values[given] = [sorted(column) for column in columns]
+            found[given] = stats.spearmanr(np.array(columns).T)[0]
+        none, some = found.values()
+        np.testing.assert_allclose(none, np.eye(3), atol=0.05)
+        np.testing.assert_allclose(some[0], [1, 0, -0.7], atol=0.05)
+        self.assertEqual(*values.values())
+
     def assert_refused(self, head: str, cases: dict[str, str]) -> None:
         """Ask that each study, its text after this head, is refused with these words
         and the name of the file."""
@@ -296,6 +316,19 @@ standard_deviation = 3e6
         two = PHI + "values = [1, 2]\n[parameters.b]\nentry = "
         normal = 'distribution = "normal"\nmean = 33\nstandard_deviation = 2'
         latin = 'sampling = "Latin hypercube"\n'
+        pair = PHI + normal + '\n[parameters.b]\nentry = "B/b"\n' + normal
+        pair = 'samples = 9\ncorrelations = [["b", {}]]\n' + pair
+        self.assert_refused(
+            latin,
+            {
+                pair.format('"b", 0.5'): "give .*two parameters",
+                pair.format('"c", 0.5'): "the parameters are Soil/Friction angle, b",
+                pair.format('"Soil/Friction angle", 1'): "between -1 and 1",
+            },
+        )
+        with self.assertRaisesRegex(StudyError, "contradict each other"):
+            given = [["a", "b", 0.9], ["b", "c", 0.9], ["a", "c", -0.9]]
+            correlations_of({"correlations": given}, ["a", "b", "c"])
         self.assert_refused(
             "",
             {

@@ -8,6 +8,7 @@ because the parameters make the runs:
                    "one at a time": the base, and it with one value changed;
                    "Latin hypercube": of distributions
     samples, seed  of a Latin hypercube: the number of runs, and another choice (0)
+    correlations   of a Latin hypercube: [["phi", "E", 0.5]], rank correlations
     observe        a column of history.csv; default: required_suction_Pa,
                    total_force_with_water_N or total_force_N, the first there is
     depths         of the table (m), default each meter
@@ -51,7 +52,7 @@ from caisson.study import Options, Study, StudyError, StudyRun, file_name
 
 NAME = "parameters"
 STUDY_KEYS = set(
-    "parameters sampling samples seed observe depths tornado_depth".split()
+    "parameters sampling samples seed correlations observe depths tornado_depth".split()
 )
 RUN_KEYS = {"sample"}
 make_runs = runs_of

@@ -3,13 +3,17 @@
 
 A Latin hypercube takes each parameter once from each of n equally likely parts of its
 distribution (McKay, Beckman & Conover 1979, doi:10.2307/1268522), by scipy.stats.qmc.
+Its values are then paired so that their rank correlations are those of the study, or
+nearly none, by the method of Iman & Conover (1982, doi:10.1080/03610918208812265).
 """
 import functools
 import itertools
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from scipy import stats
 from scipy.stats import qmc
 
 from caisson.parameters.distributions import is_number
@@ -43,7 +47,7 @@ def sampling_of(study: Mapping[str, Any], parameters: Sequence[Parameter]) -> st
             f"a grid needs values, a range or choices, and {uncertain[0]!r} has a"
             f' distribution; choose sampling = "{LATIN}"'
         )
-    for key in ("samples", "seed"):
+    for key in ("samples", "seed", "correlations"):
         if found != LATIN and key in study:
             raise StudyError(f'{key} is for sampling = "{LATIN}", not for {found!r}')
     return str(found)
@@ -68,6 +72,42 @@ def numbers_of(study: Mapping[str, Any], key: str) -> list[float]:
     return [float(x) for x in found]
 
 
+def correlations_of(study: Mapping[str, Any], names: Sequence[str]) -> np.ndarray:
+    """Return the rank correlations [n_parameters, n_parameters] of a study. Raises
+    StudyError."""
+    found = np.eye(len(names))
+    given = study.get("correlations", [])
+    for item in given if isinstance(given, list) else [given]:
+        is_list = isinstance(item, list) and len(item) == 3 and is_number(item[2])
+        if not is_list or item[0] == item[1] or not -1 < item[2] < 1:
+            raise StudyError(
+                f'correlations has {item!r}; give [["phi", "E", 0.5]]: two parameters'
+                " and their rank correlation, between -1 and 1"
+            )
+        if not {item[0], item[1]} <= set(names):
+            raise StudyError(
+                f"correlations has {item!r}; the parameters are {', '.join(names)}"
+            )
+        i, j = names.index(item[0]), names.index(item[1])
+        # of normal distributions with this rank correlation
+        found[i, j] = found[j, i] = 2 * math.sin(math.pi / 6 * item[2])
+    if np.linalg.eigvalsh(found)[0] <= 0:
+        raise StudyError("correlations contradict each other: no samples have them all")
+    return found
+
+
+def paired(shares: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Return the columns of shares [n_samples, n_parameters], each in the order that
+    gives them these correlations [n_parameters, n_parameters]."""
+    scores = stats.norm.ppf(shares)
+    present = np.linalg.cholesky(
+        np.corrcoef(scores, rowvar=False).reshape(wanted.shape)
+    )
+    scores = scores @ np.linalg.inv(present).T @ np.linalg.cholesky(wanted).T
+    ranks = scores.argsort(axis=0).argsort(axis=0)
+    return np.take_along_axis(np.sort(shares, axis=0), ranks, axis=0)
+
+
 def latin(study: Mapping[str, Any], free: Sequence[Parameter]) -> Iterator[Sample]:
     """Yield the samples of a Latin hypercube. Raises StudyError."""
     n = whole_number(study, "samples", None)
@@ -79,6 +119,7 @@ def latin(study: Mapping[str, Any], free: Sequence[Parameter]) -> Iterator[Sampl
         )
     seed = np.random.default_rng(whole_number(study, "seed", 0))
     shares = qmc.LatinHypercube(d=len(free), seed=seed).random(n)
+    shares = paired(shares, correlations_of(study, [p.name for p in free]))
     picked = [parameter.picked(shares[:, i]) for i, parameter in enumerate(free)]
     for values in zip(*picked):
         yield {parameter.name: value for parameter, value in zip(free, values)}
