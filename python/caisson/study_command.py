@@ -157,7 +157,9 @@ def run_and_evaluate(
     jobs = words.jobs or getattr(module, "JOBS", None) or jobs_at_hand(studies)
     if not words.evaluate:
         if hasattr(module, "check"):
-            module.check(studies, jobs)
+            to_do = module.check(studies, jobs)
+            if not words.part:
+                print(to_do, flush=True)
         runs = [run for study in studies for run in study.runs]
         if words.part:
             runs = runs[words.part[0] - 1 :: words.part[1]]

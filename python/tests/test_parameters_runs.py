@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from made_up import write_run
 
-from caisson import study_command
+from caisson import parameters, study_command
 from caisson.parameters import effects
 from caisson.parameters.outcome import Outcomes
 from caisson.results import read_table
@@ -279,6 +279,25 @@ class Evaluation(WithFiles):
         np.testing.assert_allclose(half, [1, 1.5, np.nan])
         found = self.outcomes(PHI + "values = [31]", "1e3 * d", {"entries": {}})
         self.assertIsNone(found.half_width(depths, depths))
+
+    def test_suction(self) -> None:
+        """The required suction is observed where there is one, from the weight that
+        suffices to 2 m; the table has both. A printed table has kPa."""
+        found = self.outcomes(PHI + "values = [30, 33]", "1e3 * d", {})
+        for run in found.study.runs:
+            suction = np.maximum(PUSHED - 2, 0) * 1e4
+            table = read_table(run.run.directory / "history.csv")
+            table |= {"suction_Pa": suction, "required_suction_Pa": 1e4 * (PUSHED - 2)}
+            write_run(run.run.directory, table, {})
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            options = Options(results=self.path / "results")
+            self.assertEqual(parameters.evaluate([found.study], options, 0), 0)
+        row = self.rows("table.csv")[1]
+        self.assertAlmostEqual(float(row["penetration_by_weight_m"]), 2)
+        self.assertAlmostEqual(float(row["required_suction_Pa at 1 m"]), -1e4)
+        self.assertIn("required suction (kPa)", said.getvalue())
+        self.assertRegex(said.getvalue(), r"angle 33 +\| -10 +\|")
 
     def test_observed(self) -> None:
         """What there is; what there is not is refused with the columns there are."""

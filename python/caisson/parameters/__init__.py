@@ -58,10 +58,10 @@ RUN_KEYS = {"sample"}
 make_runs = runs_of
 
 
-def check(studies: Sequence[Study], jobs: int) -> None:
-    """Let the program check all runs that are not complete, without computing them,
-    and say about how long they take. Raises StudyError with what it says of the first
-    that it refuses."""
+def check(studies: Sequence[Study], jobs: int) -> str:
+    """Let the program check all runs that are not complete, without computing them;
+    return what is to do. Raises StudyError with what it says of the first run that it
+    refuses."""
 
     def refusal_or_time(run: StudyRun) -> str | float:
         try:
@@ -76,15 +76,18 @@ def check(studies: Sequence[Study], jobs: int) -> None:
     if refused:
         others = len(refused) - 1
         more = f"\n(so {'is' if others == 1 else 'are'} {others} of the other runs)"
-        raise StudyError(refused[0] + (more if others else ""))
+        hint = "\ncut off a distribution that leaves what is allowed, by min and max"
+        some_are_valid = any("samples" in s.keys for s in studies) and len(
+            refused
+        ) < len(runs)
+        text = refused[0] + (more if others else "") + (hint if some_are_valid else "")
+        raise StudyError(text)
     times = [time for time in found if isinstance(time, float) and time != 0]
+    text = f"runs to do: {len(times)}"
     if times and math.isfinite(sum(times)):
         minutes = sum(times) / jobs / 60
-        print(
-            f"runs to do: {len(times)}, about {minutes:.2g} min on this machine, {jobs}"
-            " at a time",
-            flush=True,
-        )
+        text += f", about {minutes:.2g} min on this machine, {jobs} at a time"
+    return text
 
 
 def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
