@@ -24,7 +24,6 @@ from caisson.results import Table
 
 EDGE = 1e-9  # m
 FORCE_WINDOW = 0.2  # m, of the forces of a caisson
-FEW = 5  # rows
 FROM = 1.0  # m, of roughness and energy ratio: the start is left out
 
 
@@ -69,28 +68,39 @@ def smoothed_at(position: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.
     means = window_means(position, values, at, FORCE_WINDOW)
     return np.where(np.isfinite(means), means, np.interp(at, position, values))
 
+
+def integral(position: np.ndarray, values: np.ndarray, to: np.ndarray) -> np.ndarray:
+    """Return the integral of a curve [n], linear between its rows, from its first
+    position, which must be the smallest of rising ones, to each of to [m]: [m]."""
+    pieces = np.diff(position) * (values[1:] + values[:-1]) / 2
+    at_rows = np.concatenate([[0.0], np.cumsum(pieces)])
+    row = np.clip(np.searchsorted(position, to) - 1, 0, len(position) - 2)
+    ends = np.interp(to, position, values)
+    return at_rows[row] + (to - position[row]) * (values[row] + ends) / 2
+
+
 def means_to_the_ends(
     position: np.ndarray, values: np.ndarray, at: np.ndarray, width: float
 ) -> np.ndarray:
-    """Return the means in windows about each of at [m], which near the ends of the
+    """Return the means over windows about each of at [m], which near the ends of the
     curve are as wide as fits about them: [m].
 
-    position [n] only grows or only falls. Where a window holds fewer than FEW rows,
-    whose mean may belong to another place, the value is linear between the rows
-    beside x; beyond the ends it is nan.
+    position [n] only grows or only falls. The curve is linear between its rows, and
+    each part of a window has the same weight, so that rows which lie closer together,
+    as where a body is slow, do not count more. Beyond the ends the mean is nan.
     """
-    order = np.argsort(position)
-    position, values = position[order], values[order]
-    means = np.interp(at, position, values, left=np.nan, right=np.nan)
-    for i, x in enumerate(at):
-        room = min(x - position[0], position[-1] - x)
-        if room < -EDGE:
-            continue
-        chosen = values[in_window(position, x, min(width, 2 * max(room, 0.0)))]
-        chosen = chosen[np.isfinite(chosen)]
-        if len(chosen) >= FEW:
-            means[i] = chosen.mean()
-    return means
+    known = np.isfinite(values)
+    order = np.argsort(position[known])
+    position, values = position[known][order], values[known][order]
+    if len(position) < 2:
+        return np.full(len(at), np.nan)
+    room = np.minimum(at - position[0], position[-1] - at)
+    half = np.clip(room, 0.0, width / 2)
+    low, high = [integral(position, values, at + side * half) for side in (-1, 1)]
+    exact = np.interp(at, position, values)
+    wide = half > EDGE
+    means = np.where(wide, (high - low) / np.where(wide, 2 * half, 1.0), exact)
+    return np.where(room < -EDGE, np.nan, means)
 
 
 def way_down(position: np.ndarray) -> np.ndarray:

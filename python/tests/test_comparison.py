@@ -90,7 +90,7 @@ class Files(unittest.TestCase):
         columns = self.columns()
         down, up = columns["total_force_N [pull]"], columns["total_force_N [pull up]"]
         self.assertEqual(down, ["0", "1", "2", "3"])
-        self.assertEqual(up, ["", "-5", "-4", "3"])
+        self.assertEqual(up, ["", "-5", "-2.5", "3"])
         self.assertEqual(len(columns), 3, "a force that is 0 throughout")
 
     def test_suction_and_names(self) -> None:

@@ -56,16 +56,25 @@ class WindowMean(unittest.TestCase):
         )
 
     def test_means_to_the_ends(self) -> None:
-        """Whole windows, one that shrinks at the end, few rows, none outside; and
-        the same of a curve that goes up."""
-        x = np.array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0])
-        f = x**2
-        at = np.array([-0.1, 0, 1.5, 2, 3, 6, 8, 8.1])
-        # of 0 to 4; of 1 to 5; of 4 to 8, few; few at both ends
-        expected = [np.nan, 0, 2.5, 30 / 5, 55 / 5, 36, 64, np.nan]
+        """Whole windows, those that shrink at the ends, none outside; and the same of
+        a curve that goes up. Three rows more at the start change nothing."""
+        x = np.array([0.0, 1.0, 2.0, 4.0])
+        f = np.array([0.0, 2.0, 2.0, 8.0])
+        at = np.array([-0.1, 0, 0.5, 1.5, 2.5, 3.5, 4, 4.1])
+        # over 0 to 1, 0.5 to 2.5, 1.5 to 3.5 and 3 to 4
+        means = [1, (0.75 + 2 + 1.375) / 2, (1 + 1.5 * 4.25) / 2, 6.5]
+        expected = [np.nan, 0, *means, 8, np.nan]
         for order in (slice(None), slice(None, None, -1)):
-            means = curves.means_to_the_ends(x[order], f[order], at, 4)
-            np.testing.assert_allclose(means, expected)
+            found = curves.means_to_the_ends(x[order], f[order], at, 2)
+            np.testing.assert_allclose(found, expected)
+        dense = np.concatenate([[0.1, 0.2, 0.3], x]), np.concatenate(
+            [[0.2, 0.4, 0.6], f]
+        )
+        rows = np.argsort(dense[0])
+        found = curves.means_to_the_ends(dense[0][rows], dense[1][rows], at, 2)
+        np.testing.assert_allclose(found, expected)
+        few = curves.means_to_the_ends(x[:2], np.array([1.0, np.nan]), at, 2)
+        self.assertTrue(np.isnan(few).all())
 
     def test_ways(self) -> None:
         """Down with a step back, and up with another."""

@@ -132,13 +132,17 @@ def unit_of(column: str) -> tuple[str, float]:
     return "", 1.0
 
 
+def words_of(column: str) -> str:
+    """Return a column of history.csv in words, without its unit."""
+    for ending in SHOWN:
+        column = column.removesuffix(ending)
+    return column.replace("_", " ")
+
+
 def title_of(column: str) -> str:
     """Return a column of history.csv in words, with the unit in which it is shown."""
     unit, _ = unit_of(column)
-    for ending in SHOWN:
-        column = column.removesuffix(ending)
-    words = column.replace("_", " ")
-    return f"{words} ({unit})" if unit else words
+    return f"{words_of(column)} ({unit})" if unit else words_of(column)
 
 
 def observed_column(keys: dict[str, Any], histories: Sequence[Table]) -> str:

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from caisson.parameters import effects
 from caisson.parameters.effects import Effect
 from caisson.parameters.entry import text_of
-from caisson.parameters.outcome import Outcome, Outcomes, title_of, unit_of
+from caisson.parameters.outcome import Outcome, Outcomes, title_of, unit_of, words_of
 from caisson.parameters.sampling import BASE, LATIN, ONE
 
 BLUE, RED = "#2166ac", "#c0392b"
@@ -282,7 +282,7 @@ def draw_tornado(path: Path, outcomes: Outcomes, depth: float | None) -> Path | 
     axes.set_yticks(range(len(found)), [effect.parameter.label for effect in found])
     axes.grid(color="0.9", axis="x")
     axes.set_axisbelow(True)
-    title = f"{outcomes.study.title}\n{title_of(outcomes.column)} at {depth:.4g} m"
+    title = f"{outcomes.study.title}\n{words_of(outcomes.column)} at {depth:.4g} m"
     figure.suptitle(title, fontsize=11)
     axes.legend(
         fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1), ncol=3, frameon=False
