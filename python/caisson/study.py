@@ -109,6 +109,8 @@ class StudyRun:
             how = "ended early" if status is None else f"exit status {status}"
             self.trouble = f"{how}, see {self.run.directory / 'log'}"
         cost = f"{mark['wall_s']:.0f} s" if mark else self.trouble
+        if mark and mark["status"] == Status.FAILURE:
+            cost = f"{cost}, ended with a failure"
         print(f"{self.study} {self.name}".rstrip() + f": {cost}", flush=True)
 
     @property

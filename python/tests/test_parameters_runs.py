@@ -76,7 +76,7 @@ class Commands(WithFiles):
         self.assertIn("Friction angle 42: failed, the soil is too strong", said)
         self.write("depths = [1, 4]\n" + PHI + "values = [30, 34, 42]")
         status, said = self.study("--jobs", "3")
-        self.assertIn("runs to do: 1, about 0.5 min on this machine, 3 at a time", said)
+        self.assertIn("runs to do: 1, about 30 s, 3 at a time", said)
         made = ["Friction_angle_30", "Friction_angle_34", "Friction_angle_42"]
         self.assertEqual(self.calls(), made)
         rows = self.rows("table.csv")

@@ -58,6 +58,13 @@ RUN_KEYS = {"sample"}
 make_runs = runs_of
 
 
+def duration(seconds: float) -> str:
+    """Return a time as an estimate, with two digits."""
+    if seconds < 90:
+        return f"{seconds:.2g} s"
+    return f"{seconds / 60:.2g} min" if seconds < 5400 else f"{seconds / 3600:.2g} h"
+
+
 def check(studies: Sequence[Study], jobs: int) -> str:
     """Let the program check all runs that are not complete, without computing them;
     return what is to do. Raises StudyError with what it says of the first run that it
@@ -85,8 +92,7 @@ def check(studies: Sequence[Study], jobs: int) -> str:
     times = [time for time in found if isinstance(time, float) and time != 0]
     text = f"runs to do: {len(times)}"
     if times and math.isfinite(sum(times)):
-        minutes = sum(times) / jobs / 60
-        text += f", about {minutes:.2g} min on this machine, {jobs} at a time"
+        text += f", about {duration(sum(times) / jobs)}, {jobs} at a time"
     return text
 
 
