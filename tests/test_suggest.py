@@ -18,7 +18,11 @@ class Suggest(ProgramTest):
     """Calls the command as a user does."""
 
     def suggest(
-        self, path: Path, *words: str, status: int = 0, layers: tuple[str, ...] = (SAND,)
+        self,
+        path: Path,
+        *words: str,
+        status: int = 0,
+        layers: tuple[str, ...] = (SAND,),
     ) -> str:
         """Run the command; return what it says."""
         sizes = {"--diameter": "10", "--skirt": "8", "--wall": "40mm"}
@@ -92,7 +96,7 @@ class Suggest(ProgramTest):
     def test_refusals(self) -> None:
         """One clear line each, and no file."""
         path = self.made_directory() / "own.prm"
-        for words, layers, said in (
+        refusals: list[tuple[list[str], tuple[str, ...], str]] = [
             (["--wall", "40"], (SAND,), "append mm"),
             (["--wall", "4 inch"], (SAND,), "no length"),
             (["--penetration", "9"], (SAND,), "length of the skirt"),
@@ -104,8 +108,13 @@ class Suggest(ProgramTest):
             ([], (SAND, SAND), "deeper than the one before"),
             ([], ("Friction angle = 33",), "must begin with the depth"),
             ([], ("0: Friction angle",), "ENTRY = VALUE"),
-            (["--weight", "1e6"], (SAND, "2: " + SAND[3:] + ", Permeability=1e-5"), "all"),
-        ):
+            (
+                ["--weight", "1e6"],
+                (SAND, "2: " + SAND[3:] + ", Permeability=1e-5"),
+                "all",
+            ),
+        ]
+        for words, layers, said in refusals:
             with self.subTest(said=said):
                 status = 2 if said == "no length" else 1
                 text = self.suggest(path, *words, status=status, layers=layers)

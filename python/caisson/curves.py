@@ -56,12 +56,6 @@ def window_means(
     return np.array([window_mean(position, values, x, width) for x in at])
 
 
-def on_the_way_down(position: np.ndarray) -> np.ndarray:
-    """Return which positions [n] are deeper than all before them."""
-    before = np.maximum.accumulate(position)[:-1]
-    return np.concatenate([[True], position[1:] > before])
-
-
 def smoothed_at(position: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarray:
     """Return the means over FORCE_WINDOW about each of at [m]: [m]; where the window
     is not whole, the values there, linear between the positions [n], which grow."""

@@ -32,8 +32,7 @@ def forces_at(history: Table, depth: np.ndarray) -> Table:
     """Return the forces of a run on its way down at depths [n], as columns [n]: means
     over 0.2 m, and at both ends values. The first row of a history is zero, as no time
     has passed, and is left out."""
-    rows = curves.on_the_way_down(history["penetration_m"])
-    rows[0] = False
+    rows = curves.way_down(history["penetration_m"])[1:]
     known = history["penetration_m"][rows]
     return {
         name: curves.smoothed_at(known, history[name][rows], depth)
@@ -44,7 +43,7 @@ def forces_at(history: Table, depth: np.ndarray) -> Table:
 
 def suction_at(history: Table, depth: np.ndarray) -> np.ndarray:
     """Return the required suction of a run, linear between its records, [n]."""
-    rows = curves.on_the_way_down(history["penetration_m"])
+    rows = curves.way_down(history["penetration_m"])
     known = history["penetration_m"][rows], history[SUCTION][rows]
     return np.interp(depth, *known)
 

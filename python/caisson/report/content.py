@@ -170,7 +170,7 @@ def table_of(run: Results) -> dict[str, Any]:
     history, scene = run.history, run.scene
     if penetration(history) is None:
         return {"heads": [], "rows": []}
-    rows_down = curves.on_the_way_down(history["penetration_m"])
+    rows_down = curves.way_down(history["penetration_m"])
     depth = history["penetration_m"][rows_down]
     at = curves.round_depths(depth)
 
@@ -207,9 +207,9 @@ def methods_of(run: Results) -> dict[str, Any]:
     history = run.history
     if penetration(history) is None or not design.goes_down(history):
         return {"heads": [], "rows": [], "reasons": [], "end": ""}
-    rows_down = curves.on_the_way_down(history["penetration_m"])
+    rows_down = curves.way_down(history["penetration_m"])
     site = theory.site_of(run)
-    at = depths_of_table(history["penetration_m"][rows_down])
+    at = curves.round_depths(history["penetration_m"][rows_down])
     answers = theory.answers_of(site, at)
     columns = {"depth (m)": at}
     total = column_of("total")
@@ -306,13 +306,13 @@ def remarks_on_numbers(run: Results) -> list[str]:
 def error_remark(run: Results) -> str:
     """Return what is known of the error of the curve."""
     bounds = run.error_bounds
-    if not bounds or "total_low_N" not in bounds:
+    if not bounds or "total_force_low_N" not in bounds:
         return (
             "This scene has no error bar of its own. Those of the reference scenes are"
             " in the manual; run the scene with half the cell size to see its own."
         )
-    middle = (bounds["total_low_N"] + bounds["total_high_N"]) / 2
-    half = (bounds["total_high_N"] - bounds["total_low_N"]) / 2
+    middle = (bounds["total_force_low_N"] + bounds["total_force_high_N"]) / 2
+    half = (bounds["total_force_high_N"] - bounds["total_force_low_N"]) / 2
     share = 100 * np.nanmean(half / np.maximum(np.abs(middle), 1e-9))
     return (
         f"Half-width of the error bar of the total force: {share:.2g} % in the mean,"

@@ -16,7 +16,6 @@ import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import jinja2
 
@@ -105,7 +104,9 @@ def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
         raise SuggestError(
             "not all layers have a friction angle: give --wall-friction"
         ) from error
-    return Entry("", f"{2 / 3 * least:.3g}", " # ASSUMED: 2/3 of the smallest of the soil")
+    return Entry(
+        "", f"{2 / 3 * least:.3g}", " # ASSUMED: 2/3 of the smallest of the soil"
+    )
 
 
 def with_permeability(layers: Sequence[Layer]) -> list[Layer]:

@@ -49,7 +49,9 @@ def name_of(word: str, known: Sequence[str]) -> str:
         return by_lower[word.lower()]
     near = difflib.get_close_matches(word.lower(), by_lower, n=3, cutoff=0.4)
     hint = "; did you mean " + " or ".join(by_lower[n] for n in near) if near else ""
-    raise SuggestError(f"--layer: a layer has no entry {word!r}{hint}?".replace("??", "?"))
+    raise SuggestError(
+        f"--layer: a layer has no entry {word!r}{hint}?".replace("??", "?")
+    )
 
 
 def layer_of(text: str, known: Sequence[str]) -> Layer:
