@@ -2,7 +2,7 @@
 """Writes a scene for your own caisson: domain, mesh, points and mass scaling for the
 error that you want, and what it will cost.
 
-    caisson suggest --diameter 10 --skirt 8 --wall 40mm --error 5 \\
+    caisson suggest --diameter 10 --skirt 8 --wall 40mm --error 10 \\
       --layer "0: Friction angle = 33, Youngs modulus = 20e6" \\
       --layer "3: Friction angle = 37, Youngs modulus = 40e6" own.prm
 
@@ -60,7 +60,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--penetration", type=length, metavar="M", help="where the run ends")
     add("--weight", type=float, metavar="N", help="in water; the rest takes suction")
     add("--water-depth", type=float, metavar="M", help="bounds the suction")
-    add("--error", type=int, choices=LEVELS, default=5, help="wanted, in %%")
+    add("--error", type=int, choices=LEVELS, default=10, help="wanted, in %%")
     add("--overwrite", action="store_true", help="replace the file if it exists")
 
 

@@ -3,8 +3,9 @@
 
 The far mesh follows the diameter, as in prm/jack.prm, and the mesh at the tip the
 wall: its lines are as far apart as the wall is thick, and cells around the tip are
-halved until the wanted number lies across the wall, as in prm/jack_thin.prm. What
-errors this leaves was measured (doc/how_to/own_caisson.md).
+halved until the wanted number lies across the wall, as in prm/jack_thin.prm. The
+error is of first order in both, so that half of it takes half of all cell sizes. What
+it is was measured (doc/how_to/own_caisson.md).
 
 SI units; depths are positive below the surface.
 """
@@ -17,7 +18,7 @@ class Level:
     """The numerics of an error of the total force, in percent.
 
     levels: how often cells at the tip are halved; far: size of the cells far away, as
-    a multiple of those for 5 %.
+    a multiple of those for 10 %.
     """
 
     error: int
@@ -31,9 +32,9 @@ class Level:
 LEVELS = {
     level.error: level
     for level in (
-        Level(10, cells=2, levels=1, mass_scaling=100, far=1, growth=1.2),
-        Level(5, cells=4, levels=2, mass_scaling=100, far=1, growth=1.2),
-        Level(2, cells=8, levels=3, mass_scaling=25, far=0.5, growth=1.1),
+        Level(10, cells=4, levels=2, mass_scaling=100, far=1, growth=1.2),
+        Level(5, cells=8, levels=3, mass_scaling=50, far=0.5, growth=1.1),
+        Level(2, cells=16, levels=4, mass_scaling=25, far=0.25, growth=1.05),
     )
 }
 
