@@ -3,6 +3,8 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/water/kept_multigrid.h>
 
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
+
 namespace CaissonMPM
 {
   using namespace dealii;
@@ -16,7 +18,11 @@ namespace CaissonMPM
     threshold = new_threshold;
     multigrid.clear(); // it refers to the matrix
     n_more = cost_of_setup;
-    matrix_.reinit(own, own, pattern, communicator);
+    // The way from the pattern itself to the matrix is a template of deal.II's
+    // library whose name clang mangles in another way than GCC.
+    TrilinosWrappers::SparsityPattern places;
+    places.reinit(own, own, pattern, communicator);
+    matrix_.reinit(places);
   }
 
   void
