@@ -46,6 +46,10 @@ COMMANDS = {
 # those that need the sources of the program
 SOURCE_COMMANDS = {
     "speed": (STUDY, "measure the speed of kernels and program, as ratios"),
+    "scaling": (
+        "caisson.speed.scaling",
+        "estimate the time of a step on up to 1,000 ranks",
+    ),
     "publish-speed": ("caisson.speed.publish", "take the speed into doc/benchmarks.md"),
     "element-tests": (
         "caisson.design.hypoplastic_sand",
@@ -65,6 +69,10 @@ SOURCE_COMMANDS = {
     "bare-debian": (
         "caisson.developer.bare_debian",
         "try the commands of the README on a bare Debian",
+    ),
+    "two-hosts": (
+        "caisson.developer.two_hosts",
+        "run on two hosts and count their messages",
     ),
     "check-floors": ("caisson.developer.floors", "check the order of the sources"),
 }
