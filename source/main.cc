@@ -8,6 +8,7 @@
 #include <deal.II/base/revision.h>
 
 #include <iostream>
+#include <new>
 #include <string>
 
 namespace
@@ -49,6 +50,14 @@ main(int argc, char *argv[])
     {
       return failure.end(ExitStatus::bad_input,
                          std::string("bad input: ") + error.what());
+    }
+  catch (const std::bad_alloc &)
+    {
+      return failure.end(ExitStatus::failure,
+                         "failure: there is not enough memory for this scene. "
+                         "Use larger cells or fewer material points "
+                         "(--validate says how many there are), or more "
+                         "memory.");
     }
   catch (const std::exception &error)
     {

@@ -116,7 +116,7 @@ test_stop_request()
     std::raise(SIGTERM);
     ask(request);
   }
-  for (const int signal : {SIGHUP, SIGUSR1, SIGXCPU})
+  for (const int signal : {SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU})
     {
       StopRequest request;
       request.arm("results");

@@ -13,7 +13,13 @@ import time
 from pathlib import Path
 
 from caisson.paths import INSTALLED, PROGRAM, ROOT, SCENES, scene_or_study, short
-from caisson.run import RunError, environment, mpi_command, read_parameters
+from caisson.run import (
+    RunError,
+    Status,
+    environment,
+    mpi_command,
+    read_parameters,
+)
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -79,6 +85,13 @@ def main(options: argparse.Namespace) -> int:
     directory, begin = directory_of(arguments), time.time()
     words = [*mpi_command(options.ranks), str(PROGRAM), *arguments]
     status = wait_for(subprocess.Popen(words, env=environment()))
+    if status not in list(Status):
+        print(
+            f"run: the program did not end in order (exit status {status}; above 128,"
+            " 128 and the number of a signal). If there is a checkpoint, --restart"
+            " continues from it",
+            file=sys.stderr,
+        )
     history = directory / "history.csv" if directory else None
     # only what this run wrote is drawn: --validate, say, writes nothing
     if directory and history and history.exists() and history.stat().st_mtime >= begin:

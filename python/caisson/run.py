@@ -53,7 +53,8 @@ def mpi_command(ranks: int, binding: str = "none") -> list[str]:
         return []
     start = ["mpirun", "-np", str(ranks), "--bind-to", binding]
     if binding == "none":
-        start.append("--oversubscribe")
+        # mpirun need not explain an exit status that is not 0: the program has
+        start += ["--oversubscribe", "--quiet"]
     if ranks > (os.cpu_count() or 1):  # waiting ranks must let others compute
         start += ["--mca", "mpi_yield_when_idle", "1"]
     return start

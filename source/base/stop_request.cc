@@ -23,7 +23,7 @@ namespace CaissonMPM
 
     /** The signals that ask for an end in order; the first one is Ctrl-C. */
     constexpr StopRequest::Signals caught_signals = {
-      {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU}};
+      {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU}};
 
     std::string
     name_of_signal(const int signal)
@@ -38,6 +38,8 @@ namespace CaissonMPM
             return "SIGHUP";
           case SIGUSR1:
             return "SIGUSR1";
+          case SIGUSR2:
+            return "SIGUSR2";
           default:
             return "SIGXCPU";
         }

@@ -19,10 +19,10 @@ namespace CaissonMPM
    * Tells the time loop when it has been asked to stop.
    *
    * From arm() to the destructor SIGINT, SIGTERM, SIGHUP (the terminal is
-   * closed), SIGUSR1 and SIGXCPU (a batch system announces its limit) are
-   * caught; a second SIGINT ends the program at once. SIGPIPE is ignored. The
-   * wall time is counted from the construction of the object, so construct it
-   * early. Only one object may be armed at a time.
+   * closed), SIGUSR1, SIGUSR2 and SIGXCPU (a batch system announces its limit)
+   * are caught; a second SIGINT ends the program at once. SIGPIPE is ignored.
+   * The wall time is counted from the construction of the object, so construct
+   * it early. Only one object may be armed at a time.
    *
    * The answer is local to a rank (a signal or file may be seen by one rank
    * first): the time loop agrees on it before it acts.
@@ -40,7 +40,7 @@ namespace CaissonMPM
   class StopRequest : public dealii::ParameterAcceptor
   {
   public:
-    using Signals = std::array<int, 5>;
+    using Signals = std::array<int, 6>;
 
     StopRequest();
 
