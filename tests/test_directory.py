@@ -5,7 +5,7 @@ import signal
 import subprocess
 import unittest
 
-from program import BAD_INPUT, STOPPED, SUCCESS, ProgramTest, scene, summary
+from program import BAD_INPUT, FAILURE, STOPPED, SUCCESS, ProgramTest, scene, summary
 
 # many seconds, with a line soon
 SLOW = {"Output/Record interval": 0.01, "Time/Courant number": 0.02}
@@ -41,6 +41,24 @@ class Directory(ProgramTest):
         self.assertIn("2 files of an earlier run", text)
         self.assertFalse((path / "points_0009.vtu").exists())
         self.assertTrue((path / "notes.txt").exists())
+
+
+class Failures(ProgramTest):
+    """Runs that cannot go on."""
+
+    def test_the_reason_is_in_run_json(self) -> None:
+        """Of a table that cannot be written, as on a full disk."""
+        for ranks in (1, 2):
+            path = self.made_directory()
+            (path / "history.csv" / "in_the_way").mkdir(parents=True)
+            text = self.run_scene("jack", path, FAILURE, ranks=ranks)
+            (failure,) = [line for line in text.splitlines() if "failure: " in line]
+            found = summary(path)
+            self.assertEqual(found["status"], "failed")
+            self.assertEqual("failure: " + found["failure"], failure)
+            self.assertEqual(found["ranks"], ranks)
+            self.assertGreater(found["scene"]["diameter_m"], 0)
+            self.assertEqual(list(path.glob("run.json?*")), [])
 
 
 class Signals(ProgramTest):

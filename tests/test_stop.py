@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs that are stopped and continued."""
+import re
 import shutil
 import signal
 import unittest
@@ -90,6 +91,35 @@ class Stop(ProgramTest):
                     self.assert_words(["warning", "rows between are lost", words], said)
                 else:
                     self.assertNotIn("lost", said)
+
+    def test_changed_files(self) -> None:
+        """A restart tells that a table, or a list of frames, is not as the run has
+        left it."""
+        path = self.directory()
+        entries: Entries = {
+            "Output/Record interval": 0.05,
+            "Verification/Observations": "a = max position_z",
+        }
+        status, _ = self.run_until(path, entries, 6)
+        self.assertEqual(status, STOPPED)
+        for name, old, new in (
+            ("history.csv", "\n0.1,", "\n0.11,"),
+            ("observations.csv", "\n0.05", "\n0.04"),
+            ("grid.pvd", 'file="grid_0000.vtu"', 'file="grid_0001.vtu"'),
+        ):
+            with self.subTest(name=name):
+                copy = self.directory("copy")
+                shutil.copytree(path, copy)
+                text = (copy / name).read_text(encoding="utf-8")
+                changed = re.sub(old, new, text)
+                self.assertNotEqual(changed, text)
+                (copy / name).write_text(changed, encoding="utf-8")
+                said = self.run_scene(
+                    "jack", copy, SUCCESS, "--restart", entries=entries
+                )
+                self.assert_words(["warning", name, "been changed since"], said)
+        said = self.run_scene("jack", path, SUCCESS, "--restart", entries=entries)
+        self.assertNotIn("changed since", said)
 
     def test_stop_file(self) -> None:
         path = self.made_directory()

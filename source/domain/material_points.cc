@@ -545,6 +545,23 @@ namespace CaissonMPM
   }
 
   void
+  MaterialPoints::begin_anew()
+  {
+    if (active_cells_changed)
+      collect_active_cells();
+    filled_volume.assign(grid.n_cells(), 0.);
+    changed.assign(grid.n_cells(), true);
+    sizes.assign(grid.n_cells(), {});
+    for_each([this](const MaterialPoint &point, const unsigned int cell) {
+      filled_volume[cell] += point.volume;
+      for (unsigned int d = 0; d < 2; ++d)
+        sizes[cell][d].include(point.size[d]);
+    });
+  }
+
+
+
+  void
   MaterialPoints::settle()
   {
     collect_active_cells();

@@ -109,6 +109,7 @@ namespace CaissonMPM
                                       "its last row is incomplete");
       }
     size += line.size();
+    written.add(line);
   }
 
 
@@ -123,6 +124,8 @@ namespace CaissonMPM
       report_unwritable(path, errno);
     // a row that was taken back must not be written again when closing
     std::setvbuf(file.get(), nullptr, _IONBF, 0);
-    size = text.size();
+    size    = text.size();
+    written = Fingerprint();
+    written.add(text);
   }
 } // namespace CaissonMPM

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/compat.h>
 #include <caisson_mpm/base/conventions.h>
+#include <caisson_mpm/base/fingerprint.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/output/point_quantities.h>
@@ -323,6 +324,18 @@ namespace CaissonMPM
     for (Frames *frames : {&point_frames, &grid_frames})
       while (!frames->empty() && before(time, frames->back().first))
         frames->pop_back();
+  }
+
+
+
+  double
+  Visualization::fingerprint() const
+  {
+    Fingerprint result;
+    for (const Frames *frames : {&point_frames, &grid_frames})
+      for (const auto &[time, file] : *frames)
+        result.add(to_text(time, 6) + " " + file + "\n");
+    return result.number();
   }
 
 

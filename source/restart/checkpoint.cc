@@ -27,7 +27,7 @@ namespace CaissonMPM
 
   namespace
   {
-    const std::string format_name = "caisson_mpm-checkpoint-9";
+    const std::string format_name = "caisson_mpm-checkpoint-10";
 
     // what a rank has in memory at a time besides its own
     constexpr unsigned long points_per_piece = 20000;

@@ -57,6 +57,9 @@ namespace CaissonMPM
     totals.keep("last_record", last_record);
     totals.keep("travel_at_record", travel_at_record);
     totals.keep("max_points_in_body", max_in_body);
+    totals.keep("fingerprint_of_history", files.history);
+    totals.keep("fingerprint_of_observations", files.observations);
+    totals.keep("fingerprint_of_frames", files.frames);
   }
 
   // ------------------------------------------------------------ set-up
@@ -152,9 +155,38 @@ namespace CaissonMPM
   {
     if (parts.grid.is_first_rank())
       records->resume(parts.clock.time);
-    warn_of_lost_rows();
     visualization->resume(parts.clock.time);
+    warn_of_lost_rows();
+    warn_of_changed_files();
     begin();
+  }
+
+  void
+  Recorder::note_files()
+  {
+    files = {records->history_fingerprint(),
+             records->observations_fingerprint(),
+             visualization->fingerprint()};
+  }
+
+  void
+  Recorder::warn_of_changed_files()
+  {
+    const Files then = files;
+    note_files();
+    if (!parts.grid.is_first_rank())
+      return;
+    const auto compare = [&](const bool changed, const std::string &name) {
+      if (changed)
+        console->warning(directory + "/" + name +
+                         " been changed since the checkpoint was written, and "
+                         "stays as it is. Put back what the run had written");
+    };
+    compare(then.history != files.history, "history.csv has");
+    compare(then.observations != files.observations &&
+              then.observations * files.observations != 0., // both are there
+            "observations.csv has");
+    compare(then.frames != files.frames, "points.pvd or grid.pvd has");
   }
 
   void
@@ -278,6 +310,7 @@ namespace CaissonMPM
     for (const std::string &warning : parts.water.take_warnings())
       console->warning(warning);
     tell_of_rest();
+    note_files();
   }
 
   void
@@ -423,6 +456,7 @@ namespace CaissonMPM
                                parts.body_points,
                                parts.water.acts(),
                                parts.clock.time);
+    note_files();
   }
 
   // ------------------------------------------------------------ the end
@@ -446,6 +480,15 @@ namespace CaissonMPM
   RunFacts
   Recorder::facts(const std::string &status) const
   {
+    RunFacts result = own_facts(status);
+    result.point_steps =
+      Utilities::MPI::sum(point_steps, parts.grid.communicator());
+    return result;
+  }
+
+  RunFacts
+  Recorder::own_facts(const std::string &status) const
+  {
     RunFacts result;
     result.status         = status;
     result.scene_file     = scene;
@@ -456,10 +499,8 @@ namespace CaissonMPM
     result.n_repartitions = n_repartitions;
     result.max_in_body    = max_in_body;
     result.n_steps        = parts.clock.step - first_step;
-    result.point_steps =
-      Utilities::MPI::sum(point_steps, parts.grid.communicator());
-    result.wall_time = seconds_running();
-    result.warnings  = console->warnings();
+    result.wall_time      = seconds_running();
+    result.warnings       = console->warnings();
     return result;
   }
 
@@ -470,6 +511,21 @@ namespace CaissonMPM
     if (parts.grid.is_first_rank())
       error_bar.write(directory);
     write_run_summary(directory + "/run.json", parts, facts(status));
+  }
+
+  void
+  Recorder::write_failure(const std::string &reason) noexcept
+  {
+    try
+      {
+        RunFacts known = own_facts("failed");
+        known.failure  = reason;
+        write_failure_summary(directory + "/run.json", parts, known);
+      }
+    catch (const std::exception &)
+      {
+        // the failure itself is what must be told
+      }
   }
 
   void

@@ -9,7 +9,9 @@
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/revision.h>
 
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -284,6 +286,33 @@ namespace CaissonMPM
             {"scene", Json::object(about_scene(parts), 2)}});
     if (parts.grid.is_first_rank())
       write_atomically(path, Json::object(members) + "\n");
+  }
+
+
+
+  int
+  write_failure_summary(const std::string   &path,
+                        const RecordedParts &parts,
+                        const RunFacts      &facts)
+  {
+    Json::Members members = about_program(facts);
+    append(members, {{"failure", Json::text(facts.failure)}});
+    append(members, about_installation(parts, facts));
+    append(members, about_input(facts));
+    append(members,
+           {{"ranks", Json::integer(parts.grid.n_ranks())},
+            {"cells", Json::integer(parts.grid.n_global_cells())},
+            {"steps", Json::integer(facts.n_steps)},
+            {"wall_time_s", Json::number(facts.wall_time)}});
+    append(members, about_step(parts));
+    append(members, {{"scene", Json::object(about_scene(parts), 2)}});
+    // several ranks may fail at once: each writes a file of its own first
+    const std::string own =
+      path + "." +
+      to_text(Utilities::MPI::this_mpi_process(parts.grid.communicator()));
+    if (const int error = try_to_write(own, Json::object(members) + "\n"))
+      return error;
+    return std::rename(own.c_str(), path.c_str()) == 0 ? 0 : errno;
   }
 
 

@@ -27,6 +27,9 @@ namespace CaissonMPM
     // collective.
     constexpr unsigned int steps_between_agreements = 20;
     constexpr unsigned int steps_between_balances   = 200;
+    // As often a run begins anew, as a restart does, and only then it writes
+    // checkpoints by itself: a restart then repeats it to the last bit.
+    constexpr unsigned int steps_between_beginnings = 400;
     // To cut the mesh into other parts takes about as long as this many steps.
     constexpr double steps_of_a_cut = 30.;
   } // namespace
@@ -96,6 +99,8 @@ namespace CaissonMPM
   Simulation::advance()
   {
     NodalWork work;
+    if (begins_anew())
+      timed("begin anew", [&]() { begin_anew(); });
     timed("choose step", [&]() { choose_step(); });
     boundary_conditions.prepare(grid, clock.time, clock.step_size);
     timed("ground water",
@@ -323,9 +328,24 @@ namespace CaissonMPM
   }
 
   bool
+  Simulation::begins_anew() const
+  {
+    return clock.step > 0 && clock.step % steps_between_beginnings == 0;
+  }
+
+  void
+  Simulation::begin_anew()
+  {
+    water.keep_field();
+    set_up_part();
+    points.begin_anew();
+    time_step.initialize(grid, points, soil, materials);
+  }
+
+  bool
   Simulation::checkpoint_is_due()
   {
-    if (!checkpoint_interval)
+    if (!checkpoint_interval || !begins_anew())
       return false;
     const bool due =
       recorder.seconds_running() - last_checkpoint > *checkpoint_interval;
@@ -405,6 +425,24 @@ namespace CaissonMPM
   Simulation::run(const std::vector<std::string> &warnings)
   {
     recorder.open();
+    try
+      {
+        return run_to_end(warnings);
+      }
+    catch (const BadInput &)
+      {
+        throw;
+      }
+    catch (const std::exception &error)
+      {
+        recorder.write_failure(error.what());
+        throw;
+      }
+  }
+
+  ExitStatus
+  Simulation::run_to_end(const std::vector<std::string> &warnings)
+  {
     stop_request.arm(recorder.output_directory());
     if (is_restart)
       recorder.resume();

@@ -219,7 +219,11 @@ namespace CaissonMPM
       projection.initialize(grid);
     else
       seepage.initialize(grid);
-    is_solved         = false;
+    is_solved        = false;
+    steps_since_look = 0;
+    step             = 0.;
+    if (is_coupled() && !kept_values.empty())
+      projection.know_wet_cells();
     const auto fields = kept_fields();
     for (std::size_t i = 0; i < kept_values.size(); ++i)
       scatter(kept_values[i], *fields[i].field);

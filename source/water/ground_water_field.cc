@@ -55,7 +55,8 @@ namespace CaissonMPM
   {
     if (is_coupled())
       return {{"water_in_", &projection.pressure()},
-              {"water_left_in_", &projection.remainder()}};
+              {"water_left_in_", &projection.remainder()},
+              {"water_wet_in_", &projection.wet_cells()}};
     return {{of_nodes, &seepage.field()}};
   }
 
@@ -128,6 +129,8 @@ namespace CaissonMPM
     if (flows())
       for (const KeptField &kept : kept_fields())
         scatter(values_at_places(state, kept.name), *kept.field);
+    if (is_coupled())
+      projection.know_wet_cells();
   }
 
   void

@@ -72,6 +72,7 @@ namespace CaissonMPM
     solver_.initialize(*grid);
     for (CellData *v : {&pressure_,
                         &remainder_,
+                        &wet_,
                         &source,
                         &mobility[0],
                         &mobility[1],
@@ -83,7 +84,6 @@ namespace CaissonMPM
     divergence.assign(grid->n_cells(), {});
     force_of.assign(grid->n_cells(), {});
     volumes.assign(grid->n_cells(), 0.);
-    was_wet.assign(grid->n_cells(), false);
     knows_wet_cells = false;
     acting.assign(grid->n_cells(), 0.);
   }
@@ -207,10 +207,12 @@ namespace CaissonMPM
   {
     for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
       {
-        const bool is_wet = mudline->filled()[cell] > 0.;
-        if (is_wet && knows_wet_cells && !was_wet[cell])
-          pressure_.local_element(solver_.place(cell)) = pressure_above(cell);
-        was_wet[cell] = is_wet;
+        const bool         is_wet  = mudline->filled()[cell] > 0.;
+        const unsigned int place   = solver_.place(cell);
+        double            &was_wet = wet_.local_element(place);
+        if (is_wet && knows_wet_cells && was_wet == 0.)
+          pressure_.local_element(place) = pressure_above(cell);
+        was_wet = is_wet ? 1. : 0.;
       }
     knows_wet_cells = true;
   }

@@ -51,6 +51,11 @@ namespace CaissonMPM
     void
     settle();
 
+    /** Forget what is kept of the cells from step to step: it is summed from
+     * the points again, in their order. */
+    void
+    begin_anew();
+
     /** Return the number of points of this rank. */
     unsigned int
     n_points() const

@@ -51,6 +51,20 @@ namespace CaissonMPM
       return rows.empty() ? -1. : rows.back()[0];
     }
 
+    /** Tell all rows of history.csv, or of observations.csv, from others; 0
+     * where there is no such file. */
+    double
+    history_fingerprint() const
+    {
+      return history.fingerprint();
+    }
+
+    double
+    observations_fingerprint() const
+    {
+      return observed_file ? observed_file->fingerprint() : 0.;
+    }
+
     /** Add the record of this row, and the values of the observations. */
     void
     append(const HistoryRow &row, const std::vector<double> &observed);

@@ -5,6 +5,8 @@
 #ifndef caisson_mpm_output_row_file_h
 #define caisson_mpm_output_row_file_h
 
+#include <caisson_mpm/base/fingerprint.h>
+
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -50,6 +52,13 @@ namespace CaissonMPM
     void
     append(const std::vector<double> &values);
 
+    /** Tells the header and all rows so far from others. */
+    double
+    fingerprint() const
+    {
+      return written.number();
+    }
+
   private:
     struct Close
     {
@@ -69,6 +78,7 @@ namespace CaissonMPM
     int                               digits;
     std::unique_ptr<std::FILE, Close> file;
     long                              size = 0; // bytes in complete rows
+    Fingerprint                       written;  // of these
   };
 } // namespace CaissonMPM
 

@@ -48,6 +48,10 @@ namespace CaissonMPM
     void
     resume(const double time);
 
+    /** Tells the lists of frames from others. */
+    double
+    fingerprint() const;
+
     /**
      * Write one frame of the state at @p time. @p body_points are those at the start. Writes the grid's
      * vertices. Throws RunFailure naming the file that cannot be written.

@@ -108,6 +108,11 @@ namespace CaissonMPM
     void
     write_summary(const std::string &status);
 
+    /** Write run.json with the reason of a failure, if there is room for it;
+     * not collective. */
+    void
+    write_failure(const std::string &reason) noexcept;
+
     /** Print sums, energies and times. */
     void
     print_report();
@@ -140,9 +145,15 @@ namespace CaissonMPM
     verbosity() const;
     void
     begin();
+    /** Tell the files so far from others. */
+    void
+    note_files();
     /** Warn where history.csv lacks rows of the run that goes on. */
     void
     warn_of_lost_rows();
+    /** Warn where the files are not as the checkpoint knows them. */
+    void
+    warn_of_changed_files();
     void
     add_forces(HistoryRow &row);
     /** The pressure on a cylinder that expands. Units: Pa. */
@@ -161,8 +172,12 @@ namespace CaissonMPM
     print_record(const HistoryRow &row);
     void
     warn_of_no_rest();
+    /** What a report needs. Collective. */
     RunFacts
     facts(const std::string &status) const;
+    /** The same without the sums over ranks; not collective. */
+    RunFacts
+    own_facts(const std::string &status) const;
 
     const RecordedParts parts;
 
@@ -202,6 +217,15 @@ namespace CaissonMPM
     double        fraction_at_start = 0.;
     double        fraction_printed  = 0.;
     unsigned long first_step        = 0;
+
+    // fingerprints; of the first rank
+    struct Files
+    {
+      double history      = 0.;
+      double observations = 0.;
+      double frames       = 0.;
+    };
+    Files files;
 
     unsigned int max_in_body      = 0;
     bool         at_lid           = false;

@@ -14,7 +14,8 @@ namespace CaissonMPM
   /** What a report needs besides the parts. */
   struct RunFacts
   {
-    std::string   status; // how the run ended, for instance "finished"
+    std::string   status;  // how the run ended, for instance "finished"
+    std::string   failure; // why the run could not go on, or empty
     std::string   scene_file;
     std::string   title;
     std::string   fingerprint;  // of all parameters that are not defaults
@@ -35,6 +36,13 @@ namespace CaissonMPM
   write_run_summary(const std::string   &path,
                     const RecordedParts &parts,
                     const RunFacts      &facts);
+
+  /** Write run.json of a run that has failed on this rank, with what is known
+   * without the other ranks. Returns 0 or an errno. Not collective. */
+  int
+  write_failure_summary(const std::string   &path,
+                        const RecordedParts &parts,
+                        const RunFacts      &facts);
 
   /** Print the counts, the energies and the wall times. Not collective. */
   void

@@ -89,6 +89,9 @@ namespace CaissonMPM
     run(const std::vector<std::string> &warnings);
 
   private:
+    /** Run in the directory that the recorder has opened; see run(). */
+    ExitStatus
+    run_to_end(const std::vector<std::string> &warnings);
     void
     register_totals();
     /** Find out how the motion begins, and which travel the mesh was made for,
@@ -184,6 +187,13 @@ namespace CaissonMPM
     {
       return body.motion().needs_force() || water.acts();
     }
+    /** Whether the next step begins anew. */
+    bool
+    begins_anew() const;
+    /** Forget what is kept over steps only to save time, as a restart does: its
+     * last digits depend on the steps before. Collective. */
+    void
+    begin_anew();
     bool
     checkpoint_is_due();
     void

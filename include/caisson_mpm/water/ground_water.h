@@ -134,7 +134,7 @@ namespace CaissonMPM
     initialize();
 
     /** Keep the fields at the nodes over the next initialize(), before the
-     * parts of the mesh change. Collective. */
+     * parts of the mesh change, or the run begins anew. Collective. */
     void
     keep_field();
 

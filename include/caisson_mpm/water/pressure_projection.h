@@ -124,6 +124,21 @@ namespace CaissonMPM
       return remainder_;
     }
 
+    /** 1 where a cell had water in the last step, else 0: cells that soil
+     * enters begin with the pressure of the free water. */
+    CellData &
+    wet_cells()
+    {
+      return wet_;
+    }
+
+    /** Let wet_cells() count: it has been set. */
+    void
+    know_wet_cells()
+    {
+      knows_wet_cells = true;
+    }
+
     /** Return the pressure at the nodes: the known one where there is one, else
      * the mean of the cells around. [n_nodes], Pa */
     const NodalData &
@@ -201,14 +216,13 @@ namespace CaissonMPM
     std::vector<Kernels::CellGeometry> shapes;
     std::vector<OfCorners>             divergence, force_of;
     std::vector<double>                volumes, acting, volume_rates_;
-    std::vector<bool>                  was_wet;
     bool                knows_wet_cells = false; // since initialize()
     std::vector<Beyond> beyond_node; // [n_nodes], cell: nothing is known
     // [n_faces]
     std::vector<double> seepage, inertia;
     std::vector<int>    face_below; // -1 at most faces
     double              open_conductance = 0.;
-    CellData  pressure_, remainder_, source, mobility[2], inverse_density;
+    CellData  pressure_, remainder_, wet_, source, mobility[2], inverse_density;
     NodalData outflow_, nodal_pressure, nodal_volume;
   };
 } // namespace CaissonMPM
