@@ -70,6 +70,7 @@ SOURCE_COMMANDS = {
         "caisson.developer.bare_debian",
         "try the commands of the README on a bare Debian",
     ),
+    "faults": ("caisson.developer.faults", "try to break the program"),
     "two-hosts": (
         "caisson.developer.two_hosts",
         "run on two hosts and count their messages",

@@ -334,7 +334,7 @@ namespace CaissonMPM
     Fingerprint result;
     for (const Frames *frames : {&point_frames, &grid_frames})
       for (const auto &[time, file] : *frames)
-        result.add(to_text(time, 6) + " " + file + "\n");
+        result.add(to_text(time, 10) + " " + file + "\n"); // as in the file
     return result.number();
   }
 
