@@ -15,7 +15,7 @@ KILL = -9
 
 
 class Kills(Part):
-    """Each case in turn. Some of the runs that go on are killed, too. Trials run side by
+    """Each case in turn. Some runs that go on are killed, too. Trials run side by
     side and are slower than the undisturbed run."""
 
     name = "kills"
