@@ -15,8 +15,10 @@ KILL = -9
 
 
 class Kills(Part):
-    """Each case in turn. Some runs that go on are killed, too. Trials run side by
-    side and are slower than the undisturbed run."""
+    """Each case in turn. Some of the runs that go on are killed, too.
+
+    Trials run side by side, and are slower than the undisturbed run.
+    """
 
     name = "kills"
 
@@ -55,7 +57,7 @@ class Kills(Part):
         kind = "went on"
         restart = False
         while len(calls) < MOST_RUNS:
-            kill = source.uniform(0.6, 2.0) * seconds if len(calls) < n_kills else None
+            kill = source.uniform(0.5, 1.2) * seconds if len(calls) < n_kills else None
             calls.append(self.run(case, path, restart, kill))
             last = calls[-1]
             if last.status == KILL and kill is not None:
