@@ -196,26 +196,42 @@ class Rest(ProgramTest):
 class Caisson(ProgramTest):
     """The caisson of tests/suction.prm."""
 
-    def test_much_permeability_is_seepage(self) -> None:
-        """Where water moves freely, its flow is steady at each time. The force on the
-        tip has an error of first order, in which cells and nodes differ in sign."""
+    def compare_with_seepage(self, mesh: Entries, tolerances: dict[str, float]) -> None:
+        """Where water moves freely, its flow is steady at each time."""
         rows = {}
         for level in ("seepage", "coupled"):
             path = self.directory(level)
             entries = {
                 **AT_REST,
+                **mesh,
                 "Water/Level": level,
                 "Soil/Layer 1/Permeability": 0.1,
                 "Soil/Layer 1/Permeability ratio": 1,
             }
             self.run_scene("suction", path, entries=entries)
             rows[level] = history(path)[-1]
-        for name, tolerance in (
-            ("tip_water_force_N", 0.02),
-            ("seepage_flow_m3_s", 0.01),
-        ):
+        for name, tolerance in tolerances.items():
             ratio = rows["coupled"][name] / rows["seepage"][name]
             self.assertAlmostEqual(ratio, 1, delta=tolerance, msg=name)
+
+    def test_much_permeability_is_seepage(self) -> None:
+        """The force on the tip has an error of first order, in which cells and nodes
+        differ in sign."""
+        self.compare_with_seepage(
+            {}, {"tip_water_force_N": 0.02, "seepage_flow_m3_s": 0.01}
+        )
+
+    def test_seepage_through_cells_of_two_sizes(self) -> None:
+        """Above the mudline cells are larger than below: what leaves through one of
+        them comes from two."""
+        mesh: Entries = {
+            "Rigid body/Cells across the wall": 4,
+            "Grid/Refinement levels": 2,
+            "Grid/Refinement levels along wall": 1,
+        }
+        self.compare_with_seepage(
+            mesh, {"seepage_flow_m3_s": 0.03, "exit_gradient_wall": 0.03}
+        )
 
     def test_little_permeability_has_excess_pressure(self) -> None:
         path = self.directory()

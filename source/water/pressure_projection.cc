@@ -396,22 +396,24 @@ namespace CaissonMPM
   void
   PressureProjection::find_faces_below()
   {
-    const auto      &faces = solver_.faces();
-    std::vector<int> below(grid->n_cells(), -1);
+    const auto                     &faces = solver_.faces();
+    const std::vector<int>          none(grid->n_cells(), -1);
+    std::array<std::vector<int>, 2> below = {{none, none}};
     for (std::size_t f = 0; f < faces.size(); ++f)
       if (faces[f].is_horizontal && faces[f].beyond == Beyond::cell)
         {
           const auto &face     = faces[f];
           const bool  is_upper = grid->geometry(face.cell).bottom_left >
                                 grid->geometry(face.other).bottom_left;
-          below[is_upper ? face.cell : face.other] = f;
+          const unsigned int upper = is_upper ? face.cell : face.other;
+          below[below[0][upper] >= 0][upper] = f;
         }
-    face_below.assign(faces.size(), -1);
+    faces_below.assign(faces.size(), {{-1, -1}});
     for (std::size_t f = 0; f < faces.size(); ++f)
       if (faces[f].is_horizontal && faces[f].beyond != Beyond::cell &&
           mudline->is_top(faces[f].cell) &&
           mudline->filled()[faces[f].cell] < well_filled)
-        face_below[f] = below[faces[f].cell];
+        faces_below[f] = {{below[0][faces[f].cell], below[1][faces[f].cell]}};
   }
 
   double
@@ -419,14 +421,20 @@ namespace CaissonMPM
   {
     const auto  &face  = solver_.faces()[side];
     const double known = known_[static_cast<int>(face.beyond)];
-    if (face_below[side] < 0)
+    if (faces_below[side][0] < 0)
       return seepage[side] * (pressure_.local_element(face.place) - known);
-    const auto  &below   = solver_.faces()[face_below[side]];
-    const double through = seepage[face_below[side]];
-    return seepage[side] * through / (seepage[side] + through) *
-           (pressure_.local_element(
-              below.cell == face.cell ? below.other_place : below.place) -
-            known);
+    // what comes through all faces below the cell leaves through the one above
+    double through = 0., drive = 0.;
+    for (const int f : faces_below[side])
+      if (f >= 0)
+        {
+          const auto        &below = solver_.faces()[f];
+          const unsigned int from =
+            below.cell == face.cell ? below.other_place : below.place;
+          through += seepage[f];
+          drive += seepage[f] * (pressure_.local_element(from) - known);
+        }
+    return seepage[side] / (seepage[side] + through) * drive;
   }
 
   const NodalData &

@@ -219,9 +219,9 @@ namespace CaissonMPM
     bool                knows_wet_cells = false; // since initialize()
     std::vector<Beyond> beyond_node; // [n_nodes], cell: nothing is known
     // [n_faces]
-    std::vector<double> seepage, inertia;
-    std::vector<int>    face_below; // -1 at most faces
-    double              open_conductance = 0.;
+    std::vector<double>             seepage, inertia;
+    std::vector<std::array<int, 2>> faces_below; // -1: none, as at most faces
+    double                          open_conductance = 0.;
     CellData  pressure_, remainder_, wet_, source, mobility[2], inverse_density;
     NodalData outflow_, nodal_pressure, nodal_volume;
   };
