@@ -141,6 +141,47 @@ class Column(ProgramTest):
             p / (2000 * resistances[0] / resistances[1]), 1, delta=0.03
         )
 
+    def test_points_in_cells_of_two_sizes(self) -> None:
+        """The pressure of points is interpolated where cells become smaller, too."""
+        scene = Path(user_scene("verification/consolidation")).read_text()
+        checks = scene.split("set Checks =")[1].split("end")[0].replace("\\\n", "")
+        entries = {
+            **COARSE,
+            "Grid/Outer radius": 0.4,
+            "Grid/Refinement levels": 1,
+            "Grid/Refined region": "-z-0.55",
+            "Verification/Checks": checks.strip().replace(": 0.01", ": 0.003"),
+        }
+        self.run_column("consolidation", entries)
+
+    def test_points_beside_a_layer_that_conducts_badly(self) -> None:
+        """What flows up through clay has hardly any pressure left in the sand above,
+        next to the clay too."""
+        entries: Entries = {
+            "Soil/Number of layers": 2,
+            "Soil/Layer 1/Permeability": 1e-2,
+            "Soil/Layer 2/Top depth": 0.5,
+            "Soil/Layer 2/Permeability": 1e-6,
+            "Soil/Layer 2/Law": "linear elastic",
+            "Soil/Layer 2/Youngs modulus": 5e7,
+            "Soil/Layer 2/Poisson ratio": 0.3,
+            "Loads/Surrounding pressure": 0,
+            "Water/Drained bottom": "true",
+            "Water/Bottom pressure": "2000*min(t, 1)",
+            "Time/Mass scaling": 1000,
+            "Time/End time": 120,
+            "Output/Record interval": 120,
+            "Verification/Checks": "",
+            "Verification/Observations": "p = projection pore_pressure on "
+            "(abs(z+0.475) < 0.024)",
+        }
+        path = self.run_column("consolidation", entries)
+        resistances = 0.475 / 1e-2, 0.5 / 1e-2 + 0.5 / 1e-6
+        p = history(path, "observations")[-1]["p"]
+        self.assertAlmostEqual(
+            p / (2000 * resistances[0] / resistances[1]), 1, delta=0.02
+        )
+
     def test_upward_flow(self) -> None:
         """Just below the critical gradient nothing moves; just above, all does."""
         self.run_column("updraft", {})

@@ -78,7 +78,7 @@ namespace CaissonMPM
                         &mobility[1],
                         &inverse_density})
       solver_.reinit(*v);
-    for (NodalData *v : {&outflow_, &nodal_pressure, &nodal_volume})
+    for (NodalData *v : {&outflow_, &nodal_pressure, &nodal_conductance})
       grid->reinit(*v, 1);
     shapes.assign(grid->n_cells(), {});
     divergence.assign(grid->n_cells(), {});
@@ -482,28 +482,36 @@ namespace CaissonMPM
   const NodalData &
   PressureProjection::find_nodal_pressure()
   {
-    for (NodalData *v : {&nodal_pressure, &nodal_volume})
+    for (NodalData *v : {&nodal_pressure, &nodal_conductance})
       {
         *v = 0.;
         v->zero_out_ghost_values();
       }
+    // As much flows to a node from one side as flows from it to the other, so
+    // that the pressure of the center that is nearer, or from which water flows
+    // with less resistance, counts more. A hanging node follows later.
     for (const unsigned int cell : solver_.cells())
-      for (const unsigned int node : grid->cell_nodes(cell).node)
-        {
-          const double v = mudline->filled()[cell] * volumes[cell];
-          nodal_pressure.local_element(node) += v * pressure_in(cell);
-          nodal_volume.local_element(node) += v;
-        }
-    for (NodalData *v : {&nodal_pressure, &nodal_volume})
       {
-        grid->hanging_nodes().distribute(*v, 1);
-        v->compress(VectorOperation::add);
+        const Kernels::CellGeometry &g = grid->geometry(cell);
+        const double                 size =
+          std::sqrt(.5 * g.width * (g.height_left + g.height_right));
+        const double conductance =
+          mobility[1].local_element(solver_.place(cell)) /
+          (mudline->filled()[cell] * size);
+        for (const unsigned int node : grid->cell_nodes(cell).node)
+          {
+            nodal_pressure.local_element(node) +=
+              conductance * pressure_in(cell);
+            nodal_conductance.local_element(node) += conductance;
+          }
       }
+    for (NodalData *v : {&nodal_pressure, &nodal_conductance})
+      v->compress(VectorOperation::add);
     for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
       {
         double &p = nodal_pressure.local_element(node);
-        if (nodal_volume.local_element(node) > 0.)
-          p /= nodal_volume.local_element(node);
+        if (nodal_conductance.local_element(node) > 0.)
+          p /= nodal_conductance.local_element(node);
         p = known_at(node).value_or(p);
       }
     nodal_pressure.update_ghost_values();

@@ -140,7 +140,7 @@ namespace CaissonMPM
     }
 
     /** Return the pressure at the nodes: the known one where there is one, else
-     * the mean of the cells around. [n_nodes], Pa */
+     * that through which as much flows in as out. [n_nodes], Pa */
     const NodalData &
     find_nodal_pressure();
 
@@ -223,7 +223,7 @@ namespace CaissonMPM
     std::vector<std::array<int, 2>> faces_below; // -1: none, as at most faces
     double                          open_conductance = 0.;
     CellData  pressure_, remainder_, wet_, source, mobility[2], inverse_density;
-    NodalData outflow_, nodal_pressure, nodal_volume;
+    NodalData outflow_, nodal_pressure, nodal_conductance;
   };
 } // namespace CaissonMPM
 
