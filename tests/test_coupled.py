@@ -154,6 +154,36 @@ class Column(ProgramTest):
         }
         self.run_column("consolidation", entries)
 
+    def test_surface_between_cells_of_two_sizes(self) -> None:
+        """The lower half rises on the left and sinks on the right: pressures are odd
+        about the middle. Left of r = 0.25, the surface rises above cells of 0.05 m,
+        but less than it sinks right of it, so that the larger cell above is dry."""
+        entries: Entries = {
+            **COARSE,
+            "Grid/Outer radius": 0.4,
+            "Grid/Refinement levels": 1,
+            "Grid/Refined region": "-z-0.01",
+            "Loads/Surrounding pressure": 0,
+            "Soil/Layer 1/Permeability": 1e-8,
+            "Boundary conditions/Bottom": "free",
+            "Boundary conditions/Prescribed region": "-0.5-z",
+            "Boundary conditions/Prescribed velocity": "0 ; "
+            "t < 1 ? 0.002*(cos(pi*r/0.4)+0.06) : 0",
+            "Time/Mass scaling": 4,
+            "Time/End time": 1.5,
+            "Output/Record interval": 1.5,
+            "Verification/Checks": "",
+            "Verification/Observations": "; ".join(
+                f"{name} = projection pore_pressure on "
+                f"(r>{left})*(r<{left + 0.05})*(z>-0.05)"
+                for name, left in (("left", 0.15), ("right", 0.2))
+            ),
+        }
+        path = self.run_column("consolidation", entries)
+        last = history(path, "observations")[-1]
+        self.assertGreater(last["right"], 300)
+        self.assertAlmostEqual(last["right"] / last["left"], -1, delta=0.04)
+
     def test_points_beside_a_layer_that_conducts_badly(self) -> None:
         """What flows up through clay has hardly any pressure left in the sand above,
         next to the clay too."""

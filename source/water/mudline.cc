@@ -180,19 +180,40 @@ namespace CaissonMPM
         double mean = 0.;
         for (unsigned int i = 0; i < n_columns[cell]; ++i)
           mean += heights[first_column[cell] + i] / n_columns[cell];
-        // the same for all cells, so that each column has a top
         const double above_bottom = mean - bottom_of(g);
-        const int    above        = grid.neighbor(cell, 3);
-        const bool   is_at_lid    = above >= 0 && grid.is_rigid(above);
         if (above_bottom > tolerance)
+          filled_[cell] =
+            std::clamp(above_bottom / height_of(g), least_filled, 1.);
+        top[cell] =
+          above_bottom > tolerance && above_bottom <= height_of(g) + tolerance;
+      }
+    find_tops_of_water(grid);
+  }
+
+  void
+  Mudline::find_tops_of_water(const BackgroundGrid &grid)
+  {
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      {
+        if (filled_[cell] == 0. || side_of(cell) == Side::body)
+          continue;
+        // The mean over a larger cell may be dry above a smaller one that is
+        // full: not heights decide, but what is above.
+        bool is_known = true, is_wet = false;
+        for (const bool second : {false, true})
           {
-            filled_[cell] =
-              std::clamp(above_bottom / height_of(g), least_filled, 1.);
-            top[cell] = above_bottom <= height_of(g) + tolerance || is_at_lid;
+            const int above = grid.neighbor(cell, 3, second);
+            if (above < 0)
+              is_known = grid.at_side(cell, 3);
+            else
+              is_wet = is_wet || filled_[above] > 0.;
           }
+        if (is_known) // where another rank knows better, the height is left
+          top[cell] = !is_wet;
         if (top[cell])
           for (unsigned int i = 0; i < n_columns[cell]; ++i)
-            cell_height[first_column[cell] + i] = height_of(g);
+            cell_height[first_column[cell] + i] =
+              height_of(grid.geometry(cell));
       }
   }
 

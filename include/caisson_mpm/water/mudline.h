@@ -109,6 +109,9 @@ namespace CaissonMPM
     find_tops(const BackgroundGrid &grid, const MaterialPoints &points) const;
     void
     fill_cells(const BackgroundGrid &grid);
+    /** Find the cells with water that have none above. */
+    void
+    find_tops_of_water(const BackgroundGrid &grid);
 
     // of the columns of the lattice [n_columns]
     std::vector<Side>   sides;
