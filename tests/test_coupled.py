@@ -294,14 +294,14 @@ class Caisson(ProgramTest):
 
     def test_seepage_through_cells_of_two_sizes(self) -> None:
         """Above the mudline cells are larger than below: what leaves through one of
-        them comes from two."""
+        them comes from two. Taken from one of them, the gradient is half as large."""
         mesh: Entries = {
             "Rigid body/Cells across the wall": 4,
             "Grid/Refinement levels": 2,
             "Grid/Refinement levels along wall": 1,
         }
         self.compare_with_seepage(
-            mesh, {"seepage_flow_m3_s": 0.03, "exit_gradient_wall": 0.03}
+            mesh, {"seepage_flow_m3_s": 0.03, "exit_gradient_wall": 0.05}
         )
 
     def test_little_permeability_has_excess_pressure(self) -> None:

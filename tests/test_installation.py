@@ -162,7 +162,9 @@ class Installation(ProgramTest):
         for key in ("seepage_volume_m3", "pumped_volume_m3"):
             self.assertAlmostEqual(last[key] / (end[key] - start[key]), 1, 5, key)
 
-    def go_on_both_ways(self, entries: Entries) -> tuple[Path, Path, Path]:
+    def go_on_both_ways(
+        self, entries: Entries, tolerance: float = 1e-6
+    ) -> tuple[Path, Path, Path]:
         """Run the suction scene to 0.55 m, and from there to 0.57 m by a restart and
         as another run on two ranks; return the directories of the three."""
         before, whole = self.directory("before"), self.directory("whole")
@@ -174,16 +176,18 @@ class Installation(ProgramTest):
         path = self.directory("after")
         longer[INSTALLATION] = before
         self.run_scene("suction", path, entries=longer, ranks=2)
-        self.assert_same_end(whole, path, 1e-6)
+        self.assert_same_end(whole, path, tolerance)
         return before, whole, path
 
     def test_coupled_pressure_goes_on(self) -> None:
+        """The solver leaves a tenth of a residual to the next step, and what it leaves
+        depends on the ranks."""
         before, whole, path = self.go_on_both_ways(
-            {"Water/Level": "coupled", "Soil/Layer 1/Permeability": 1e-5}
+            {"Water/Level": "coupled", "Soil/Layer 1/Permeability": 1e-5}, 1e-5
         )
         last, end = history(path)[-1], history(whole)[-1]
         for key in ("tip_water_force_N", "pore_pressure_smallest_Pa"):
-            self.assertAlmostEqual(last[key] / end[key], 1, 6, key)
+            self.assertAlmostEqual(last[key] / end[key], 1, 4, key)
         first, end = history(path)[0], history(before)[-1]
         for key in ("tip_water_force_N", "total_force_with_water_N"):
             self.assertAlmostEqual(first[key] / end[key], 1, 6, key)
