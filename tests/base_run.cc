@@ -207,7 +207,7 @@ test_console()
     {
       title("console");
       Console console(verbosity);
-      console.header({{"version", "1.2.3"}, {"output directory", "results"}});
+      console.header({{"version", "1.2.3"}, {"output", "results"}});
       console.summary({{"cells", "12"}, {"material points", "108"}});
       console.record(body);
       console.record(column);

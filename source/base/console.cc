@@ -93,10 +93,15 @@ namespace CaissonMPM
              rest;
     }
 
+    /** Of the longest key in the summary of a scene, "material points", so that
+     * the values in the header stand above those of the summary. */
+    constexpr std::size_t width_of_scene = 15;
+
+    /** Lines with their values below each other. */
     std::string
-    aligned(const Console::Lines &lines)
+    aligned(const Console::Lines &lines, const std::size_t smallest_width = 0)
     {
-      std::size_t width = 0;
+      std::size_t width = smallest_width;
       for (const auto &line : lines)
         width = std::max(width, line.first.size());
       std::string result;
@@ -120,7 +125,7 @@ namespace CaissonMPM
   Console::header(const Lines &lines)
   {
     if (verbosity == Verbosity::full)
-      print(aligned(lines));
+      print(aligned(lines, width_of_scene));
   }
 
 

@@ -247,7 +247,7 @@ namespace CaissonMPM
                  {"kernels",
                   std::string(kernels->name) + ", " + to_text(kernels->width) + " lanes"},
                  {"ranks", to_text(parts.grid.n_ranks())},
-                 {"limit of the step", parts.time_step.reason()}};
+                 {"step limited by", parts.time_step.reason()}};
     if (!installation.empty())
       first.emplace_back("installation", installation);
     console->header(first);
