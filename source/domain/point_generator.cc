@@ -370,7 +370,7 @@ namespace CaissonMPM
           throw BadInput("Soil/Initial velocity is " + to_text(v) +
                          " m/s at r = " + to_text(place[radial]) +
                          " m, z = " + to_text(place[vertical]) +
-                         " m. Write expressions that are finite where there "
+                         " m. Write an expression that is finite where there "
                          "is soil.");
         return v;
       }
