@@ -48,6 +48,8 @@ print(const CommandLine &command_line)
             << command_line.print_parameters << command_line.validate
             << command_line.restart << command_line.version
             << command_line.help;
+  if (!command_line.explain.empty())
+    std::cout << " explain " << command_line.explain;
   for (const std::string &text : command_line.overrides)
     std::cout << " [" << text << ']';
   std::cout << '\n';
@@ -70,6 +72,7 @@ test_command_line()
                "--validate"}));
   print(parse({"--print-parameters"}));
   print(parse({"a.prm", "--print-parameters"}));
+  print(parse({"--explain", "friction"}));
   print(parse({"--version"}));
   print(parse({"--help"}));
   print(parse({"-h"}));
@@ -497,6 +500,12 @@ test_descriptions()
   read_text(text);
   std::cout << "read again: "
             << (describe_parameters(ParameterAcceptor::prm) == text) << '\n';
+
+  title("entries with a word");
+  for (const char *word : {"friction", "INTERNAL friction", "Frcition angle"})
+    print_error(word, [&]() {
+      std::cout << describe_parameters(ParameterAcceptor::prm, word);
+    });
 }
 
 

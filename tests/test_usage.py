@@ -23,7 +23,9 @@ class Options(ProgramTest):
 
     def test_help_and_version(self) -> None:
         text = self.run_program(SUCCESS, "--help")
-        options = "set output-directory print-parameters validate strict restart"
+        options = (
+            "set output-directory print-parameters explain validate strict restart"
+        )
         for option in [*options.split(), "version", "help"]:
             self.assertIn(f"--{option}", text)
         self.assertRegex(self.run_program(SUCCESS, "--version"), r"caisson_mpm \d")
@@ -38,6 +40,24 @@ class Options(ProgramTest):
         again = self.run_program(SUCCESS, path, "--print-parameters")
         self.assertEqual(path.read_text(), again)
         self.assertIn("Units: ", again)
+
+    def test_entries_with_a_word(self) -> None:
+        """One layer stands for those that have the defaults."""
+        text = self.run_program(
+            SUCCESS,
+            scene("jack"),
+            "--explain",
+            "FRICTION ANGLE",
+            entries={"Soil/Layer 3/Friction angle": 33},
+        )
+        self.assertEqual(text.count("  set Friction angle ="), 2)
+        self.assertIn("subsection Layer 3", text)
+        self.assertNotIn("subsection Layer 2", text)
+        self.assertIn("set Friction angle of the tip", text)
+        self.assertNotIn("subsection Grid", text)
+        section = self.run_program(SUCCESS, "--explain", "Layer 2")
+        self.assertIn("set Friction angle", section)
+        self.assertIn("No entry has", self.run_program(BAD_INPUT, "--explain", "xyz"))
 
     def test_validate_tells_the_cost(self) -> None:
         """Without writing a file."""

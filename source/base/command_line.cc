@@ -30,6 +30,10 @@ namespace CaissonMPM
       add("print-parameters",
           "print all entries with their meaning and the values in effect, and "
           "stop; the output is itself a parameter file");
+      add("explain",
+          po::value<std::string>()->value_name("WORD"),
+          "print the entries with this word in their name or section, for "
+          "example friction or \"Rigid body\", and stop");
       add("validate", "check the input without running it, and stop");
       add("strict",
           "take warnings of likely mistakes in the input for errors, with "
@@ -124,6 +128,7 @@ namespace CaissonMPM
         value_or_default<std::vector<std::string>>(options, "set");
       result.output_directory =
         value_or_default<std::string>(options, "output-directory");
+      result.explain = value_or_default<std::string>(options, "explain");
       result.print_parameters = options.count("print-parameters") > 0;
       result.validate         = options.count("validate") > 0;
       result.strict           = options.count("strict") > 0;
@@ -133,7 +138,7 @@ namespace CaissonMPM
       if (!result.help && !result.version)
         result.parameter_file = single_parameter_file(
           value_or_default<std::vector<std::string>>(options, "file"),
-          result.print_parameters);
+          result.print_parameters || !result.explain.empty());
       return result;
     }
   } // namespace

@@ -2,10 +2,13 @@
 
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/declared_entries.h>
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/nearest_names.h>
 #include <caisson_mpm/base/text.h>
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/predicate.hpp>
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 
@@ -269,6 +272,31 @@ namespace CaissonMPM
         }
       return result;
     }
+
+    /** The entries that an action accepts, with their subsections. */
+    template <typename Accept>
+    std::string
+    describe_entries(const DeclaredEntries &entries, const Accept &accept)
+    {
+      std::string              result;
+      std::vector<std::string> open;
+      for (const DeclaredEntry &entry : entries.all())
+        if (entry.alias_of.empty() && accept(entry))
+          {
+            result += change_subsection(open, entry.subsections);
+            result += describe_entry(entry, std::string(2 * open.size(), ' '));
+          }
+      return result + change_subsection(open, {});
+    }
+
+    /** What an entry is, whichever of several like sections it stands in. */
+    std::string
+    meaning_in_any_section(const DeclaredEntry &entry)
+    {
+      const std::string above =
+        entry.subsections.size() > 1 ? entry.subsections.front() : entry.path;
+      return above + '\n' + entry.name + '\n' + entry.documentation;
+    }
   } // namespace
 
 
@@ -374,16 +402,33 @@ namespace CaissonMPM
   std::string
   describe_parameters(const ParameterHandler &prm)
   {
-    std::string result =
-      "# All entries of caisson_mpm and the values in effect.\n";
-    std::vector<std::string> open;
-    const DeclaredEntries    entries(prm);
-    for (const DeclaredEntry &entry : entries.all())
-      if (entry.alias_of.empty())
-        {
-          result += change_subsection(open, entry.subsections);
-          result += describe_entry(entry, std::string(2 * open.size(), ' '));
-        }
-    return result + change_subsection(open, {});
+    return "# All entries of caisson_mpm and the values in effect.\n" +
+           describe_entries(DeclaredEntries(prm),
+                            [](const DeclaredEntry &) { return true; });
+  }
+
+
+
+  std::string
+  describe_parameters(const ParameterHandler &prm, const std::string &word)
+  {
+    const DeclaredEntries entries(prm);
+    for (const auto text :
+         {&DeclaredEntry::path, &DeclaredEntry::documentation})
+      {
+        std::set<std::string> told;
+        const std::string     found =
+          describe_entries(entries, [&](const DeclaredEntry &entry) {
+            return boost::icontains(entry.*text, word) &&
+                   (told.insert(meaning_in_any_section(entry)).second ||
+                    entry.value != entry.default_value);
+          });
+        if (!found.empty())
+          return "# Entries of caisson_mpm with \"" + word +
+                 "\", and the values in effect.\n" + found;
+      }
+    throw BadInput("No entry has \"" + word + "\" in its name or meaning." +
+                   did_you_mean(nearest_names(word, entries.entry_paths())) +
+                   "\n  \"caisson_mpm --print-parameters\" lists all entries.");
   }
 } // namespace CaissonMPM

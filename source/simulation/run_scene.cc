@@ -12,13 +12,19 @@ namespace CaissonMPM
 {
   namespace
   {
-    /** Print all entries; notes on the input become comments. */
+    /** Print all entries, or those with a word; notes on the input become
+     * comments. */
     void
-    print_parameters(const ParameterOrigins &origins, std::ostream &out)
+    print_parameters(const ParameterOrigins &origins,
+                     const std::string      &word,
+                     std::ostream           &out)
     {
+      const auto       &prm     = dealii::ParameterAcceptor::prm;
+      const std::string entries = word.empty() ? describe_parameters(prm) :
+                                                 describe_parameters(prm, word);
       for (const std::string &text : origins.warnings())
         out << "# warning: " << text << '\n';
-      out << describe_parameters(dealii::ParameterAcceptor::prm);
+      out << entries;
     }
 
     /** Print the warnings, each with the places of the entries that it names.
@@ -98,9 +104,9 @@ namespace CaissonMPM
     auto       origins = read_parameters(dealii::ParameterAcceptor::prm,
                                    command_line.parameter_file,
                                    command_line.overrides);
-    if (command_line.print_parameters)
+    if (command_line.print_parameters || !command_line.explain.empty())
       {
-        print_parameters(origins, out);
+        print_parameters(origins, command_line.explain, out);
         return ExitStatus::success;
       }
     with_places(origins,

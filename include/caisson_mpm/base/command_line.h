@@ -12,12 +12,14 @@ namespace CaissonMPM
   /** What the user asked for on the command line. */
   struct CommandLine
   {
-    /** Empty only with --help, --version or --print-parameters. */
+    /** Empty only with --help, --version, --print-parameters or --explain. */
     std::string parameter_file;
     /** The texts "Section/Sub/Entry=value" of each --set, in order. */
     std::vector<std::string> overrides;
     /** Empty where --output-directory was not given. */
     std::string output_directory;
+    /** The word of --explain, or empty where it was not given. */
+    std::string explain;
     bool        print_parameters = false;
     bool        validate         = false;
     bool        strict           = false;

@@ -89,6 +89,17 @@ namespace CaissonMPM
    */
   std::string
   describe_parameters(const dealii::ParameterHandler &prm);
+
+  /**
+   * The same for those entries alone with a word in their path, or, where
+   * there are none, in their documentation; capitals do not count. Of sections
+   * that repeat the same entries, such as layers, the first one stands for
+   * those in which an entry has its default. Throws BadInput, with the nearest
+   * names, where no entry has the word.
+   */
+  std::string
+  describe_parameters(const dealii::ParameterHandler &prm,
+                      const std::string              &word);
 } // namespace CaissonMPM
 
 #endif
