@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A scene that is far too large is refused at once, with the reason."""
-import time
+import resource
 import unittest
 
 from program import BAD_INPUT, Entries, ProgramTest, user_scene
@@ -31,7 +31,13 @@ TOO_MANY_POINTS: tuple[tuple[list[str], Entries], ...] = (
         },
     ),
 )
-SECONDS = 10.0  # also on a busy machine
+SECONDS = 10.0  # of computing, however busy the machine is
+
+
+def seconds_used() -> float:
+    """Return the processor time of all programs that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 class Limits(ProgramTest):
@@ -39,11 +45,11 @@ class Limits(ProgramTest):
 
     def check(self, words: list[str], entries: Entries, *options: str) -> None:
         """Ask for these words within some seconds."""
-        began = time.monotonic()
+        began = seconds_used()
         said = self.run_program(
             BAD_INPUT, user_scene("jack_coarse"), *options, entries=entries
         )
-        self.assertLess(time.monotonic() - began, SECONDS)
+        self.assertLess(seconds_used() - began, SECONDS)
         for word in [*words, "GB of memory"]:
             self.assertIn(word, said)
 
