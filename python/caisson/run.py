@@ -76,6 +76,21 @@ def environment() -> dict[str, str]:
     return {**defaults, **os.environ}
 
 
+def ask(arguments: Sequence[str], program: Path = PROGRAM) -> str:
+    """Return what the program says without a run, as with --validate. Raises RunError
+    with that where it refuses the input."""
+    done = subprocess.run(
+        [str(program), *arguments],
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        env=environment(),
+    )
+    if done.returncode != Status.SUCCESS:
+        raise RunError(done.stdout.strip())
+    return done.stdout.strip()
+
+
 def read_parameters(
     arguments: Sequence[str], program: Path = PROGRAM
 ) -> dict[str, str]:
@@ -86,17 +101,9 @@ def read_parameters(
     count as they do in a run. Raises RunError with what the program says where
     it refuses the input.
     """
-    done = subprocess.run(
-        [str(program), *arguments, "--print-parameters"],
-        text=True,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        env=environment(),
-    )
-    if done.returncode != Status.SUCCESS:
-        raise RunError(done.stdout.strip())
+    words = ask([*arguments, "--print-parameters"], program)
     entries, sections = {}, list[str]()
-    for line in map(str.strip, done.stdout.splitlines()):
+    for line in map(str.strip, words.splitlines()):
         if line.startswith("subsection "):
             sections.append(line.split(maxsplit=1)[1])
         elif line == "end":
@@ -166,16 +173,8 @@ class Run:
         """Let the program check the input without running it; return how long the
         run takes at the speed of its first steps, in s, nan where that is not known.
         Raises RunError with what it says where it refuses the input."""
-        done = subprocess.run(
-            [str(self.program), *self.arguments(), "--validate"],
-            text=True,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            env=environment(),
-        )
-        if done.returncode != Status.SUCCESS:
-            raise RunError((done.stderr or done.stdout).strip())
-        found = re.search(r"^ *duration +about ([\d.]+) (s|min|h)\b", done.stdout, re.M)
+        words = ask([*self.arguments(), "--validate"], self.program)
+        found = re.search(r"^ *duration +about ([\d.]+) (s|min|h)\b", words, re.M)
         if found is None:
             return math.nan
         return float(found[1]) * {"s": 1, "min": 60, "h": 3600}[found[2]]

@@ -159,10 +159,8 @@ namespace CaissonMPM
   {
     Assert(grid.is_owned(cell),
            ExcMessage("a point belongs to the rank that owns its cell"));
-    filled_volume[cell] += point.volume;
     changed[cell] = true;
-    for (unsigned int d = 0; d < 2; ++d)
-      sizes[cell][d].include(point.size[d]);
+    include_in_sums(cell, point);
     const short material = point.material;
     // the last block of this material, or the last block of the cell
     int block = -1, last = -1;
@@ -520,9 +518,7 @@ namespace CaissonMPM
     headers.clear();
     free_blocks.clear();
     first_block.assign(grid.n_cells(), -1);
-    filled_volume.assign(grid.n_cells(), 0.);
-    changed.assign(grid.n_cells(), true);
-    sizes.assign(grid.n_cells(), {});
+    clear_sums();
     n_yielding.assign(grid.n_cells(), 0);
     n_moved.assign(grid.n_cells(), 0);
     first_relocation     = n_relocations;
@@ -545,17 +541,30 @@ namespace CaissonMPM
   }
 
   void
+  MaterialPoints::clear_sums()
+  {
+    filled_volume.assign(grid.n_cells(), 0.);
+    changed.assign(grid.n_cells(), true);
+    sizes.assign(grid.n_cells(), {});
+  }
+
+  void
+  MaterialPoints::include_in_sums(const unsigned int   cell,
+                                  const MaterialPoint &point)
+  {
+    filled_volume[cell] += point.volume;
+    for (unsigned int d = 0; d < 2; ++d)
+      sizes[cell][d].include(point.size[d]);
+  }
+
+  void
   MaterialPoints::begin_anew()
   {
     if (active_cells_changed)
       collect_active_cells();
-    filled_volume.assign(grid.n_cells(), 0.);
-    changed.assign(grid.n_cells(), true);
-    sizes.assign(grid.n_cells(), {});
+    clear_sums();
     for_each([this](const MaterialPoint &point, const unsigned int cell) {
-      filled_volume[cell] += point.volume;
-      for (unsigned int d = 0; d < 2; ++d)
-        sizes[cell][d].include(point.size[d]);
+      include_in_sums(cell, point);
     });
   }
 

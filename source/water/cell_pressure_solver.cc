@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/compat.h>
+#include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/water/cell_pressure_solver.h>
 
 #include <deal.II/base/mpi.h>
@@ -13,15 +14,6 @@
 namespace CaissonMPM
 {
   using namespace dealii;
-
-  namespace
-  {
-    double
-    mean_height(const Kernels::CellGeometry &g)
-    {
-      return .5 * (g.height_left + g.height_right);
-    }
-  } // namespace
 
   void
   CellPressureSolver::initialize(const BackgroundGrid &grid_of_run)
@@ -75,8 +67,8 @@ namespace CaissonMPM
                                const double       free_share)
   {
     const auto  &a = grid->geometry(cell), &b = grid->geometry(other);
-    const double height       = filled[cell] * mean_height(a),
-                 other_height = filled[other] * mean_height(b);
+    const double height       = filled[cell] * height_of(a),
+                 other_height = filled[other] * height_of(b);
     const bool  is_horizontal = face >= 2, is_side = beyond != Beyond::cell;
     const auto &narrow = a.width < b.width ? a : b;
     double      area   = is_horizontal ? narrow.width :

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/kernels/cell_map.h>
 #include <caisson_mpm/water/mudline.h>
 
@@ -25,12 +26,6 @@ namespace CaissonMPM
     bottom_of(const Kernels::CellGeometry &g)
     {
       return .5 * (g.bottom_left + g.bottom_right);
-    }
-
-    double
-    height_of(const Kernels::CellGeometry &g)
-    {
-      return .5 * (g.height_left + g.height_right);
     }
   } // namespace
 

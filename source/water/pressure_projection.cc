@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/water/pressure_projection.h>
 
 #include <deal.II/base/mpi.h>
@@ -492,10 +493,9 @@ namespace CaissonMPM
     // with less resistance, counts more. A hanging node follows later.
     for (const unsigned int cell : solver_.cells())
       {
-        const Kernels::CellGeometry &g = grid->geometry(cell);
-        const double                 size =
-          std::sqrt(.5 * g.width * (g.height_left + g.height_right));
-        const double conductance =
+        const Kernels::CellGeometry &g    = grid->geometry(cell);
+        const double                 size = std::sqrt(g.width * height_of(g));
+        const double                 conductance =
           mobility[1].local_element(solver_.place(cell)) /
           (mudline->filled()[cell] * size);
         for (const unsigned int node : grid->cell_nodes(cell).node)

@@ -34,6 +34,14 @@ namespace CaissonMPM
       g.height_left + (g.height_right - g.height_left) * x[0];
     return dealii::Point<2>(g.left + g.width * x[0], bottom + height * x[1]);
   }
+
+  /** Return the mean height of a cell, in m. */
+  inline double
+  height_of(const Kernels::CellGeometry &g)
+  {
+    return .5 * (g.height_left + g.height_right);
+  }
+
   /** Return the areas of the upper or lower side of a cell, seen from above,
    * that belong to its left and right node: the integrals of their shape
    * functions. Units: m2 per radian (m in plane strain). */

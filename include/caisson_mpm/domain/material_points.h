@@ -277,6 +277,11 @@ namespace CaissonMPM
     find_cell(unsigned int cell, MaterialPoint &point);
     void
     clear_blocks();
+    /** Begin the sums of all cells with nothing. */
+    void
+    clear_sums();
+    void
+    include_in_sums(const unsigned int cell, const MaterialPoint &point);
     [[noreturn]] void
     report_lost(const MaterialPoint &point) const;
 

@@ -12,15 +12,14 @@ suction; without, it is jacked.
 """
 import argparse
 import re
-import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 import jinja2
 
-from caisson.paths import INSTALLED, PROGRAM
-from caisson.run import RunError, environment, read_parameters
+from caisson.paths import INSTALLED
+from caisson.run import RunError, ask, read_parameters
 from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
 from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of
 
@@ -168,16 +167,10 @@ def entries_of_layers() -> list[str]:
 def cost_of(file: Path) -> str:
     """Return what the program says of the scene and its cost. Raises SuggestError
     where it refuses it."""
-    done = subprocess.run(
-        [str(PROGRAM), str(file), "--validate"],
-        text=True,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        env=environment(),
-    )
-    if done.returncode != 0:
-        raise SuggestError(f"the program refuses {file}:\n{done.stdout.strip()}")
-    return done.stdout.strip()
+    try:
+        return ask([str(file), "--validate"])
+    except RunError as error:
+        raise SuggestError(f"the program refuses {file}:\n{error}") from error
 
 
 def main(options: argparse.Namespace) -> int:
