@@ -337,6 +337,7 @@ namespace CaissonMPM
   Simulation::begin_anew()
   {
     water.keep_field();
+    grid.move_to(0.); // where the parts are set up
     set_up_part();
     points.begin_anew();
     time_step.initialize(grid, points, soil, materials);
