@@ -9,6 +9,7 @@
 #include <caisson_mpm/base/parameter_file.h>
 #include <caisson_mpm/base/stop_request.h>
 #include <caisson_mpm/base/text.h>
+#include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/base/timing.h>
 
 #include <deal.II/base/mpi.h>
@@ -74,6 +75,21 @@ test_output_directory()
                                  "history.csv.bak"})
     std::ofstream("mesh/results/" + name) << name;
   print_error("again", [&]() { use("mesh/results"); });
+  print_error("put aside", [&]() {
+    const OutputDirectory directory("mesh/results", MPI_COMM_WORLD);
+    for (const std::string rows : {"", "0\n", "0\n1\n", "0\n1\n2\n"})
+      {
+        std::ofstream("mesh/results/history.csv") << "time_s\n" << rows;
+        std::ofstream("mesh/results/report.html") << "drawn";
+        std::cout << '"' << directory.put_aside() << "\" ";
+      }
+    std::cout << '\n'
+              << read_text("mesh/results/earlier_2/history.csv")
+              << read_text("mesh/results/earlier_2/report.html") << '\n'
+              << std::filesystem::exists("mesh/results/report.html") << '\n';
+  });
+  std::filesystem::remove_all("mesh/results/earlier_1");
+  std::filesystem::remove_all("mesh/results/earlier_2");
   print_error("in use", [&]() {
     const OutputDirectory directory("mesh/results", MPI_COMM_WORLD);
     try
@@ -116,7 +132,7 @@ test_stop_request()
     std::raise(SIGTERM);
     ask(request);
   }
-  for (const int signal : {SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU})
+  for (const int signal : {SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU})
     {
       StopRequest request;
       request.arm("results");
@@ -186,15 +202,14 @@ void
 test_console()
 {
   RecordLine body;
-  body.has_body               = true;
-  body.penetration            = 1.23456789;
-  body.tip                    = 1234567.89;
-  body.inner                  = 12345.6789;
-  body.outer                  = -1e-12;
-  body.total                  = body.tip + body.inner + body.outer;
-  body.fraction_done          = 0.2345678;
-  body.eta_seconds            = 83.4;
-  body.point_steps_per_second = 12.34e6;
+  body.has_body      = true;
+  body.penetration   = 1.23456789;
+  body.tip           = 1234567.89;
+  body.inner         = 12345.6789;
+  body.outer         = -1e-12;
+  body.total         = body.tip + body.inner + body.outer;
+  body.fraction_done = 0.2345678;
+  body.eta_seconds   = 83.4;
   RecordLine column;
   column.time           = 0.0123456789;
   column.kinetic_energy = 1.23456789e-5;

@@ -29,18 +29,29 @@ class Directory(ProgramTest):
         self.run_scene("jack", path, SUCCESS, "--validate")
         self.run_scene("jack", path, entries={"Time/End penetration": 0.5})
 
-    def test_old_results_are_cleared(self) -> None:
-        path = self.made_directory()
-        for name in ("points_0009.vtu", "checkpoint.info", "notes.txt"):
-            (path / name).write_text("old")
-        text = self.run_scene(
-            "jack",
-            path,
-            entries={"Time/End penetration": 0.51, "Output/Terminal": "full"},
-        )
-        self.assertIn("2 files of an earlier run", text)
-        self.assertFalse((path / "points_0009.vtu").exists())
-        self.assertTrue((path / "notes.txt").exists())
+    def test_old_results_are_not_lost(self) -> None:
+        """They are put aside, and removed only with --overwrite."""
+        path, history = self.made_directory(), "time_s\n0\n1\n"
+        entries = {"Time/End penetration": 0.51, "Output/Terminal": "full"}
+        for number in (1, 2, None):
+            options = [] if number else ["--overwrite"]
+            with self.subTest(number=number):
+                for name in ("points_0009.vtu", "forces.png", "notes.txt"):
+                    (path / name).write_text("old")
+                (path / "history.csv").write_text(history)
+                text = self.run_scene("jack", path, SUCCESS, *options, entries=entries)
+                self.assertFalse((path / "points_0009.vtu").exists())
+                self.assertTrue((path / "notes.txt").exists())
+                if number is None:
+                    self.assertIn("files of an earlier run", text)
+                    self.assertFalse((path / "earlier_3").exists())
+                    continue
+                aside = path / f"earlier_{number}"
+                self.assertIn(str(aside), text)
+                names = sorted(file.name for file in aside.iterdir())
+                self.assertIn("forces.png", names)
+                self.assertIn("points_0009.vtu", names)
+                self.assertEqual((aside / "history.csv").read_text(), history)
 
 
 class Failures(ProgramTest):
@@ -64,19 +75,24 @@ class Failures(ProgramTest):
 class Signals(ProgramTest):
     """Signals other than those of test_stop.py."""
 
-    def test_a_closed_terminal_stops_in_order(self) -> None:
-        path = self.directory()
-        process = self.start(scene("jack"), "--output-directory", path, entries=SLOW)
-        assert process.stdout
-        with process.stdout as words:
-            for line in words:
-                if line.startswith("pen"):
-                    break
-            process.send_signal(signal.SIGHUP)
-            text = words.read()
-        self.assertEqual(process.wait(), STOPPED, text)
-        self.assert_words(["SIGHUP"], text)
-        self.assertEqual(summary(path)["status"], "stopped")
+    def test_signals_stop_in_order(self) -> None:
+        """That of a terminal that is closed, and that of its key for quitting."""
+        for sent in (signal.SIGHUP, signal.SIGQUIT):
+            with self.subTest(sent.name):
+                path = self.directory()
+                process = self.start(
+                    scene("jack"), "--output-directory", path, entries=SLOW
+                )
+                assert process.stdout
+                with process.stdout as words:
+                    for line in words:
+                        if line.startswith("pen"):
+                            break
+                    process.send_signal(sent)
+                    text = words.read()
+                self.assertEqual(process.wait(), STOPPED, text)
+                self.assert_words([sent.name], text)
+                self.assertEqual(summary(path)["status"], "stopped")
 
     def test_a_closed_pipe_does_not_end_the_run(self) -> None:
         path = self.directory()

@@ -72,8 +72,8 @@ class Stop(ProgramTest):
             self.assertEqual(counts[0], counts[1], name)
 
     def test_lost_rows(self) -> None:
-        """A restart tells what history.csv has lost since the checkpoint, and
-        nothing where it is complete."""
+        """A restart is refused where history.csv has lost rows since the checkpoint,
+        unless the loss is accepted; where it is complete nothing is said."""
         path = self.directory()
         entries: Entries = {"Output/Record interval": 0.1, "Time/End penetration": 0.6}
         status, _ = self.run_until(path, entries, 6)
@@ -84,13 +84,17 @@ class Stop(ProgramTest):
                 copy = self.directory("copy")
                 shutil.copytree(path, copy)
                 (copy / "history.csv").write_text("".join(rows[:kept]))
-                said = self.run_scene(
-                    "jack", copy, SUCCESS, "--restart", entries=entries
-                )
+                options = ["--restart"]
                 if words:
-                    self.assert_words(["warning", "rows between are lost", words], said)
-                else:
-                    self.assertNotIn("lost", said)
+                    refused = self.run_scene(
+                        "jack", copy, BAD_INPUT, *options, entries=entries
+                    )
+                    self.assert_words(
+                        ["rows between are lost", words, "--overwrite"], refused
+                    )
+                    options.append("--overwrite")
+                said = self.run_scene("jack", copy, SUCCESS, *options, entries=entries)
+                self.assertEqual("lost" in said, bool(words), said)
 
     def test_changed_files(self) -> None:
         """A restart tells that a table, or a list of frames, is not as the run has

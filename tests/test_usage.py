@@ -25,6 +25,7 @@ class Options(ProgramTest):
         text = self.run_program(SUCCESS, "--help")
         options = (
             "set output-directory print-parameters explain validate strict restart"
+            " overwrite"
         )
         for option in [*options.split(), "version", "help"]:
             self.assertIn(f"--{option}", text)
@@ -68,6 +69,19 @@ class Options(ProgramTest):
         for words in (r"steps +about \d", r"memory +about \d", r"duration +about \d"):
             self.assertRegex(text, words)
         self.assertFalse((path / "history.csv").exists())
+
+    def test_validate_tells_what_would_be_cheaper(self) -> None:
+        """Of a long run; and nothing of one that is short anyway."""
+        entries = {"Time/End penetration": 0.9}
+        short = self.run_program(SUCCESS, scene("jack"), "--validate", entries=entries)
+        self.assertNotIn("cheaper", short)
+        entries.update({"Time/Time step": 1e-8, "Time/Mass scaling": 25})
+        long = self.run_program(SUCCESS, scene("jack"), "--validate", entries=entries)
+        self.assertIn("Time/Mass scaling = 100 takes 0.5 times as many steps", long)
+        self.assertIn("Grid/Refinement levels", long)
+        entries["Time/Mass scaling"] = 100
+        long = self.run_program(SUCCESS, scene("jack"), "--validate", entries=entries)
+        self.assertNotIn("Mass scaling", long)
 
     def test_strict(self) -> None:
         """Warnings of likely mistakes become errors, each by its name; known
@@ -190,6 +204,40 @@ class Files(ProgramTest):
             for _, file in frames:
                 self.assertGreater(file.stat().st_size, 1000, file)
                 self.assertIn(b"<VTKFile", file.read_bytes()[:500], file)
+
+    def test_forces_at_the_end(self) -> None:
+        """The last lines have the forces of history.csv, with their error."""
+        path = self.made_directory()
+        done = self.run_scene("jack", path, entries={"Output/Terminal": "full"})
+        key = summary(path)["fingerprint"]
+        (path / "error.csv").write_text(
+            f"# fingerprint: {key}\npenetration_m,tip_error,total_error\n"
+            "0.5,0.2,0.1\n0.65,0.2,0.04\n"
+        )
+        rows = history(path)
+        done = self.run_scene(
+            "jack",
+            path,
+            SUCCESS,
+            "--overwrite",
+            entries={"Output/Terminal": "full", "Output/Error bar": path / "error.csv"},
+        )
+        found = re.findall(r"^at ([\d.]+) m .*total ([-\d.]+) kN(.*)$", done, re.M)
+        self.assertEqual([depth for depth, *_ in found], ["0.6", "0.7"])
+        depths = [row["penetration_m"] for row in rows]
+        forces = [row["total_force_N"] / 1e3 for row in rows]
+        for depth, force, error in found:
+            (expected,) = [
+                a + (float(depth) - x) / (y - x) * (b - a)
+                for x, y, a, b in zip(depths, depths[1:], forces, forces[1:])
+                if x < float(depth) <= y
+            ]
+            self.assertAlmostEqual(float(force) / expected, 1.0, delta=1e-3)
+            self.assertEqual(error, " +- 6 %" if depth == "0.6" else "")
+        largest = max(forces, key=abs)
+        words = re.search(r"^largest force +([-\d.]+) kN", done, re.M)
+        assert words, done
+        self.assertAlmostEqual(float(words[1]) / largest, 1.0, delta=1e-3)
 
     def test_scene_in_run_json(self) -> None:
         """What pictures take from there."""

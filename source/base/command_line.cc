@@ -39,6 +39,10 @@ namespace CaissonMPM
           "take warnings of likely mistakes in the input for errors, with "
           "--validate and in a run");
       add("restart", "continue from the checkpoint in the output directory");
+      add("overwrite",
+          "remove the results of an earlier run in the output directory, which "
+          "are otherwise kept in earlier_1, earlier_2, ...; with --restart: go "
+          "on where rows of history.csv are lost");
       add("version", "print the version and stop");
       add("help,h", "print this text and stop");
       return options;
@@ -133,6 +137,7 @@ namespace CaissonMPM
       result.validate         = options.count("validate") > 0;
       result.strict           = options.count("strict") > 0;
       result.restart          = options.count("restart") > 0;
+      result.overwrite        = options.count("overwrite") > 0;
       result.version          = options.count("version") > 0;
       result.help             = options.count("help") > 0;
       if (!result.help && !result.version)

@@ -71,9 +71,7 @@ namespace CaissonMPM
     {
       std::string rest = format(" | %5.1f %%", 100. * line.fraction_done);
       if (std::isfinite(line.eta_seconds))
-        rest += format(" | ETA %s | %.1f M point-steps/s",
-                       clock_time(line.eta_seconds).c_str(),
-                       1e-6 * line.point_steps_per_second);
+        rest += " | ETA " + clock_time(line.eta_seconds);
       rest += "\n";
       if (!line.has_body)
         return format("time %8.4f s | kinetic energy %9.3e J | "

@@ -60,6 +60,14 @@ namespace CaissonMPM
       return result + name;
     }
 
+    /** Of an entry without a unit users need not be told so. */
+    std::string
+    without_empty_unit(const std::string &documentation)
+    {
+      const auto unit = documentation.rfind(" Units: none");
+      return documentation.substr(0, unit);
+    }
+
     DeclaredEntry
     read_entry(const Tree                     &node,
                const std::vector<std::string> &subsections,
@@ -71,8 +79,9 @@ namespace CaissonMPM
       entry.path          = join(subsections, name);
       entry.value         = node.get<std::string>("value", "");
       entry.default_value = node.get<std::string>("default_value", "");
-      entry.documentation = node.get<std::string>("documentation", "");
-      entry.pattern       = node.get<std::string>("pattern_description", "");
+      entry.documentation =
+        without_empty_unit(node.get<std::string>("documentation", ""));
+      entry.pattern = node.get<std::string>("pattern_description", "");
       entry.is_deprecated =
         node.get<std::string>("deprecation_status", "") == "true";
       if (const auto alias = node.get_optional<std::string>("alias"))

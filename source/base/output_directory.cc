@@ -21,12 +21,39 @@ namespace CaissonMPM
   {
     namespace fs = std::filesystem;
 
-    /** The names of all files that a run writes. */
-    const std::regex
-      result_names(R"((points|grid)(_\d+([._]\d+)*\.p?vtu|\.pvd)(\.tmp)?|)"
-                   R"((history|history_error|observations)\.csv(\.tmp)?|)"
-                   R"((run|verification)\.json(\.tmp)?|)"
-                   R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5))");
+    /** The names of all files that a run writes, and of the pictures and
+     * reports that the Python package makes of them. */
+    const std::regex result_names(
+      R"((points|grid)(_\d+([._]\d+)*\.p?vtu|\.pvd)(\.tmp)?|)"
+      R"((history|history_error|observations)\.csv(\.tmp)?|)"
+      R"((run|verification)\.json(\.tmp)?|)"
+      R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5)|)"
+      R"((forces|stress|displacement|void_ratio|pore_pressure)\.png|)"
+      R"((suction|blocks)\.png|design\.csv|report\.(html|pdf))");
+
+    std::vector<fs::path>
+    results_in(const fs::path &directory)
+    {
+      std::vector<fs::path> found;
+      std::error_code       error;
+      for (const auto &item : fs::directory_iterator(directory, error))
+        if (item.is_regular_file(error) &&
+            std::regex_match(item.path().filename().string(), result_names))
+          found.push_back(item.path());
+      return found;
+    }
+
+    /** Whether history.csv has more than its header and the row of the start.
+     */
+    bool
+    has_results(const fs::path &directory)
+    {
+      std::ifstream history(directory / "history.csv");
+      unsigned int  n_lines = 0;
+      for (std::string line; n_lines < 3 && std::getline(history, line);)
+        ++n_lines;
+      return n_lines == 3;
+    }
 
     std::string
     this_process()
@@ -170,15 +197,40 @@ namespace CaissonMPM
   unsigned int
   OutputDirectory::clear() const
   {
-    std::vector<fs::path> found;
-    std::error_code       error;
-    for (const auto &item : fs::directory_iterator(path_, error))
-      if (item.is_regular_file(error) &&
-          std::regex_match(item.path().filename().string(), result_names))
-        found.push_back(item.path());
-    unsigned int n_removed = 0;
-    for (const fs::path &file : found)
+    std::error_code error;
+    unsigned int    n_removed = 0;
+    for (const fs::path &file : results_in(path_))
       n_removed += fs::remove(file, error) ? 1 : 0;
     return n_removed;
+  }
+
+
+
+  std::string
+  OutputDirectory::put_aside() const
+  {
+    if (!has_results(path_))
+      {
+        clear();
+        return "";
+      }
+    unsigned int number = 1;
+    const auto   place  = [&]() {
+      return fs::path(path_) / ("earlier_" + to_text(number));
+    };
+    std::error_code error;
+    while (fs::exists(place(), error))
+      ++number;
+    fs::create_directory(place(), error);
+    for (const fs::path &file : results_in(path_))
+      if (!error)
+        fs::rename(file, place() / file.filename(), error);
+    if (error)
+      throw RunFailure("the results of an earlier run in " + path_ +
+                       " cannot be moved to " + place().string() + ": " +
+                       error.message() +
+                       ". Choose another directory with --output-directory, or "
+                       "remove them with --overwrite.");
+    return place().string();
   }
 } // namespace CaissonMPM

@@ -23,7 +23,7 @@ namespace CaissonMPM
 
     /** The signals that ask for an end in order; the first one is Ctrl-C. */
     constexpr StopRequest::Signals caught_signals = {
-      {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU}};
+      {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU}};
 
     std::string
     name_of_signal(const int signal)
@@ -36,6 +36,8 @@ namespace CaissonMPM
             return "SIGTERM";
           case SIGHUP:
             return "SIGHUP";
+          case SIGQUIT:
+            return "SIGQUIT";
           case SIGUSR1:
             return "SIGUSR1";
           case SIGUSR2:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/text.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -26,5 +27,14 @@ namespace CaissonMPM
     char buffer[64];
     std::snprintf(buffer, sizeof(buffer), "%.*g", significant_digits, value);
     return buffer;
+  }
+
+  std::string
+  rough(const double value)
+  {
+    if (value < 100. || value > 1e15)
+      return to_text(value, 2);
+    const double unit = std::pow(10., std::floor(std::log10(value)) - 1.);
+    return to_text(static_cast<unsigned long>(std::round(value / unit) * unit));
   }
 } // namespace CaissonMPM

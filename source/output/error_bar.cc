@@ -159,6 +159,28 @@ namespace CaissonMPM
     return between;
   }
 
+  bool
+  ErrorBar::covers(const double penetration) const
+  {
+    constexpr double rounding = 1e-9; // m
+    return !rows.empty() &&
+           penetration >= rows.front().penetration - rounding &&
+           penetration <= rows.back().penetration + rounding;
+  }
+
+  std::optional<double>
+  ErrorBar::of_total_force(const double penetration) const
+  {
+    if (!covers(penetration))
+      return {};
+    const auto i =
+      std::find_if(quantities.begin(),
+                   quantities.end(),
+                   [](const Quantity *q) { return q->name == "total_force"; }) -
+      quantities.begin();
+    return at(penetration).half_widths[i];
+  }
+
   void
   ErrorBar::write(const std::string &directory) const
   {
@@ -180,8 +202,7 @@ namespace CaissonMPM
     for (const auto &row : history.rows)
       {
         const double depth = history.value(row, names.front());
-        if (depth < rows.front().penetration - 1e-9 ||
-            depth > rows.back().penetration + 1e-9)
+        if (!covers(depth))
           continue;
         const Row error = at(depth);
         text += to_text(depth, 10);

@@ -3,6 +3,7 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/domain/all_points.h>
+#include <caisson_mpm/output/result_lines.h>
 #include <caisson_mpm/simulation/recorder.h>
 
 #include <deal.II/base/mpi.h>
@@ -111,6 +112,13 @@ namespace CaissonMPM
     this->kernels      = &kernels;
     wrong_error_bar_   = error_bar.read(scene, fingerprint);
     OutputDirectory::check(directory, parts.grid.communicator());
+    console = std::make_unique<Console>(verbosity());
+  }
+
+  void
+  Recorder::tell_progress(const std::string &text)
+  {
+    console->header({{"setting up", text}});
   }
 
   void
@@ -131,32 +139,43 @@ namespace CaissonMPM
   {
     locked_directory =
       std::make_unique<OutputDirectory>(directory, parts.grid.communicator());
-    console = std::make_unique<Console>(verbosity());
     records = std::make_unique<Records>(directory, observations, count_names());
     visualization = std::make_unique<Visualization>(directory);
   }
 
   void
-  Recorder::start()
+  Recorder::start(const bool overwrite)
   {
     if (parts.grid.is_first_rank())
       {
-        if (const unsigned int n_files = locked_directory->clear())
-          console->header(
-            {{"removed",
-              to_text(n_files) + " files of an earlier run in " + directory}});
+        if (overwrite)
+          clear_directory();
+        else if (const std::string place = locked_directory->put_aside();
+                 !place.empty())
+          console->header({{"earlier run",
+                            "its results are now in " + place +
+                              " (--overwrite removes them)"}});
         records->create();
       }
     begin();
   }
 
   void
-  Recorder::resume()
+  Recorder::clear_directory()
+  {
+    if (const unsigned int n_files = locked_directory->clear())
+      console->header(
+        {{"removed",
+          to_text(n_files) + " files of an earlier run in " + directory}});
+  }
+
+  void
+  Recorder::resume(const bool overwrite)
   {
     if (parts.grid.is_first_rank())
       records->resume(parts.clock.time);
     visualization->resume(parts.clock.time);
-    warn_of_lost_rows();
+    check_for_lost_rows(overwrite);
     warn_of_changed_files();
     begin();
   }
@@ -190,20 +209,22 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::warn_of_lost_rows()
+  Recorder::check_for_lost_rows(const bool may_be_lost)
   {
     constexpr double tolerance = 1e-6; // times are rounded in the file
-    const double     found     = records->last_time();
-    if (!parts.grid.is_first_rank() ||
-        std::abs(found - last_record) <= tolerance * last_record)
+    const double found = Utilities::MPI::broadcast(parts.grid.communicator(),
+                                                   records->last_time());
+    if (std::abs(found - last_record) <= tolerance * last_record)
       return;
-    console->warning(
+    const std::string text =
       directory + "/history.csv " +
       (found < 0. ? "has no rows" : "ends at t = " + to_text(found, 6) + " s") +
       ", and the run that wrote the checkpoint had come to t = " +
-      to_text(last_record, 6) +
-      " s: the rows between are lost. Put the file back, or begin without "
-      "--restart");
+      to_text(last_record, 6) + " s: the rows between are lost";
+    if (!may_be_lost)
+      throw BadInput(text + ". Put the file back, begin without --restart, or "
+                            "add --overwrite to go on without these rows.");
+    console->warning(text);
   }
 
   void
@@ -248,6 +269,10 @@ namespace CaissonMPM
                   std::string(kernels->name) + ", " + to_text(kernels->width) + " lanes"},
                  {"ranks", to_text(parts.grid.n_ranks())},
                  {"step limited by", parts.time_step.reason()}};
+    const double n_steps = std::ceil(
+      (parts.schedule.end_time() - parts.clock.time) / parts.clock.step_size);
+    if (std::isfinite(n_steps))
+      first.emplace_back("steps", "about " + rough(n_steps));
     if (!installation.empty())
       first.emplace_back("installation", installation);
     console->header(first);
@@ -267,196 +292,6 @@ namespace CaissonMPM
     console->summary(lines);
     for (const std::string &warning : warnings)
       console->warning(warning);
-  }
-
-  // ------------------------------------------------------------ records
-
-  void
-  Recorder::add_step(const SurfaceForces &on_body,
-                     const Vector2       &on_prescribed_soil)
-  {
-    for (unsigned int s = 0; s < n_surfaces; ++s)
-      impulse_on_body[s] += on_body[s];
-    impulse_on_soil += on_prescribed_soil;
-    point_steps += parts.points.n_points();
-  }
-
-  void
-  Recorder::record()
-  {
-    const MPI_Comm communicator = parts.grid.communicator();
-    parts.totals.bring_to_first_rank(communicator);
-    HistoryRow row;
-    row.time        = parts.clock.time;
-    row.penetration = parts.body.penetration();
-    row.step        = parts.clock.step;
-    row.time_step   = parts.clock.step_size;
-    row.contact_nodes =
-      Utilities::MPI::sum(parts.nodal_motion.reactions().contact.n_touching,
-                          communicator);
-    row.sticking_nodes =
-      Utilities::MPI::sum(parts.nodal_motion.reactions().contact.n_sticking,
-                          communicator);
-    row.counts = parts.totals.counts();
-    for (const auto &column : parts.water.columns())
-      row.counts.push_back(column);
-    add_forces(row);
-    add_sums_over_points(row);
-    const std::vector<double> observed = observed_values();
-    if (parts.grid.is_first_rank())
-      records->append(row, observed);
-    print_record(row);
-    warn_of_lid(row);
-    for (const std::string &warning : parts.water.take_warnings())
-      console->warning(warning);
-    tell_of_rest();
-    note_files();
-  }
-
-  void
-  Recorder::add_forces(HistoryRow &row)
-  {
-    const double  interval = parts.clock.time - last_record;
-    double *const forces[] = {
-      &row.tip, &row.inner, &row.outer, &row.top, &row.lid};
-    for (unsigned int s = 0; s < n_surfaces; ++s)
-      {
-        if (interval > 0.)
-          recorded_forces[s] = impulse_on_body[s][vertical] / interval;
-        *forces[s] = recorded_forces[s];
-        row.total += *forces[s];
-      }
-    if (interval > 0.)
-      {
-        row.cavity       = cavity_pressure(interval);
-        row.prescribed_r = impulse_on_soil[radial] / interval;
-        row.prescribed_z = impulse_on_soil[vertical] / interval;
-      }
-    impulse_on_body  = {};
-    impulse_on_soil  = Vector2();
-    last_record      = parts.clock.time;
-    travel_at_record = parts.body.motion().travel();
-  }
-
-  double
-  Recorder::cavity_pressure(const double interval) const
-  {
-    if (!parts.body.shape().expands())
-      return 0.;
-    const GridLines &lines = parts.grid.lines();
-    const double     travel =
-      .5 * (parts.body.motion().travel() + travel_at_record);
-    const double around = lines.axisymmetric() ?
-                            2. * pi * (parts.body.shape().right() + travel) :
-                            1.;
-    return -impulse_on_body[outer_wall][radial] /
-           (interval * around * lines.depth());
-  }
-
-  void
-  Recorder::add_sums_over_points(HistoryRow &row)
-  {
-    const double travel     = parts.body.motion().travel();
-    double       max_square = 0.;
-    parts.points.for_each_motion([&](const Point<2> &position,
-                                     const Vector2  &velocity,
-                                     const double,
-                                     const unsigned int) {
-      max_square = std::max(max_square, velocity.norm_square());
-      row.points_in_body += parts.body.shape().contains(position, travel);
-    });
-    const MPI_Comm communicator = parts.grid.communicator();
-    row.max_speed = Utilities::MPI::max(std::sqrt(max_square), communicator);
-    row.points_in_body = Utilities::MPI::sum(row.points_in_body, communicator);
-    max_in_body        = std::max(max_in_body, row.points_in_body);
-
-    const PointEnergies energies =
-      find_point_energies(parts.points, parts.materials, parts.grid);
-    parts.energy.close(energies);
-    row.kinetic_energy = energies.kinetic;
-    row.external_work  = parts.energy.work_of_body;
-    row.energy         = parts.energy;
-    row.added_mass =
-      parts.grid.circumference() *
-      Utilities::MPI::sum(parts.nodal_motion.added_inertia(), communicator);
-  }
-
-  std::vector<double>
-  Recorder::observed_values() const
-  {
-    if (observations.names().empty())
-      return {};
-    const AllPoints all_points(parts.points, parts.grid.communicator());
-    return parts.grid.is_first_rank() ?
-             observations.values(all_points, parts.clock.time) :
-             std::vector<double>();
-  }
-
-  void
-  Recorder::warn_of_lid(const HistoryRow &row)
-  {
-    if (at_lid || row.lid == 0.)
-      return;
-    at_lid = true;
-    console->warning("the soil plug touches the lid at a penetration of " +
-                     to_text(row.penetration, 6) +
-                     " m: from here on the lid carries load, and the mesh "
-                     "allows no more heave");
-  }
-
-  void
-  Recorder::tell_of_rest()
-  {
-    const auto travel = parts.body.motion().travel_at_rest();
-    if (has_told_of_rest || !travel)
-      return;
-    has_told_of_rest = true;
-    console->message("the body came to rest at a penetration of " +
-                     to_text(parts.body.shape().initial_depth() + *travel, 5) +
-                     " m");
-  }
-
-  void
-  Recorder::print_record(const HistoryRow &row)
-  {
-    const double all_steps =
-      Utilities::MPI::sum(point_steps, parts.grid.communicator());
-    // where records are dense, not all of them: a line for each percent
-    const double done     = parts.schedule.fraction_done();
-    const bool   is_first = parts.clock.step == first_step;
-    if (!is_first && !parts.schedule.is_finished() &&
-        done - fraction_printed < .01 * (1. - 1e-9))
-      return;
-    fraction_printed = done;
-    RecordLine line;
-    line.time                   = row.time;
-    line.has_body               = parts.body.shape().exists();
-    line.penetration            = row.penetration;
-    line.tip                    = row.tip;
-    line.inner                  = row.inner;
-    line.outer                  = row.outer;
-    line.total                  = row.total;
-    line.kinetic_energy         = row.kinetic_energy;
-    line.max_speed              = row.max_speed;
-    line.fraction_done          = done;
-    line.point_steps_per_second = all_steps / seconds_running();
-    line.eta_seconds =
-      is_first ? std::numeric_limits<double>::quiet_NaN() :
-                 seconds_running() * (1. - done) / (done - fraction_at_start);
-    console->record(line);
-  }
-
-  void
-  Recorder::write_frame()
-  {
-    visualization->write_frame(parts.grid,
-                               parts.points,
-                               parts.body,
-                               parts.soil,
-                               parts.body_points,
-                               parts.water.acts(),
-                               parts.clock.time);
-    note_files();
   }
 
   // ------------------------------------------------------------ the end
@@ -566,22 +401,12 @@ namespace CaissonMPM
                                " s"}};
     if (parts.grid.is_first_rank() && parts.body.shape().exists() &&
         !parts.body.shape().expands())
-      {
-        constexpr double always = std::numeric_limits<double>::max();
-        const auto force = records->series("total_force_N", 0., always).value,
-                   depth = records->series("penetration_m", 0., always).value;
-        const auto largest =
-          std::max_element(force.begin(),
-                           force.end(),
-                           [](const double a, const double b) {
-                             return std::abs(a) < std::abs(b);
-                           }) -
-          force.begin();
-        lines.emplace_back("largest force",
-                           to_text(1e-3 * force[largest], 5) +
-                             " kN at a penetration of " +
-                             to_text(depth[largest], 5) + " m");
-      }
+      for (const auto &line : result_lines(*records, error_bar))
+        lines.push_back(line);
+    if (const auto n_warnings = console->warnings().size())
+      lines.emplace_back("warnings",
+                         to_text(n_warnings) +
+                           ", printed above and kept in run.json");
     lines.emplace_back("results",
                        directory +
                          ": history.csv, run.json, points.pvd, grid.pvd");

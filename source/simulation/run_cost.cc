@@ -14,16 +14,6 @@ namespace CaissonMPM
     constexpr double bytes_on_disk = 80., bytes_in_memory = 1000.,
                      points_per_piece = 100000.;
 
-    /** A rough number, without an exponent where it is large. */
-    std::string
-    rough(const double x)
-    {
-      if (x < 100. || x > 1e15)
-        return to_text(x, 2);
-      const double unit = std::pow(10., std::floor(std::log10(x)) - 1.);
-      return to_text(static_cast<unsigned long>(std::round(x / unit) * unit));
-    }
-
     std::string
     megabytes(const double bytes)
     {
@@ -66,6 +56,8 @@ namespace CaissonMPM
       text += "\n  duration   about " +
               duration(n_steps * cost.seconds_per_step) +
               " at the speed of the first steps";
+    for (const std::string &saving : cost.savings)
+      text += "\n  cheaper    " + saving;
     return text + "\n";
   }
 } // namespace CaissonMPM

@@ -211,7 +211,8 @@ namespace CaissonMPM
       Console::Lines lines = {
         {"points in the body", to_text(facts.max_in_body) + " at any record"}};
       for (const auto &[name, value] : parts.totals.counts())
-        lines.emplace_back(name, to_text(value, 12));
+        if (name != "held_back_count") // large in every run, and harmless
+          lines.emplace_back(name, to_text(value, 12));
       console.header(lines);
       for (const auto &[name, value] : parts.totals.counts())
         if (name == "thrown_off_count" && value > 0.)

@@ -67,9 +67,7 @@ namespace CaissonMPM
         {
           dealii::ParameterAcceptor::parse_all_parameters();
           simulation.name_unused_entries(origins);
-          simulation.set_up(command_line.parameter_file,
-                            command_line.output_directory,
-                            command_line.restart);
+          simulation.set_up(command_line);
           simulation.review(origins);
         }
       catch (const BadInput &)

@@ -446,9 +446,9 @@ namespace CaissonMPM
   {
     stop_request.arm(recorder.output_directory());
     if (is_restart)
-      recorder.resume();
+      recorder.resume(overwrites);
     else
-      recorder.start();
+      recorder.start(overwrites);
     if (is_restart && schedule.is_finished())
       return nothing_left();
     recorder.print_header(warnings);

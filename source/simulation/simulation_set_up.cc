@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 namespace CaissonMPM
 {
@@ -156,7 +157,42 @@ namespace CaissonMPM
       cost.seconds_per_step = seconds() / n;
     cost.peak_bytes =
       Utilities::MPI::sum(peak_memory_bytes(), grid.communicator());
+    constexpr double long_run = 120.; // s
+    if (number_of_steps() * cost.seconds_per_step > long_run)
+      cost.savings = ways_to_save();
     return cost;
+  }
+
+  std::vector<std::string>
+  Simulation::ways_to_save() const
+  {
+    constexpr double         usual_scaling = 100., points_per_rank = 10000.;
+    std::vector<std::string> result;
+    const double             scaling      = soil.mass_scaling();
+    const auto               cells        = body.shape().cells_across_wall();
+    const unsigned int       n_processors = std::thread::hardware_concurrency();
+    if (body.shape().exists() && !body.motion().follows_loads() &&
+        !water.is_coupled() && scaling < usual_scaling)
+      result.push_back("Time/Mass scaling = " + to_text(usual_scaling) +
+                       " takes " +
+                       to_text(std::sqrt(scaling / usual_scaling), 2) +
+                       " times as many steps as " + to_text(scaling));
+    if (cells > 0 && lines.tree().root_size() == 1)
+      result.push_back("Grid/Refinement levels = 1 or 2 halves cells only at "
+                       "the tip, as in prm/jack_refined.prm");
+    if (cells > 0 && !generator.splits_and_merges())
+      result.push_back("Material points/Split and merge = true keeps fewer "
+                       "points around a thin wall");
+    if (cells > 2)
+      result.push_back("Rigid body/Cells across the wall = 2 instead of " +
+                       to_text(cells) +
+                       " makes the steps longer; the error grows");
+    if (grid.n_ranks() == 1 && n_processors > 1 &&
+        points.n_points() > points_per_rank)
+      result.push_back("--ranks " + to_text(n_processors) +
+                       " of scripts/run uses all " + to_text(n_processors) +
+                       " cores");
+    return result;
   }
 
   void
@@ -173,19 +209,22 @@ namespace CaissonMPM
   }
 
   void
-  Simulation::set_up(const std::string &scene_file,
-                     const std::string &output_directory,
-                     const bool         restart)
+  Simulation::set_up(const CommandLine &command_line)
   {
-    is_restart = restart;
-    recorder.set_output_directory(output_directory);
+    is_restart = command_line.restart;
+    overwrites = command_line.overwrite;
+    recorder.set_output_directory(command_line.output_directory);
     find_beginning();
     check_parameters();
-    recorder.describe(scene_file,
+    recorder.describe(command_line.parameter_file,
                       fingerprint_of(changed_physics(prm)),
                       installation.directory(),
                       *kernels);
+    recorder.tell_progress("the mesh of " + lines.description());
     make_mesh();
+    recorder.tell_progress(is_restart || installation.is_given() ?
+                             "the material points of the checkpoint" :
+                             "the material points");
     if (is_restart)
       resume();
     else

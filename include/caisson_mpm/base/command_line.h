@@ -24,6 +24,7 @@ namespace CaissonMPM
     bool        validate         = false;
     bool        strict           = false;
     bool        restart          = false;
+    bool        overwrite        = false;
     bool        version          = false;
     bool        help             = false;
   };

@@ -27,10 +27,8 @@ namespace CaissonMPM
     double max_speed      = 0.;
     /** Of the whole run, from 0 to 1. */
     double fraction_done = 0.;
-    /** Not finite where it is not known: then it is left out, with the speed.
-     */
-    double eta_seconds            = 0.;
-    double point_steps_per_second = 0.;
+    /** Not finite where it is not known: then it is left out. */
+    double eta_seconds = 0.;
   };
 
   /** One row of the table of times. */

@@ -39,11 +39,21 @@ namespace CaissonMPM
     operator=(const OutputDirectory &) = delete;
 
     /**
-     * Remove the files of an earlier run: those with names that the program
-     * gives. Returns their number. For the first rank.
+     * Remove the files of an earlier run: those with names that the program or
+     * the Python package gives. Returns their number. For the first rank.
      */
     unsigned int
     clear() const;
+
+    /**
+     * Move these files to the first of the subdirectories earlier_1, earlier_2,
+     * ... that is not there. Returns its path, or an empty text where
+     * history.csv has no row after the first: then there is nothing to keep,
+     * and the files are removed. Throws RunFailure where they cannot be moved.
+     * For the first rank.
+     */
+    std::string
+    put_aside() const;
 
     const std::string &
     path() const

@@ -40,7 +40,7 @@ namespace CaissonMPM
   class StopRequest : public dealii::ParameterAcceptor
   {
   public:
-    using Signals = std::array<int, 6>;
+    using Signals = std::array<int, 7>;
 
     StopRequest();
 

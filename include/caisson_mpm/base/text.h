@@ -22,6 +22,11 @@ namespace CaissonMPM
   std::string
   to_text(const double value, const int significant_digits);
 
+  /** Write a number with two significant digits, and without an exponent where
+   * it is large: 1300000. */
+  std::string
+  rough(const double value);
+
   /** Write a whole number with all its digits. */
   template <typename Integer>
   std::enable_if_t<std::is_integral<Integer>::value, std::string>

@@ -11,6 +11,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,11 @@ namespace CaissonMPM
     std::string
     read(const std::string &scene_file, const std::string &fingerprint);
 
+    /** The relative half-width of the total force at a depth, nothing where no
+     * error is known. Units: m. */
+    std::optional<double>
+    of_total_force(const double penetration) const;
+
     /**
      * Write history_error.csv from the history.csv of @p directory, if read()
      * found errors that hold. Throws RunFailure where that is not possible.
@@ -59,6 +65,10 @@ namespace CaissonMPM
     };
 
     static const std::vector<Quantity> known_quantities;
+
+    /** Whether a depth lies within those of the study. Units: m. */
+    bool
+    covers(const double penetration) const;
 
     /** The errors at a depth that lies within those of the study. */
     Row

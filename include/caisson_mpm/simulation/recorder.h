@@ -68,18 +68,23 @@ namespace CaissonMPM
     void
     try_observations() const;
 
-    /** Prepare the directory and the terminal. Throws BadInput where the
-     * directory cannot be used. */
+    /** Prepare the directory. Throws BadInput where it cannot be used. */
     void
     open();
 
-    /** Begin new files. */
+    /** Say what is done before the first step; after describe(). */
     void
-    start();
+    tell_progress(const std::string &text);
 
-    /** Continue the files of the run whose totals have been resumed. */
+    /** Begin new files. The results of an earlier run are put aside, or removed
+     * with @p overwrite. */
     void
-    resume();
+    start(const bool overwrite);
+
+    /** Continue the files of the run whose totals have been resumed. Throws
+     * BadInput where they lack rows, or only warns with @p overwrite. */
+    void
+    resume(const bool overwrite);
 
     /** Register what is summed up between records. */
     void
@@ -148,9 +153,13 @@ namespace CaissonMPM
     /** Tell the files so far from others. */
     void
     note_files();
-    /** Warn where history.csv lacks rows of the run that goes on. */
+    /** Remove the results of an earlier run, and say so. */
     void
-    warn_of_lost_rows();
+    clear_directory();
+    /** Throw BadInput, or warn, where history.csv lacks rows of the run that
+     * goes on. */
+    void
+    check_for_lost_rows(const bool may_be_lost);
     /** Warn where the files are not as the checkpoint knows them. */
     void
     warn_of_changed_files();

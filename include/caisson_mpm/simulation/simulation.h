@@ -4,6 +4,7 @@
 #ifndef caisson_mpm_simulation_simulation_h
 #define caisson_mpm_simulation_simulation_h
 
+#include <caisson_mpm/base/command_line.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/base/run_totals.h>
@@ -60,14 +61,10 @@ namespace CaissonMPM
 
     /**
      * Check all parameters and set up the mesh and the points, those of the
-     * checkpoint with @p restart. Writes no file. @p scene_file is for messages;
-     * an @p output_directory that is not empty replaces the parameter. Throws
-     * BadInput.
+     * checkpoint with --restart. Writes no file. Throws BadInput.
      */
     void
-    set_up(const std::string &scene_file,
-           const std::string &output_directory,
-           const bool         restart);
+    set_up(const CommandLine &command_line);
 
     /** Tell what else is to be warned of in this scene, doubtful values and
      * known limits; after set_up(). Collective. */
@@ -121,6 +118,9 @@ namespace CaissonMPM
     /** Return how many steps are left, infinite where it is not known. */
     double
     number_of_steps() const;
+    /** What would make a long run shorter, in words. */
+    std::vector<std::string>
+    ways_to_save() const;
     /** Return the speed of compression waves in a layer, with mass scaling.
      * Units: m/s. */
     double
@@ -228,6 +228,7 @@ namespace CaissonMPM
 
     // state
     bool                           is_restart = false;
+    bool                           overwrites = false;
     Clock                          clock;
     MaterialPoints                 points;
     std::vector<BodyPoint>         body_points;

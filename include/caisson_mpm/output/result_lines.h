@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The forces of a finished run in words.
+#ifndef caisson_mpm_output_result_lines_h
+#define caisson_mpm_output_result_lines_h
+
+#include <caisson_mpm/base/console.h>
+#include <caisson_mpm/output/error_bar.h>
+#include <caisson_mpm/output/records.h>
+
+namespace CaissonMPM
+{
+  /**
+   * Return the largest force on the body, and the forces where the body first
+   * came to each of some evenly spaced depths (whole meters, or 0.1, 0.2, 0.5,
+   * 2, 5, ... m), with the error of the total force where it is known. The
+   * records need the columns of forces and penetration.
+   */
+  Console::Lines
+  result_lines(const Records &records, const ErrorBar &error_bar);
+} // namespace CaissonMPM
+
+#endif

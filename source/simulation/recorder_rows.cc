@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The rows and frames of a run.
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/domain/all_points.h>
+#include <caisson_mpm/simulation/recorder.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  void
+  Recorder::add_step(const SurfaceForces &on_body,
+                     const Vector2       &on_prescribed_soil)
+  {
+    for (unsigned int s = 0; s < n_surfaces; ++s)
+      impulse_on_body[s] += on_body[s];
+    impulse_on_soil += on_prescribed_soil;
+    point_steps += parts.points.n_points();
+  }
+
+  void
+  Recorder::record()
+  {
+    const MPI_Comm communicator = parts.grid.communicator();
+    parts.totals.bring_to_first_rank(communicator);
+    HistoryRow row;
+    row.time        = parts.clock.time;
+    row.penetration = parts.body.penetration();
+    row.step        = parts.clock.step;
+    row.time_step   = parts.clock.step_size;
+    row.contact_nodes =
+      Utilities::MPI::sum(parts.nodal_motion.reactions().contact.n_touching,
+                          communicator);
+    row.sticking_nodes =
+      Utilities::MPI::sum(parts.nodal_motion.reactions().contact.n_sticking,
+                          communicator);
+    row.counts = parts.totals.counts();
+    for (const auto &column : parts.water.columns())
+      row.counts.push_back(column);
+    add_forces(row);
+    add_sums_over_points(row);
+    const std::vector<double> observed = observed_values();
+    if (parts.grid.is_first_rank())
+      records->append(row, observed);
+    print_record(row);
+    warn_of_lid(row);
+    for (const std::string &warning : parts.water.take_warnings())
+      console->warning(warning);
+    tell_of_rest();
+    note_files();
+  }
+
+  void
+  Recorder::add_forces(HistoryRow &row)
+  {
+    const double  interval = parts.clock.time - last_record;
+    double *const forces[] = {
+      &row.tip, &row.inner, &row.outer, &row.top, &row.lid};
+    for (unsigned int s = 0; s < n_surfaces; ++s)
+      {
+        if (interval > 0.)
+          recorded_forces[s] = impulse_on_body[s][vertical] / interval;
+        *forces[s] = recorded_forces[s];
+        row.total += *forces[s];
+      }
+    if (interval > 0.)
+      {
+        row.cavity       = cavity_pressure(interval);
+        row.prescribed_r = impulse_on_soil[radial] / interval;
+        row.prescribed_z = impulse_on_soil[vertical] / interval;
+      }
+    impulse_on_body  = {};
+    impulse_on_soil  = Vector2();
+    last_record      = parts.clock.time;
+    travel_at_record = parts.body.motion().travel();
+  }
+
+  double
+  Recorder::cavity_pressure(const double interval) const
+  {
+    if (!parts.body.shape().expands())
+      return 0.;
+    const GridLines &lines = parts.grid.lines();
+    const double     travel =
+      .5 * (parts.body.motion().travel() + travel_at_record);
+    const double around = lines.axisymmetric() ?
+                            2. * pi * (parts.body.shape().right() + travel) :
+                            1.;
+    return -impulse_on_body[outer_wall][radial] /
+           (interval * around * lines.depth());
+  }
+
+  void
+  Recorder::add_sums_over_points(HistoryRow &row)
+  {
+    const double travel     = parts.body.motion().travel();
+    double       max_square = 0.;
+    parts.points.for_each_motion([&](const Point<2> &position,
+                                     const Vector2  &velocity,
+                                     const double,
+                                     const unsigned int) {
+      max_square = std::max(max_square, velocity.norm_square());
+      row.points_in_body += parts.body.shape().contains(position, travel);
+    });
+    const MPI_Comm communicator = parts.grid.communicator();
+    row.max_speed = Utilities::MPI::max(std::sqrt(max_square), communicator);
+    row.points_in_body = Utilities::MPI::sum(row.points_in_body, communicator);
+    max_in_body        = std::max(max_in_body, row.points_in_body);
+
+    const PointEnergies energies =
+      find_point_energies(parts.points, parts.materials, parts.grid);
+    parts.energy.close(energies);
+    row.kinetic_energy = energies.kinetic;
+    row.external_work  = parts.energy.work_of_body;
+    row.energy         = parts.energy;
+    row.added_mass =
+      parts.grid.circumference() *
+      Utilities::MPI::sum(parts.nodal_motion.added_inertia(), communicator);
+  }
+
+  std::vector<double>
+  Recorder::observed_values() const
+  {
+    if (observations.names().empty())
+      return {};
+    const AllPoints all_points(parts.points, parts.grid.communicator());
+    return parts.grid.is_first_rank() ?
+             observations.values(all_points, parts.clock.time) :
+             std::vector<double>();
+  }
+
+  void
+  Recorder::warn_of_lid(const HistoryRow &row)
+  {
+    if (at_lid || row.lid == 0.)
+      return;
+    at_lid = true;
+    console->warning("the soil plug touches the lid at a penetration of " +
+                     to_text(row.penetration, 6) +
+                     " m: from here on the lid carries load, and the mesh "
+                     "allows no more heave");
+  }
+
+  void
+  Recorder::tell_of_rest()
+  {
+    const auto travel = parts.body.motion().travel_at_rest();
+    if (has_told_of_rest || !travel)
+      return;
+    has_told_of_rest = true;
+    console->message("the body came to rest at a penetration of " +
+                     to_text(parts.body.shape().initial_depth() + *travel, 5) +
+                     " m");
+  }
+
+  void
+  Recorder::print_record(const HistoryRow &row)
+  {
+    // where records are dense, not all of them: a line for each percent
+    const double done     = parts.schedule.fraction_done();
+    const bool   is_first = parts.clock.step == first_step;
+    if (!is_first && !parts.schedule.is_finished() &&
+        done - fraction_printed < .01 * (1. - 1e-9))
+      return;
+    fraction_printed = done;
+    RecordLine line;
+    line.time           = row.time;
+    line.has_body       = parts.body.shape().exists();
+    line.penetration    = row.penetration;
+    line.tip            = row.tip;
+    line.inner          = row.inner;
+    line.outer          = row.outer;
+    line.total          = row.total;
+    line.kinetic_energy = row.kinetic_energy;
+    line.max_speed      = row.max_speed;
+    line.fraction_done  = done;
+    line.eta_seconds =
+      is_first ? std::numeric_limits<double>::quiet_NaN() :
+                 seconds_running() * (1. - done) / (done - fraction_at_start);
+    console->record(line);
+  }
+
+  void
+  Recorder::write_frame()
+  {
+    visualization->write_frame(parts.grid,
+                               parts.points,
+                               parts.body,
+                               parts.soil,
+                               parts.body_points,
+                               parts.water.acts(),
+                               parts.clock.time);
+    note_files();
+  }
+} // namespace CaissonMPM
