@@ -4,6 +4,7 @@
 import re
 import subprocess
 import sys
+import tomllib
 import unittest
 from pathlib import Path
 
@@ -56,6 +57,36 @@ class Suggest(ProgramTest):
                 text = self.suggest(path, *sizes, "--error", error)
                 self.assertRegex(text, r"duration +about \d")
                 self.run_program(SUCCESS, path, "--validate", "--strict")
+
+    def test_study_of_the_friction_angle(self) -> None:
+        """It is read, and has five runs with angles of walls that follow."""
+        path = self.made_directory()
+        study = path / "own_study.toml"
+        layers = (SAND, "3: Friction angle = 37, Youngs modulus = 4e7")
+        said = self.suggest(path / "own.prm", "--study", str(study), layers=layers)
+        self.assertIn(str(study), said)
+        angles = {}
+        with open(study, "rb") as file:
+            choices = tomllib.load(file)["parameters"]["friction angle"]["choices"]
+        for name, entries in choices.items():
+            angles[name] = [entries[f"Soil/Layer {i}/Friction angle"] for i in (1, 2)]
+            wall = entries["Rigid body/Friction angle of the inner wall"]
+            self.assertAlmostEqual(wall, 2 / 3 * angles[name][0], delta=0.1)
+        self.assertEqual(list(angles), [f"{a}, {a + 4}" for a in range(29, 38, 2)])
+        self.assertEqual(angles["33, 37"], [33, 37])
+        listed = subprocess.run(
+            [sys.executable, "-B", "-m", "caisson", "study", str(study), "--list"],
+            text=True,
+            capture_output=True,
+            env={**environment(), "PYTHONPATH": str(HERE.parent / "python")},
+        )
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        self.assertIn("friction angle of the soil", listed.stdout)
+        for words in (
+            ["--overwrite", "--study", str(path / "study.txt")],
+            ["--study", str(study)],
+        ):
+            self.suggest(path / "new.prm", *words, status=1, layers=layers)
 
     def test_what_is_given_is_in_effect(self) -> None:
         path = self.made_directory() / "own.prm"

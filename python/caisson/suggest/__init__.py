@@ -11,6 +11,7 @@ degrees. With --weight the caisson sinks by its weight and is then drawn in by
 suction; without, it is jacked.
 """
 import argparse
+import os
 import re
 import sys
 from collections.abc import Sequence
@@ -23,6 +24,7 @@ from caisson.run import RunError, ask, read_parameters
 from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
 from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of
 
+CHANGES = (-4, -2, 0, 2, 4)  # degrees, of a study of the friction angle
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "": 1.0}
 
 
@@ -60,7 +62,13 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--weight", type=float, metavar="N", help="in water; the rest takes suction")
     add("--water-depth", type=float, metavar="M", help="bounds the suction")
     add("--error", type=int, choices=LEVELS, default=10, help="wanted, in %%")
-    add("--overwrite", action="store_true", help="replace the file if it exists")
+    add(
+        "--study",
+        type=Path,
+        metavar="FILE.toml",
+        help="write a study of the friction angle, too",
+    )
+    add("--overwrite", action="store_true", help="replace files that exist")
 
 
 def check(options: argparse.Namespace) -> None:
@@ -88,8 +96,11 @@ def check(options: argparse.Namespace) -> None:
         raise SuggestError("--water-depth bounds the suction: give --weight, too")
     if options.wall_friction is not None and not 0 <= options.wall_friction < 89:
         raise SuggestError("--wall-friction must be between 0 and 89 degrees")
-    if options.file.exists() and not options.overwrite:
-        raise SuggestError(f"{options.file} exists; --overwrite replaces it")
+    for file in filter(None, (options.file, options.study)):
+        if file.exists() and not options.overwrite:
+            raise SuggestError(f"{file} exists; --overwrite replaces it")
+    if options.study and options.study.suffix != ".toml":
+        raise SuggestError(f"--study {options.study}: its name must end with .toml")
 
 
 def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
@@ -122,14 +133,8 @@ def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
     return [Layer(layer.top, [*layer.entries, same]) for layer in layers]
 
 
-def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level) -> str:
-    """Return the text of the scene."""
-    body = Body(options.diameter, options.skirt, options.wall)
-    start = start_of(body.skirt)
-    end = options.penetration or body.skirt - start
-    mesh = mesh_of(body, end, level)
-    how = "by weight and suction" if options.weight else "jacked"
-    smallest = body.wall / level.cells
+def template(name: str) -> jinja2.Template:
+    """Return a template of this package."""
     environment_of_text = jinja2.Environment(
         loader=jinja2.PackageLoader("caisson.suggest", "."),
         trim_blocks=True,
@@ -138,7 +143,45 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         undefined=jinja2.StrictUndefined,
     )
     environment_of_text.filters["number"] = lambda value: f"{float(value):.6g}"
-    return environment_of_text.get_template("scene.prm.jinja").render(
+    return environment_of_text.get_template(name)
+
+
+def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
+    """Return the text of a study with five friction angles of each layer. Raises
+    SuggestError where a layer has none."""
+    follows = options.wall_friction is None
+    choices = {}
+    for change in CHANGES:
+        entries = {}
+        for number, layer in enumerate(layers, 1):
+            try:
+                angle = float(layer.value("Friction angle")) + change
+            except ValueError as error:
+                raise SuggestError("--study: a layer has no friction angle") from error
+            if not 0 < angle < 60:
+                raise SuggestError(f"--study: {angle:g} degrees is no friction angle")
+            entries[f"Soil/Layer {number}/Friction angle"] = angle
+        name = ", ".join(f"{angle:g}" for angle in entries.values())
+        if follows:
+            wall = float(f"{2 / 3 * min(entries.values()):.3g}")
+            for side in ("outer", "inner"):
+                entries[f"Rigid body/Friction angle of the {side} wall"] = wall
+        choices[name] = entries
+    scene = os.path.relpath(options.file, options.study.parent)
+    return template("study.toml.jinja").render(
+        scene=scene, follows=follows, choices=choices
+    )
+
+
+def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level) -> str:
+    """Return the text of the scene."""
+    body = Body(options.diameter, options.skirt, options.wall)
+    start = start_of(body.skirt)
+    end = options.penetration or body.skirt - start
+    mesh = mesh_of(body, end, level)
+    how = "by weight and suction" if options.weight else "jacked"
+    smallest = body.wall / level.cells
+    return template("scene.prm.jinja").render(
         title=f"a caisson of {body.diameter:g} m with a wall of"
         f" {body.wall * 1e3:g} mm, {how}",
         body=body,
@@ -182,9 +225,17 @@ def main(options: argparse.Namespace) -> int:
             scene_of(options, layers, LEVELS[options.error]), encoding="utf-8"
         )
         print(cost_of(options.file))
+        if options.study:
+            options.study.write_text(study_of(options, layers), encoding="utf-8")
     except (SuggestError, RunError, OSError) as error:
         print(f"suggest: {error}", file=sys.stderr)
         return 1
-    run = "caisson run" if INSTALLED else "scripts/run"
+    run, study = (
+        ("caisson run", "caisson study")
+        if INSTALLED
+        else ("scripts/run", "scripts/caisson study")
+    )
     print(f"written: {options.file}; next: {run} {options.file}")
+    if options.study:
+        print(f"written: {options.study}; next: {study} {options.study}")
     return 0
