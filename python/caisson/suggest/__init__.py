@@ -96,7 +96,8 @@ def check(options: argparse.Namespace) -> None:
         raise SuggestError("--water-depth bounds the suction: give --weight, too")
     if options.wall_friction is not None and not 0 <= options.wall_friction < 89:
         raise SuggestError("--wall-friction must be between 0 and 89 degrees")
-    for file in filter(None, (options.file, options.study)):
+    files: list[Path] = [f for f in (options.file, options.study) if f]
+    for file in files:
         if file.exists() and not options.overwrite:
             raise SuggestError(f"{file} exists; --overwrite replaces it")
     if options.study and options.study.suffix != ".toml":
