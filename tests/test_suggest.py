@@ -124,6 +124,16 @@ class Suggest(ProgramTest):
         )
         self.assertGreater(history(path / "run")[-1]["tip_force_N"], 1e4)
 
+    def test_other_laws_of_mohr_coulomb(self) -> None:
+        """They get what Mohr-Coulomb soil is assumed to have."""
+        path = self.made_directory() / "own.prm"
+        law = "Mohr-Coulomb with stiffness by stress"
+        self.suggest(path, layers=(f"0: Law = {law}, {SAND[3:]}",))
+        entries = read_parameters([str(path)])
+        self.assertEqual(entries["Soil/Layer 1/Law"], law)
+        self.assertEqual(entries["Soil/Layer 1/Solid density"], "2650")
+        self.run_program(SUCCESS, path, "--validate", "--strict")
+
     def test_refusals(self) -> None:
         """One clear line each, and no file."""
         path = self.made_directory() / "own.prm"

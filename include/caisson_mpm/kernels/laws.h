@@ -10,6 +10,7 @@
 #include <caisson_mpm/kernels/linear_elastic.h>
 #include <caisson_mpm/kernels/mohr_coulomb.h>
 #include <caisson_mpm/kernels/mohr_coulomb_softening.h>
+#include <caisson_mpm/kernels/mohr_coulomb_stiffening.h>
 #include <caisson_mpm/kernels/overstress.h>
 
 #define CAISSON_LAMBDA __attribute__((always_inline))

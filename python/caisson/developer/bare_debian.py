@@ -7,6 +7,9 @@ root. A tree that is there is used again, so delete it for a bare one. The log o
 each command is DIR/root/N.log. To be run before every release, with trixie and
 with bookworm; it takes about half an hour, 6 GB and a network.
 
+With --day, the commands are those of doc/how_to/own_caisson.md: a scene for one's own
+caisson, its run and report, a study of the friction angle, and a comparison.
+
 With --user, the commands are those of an ordinary user with sudo, whom the tree then
 has, as Windows makes it (WSL). With --install, packages that scripts/package has
 built for this release are installed instead of the clone, and an ordinary user runs
@@ -29,6 +32,15 @@ from caisson.paths import ROOT
 
 RELEASES = ("trixie", "bookworm")
 COMMANDS = ["scripts/run prm/jack.prm", "scripts/test"]
+DAY = [
+    "scripts/caisson suggest --diameter 10 --skirt 8 --wall 40mm --error 10"
+    " --layer '0: Friction angle = 33, Youngs modulus = 20e6'"
+    " --layer '3: Friction angle = 37, Youngs modulus = 40e6'"
+    " own.prm --study own_study.toml",
+    "scripts/run --ranks 2 own.prm",
+    "scripts/caisson study own_study.toml",
+    "scripts/caisson compare own.png results/own results/parameters/own_study/*/",
+]
 # of an installed package, in an empty directory
 INSTALLED_COMMANDS = [
     "caisson scenes",
@@ -111,7 +123,8 @@ def prepare_clone(options: argparse.Namespace, tree: Path) -> list[str]:
     home = f"/home/{USER}" if options.user else "/root"
     place = tree / home[1:] / NAME
     clone(place)
-    commands = [f"cd {home}/{NAME} && {c}" for c in options.command or COMMANDS]
+    chosen = options.command or (DAY if options.day else COMMANDS)
+    commands = [f"cd {home}/{NAME} && {command}" for command in chosen]
     if options.user:
         make_user(tree, with_sudo=True)
         commands = [as_user(command) for command in commands]
@@ -152,6 +165,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("directory", type=Path, metavar="DIR")
     parser.add_argument("--mirror", default=mirror(), help="default: that of apt")
     add = parser.add_argument
+    add("--day", action="store_true", help="an engineer's first day")
     add("--user", action="store_true", help="as an ordinary user with sudo")
     add("--install", nargs="+", type=Path, metavar="FILE.deb", help="try packages")
     parser.add_argument(

@@ -18,7 +18,7 @@ from caisson.results import Results
 
 Scene = Mapping[str, Any]
 # The laws whose strength is one friction angle; run.json names the law of a layer.
-LAWS = ("Mohr-Coulomb",)
+LAWS = ("Mohr-Coulomb", "Mohr-Coulomb with stiffness by stress")
 SOFTENING = "Mohr-Coulomb with softening"
 SAND = "hypoplastic sand"
 SIZES = ("diameter_m", "wall_thickness_m")

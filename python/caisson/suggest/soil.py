@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 MOHR_COULOMB = "Mohr-Coulomb"
-# what Mohr-Coulomb soil has where nothing is given
+# what soil of a law of Mohr-Coulomb has where nothing is given
 ASSUMED = {
     "Law": MOHR_COULOMB,
     "Poisson ratio": "0.3",
@@ -79,7 +79,7 @@ def layer_of(text: str, known: Sequence[str]) -> Layer:
 def entries_of(given: dict[str, str], text: str) -> list[Entry]:
     """Return the entries given and, for Mohr-Coulomb soil, those assumed. Raises
     SuggestError where one is missing that cannot be assumed."""
-    if given.get("Law", MOHR_COULOMB) != MOHR_COULOMB:
+    if not given.get("Law", MOHR_COULOMB).startswith(MOHR_COULOMB):
         return [Entry(*pair) for pair in given.items()]
     missing = [name for name in NEEDED if name not in given]
     if missing:

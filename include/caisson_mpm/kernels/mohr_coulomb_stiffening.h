@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Mohr-Coulomb whose Young's modulus follows the mean effective stress p
+// (Janbu 1963, for sand),
+//
+//   E = E_ref (max(p, p_min) / p_ref)^m,   p = -tr(sigma) / 3,
+//
+// with a constant Poisson ratio. For m = 0 the law is Mohr-Coulomb.
+//
+// The step is explicit in the stiffness, which is that of the stress at its
+// start. A return to the yield surface depends on the ratios of the elastic
+// constants only, so that it is that of mohr_coulomb_return.h with E_ref for a
+// strain that is E / E_ref times as large; only the plastic strain must be
+// scaled back. The elasticity has no potential: a closed path of stress in the
+// elastic range gives or takes some work.
+//
+// Reference:
+//   N. Janbu (1963), Soil compressibility as determined by oedometer and
+//     triaxial tests. Proc. ECSMFE, Wiesbaden, vol. 1, 19-25.
+#ifndef caisson_mpm_kernels_mohr_coulomb_stiffening_h
+#define caisson_mpm_kernels_mohr_coulomb_stiffening_h
+
+#include <caisson_mpm/kernels/mohr_coulomb.h>
+#include <caisson_mpm/kernels/simd_math.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    inline namespace CAISSON_KERNEL_ISA
+    {
+      /** The law "Mohr-Coulomb with stiffness by stress": the strength is that
+       * of Mohr-Coulomb, the stiffness of each point follows from its stress.
+       * See the head of the file. */
+      struct MohrCoulombStiffening
+      {
+        static constexpr const char *name =
+          "Mohr-Coulomb with stiffness by stress";
+        static constexpr LawEntry entries[] = {
+          Entries::youngs_modulus,
+          Entries::poisson_ratio,
+          Entries::friction_angle,
+          Entries::dilatancy_angle,
+          Entries::cohesion,
+          Entries::tension_cutoff,
+          Entries::largest_void_ratio,
+          {"Reference stress",
+           "Young's modulus is that of this mean effective stress. Units: Pa.",
+           1e5,
+           1e-3,
+           no_limit},
+          {"Stiffness exponent",
+           "Young's modulus grows with this power of the mean effective "
+           "stress. Units: none.",
+           0.5,
+           0.,
+           1.},
+          {"Smallest stress of stiffness",
+           "Below this mean effective stress Young's modulus falls no further. "
+           "Units: Pa.",
+           1e3,
+           1e-3,
+           no_limit}};
+        static constexpr int friction_entry    = MohrCoulomb::friction_entry,
+                             n_state           = 0;
+        static constexpr bool uses_void_ratio  = MohrCoulomb::uses_void_ratio,
+                              stiffness_varies = true;
+
+        struct Parameters
+        {
+          MohrCoulomb::Parameters reference; // at the reference stress
+          double                  exponent;
+          double                  inverse_stress, smallest_stress; // 1/Pa, Pa
+        };
+
+        static Parameters
+        make(const double *values)
+        {
+          return {MohrCoulomb::make(values),
+                  values[8],
+                  1. / values[7],
+                  values[9]};
+        }
+
+        static bool
+        dilates(const Parameters &p)
+        {
+          return MohrCoulomb::dilates(p.reference);
+        }
+
+        static bool
+        needs_void_ratio(const Parameters &p)
+        {
+          return MohrCoulomb::needs_void_ratio(p.reference);
+        }
+
+        static bool
+        check(const double     *values,
+              const LawContext &context,
+              LawMessage       &message)
+        {
+          return MohrCoulomb::check(values, context, message);
+        }
+
+        static const char *
+        warning(const double *values)
+        {
+          return MohrCoulomb::warning(values);
+        }
+
+        static double
+        earth_pressure_at_rest(const Parameters &p)
+        {
+          return MohrCoulomb::earth_pressure_at_rest(p.reference);
+        }
+
+        /** E / E_ref. */
+        template <typename Number>
+        static CAISSON_INLINE Number
+        stiffening(const StressState<Number> &s, const Parameters &p)
+        {
+          const Number pressure = max(Number(-1. / 3.) * (s.rr + s.zz + s.tt),
+                                      Number(p.smallest_stress));
+          return pow(Number(p.inverse_stress) * pressure, p.exponent);
+        }
+
+        static double
+        p_wave_modulus(const StressState<Lanes<1>> &stress,
+                       const double                 void_ratio,
+                       const Parameters            &p)
+        {
+          return stiffening(stress, p)[0] *
+                 MohrCoulomb::p_wave_modulus(stress, void_ratio, p.reference);
+        }
+
+        template <typename Number>
+        static CAISSON_INLINE void
+        update(StressState<Number>           &sigma,
+               const StrainIncrement<Number> &de,
+               LawState<Number>              &state,
+               const Parameters              &p)
+        {
+          const Number factor     = stiffening(sigma, p);
+          const Number deviatoric = state.plastic_deviatoric,
+                       volumetric = state.plastic_volumetric;
+          MohrCoulomb::update(sigma,
+                              StrainIncrement<Number>{factor * de.rr,
+                                                      factor * de.zz,
+                                                      factor * de.tt,
+                                                      factor * de.rz},
+                              state,
+                              p.reference);
+          const Number inverse = Number(1.) / factor;
+          state.plastic_deviatoric =
+            deviatoric + inverse * (state.plastic_deviatoric - deviatoric);
+          state.plastic_volumetric =
+            volumetric + inverse * (state.plastic_volumetric - volumetric);
+        }
+      };
+
+      template <>
+      struct LawSlot<4>
+      {
+        using type = MohrCoulombStiffening;
+      };
+    } // namespace CAISSON_KERNEL_ISA
+  }   // namespace Kernels
+} // namespace CaissonMPM
+
+#endif
