@@ -23,25 +23,63 @@ namespace CaissonMPM
 
 
 
-  int
-  try_to_write(const std::string &path, const std::string &text)
+  // C streams: errno is reliable with them, and the data can be synchronized
+  AtomicFile::AtomicFile(const std::string &path)
+    : path(path)
+    , temporary(path + ".tmp")
+    , file(std::fopen(temporary.c_str(), "wb"))
   {
-    // C streams: errno is reliable with them, and the data can be synchronized
-    const std::string temporary = path + ".tmp";
-    std::FILE        *file      = std::fopen(temporary.c_str(), "wb");
     if (file == nullptr)
-      return errno;
-    int error = 0;
-    if (std::fwrite(text.data(), 1, text.size(), file) != text.size() ||
-        std::fflush(file) != 0 || fsync(fileno(file)) != 0)
+      error = errno;
+  }
+
+
+
+  AtomicFile::~AtomicFile()
+  {
+    if (file == nullptr)
+      return;
+    std::fclose(file);
+    std::remove(temporary.c_str());
+  }
+
+
+
+  void
+  AtomicFile::append(const std::string &text)
+  {
+    if (error == 0 &&
+        std::fwrite(text.data(), 1, text.size(), file) != text.size())
+      error = errno;
+  }
+
+
+
+  int
+  AtomicFile::finish()
+  {
+    if (file == nullptr)
+      return error;
+    if (error == 0 && (std::fflush(file) != 0 || fsync(fileno(file)) != 0))
       error = errno;
     if (std::fclose(file) != 0 && error == 0)
       error = errno;
+    file = nullptr;
     if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0)
       error = errno;
     if (error != 0)
       std::remove(temporary.c_str());
     return error;
+  }
+
+
+
+  int
+  try_to_write(const std::string &path, const std::string &text)
+  {
+    AtomicFile file(path);
+    file.append(text);
+    return file.finish();
   }
 
 

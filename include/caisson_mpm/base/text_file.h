@@ -5,6 +5,7 @@
 #ifndef caisson_mpm_base_text_file_h
 #define caisson_mpm_base_text_file_h
 
+#include <cstdio>
 #include <string>
 
 namespace CaissonMPM
@@ -19,10 +20,38 @@ namespace CaissonMPM
                     const std::string &consequence = "");
 
   /**
-   * Write @p text to path.tmp, bring it to the disk and rename it to @p path:
-   * the file is there completely, or as it was before. Returns 0 or an errno,
-   * so that all ranks can agree before one throws. Not collective.
+   * A file that is written piece by piece to path.tmp. finish() brings it to
+   * the
+   * disk and renames it to @p path: the file is there completely, or as it was
+   * before. Without finish() nothing is left. Not collective.
    */
+  class AtomicFile
+  {
+  public:
+    explicit AtomicFile(const std::string &path);
+    ~AtomicFile();
+
+    AtomicFile(const AtomicFile &) = delete;
+    AtomicFile &
+    operator=(const AtomicFile &) = delete;
+
+    /** Add a piece; nothing after an error. */
+    void
+    append(const std::string &text);
+
+    /** Return 0 or an errno of anything that went wrong, so that all ranks can
+     * agree before one throws. To be called once, at the end. */
+    int
+    finish();
+
+  private:
+    const std::string path, temporary;
+    std::FILE        *file;
+    int               error = 0;
+  };
+
+  /** Write @p text by means of an AtomicFile. Returns 0 or an errno. Not
+   * collective. */
   int
   try_to_write(const std::string &path, const std::string &text);
 
