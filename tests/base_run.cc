@@ -66,6 +66,8 @@ test_output_directory()
                                  "points_0001.2.vtu",
                                  "points_0001.pvtu",
                                  "grid.pvd",
+                                 "body.pvd",
+                                 "body_0001.vtu",
                                  "history.csv",
                                  "checkpoint-a.h5",
                                  "checkpoint.info",

@@ -67,9 +67,12 @@ class Stop(ProgramTest):
             self.assertAlmostEqual(
                 a["computed"], b["computed"], delta=1e-6 * max(1.0, abs(a["computed"]))
             )
-        for name in ("points.pvd", "grid.pvd"):
-            counts = [(p / name).read_text().count("<DataSet") for p in (whole, path)]
-            self.assertEqual(counts[0], counts[1], name)
+        for name in ("points.pvd", "grid.pvd", "body.pvd"):
+            frames = [
+                re.findall("<DataSet.*", (p / name).read_text()) for p in (whole, path)
+            ]
+            self.assertEqual(frames[0], frames[1], name)
+            self.assertGreater(len(frames[0]), 1, name)
 
     def test_lost_rows(self) -> None:
         """A restart is refused where history.csv has lost rows since the checkpoint,
@@ -110,6 +113,7 @@ class Stop(ProgramTest):
             ("history.csv", "\n0.1,", "\n0.11,"),
             ("observations.csv", "\n0.05", "\n0.04"),
             ("grid.pvd", 'file="grid_0000.vtu"', 'file="grid_0001.vtu"'),
+            ("body.pvd", 'file="body_0000.vtu"', 'file="body_0001.vtu"'),
         ):
             with self.subTest(name=name):
                 copy = self.directory("copy")

@@ -192,7 +192,7 @@ class Files(ProgramTest):
             self.assertIn(key, about)
         self.assertEqual(about["max_points_in_body"], 0)
         self.assertEqual(about["steps"], rows[-1]["step"])
-        for name in ("points.pvd", "grid.pvd"):
+        for name in ("points.pvd", "grid.pvd", "body.pvd"):
             root = ElementTree.parse(path / name).getroot()
             frames = [
                 (float(d.attrib["timestep"]), path / d.attrib["file"])

@@ -12,6 +12,7 @@ import numpy as np
 from caisson import curve, plot, table
 from caisson.plot.cells import CellMeans, cell_of
 from caisson.plot.fields import chosen
+from caisson.plot.vtu import without_unit
 from caisson.results import Results, ResultsError, read_table
 
 TINY = Path(__file__).resolve().parent / "tiny_run"
@@ -156,6 +157,23 @@ class Pictures(Directory):
         tops = means.polygons[:, 2:, 1].mean(axis=1)
         self.assertEqual(list(tops[:5]), list(cells[:5, 2, 1]), "not at the surface")
         self.assertTrue(np.allclose(tops[5:], [2.8, 1.8]), "at the surface")
+
+    def test_means_pass_over_what_is_unknown(self) -> None:
+        corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+        cells = np.array([corners, corners + [1, 0]])
+        position = np.array([[0.2, 0.5], [0.5, 0.5], [0.8, 0.5], [1.5, 0.5]])
+        volume = np.array([1.0, 2.0, 3.0, 10.0])
+        means = CellMeans(position, volume, cells, np.zeros(2, dtype=bool))
+        np.testing.assert_allclose(means.of(np.array([6, 3, 2, 7])), [3, 7])
+        values = np.array([6, np.nan, 2, np.nan])
+        np.testing.assert_allclose(means.of(values), [3, np.nan])
+
+    def test_names_of_quantities(self) -> None:
+        """Those of earlier versions have no units."""
+        for name in ("stress_zz", "velocity", "displacement", "whole_volume"):
+            unit = {"s": "Pa", "v": "m_s", "d": "m", "w": "m3"}[name[0]]
+            self.assertEqual(without_unit(f"{name}_{unit}"), name)
+            self.assertEqual(without_unit(name), name)
 
     def test_curve(self) -> None:
         lines = list(curve.describe(TINY, [1.0, 9.0]))

@@ -24,7 +24,7 @@ namespace CaissonMPM
     /** The names of all files that a run writes, and of the pictures and
      * reports that the Python package makes of them. */
     const std::regex result_names(
-      R"((points|grid)(_\d+([._]\d+)*\.p?vtu|\.pvd)(\.tmp)?|)"
+      R"((points|grid|body)(_\d+([._]\d+)*\.p?vtu|\.pvd)(\.tmp)?|)"
       R"((history|history_error|observations)\.csv(\.tmp)?|)"
       R"((run|verification)\.json(\.tmp)?|)"
       R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5)|)"

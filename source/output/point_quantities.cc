@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/output/point_quantities.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace CaissonMPM
@@ -109,6 +110,18 @@ namespace CaissonMPM
               "number of its layer, from 0",
               [](P p) { return double(p.material); })};
   } // namespace
+
+
+
+  std::string
+  with_unit(const std::string &name, const std::string &unit)
+  {
+    if (unit == "none")
+      return name;
+    std::string result = name + "_" + unit;
+    std::replace(result.begin() + name.size(), result.end(), '/', '_');
+    return result;
+  }
 
 
 

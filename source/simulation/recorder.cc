@@ -205,7 +205,8 @@ namespace CaissonMPM
     compare(then.observations != files.observations &&
               then.observations * files.observations != 0., // both are there
             "observations.csv has");
-    compare(then.frames != files.frames, "points.pvd or grid.pvd has");
+    compare(then.frames != files.frames,
+            "points.pvd, grid.pvd or body.pvd has");
   }
 
   void
@@ -409,7 +410,8 @@ namespace CaissonMPM
                            ", printed above and kept in run.json");
     lines.emplace_back("results",
                        directory +
-                         ": history.csv, run.json, points.pvd, grid.pvd");
+                         ": history.csv, run.json, points.pvd, grid.pvd" +
+                         (parts.body.shape().exists() ? ", body.pvd" : ""));
     lines.emplace_back("next",
                        "scripts/plot " + directory +
                          " draws the results (of an installed program: "

@@ -194,7 +194,6 @@ namespace CaissonMPM
                                parts.points,
                                parts.body,
                                parts.soil,
-                               parts.body_points,
                                parts.water.acts(),
                                parts.clock.time);
     note_files();

@@ -51,6 +51,11 @@ namespace CaissonMPM
     PointQuantity value;
   };
 
+  /** Return a name with a unit as the columns of history.csv have it:
+   * "stress_zz_Pa", "velocity_m_s"; the name alone of what has no unit. */
+  std::string
+  with_unit(const std::string &name, const std::string &unit);
+
   /** Return all quantities: the fields of a point (kernels/point_fields.h), and
    * what follows from them. SI units; stresses are positive in tension. */
   const std::vector<NamedQuantity> &

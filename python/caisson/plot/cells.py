@@ -102,9 +102,14 @@ class CellMeans:
         return result
 
     def of(self, values: np.ndarray) -> np.ndarray:
-        """Return the means of a field [n_points] over the polygons, by volume."""
-        sums = self._sum(self.volume * values, len(self.total))
-        return sums[self.used] / self.total[self.used]
+        """Return the means of a field [n_points] over the polygons, by volume. Points
+        at which it is nan are left out; nan where there is no other."""
+        n, told = len(self.total), np.isfinite(values)
+        if told.all():
+            return self._sum(self.volume * values, n)[self.used] / self.total[self.used]
+        sums = self._sum(np.where(told, self.volume * values, 0), n)[self.used]
+        total = self._sum(np.where(told, self.volume, 0), n)[self.used]
+        return np.divide(sums, total, out=np.full(len(sums), np.nan), where=total > 0)
 
     def gradients(self, values: np.ndarray) -> np.ndarray:
         """Return the gradients [n_used, 2] of the affine fit of a field [n_points] to

@@ -209,10 +209,11 @@ def draw_frames(
 def shown_values(
     frames: Sequence[Frame], fields: Sequence[np.ndarray], window: Window
 ) -> np.ndarray:
-    """Return the values of all cells in the window."""
-    return np.concatenate(
+    """Return the values of all cells in the window that have one."""
+    values = np.concatenate(
         [field[inside(frame, window)] for frame, field in zip(frames, fields)]
     )
+    return values[np.isfinite(values)]
 
 
 def stress_of(
@@ -243,7 +244,10 @@ def draw_void_ratio(path: Path, frames: Sequence[Frame], window: Window) -> Path
     if "void_ratio" not in frames[0].soil:
         return None
     fields = [frame.means.of(frame.soil["void_ratio"]) for frame in frames]
-    low, high = np.percentile(shown_values(frames, fields, window), [1, 99])
+    shown = shown_values(frames, fields, window)
+    if len(shown) == 0:  # soil without pores
+        return None
+    low, high = np.percentile(shown, [1, 99])
     if high - low < 0.05:
         return None
     style = {"cmap": "viridis", "vmin": low, "vmax": high}

@@ -11,6 +11,8 @@ from vtkmodules.vtkIOXML import (
     vtkXMLUnstructuredGridReader,
 )
 
+UNITS = ("Pa", "m_s", "m3", "m")  # of the arrays of a frame
+
 
 def read_grid(file: Path) -> Any:
     """Return the vtkUnstructuredGrid of a .vtu or .pvtu file."""
@@ -24,10 +26,19 @@ def read_grid(file: Path) -> Any:
     return reader.GetOutput()
 
 
+def without_unit(name: str) -> str:
+    """Return the name of a quantity, as observations have it, from that of its array:
+    stress_zz from stress_zz_Pa. Files of earlier versions have names without units."""
+    for unit in UNITS:
+        if name.endswith(f"_{unit}"):
+            return name.removesuffix(f"_{unit}")
+    return name
+
+
 def arrays_of(data: Any) -> dict[str, np.ndarray]:
-    """Return the arrays of point or cell data by name."""
+    """Return the arrays of point or cell data by the names of their quantities."""
     return {
-        data.GetArrayName(i): vtk_to_numpy(data.GetArray(i))
+        without_unit(data.GetArrayName(i)): vtk_to_numpy(data.GetArray(i))
         for i in range(data.GetNumberOfArrays())
         if data.GetArray(i) is not None
     }

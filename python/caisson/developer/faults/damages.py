@@ -23,6 +23,7 @@ FILES = {
     "observations.csv": 10,
     "points.pvd": 5,
     "grid.pvd": 5,
+    "body.pvd": 5,
 }
 STRUCTURE = 2500  # bytes of an HDF5 file that are not rows of points
 OBSERVED = {"Verification/Observations": "u = max displacement_z; s = min stress_zz"}

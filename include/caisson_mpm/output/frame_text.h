@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the files of a frame contain: material points, cells, and the body.
+//
+// The quantities of points are those of output/point_quantities.h that are
+// drawn: SI units, stresses effective and positive in tension,
+//   mean_stress = (rr + zz + tt) / 3,
+//   deviator    = sqrt(3 J2),  J2 = s:s / 2.
+// The void ratio follows from the initial porosity n of the point's layer and
+// its change of volume J: e = (1 + e0) J - 1 with e0 = n / (1 - n).
+// whole_volume (m3) is the volume of a point for the whole circumference, in
+// plane strain per meter.
+//
+// An array is called as the quantity and its unit, as the columns of
+// history.csv are: stress_zz_Pa. The files have no other place for units that
+// ParaView shows.
+#ifndef caisson_mpm_output_frame_text_h
+#define caisson_mpm_output_frame_text_h
+
+#include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/domain/background_grid.h>
+#include <caisson_mpm/domain/material_points.h>
+#include <caisson_mpm/materials/soil.h>
+
+#include <string>
+
+namespace CaissonMPM
+{
+  /**
+   * Makes the text of files of the format VTU, of what this rank owns. It only
+   * refers to the parts; the vertices of the grid must have been written. Not
+   * collective.
+   */
+  class FrameText
+  {
+  public:
+    /** @p time is written into the files. Units: s. */
+    FrameText(const BackgroundGrid &grid,
+              const MaterialPoints &points,
+              const Soil           &soil,
+              const bool            with_pore_pressure,
+              const double          time)
+      : grid(grid)
+      , points(points)
+      , soil(soil)
+      , with_pore_pressure(with_pore_pressure)
+      , time(time)
+    {}
+
+    /** Return the material points of this rank from number begin to end. */
+    std::string
+    of_points(const unsigned long long begin,
+              const unsigned long long end) const;
+
+    /**
+     * Return the cells of this rank: what they are, how many points they have,
+     * and the means of stress, void ratio and pore pressure over the points,
+     * by volume. A mean is not a number where no point tells it: in the body
+     * and above the soil. Values are at the corners, of which each cell has its
+     * own.
+     */
+    std::string
+    of_cells() const;
+
+    /** Return the section of the body where it is now, as cells, on any rank
+     * all of it; nothing where there is no body. */
+    std::string
+    of_body(const RigidBody &body) const;
+
+  private:
+    const BackgroundGrid &grid;
+    const MaterialPoints &points;
+    const Soil           &soil;
+    const bool            with_pore_pressure;
+    const double          time;
+  };
+} // namespace CaissonMPM
+
+#endif
