@@ -17,7 +17,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 Arrays = dict[str, np.ndarray]
 CELLS = {"material_id", "zone", "material_points"}
-STRESS = {f"stress_{part}_Pa" for part in ("rr", "zz", "tt", "rz")}
+STRESS = {"stress_rr_Pa", "stress_zz_Pa", "stress_tt_Pa", "stress_rz_Pa"}
 POINTS = STRESS | {
     *("id", "velocity_m_s", "displacement_m", "mean_stress_Pa", "deviator_Pa"),
     *("plastic_deviatoric", "plastic_volumetric", "material", "void_ratio"),
