@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from program import SUCCESS, Entries, ProgramTest, history, summary
+from program import FAILURE, SUCCESS, Entries, ProgramTest, history, summary
 
 from caisson import plot
 from caisson.plot.cells import cell_of
@@ -299,6 +299,21 @@ class Files(FramesTest):
                 np.testing.assert_allclose(depths, expected, atol=1e-3)
                 numbers = [f"{series}_000{i}.vtu" for i in range(6)]
                 self.assertEqual([f.name for f in files(path, series)], numbers)
+
+    def test_frame_that_cannot_be_written(self) -> None:
+        """As on a full disk: no series lists a frame of which a file is missing."""
+        for ranks in (1, 2):
+            path = self.made_directory()
+            (path / "body_0001.vtu" / "in_the_way").mkdir(parents=True)
+            entries = {"Time/End penetration": 0.51}
+            text = self.run_scene("jack", path, FAILURE, entries=entries, ranks=ranks)
+            (failure,) = [line for line in text.splitlines() if "failure: " in line]
+            self.assert_words(["body_0001.vtu", "frames so far are kept"], failure)
+            for series in ("points", "grid", "body"):
+                self.assertEqual(
+                    [file.name for file in files(path, series)], [f"{series}_0000.vtu"]
+                )
+            self.assertEqual(list(path.glob("*.tmp")), [])
 
     def test_many_points(self) -> None:
         """More than 100,000 on a rank are two pieces of one file."""

@@ -24,8 +24,8 @@ namespace CaissonMPM
 
   /**
    * Make one point in every cell of the body that this rank owns. The points
-   * carry the mass of the body and are drawn, and take no part in the time
-   * step. The grid must be in its initial position.
+   * carry the mass of the body, and take no part in the time step. The grid
+   * must be in its initial position.
    */
   std::vector<BodyPoint>
   generate_body_points(const BackgroundGrid &grid, const RigidBody &body);
