@@ -242,6 +242,21 @@ class Files(FramesTest):
         bodies = [text[text.index("<VTKFile") :] for text in texts]
         self.assertEqual(*bodies)  # but for the date
 
+    def test_ranks_without_points(self) -> None:
+        """One of 8 ranks has the only cell."""
+        entries: Entries = {
+            **{"Grid/Cell width": 1, "Grid/Cell height": 1, "Time/End time": 1e-3},
+            "Soil/Layer 1/Porosity": 0.4,
+        }
+        one, many = [
+            self.frames_of("two_fields", entries, ranks=n, directory=f"ranks_{n}")
+            for n in (1, 8)
+        ]
+        for series in ("points", "grid"):
+            found = [read(files(path, series)[-1]) for path in (one, many)]
+            self.assert_same_frames(*found)
+        self.assertEqual(files(many, "grid")[-1].read_text().count("<Piece "), 1)
+
     def assert_same_frames(
         self, a: tuple[np.ndarray, Arrays], b: tuple[np.ndarray, Arrays]
     ) -> None:

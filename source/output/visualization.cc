@@ -69,6 +69,18 @@ namespace CaissonMPM
         }
       return frames;
     }
+
+    // deal.II takes about a kilobyte for each point that it writes
+    constexpr unsigned long long points_per_piece = 100000;
+
+    /** The largest number of pieces that a rank needs for its points.
+     * Collective. */
+    unsigned int
+    n_pieces(const MaterialPoints &points, const MPI_Comm communicator)
+    {
+      const unsigned int own = points.n_points() / points_per_piece + 1;
+      return Utilities::MPI::max(own, communicator);
+    }
   } // namespace
 
 
@@ -121,21 +133,15 @@ namespace CaissonMPM
     const MPI_Comm     communicator = grid.communicator();
     const FrameText    text(grid, points, soil, with_pore_pressure, time);
     const auto         write =
-      [&](const Series &series, const unsigned int n_pieces, const auto &make) {
+      [&](const Series &series, const unsigned int n, const auto &make) {
         const std::string file = numbered(series.name, number) + ".vtu";
-        write_vtu_file(directory + "/" + file, communicator, n_pieces, make);
+        write_vtu_file(directory + "/" + file, communicator, n, make);
         return file;
       };
 
-    // deal.II takes about a kilobyte for each point that it writes
-    constexpr unsigned long long points_per_piece = 100000;
-    const unsigned int           n_pieces =
-      Utilities::MPI::max(static_cast<unsigned int>(
-                            points.n_points() / points_per_piece + 1),
-                          communicator);
     auto &[of_points, of_grid, of_body] = all_series;
     const std::string point_file =
-      write(of_points, n_pieces, [&](const unsigned int i) {
+      write(of_points, n_pieces(points, communicator), [&](const auto i) {
         return text.of_points(i * points_per_piece, (i + 1) * points_per_piece);
       });
     const std::string grid_file =

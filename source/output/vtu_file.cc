@@ -40,8 +40,7 @@ namespace CaissonMPM
             tail = text.substr(after);
             file.append(head);
           }
-        // a piece without points has no fields either, and readers would take
-        // them to be missing in all pieces
+        // some ranks have no points, and nothing is lost without their pieces
         if (text.compare(begin, empty.size(), empty) != 0)
           file.append(text.substr(begin, after - begin) + "\n");
       }
