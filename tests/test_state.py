@@ -5,9 +5,6 @@ import unittest
 
 from program import BAD_INPUT, FAILURE, SUCCESS, ProgramTest, history, scene, summary
 
-from caisson.plot.vtu import read_points
-from caisson.results import Results
-
 
 class Lost(ProgramTest):
     """Runs that cannot go on."""
@@ -100,27 +97,6 @@ class Limits(ProgramTest):
             "block_mass_floor", path, entries={"Output/Record interval": 0.02}
         )
         self.assertGreater(max(row["added_mass_kg"] for row in history(path)), 0.0)
-
-
-class Body(ProgramTest):
-    """The points that show the body."""
-
-    def test_they_move_with_it(self) -> None:
-        """Also when a run has begun anew, as it does every 400 steps."""
-        path = self.directory()
-        self.run_scene("jack", path, entries={"Output/Frame interval": 0.5})
-        self.assertGreater(summary(path)["steps"], 800)
-        rows = {row["time_s"]: row["penetration_m"] for row in history(path)}
-        frames = Results(path).frames()
-        self.assertGreater(len(frames), 3)
-        for time, files in frames:
-            points = read_points(files)
-            lowest = points["position"][points["material"] < 0, 1].min()
-            if time == 0:
-                start = lowest
-            self.assertAlmostEqual(
-                start - lowest, rows[time] - rows[0.0], delta=1e-6, msg=str(time)
-            )
 
 
 class Step(ProgramTest):
