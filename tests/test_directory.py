@@ -36,7 +36,12 @@ class Directory(ProgramTest):
         for number in (1, 2, None):
             options = [] if number else ["--overwrite"]
             with self.subTest(number=number):
-                for name in ("points_0009.vtu", "body_0009.vtu", "forces.png", "notes.txt"):
+                for name in (
+                    "points_0009.vtu",
+                    "body_0009.vtu",
+                    "forces.png",
+                    "notes.txt",
+                ):
                     (path / name).write_text("old")
                 (path / "history.csv").write_text(history)
                 text = self.run_scene("jack", path, SUCCESS, *options, entries=entries)
