@@ -53,6 +53,29 @@ test_numbers()
 
 
 
+/** What an earlier run left in mesh/results is kept. */
+void
+test_put_aside()
+{
+  print_error("put aside", [&]() {
+    const OutputDirectory directory("mesh/results", MPI_COMM_WORLD);
+    for (const std::string rows : {"", "0\n", "0\n1\n", "0\n1\n2\n"})
+      {
+        std::ofstream("mesh/results/history.csv") << "time_s\n" << rows;
+        std::ofstream("mesh/results/report.html") << "drawn";
+        std::cout << '"' << directory.put_aside() << "\" ";
+      }
+    std::cout << '\n'
+              << read_text("mesh/results/earlier_2/history.csv")
+              << read_text("mesh/results/earlier_2/report.html") << '\n'
+              << std::filesystem::exists("mesh/results/report.html") << '\n';
+  });
+  std::filesystem::remove_all("mesh/results/earlier_1");
+  std::filesystem::remove_all("mesh/results/earlier_2");
+}
+
+
+
 void
 test_output_directory()
 {
@@ -77,21 +100,7 @@ test_output_directory()
                                  "history.csv.bak"})
     std::ofstream("mesh/results/" + name) << name;
   print_error("again", [&]() { use("mesh/results"); });
-  print_error("put aside", [&]() {
-    const OutputDirectory directory("mesh/results", MPI_COMM_WORLD);
-    for (const std::string rows : {"", "0\n", "0\n1\n", "0\n1\n2\n"})
-      {
-        std::ofstream("mesh/results/history.csv") << "time_s\n" << rows;
-        std::ofstream("mesh/results/report.html") << "drawn";
-        std::cout << '"' << directory.put_aside() << "\" ";
-      }
-    std::cout << '\n'
-              << read_text("mesh/results/earlier_2/history.csv")
-              << read_text("mesh/results/earlier_2/report.html") << '\n'
-              << std::filesystem::exists("mesh/results/report.html") << '\n';
-  });
-  std::filesystem::remove_all("mesh/results/earlier_1");
-  std::filesystem::remove_all("mesh/results/earlier_2");
+  test_put_aside();
   print_error("in use", [&]() {
     const OutputDirectory directory("mesh/results", MPI_COMM_WORLD);
     try
