@@ -12,7 +12,7 @@ namespace CaissonMPM
     // Of a point in a compressed frame, and while the frame is made; frames are
     // made of pieces of at most so many points.
     constexpr double bytes_on_disk = 80., bytes_in_memory = 1000.,
-                     points_per_piece = 100000.;
+                     points_in_piece = 100000.;
 
     std::string
     megabytes(const double bytes)
@@ -49,7 +49,7 @@ namespace CaissonMPM
       text += "\n  steps      about " + rough(n_steps);
     text += "\n  memory     about " +
             megabytes(cost.peak_bytes +
-                      bytes_in_memory * std::min(n_points, points_per_piece)) +
+                      bytes_in_memory * std::min(n_points, points_in_piece)) +
             "\n  frames     " + rough(n_frames) + ", about " +
             megabytes(n_frames * bytes_on_disk * n_points) + " on the disk";
     if (std::isfinite(n_steps) && cost.seconds_per_step > 0.)
