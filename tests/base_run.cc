@@ -63,7 +63,7 @@ test_put_aside()
       {
         std::ofstream("mesh/results/history.csv") << "time_s\n" << rows;
         std::ofstream("mesh/results/report.html") << "drawn";
-        std::cout << '"' << directory.put_aside() << "\" ";
+        std::cout << '"' << directory.put_aside(MPI_COMM_WORLD) << "\" ";
       }
     std::cout << '\n'
               << read_text("mesh/results/earlier_2/history.csv")

@@ -58,6 +58,28 @@ class Directory(ProgramTest):
                 self.assertIn("points_0009.vtu", names)
                 self.assertEqual((aside / "history.csv").read_text(), history)
 
+    def test_what_is_kept(self) -> None:
+        """Frames without a table, and a run stopped before its second row; what
+        cannot be moved stays, and the run is refused."""
+        path = self.made_directory()
+        (path / "points_0009.vtu").write_text("old")
+        (path / "earlier_3").mkdir()
+        short = {"Time/End penetration": 0.51}
+        self.run_scene("jack", path, entries=short)
+        self.assertTrue((path / "earlier_4" / "points_0009.vtu").exists())
+        for name in ("history.csv", "checkpoint.info"):
+            (path / name).write_text("time_s\n0\n")
+        self.run_scene("jack", path, entries=short)
+        self.assertEqual(
+            (path / "earlier_5" / "history.csv").read_text(), "time_s\n0\n"
+        )
+        before = (path / "run.json").read_text()
+        (path / "earlier_999999999").mkdir()
+        (path / "earlier_1000000000").symlink_to("/nonexistent")
+        text = self.run_scene("jack", path, BAD_INPUT, entries=short)
+        self.assertIn("cannot be moved", text)
+        self.assertEqual((path / "run.json").read_text(), before)
+
 
 class Failures(ProgramTest):
     """Runs that cannot go on."""

@@ -32,7 +32,7 @@ CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
         },
     ),
     (
-        ["Internal length", "yield surface", "hypoplastic sand"],
+        ["Internal length", "hypoplastic sand has none", "Mohr-Coulomb with"],
         {**HYPOPLASTIC, f"{LAYER}/Internal length": 0.01},
     ),
     (["Porosity", "0.346405", "0.5"], {**HYPOPLASTIC, f"{LAYER}/Porosity": 0.3}),

@@ -95,6 +95,9 @@ class Stop(ProgramTest):
                     self.assert_words(
                         ["rows between are lost", words, "--overwrite"], refused
                     )
+                    self.assertEqual(
+                        (copy / "history.csv").read_text(), "".join(rows[:kept])
+                    )
                     options.append("--overwrite")
                 said = self.run_scene("jack", copy, SUCCESS, *options, entries=entries)
                 self.assertEqual("lost" in said, bool(words), said)

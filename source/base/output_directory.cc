@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -21,38 +22,83 @@ namespace CaissonMPM
   {
     namespace fs = std::filesystem;
 
-    /** The names of all files that a run writes, and of the pictures and
-     * reports that the Python package makes of them. */
-    const std::regex result_names(
-      R"((points|grid|body)(_\d+([._]\d+)*\.p?vtu|\.pvd)(\.tmp)?|)"
-      R"((history|history_error|observations)\.csv(\.tmp)?|)"
-      R"((run|verification)\.json(\.tmp)?|)"
-      R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5)|)"
+    /** The names of all files that a run writes. */
+    const std::regex
+      result_names(R"((points|grid|body)(_\d+([._]\d+)*\.p?vtu|\.pvd)(\.tmp)?|)"
+                   R"((history|history_error|observations)\.csv(\.tmp)?|)"
+                   R"((run|verification)\.json(\.tmp)?|)"
+                   R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5))");
+
+    /** The names of what the Python package makes of them. */
+    const std::regex derived_names(
       R"((forces|stress|displacement|void_ratio|pore_pressure)\.png|)"
-      R"((suction|blocks)\.png|design\.csv|report\.(html|pdf))");
+      R"((suction|blocks)\.png|design\.csv|report\.(html|pdf)|run_key\.json)");
 
     std::vector<fs::path>
-    results_in(const fs::path &directory)
+    files_named(const std::regex &names, const fs::path &directory)
     {
       std::vector<fs::path> found;
       std::error_code       error;
       for (const auto &item : fs::directory_iterator(directory, error))
         if (item.is_regular_file(error) &&
-            std::regex_match(item.path().filename().string(), result_names))
+            std::regex_match(item.path().filename().string(), names))
           found.push_back(item.path());
       return found;
     }
 
-    /** Whether history.csv has more than its header and the row of the start.
-     */
+    /** Whether a run left nothing but its start there: a history.csv without a
+     * second row, and no checkpoint. */
     bool
-    has_results(const fs::path &directory)
+    has_only_begun(const fs::path &directory)
     {
+      std::error_code error;
+      if (!fs::exists(directory / "history.csv", error) ||
+          fs::exists(directory / "checkpoint.info", error))
+        return false;
       std::ifstream history(directory / "history.csv");
       unsigned int  n_lines = 0;
       for (std::string line; n_lines < 3 && std::getline(history, line);)
         ++n_lines;
-      return n_lines == 3;
+      return n_lines < 3;
+    }
+
+    /** The subdirectory earlier_N with the first N after all that are there. */
+    fs::path
+    place_for_earlier_run(const fs::path &directory)
+    {
+      unsigned long    number = 0;
+      const std::regex pattern(R"(earlier_(\d{1,9}))");
+      std::error_code  error;
+      for (const auto &item : fs::directory_iterator(directory, error))
+        {
+          std::smatch       found;
+          const std::string name = item.path().filename().string();
+          if (std::regex_match(name, found, pattern))
+            number = std::max(number, std::stoul(found[1]));
+        }
+      return directory / ("earlier_" + to_text(number + 1));
+    }
+
+    /** Move the files into a new directory, all or none. */
+    std::error_code
+    move_to(const fs::path &place, const std::vector<fs::path> &files)
+    {
+      std::error_code       error, ignored;
+      std::vector<fs::path> moved;
+      fs::create_directory(place, error);
+      for (const fs::path &file : files)
+        if (!error)
+          {
+            fs::rename(file, place / file.filename(), error);
+            if (!error)
+              moved.push_back(file);
+          }
+      if (!error)
+        return error;
+      for (const fs::path &file : moved)
+        fs::rename(place / file.filename(), file, ignored);
+      fs::remove(place, ignored);
+      return error;
     }
 
     std::string
@@ -199,7 +245,7 @@ namespace CaissonMPM
   {
     std::error_code error;
     unsigned int    n_removed = 0;
-    for (const fs::path &file : results_in(path_))
+    for (const fs::path &file : files_named(result_names, path_))
       n_removed += fs::remove(file, error) ? 1 : 0;
     return n_removed;
   }
@@ -207,30 +253,26 @@ namespace CaissonMPM
 
 
   std::string
-  OutputDirectory::put_aside() const
+  OutputDirectory::put_aside(const MPI_Comm communicator) const
   {
-    if (!has_results(path_))
+    std::string place, reason;
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       {
-        clear();
-        return "";
+        auto files = files_named(result_names, path_);
+        if (has_only_begun(path_))
+          clear();
+        else if (!files.empty())
+          {
+            for (const fs::path &file : files_named(derived_names, path_))
+              files.push_back(file);
+            place = place_for_earlier_run(path_).string();
+            if (const std::error_code error = move_to(place, files))
+              reason =
+                "has results of an earlier run, which cannot be moved to " +
+                place + ": " + error.message();
+          }
       }
-    unsigned int number = 1;
-    const auto   place  = [&]() {
-      return fs::path(path_) / ("earlier_" + to_text(number));
-    };
-    std::error_code error;
-    while (fs::exists(place(), error))
-      ++number;
-    fs::create_directory(place(), error);
-    for (const fs::path &file : results_in(path_))
-      if (!error)
-        fs::rename(file, place() / file.filename(), error);
-    if (error)
-      throw RunFailure("the results of an earlier run in " + path_ +
-                       " cannot be moved to " + place().string() + ": " +
-                       error.message() +
-                       ". Choose another directory with --output-directory, or "
-                       "remove them with --overwrite.");
-    return place().string();
+    refuse(path_, reason, communicator);
+    return place;
   }
 } // namespace CaissonMPM

@@ -160,12 +160,10 @@ namespace CaissonMPM
                               message))
       throw BadInput(section() + "/" + message.text);
     if (internal_length > 0. && !law_named(law).has_yield_surface)
-      throw BadInput(section() +
-                     "/Internal length = " + to_text(internal_length) +
-                     " m needs a law with a yield "
-                     "surface, and " +
-                     section() + "/Law is " + law +
-                     ". Set the length to 0, or take a law of Mohr-Coulomb.");
+      throw BadInput(
+        section() + "/Internal length = " + to_text(internal_length) +
+        " m: the law " + law + " has none. Set the length to 0, or " +
+        section() + "/Law to Mohr-Coulomb or Mohr-Coulomb with softening.");
   }
 
   void

@@ -47,6 +47,15 @@ namespace CaissonMPM
 
 
 
+  double
+  Records::last_time_until(const double time) const
+  {
+    const auto found = history.rows_until(time);
+    return found.empty() ? -1. : found.back()[0];
+  }
+
+
+
   void
   Records::resume(const double time)
   {

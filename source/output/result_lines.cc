@@ -3,6 +3,7 @@
 #include <caisson_mpm/output/result_lines.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -28,29 +29,67 @@ namespace CaissonMPM
       return range;
     }
 
-    /** A place between two rows: that of the second one, and the share of the
-     * way to it. */
+    /** Forces at depths, of the records after the first: each is the mean
+     * since the record before, and so belongs to the middle between them. */
+    struct Curves
+    {
+      std::vector<double>                depth;
+      std::array<std::vector<double>, 4> force; // tip, inner, outer, total
+
+      explicit Curves(const Records &records)
+      {
+        const auto at = column(records, "penetration_m");
+        for (std::size_t i = 1; i < at.size(); ++i)
+          depth.push_back(.5 * (at[i - 1] + at[i]));
+        const char *const names[] = {"tip_force_N",
+                                     "inner_friction_N",
+                                     "outer_friction_N",
+                                     "total_force_N"};
+        for (unsigned int k = 0; k < force.size(); ++k)
+          {
+            const auto values = column(records, names[k]);
+            force[k].assign(values.begin() + 1, values.end());
+          }
+        if (depth.empty())
+          return;
+        depth.push_back(at.back()); // the last record holds up to the end
+        for (auto &values : force)
+          values.push_back(values.back());
+      }
+    };
+
+    /** A place between two entries of the curves. */
     struct Place
     {
-      std::size_t row;
-      double      share;
+      std::size_t second;
+      double      share; // of the way to it
 
       double
       value(const std::vector<double> &values) const
       {
-        return values[row - 1] + share * (values[row] - values[row - 1]);
+        return values[second - 1] +
+               share * (values[second] - values[second - 1]);
       }
     };
 
-    /** Return where the depth is reached first. */
+    /** Return where the depth is passed first on the way down, or up; nothing
+     * where that is nowhere, or between records that are farther apart than @p
+     * step. */
     std::optional<Place>
-    find(const std::vector<double> &depths, const double wanted)
+    find(const std::vector<double> &depth,
+         const double               wanted,
+         const bool                 down,
+         const double               step)
     {
-      for (std::size_t i = 1; i < depths.size(); ++i)
-        if ((depths[i - 1] - wanted) * (depths[i] - wanted) <= 0. &&
-            depths[i] != depths[i - 1])
-          return Place{i,
-                       (wanted - depths[i - 1]) / (depths[i] - depths[i - 1])};
+      constexpr double rounding = 1e-9; // m
+      for (std::size_t i = 1; i < depth.size(); ++i)
+        {
+          const double a = down ? depth[i - 1] : -depth[i - 1],
+                       b = down ? depth[i] : -depth[i],
+                       x = down ? wanted : -wanted;
+          if (a < b && a <= x + rounding && x <= b + rounding && b - a < step)
+            return Place{i, std::clamp((x - a) / (b - a), 0., 1.)};
+        }
       return {};
     }
 
@@ -69,36 +108,58 @@ namespace CaissonMPM
 
 
 
+  namespace
+  {
+    Console::Lines
+    lines_at_depths(const Curves   &curves,
+                    const ErrorBar &error_bar,
+                    const bool      down)
+    {
+      const auto [top, bottom] =
+        std::minmax_element(curves.depth.begin(), curves.depth.end());
+      const double   step = spacing_for(*bottom - *top);
+      Console::Lines lines;
+      for (double i = std::ceil(*top / step - 1e-6); i * step <= *bottom + 1e-9;
+           ++i)
+        if (const auto place = find(curves.depth, i * step, down, step))
+          {
+            const auto force = [&](const unsigned int k) {
+              return kilonewtons(place->value(curves.force[k]));
+            };
+            lines.emplace_back(
+              "at " + to_text(i * step, 4) + (down ? " m" : " m, up"),
+              "tip " + force(0) + ", inner " + force(1) + ", outer " +
+                force(2) + ", total " + force(3) + " kN" +
+                (down ? error_in_words(error_bar.of_total_force(i * step)) :
+                        ""));
+          }
+      return lines;
+    }
+  } // namespace
+
+
+
   Console::Lines
   result_lines(const Records &records, const ErrorBar &error_bar)
   {
-    const auto depth   = column(records, "penetration_m"),
-               tip     = column(records, "tip_force_N"),
-               inner   = column(records, "inner_friction_N"),
-               outer   = column(records, "outer_friction_N"),
-               total   = column(records, "total_force_N");
-    const auto largest = std::max_element(total.begin(),
-                                          total.end(),
-                                          [](const double a, const double b) {
-                                            return std::abs(a) < std::abs(b);
-                                          }) -
-                         total.begin();
-    Console::Lines lines     = {{"largest force",
-                                 kilonewtons(total[largest]) +
-                                   " kN at a penetration of " +
-                                   to_text(depth[largest], 5) + " m"}};
-    const auto [top, bottom] = std::minmax_element(depth.begin(), depth.end());
-    const double step        = spacing_for(*bottom - *top);
-    for (double i = std::ceil(*top / step + 1e-6); i * step <= *bottom + 1e-9;
-         ++i)
-      if (const auto place = find(depth, std::min(i * step, *bottom)))
-        lines.emplace_back(
-          "at " + to_text(i * step, 4) + " m",
-          "tip " + kilonewtons(place->value(tip)) + ", inner " +
-            kilonewtons(place->value(inner)) + ", outer " +
-            kilonewtons(place->value(outer)) + ", total " +
-            kilonewtons(place->value(total)) + " kN" +
-            error_in_words(error_bar.of_total_force(i * step)));
+    const Curves curves(records);
+    if (curves.depth.empty())
+      return {};
+    const auto &total = curves.force.back();
+    const auto [least, largest] =
+      std::minmax_element(total.begin(), total.end());
+    const auto where = [&](const auto &force) {
+      return kilonewtons(*force) + " kN at a penetration of " +
+             to_text(curves.depth[force - total.begin()], 5) + " m";
+    };
+    Console::Lines lines;
+    if (*largest > 0.)
+      lines.emplace_back("largest force", where(largest));
+    if (*least < 0.)
+      lines.emplace_back("largest tension", where(least));
+    for (const bool down : {true, false})
+      for (const auto &line : lines_at_depths(curves, error_bar, down))
+        lines.push_back(line);
     return lines;
   }
 } // namespace CaissonMPM

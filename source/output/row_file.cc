@@ -58,32 +58,40 @@ namespace CaissonMPM
 
 
 
-  std::vector<std::vector<double>>
+  RowFile::Rows
   RowFile::resume(const double time)
+  {
+    std::string kept = header;
+    const Rows  rows = rows_until(time, &kept);
+    start_with(kept);
+    return rows;
+  }
+
+
+
+  RowFile::Rows
+  RowFile::rows_until(const double time, std::string *const kept) const
   {
     const std::string text = read_text(path);
     if (text.empty())
-      {
-        create();
-        return {};
-      }
+      return {};
     if (text.compare(0, header.size(), header) != 0)
       throw BadInput(path + " has other columns than this run writes, so that "
-                            "the run cannot go on in it. Move the file away "
-                            "and try again.");
-    const double tolerance = 1e-9 * std::abs(time); // times are rounded
-    std::string  kept      = header;
-    std::vector<std::vector<double>> rows;
-    std::istringstream               lines(text.substr(header.size()));
+                            "the run cannot go on in it. Put the file back as "
+                            "the run had written it, or begin without "
+                            "--restart.");
+    const double       tolerance = 1e-9 * std::abs(time); // times are rounded
+    Rows               rows;
+    std::istringstream lines(text.substr(header.size()));
     for (std::string line; std::getline(lines, line) && !lines.eof();)
       {
         const std::vector<double> values = numbers_in(line);
         if (values.size() != n_columns || values[0] > time + tolerance)
           continue;
-        kept += line + "\n";
+        if (kept != nullptr)
+          *kept += line + "\n";
         rows.push_back(values);
       }
-    start_with(kept);
     return rows;
   }
 

@@ -146,17 +146,16 @@ namespace CaissonMPM
   void
   Recorder::start(const bool overwrite)
   {
+    if (overwrite && parts.grid.is_first_rank())
+      clear_directory();
+    else if (!overwrite)
+      if (const std::string place =
+            locked_directory->put_aside(parts.grid.communicator());
+          !place.empty())
+        console->header(
+          {{"earlier run", "its results have been moved to " + place}});
     if (parts.grid.is_first_rank())
-      {
-        if (overwrite)
-          clear_directory();
-        else if (const std::string place = locked_directory->put_aside();
-                 !place.empty())
-          console->header({{"earlier run",
-                            "its results are now in " + place +
-                              " (--overwrite removes them)"}});
-        records->create();
-      }
+      records->create();
     begin();
   }
 
@@ -172,10 +171,10 @@ namespace CaissonMPM
   void
   Recorder::resume(const bool overwrite)
   {
+    check_for_lost_rows(overwrite);
     if (parts.grid.is_first_rank())
       records->resume(parts.clock.time);
     visualization->resume(parts.clock.time);
-    check_for_lost_rows(overwrite);
     warn_of_changed_files();
     begin();
   }
@@ -212,9 +211,13 @@ namespace CaissonMPM
   void
   Recorder::check_for_lost_rows(const bool may_be_lost)
   {
-    constexpr double tolerance = 1e-6; // times are rounded in the file
-    const double found = Utilities::MPI::broadcast(parts.grid.communicator(),
-                                                   records->last_time());
+    constexpr double tolerance    = 1e-6; // times are rounded in the file
+    const MPI_Comm   communicator = parts.grid.communicator();
+    const double     found =
+      Utilities::MPI::broadcast(communicator,
+                                parts.grid.is_first_rank() ?
+                                  records->last_time_until(parts.clock.time) :
+                                  0.);
     if (std::abs(found - last_record) <= tolerance * last_record)
       return;
     const std::string text =

@@ -178,8 +178,8 @@ namespace CaissonMPM
                        to_text(std::sqrt(scaling / usual_scaling), 2) +
                        " times as many steps as " + to_text(scaling));
     if (cells > 0 && lines.tree().root_size() == 1)
-      result.push_back("Grid/Refinement levels = 1 or 2 halves cells only at "
-                       "the tip, as in prm/jack_refined.prm");
+      result.push_back("Grid/Refinement levels = 1 halves cells only at the "
+                       "tip, as in prm/jack_refined.prm");
     if (cells > 0 && !generator.splits_and_merges())
       result.push_back("Material points/Split and merge = true keeps fewer "
                        "points around a thin wall");

@@ -16,7 +16,7 @@ namespace CaissonMPM
    * names the run. The system drops the lock when the process ends, however it
    * ends: a file that was left behind locks nothing.
    *
-   * Construction is collective, the rest is not.
+   * Construction, check() and put_aside() are collective, the rest is not.
    */
   class OutputDirectory
   {
@@ -39,21 +39,21 @@ namespace CaissonMPM
     operator=(const OutputDirectory &) = delete;
 
     /**
-     * Remove the files of an earlier run: those with names that the program or
-     * the Python package gives. Returns their number. For the first rank.
+     * Remove the files of an earlier run: those with names that the program
+     * gives. Returns their number. For the first rank.
      */
     unsigned int
     clear() const;
 
     /**
-     * Move these files to the first of the subdirectories earlier_1, earlier_2,
-     * ... that is not there. Returns its path, or an empty text where
-     * history.csv has no row after the first: then there is nothing to keep,
-     * and the files are removed. Throws RunFailure where they cannot be moved.
-     * For the first rank.
+     * Move these files, and the pictures and reports of them, to a new
+     * subdirectory earlier_1, earlier_2, ... Returns its path on the first
+     * rank, or an empty text where there is nothing to keep: of a run that has
+     * only begun, without a checkpoint, the files are removed. Throws BadInput
+     * on all ranks where the files cannot be moved; then they stay. Collective.
      */
     std::string
-    put_aside() const;
+    put_aside(const MPI_Comm communicator) const;
 
     const std::string &
     path() const

@@ -5,7 +5,7 @@
 //
 //   E = E_ref (max(p, p_min) / p_ref)^m,   p = -tr(sigma) / 3,
 //
-// with a constant Poisson ratio. For m = 0 the law is Mohr-Coulomb.
+// with a constant Poisson ratio. For m = 0 stresses are those of Mohr-Coulomb.
 //
 // The step is explicit in the stiffness, which is that of the stress at its
 // start. A return to the yield surface depends on the ratios of the elastic
@@ -105,6 +105,12 @@ namespace CaissonMPM
         static const char *
         warning(const double *values)
         {
+          if (values[7] < 1e4 || values[7] > 1e6)
+            return "Reference stress is usually 1e5 Pa: check its unit, and that "
+                   "Youngs modulus is that of this stress";
+          if (values[9] >= values[7])
+            return "Smallest stress of stiffness is not below Reference stress, "
+                   "so that the stiffness hardly depends on the stress";
           return MohrCoulomb::warning(values);
         }
 

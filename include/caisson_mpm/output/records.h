@@ -44,12 +44,10 @@ namespace CaissonMPM
     void
     resume(const double time);
 
-    /** The time of the last row, negative where there is none. Units: s. */
+    /** The time of the last row that resume() would keep of history.csv,
+     * negative where there is none; changes no file. Units: s. */
     double
-    last_time() const
-    {
-      return rows.empty() ? -1. : rows.back()[0];
-    }
+    last_time_until(const double time) const;
 
     /** Tell all rows of history.csv, or of observations.csv, from others; 0
      * where there is no such file. */

@@ -11,10 +11,11 @@
 namespace CaissonMPM
 {
   /**
-   * Return the largest force on the body, and the forces where the body first
-   * came to each of some evenly spaced depths (whole meters, or 0.1, 0.2, 0.5,
-   * 2, 5, ... m), with the error of the total force where it is known. The
-   * records need the columns of forces and penetration.
+   * Return the largest force on the body, also the largest tension, and the
+   * forces where the body first passed each of some evenly spaced depths (whole
+   * meters, or 0.1, 0.2, 0.5, 2, 5, ... m), on the way down with the error of
+   * the total force where it is known, and on the way up. The records need the
+   * columns of forces and penetration.
    */
   Console::Lines
   result_lines(const Records &records, const ErrorBar &error_bar);

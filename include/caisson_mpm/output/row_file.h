@@ -31,6 +31,8 @@ namespace CaissonMPM
   class RowFile
   {
   public:
+    using Rows = std::vector<std::vector<double>>;
+
     /** Numbers are written with so many significant @p digits. */
     RowFile(const std::string              &path,
             const std::vector<std::string> &columns,
@@ -44,8 +46,14 @@ namespace CaissonMPM
     /** Keep the complete rows up to this time, and go on after them; as
      * create() where there is no file. Returns the rows. Throws RunFailure, and
      * BadInput if the file has other columns. Units: s. */
-    std::vector<std::vector<double>>
+    Rows
     resume(const double time);
+
+    /** Return the complete rows up to this time, without a change of the file,
+     * and add their text to @p kept if it is given. Throws as resume() does.
+     * Units: s. */
+    Rows
+    rows_until(const double time, std::string *const kept = nullptr) const;
 
     /** Add a row, one value per column. Throws RunFailure where it cannot be
      * written. */
