@@ -124,6 +124,20 @@ class Suggest(ProgramTest):
         )
         self.assertGreater(history(path / "run")[-1]["tip_force_N"], 1e4)
 
+    def test_no_study_no_scene(self) -> None:
+        """Where the study cannot be written, no scene is left either."""
+        path = self.made_directory()
+        loose = ("0: Friction angle = 3, Youngs modulus = 20e6",)
+        for study, layers, why in (
+            ("study.toml", loose, "-1 degrees"),
+            ("missing/study.toml", (SAND,), "no directory"),
+        ):
+            with self.subTest(study=study):
+                words = ["--study", str(path / study)]
+                said = self.suggest(path / "own.prm", *words, status=1, layers=layers)
+                self.assertIn(why, said)
+                self.assertEqual(list(path.iterdir()), [])
+
     def test_other_laws_of_mohr_coulomb(self) -> None:
         """They get what Mohr-Coulomb soil is assumed to have."""
         path = self.made_directory() / "own.prm"

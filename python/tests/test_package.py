@@ -2,9 +2,13 @@
 """All modules can be imported, and the checks of the sources see what they must."""
 import argparse
 import importlib
+import os
 import pkgutil
+import shutil
 import subprocess
+import tempfile
 import unittest
+from pathlib import Path
 
 import caisson
 from caisson.__main__ import COMMANDS
@@ -61,6 +65,38 @@ class Imports(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         for name in COMMANDS:
             self.assertIn(name, done.stdout)
+
+
+class Command(unittest.TestCase):
+    """scripts/caisson, beside scripts that only say their names."""
+
+    def called(self, command: str, program: str) -> list[str]:
+        """Return what is called for a command, with CAISSON_MPM_PROGRAM set so."""
+        with tempfile.TemporaryDirectory() as folder:
+            scripts, package = Path(folder, "scripts"), Path(folder, "python/caisson")
+            scripts.mkdir()
+            package.mkdir(parents=True)
+            shutil.copy(ROOT / "scripts/caisson", scripts)
+            for name in ("setup", "build"):
+                (scripts / name).write_text(f"#!/bin/sh\necho {name} $*\n", "utf-8")
+                (scripts / name).chmod(0o755)
+            (package / "__init__.py").touch()
+            (package / "__main__.py").write_text("print('package')\n", "utf-8")
+            return subprocess.run(
+                [scripts / "caisson", command],
+                env={**os.environ, "CAISSON_MPM_PROGRAM": program},
+                text=True,
+                stdout=subprocess.PIPE,
+                check=True,
+            ).stdout.splitlines()
+
+    def test_what_is_missing_is_made(self) -> None:
+        """No program is built where another one is named."""
+        pictures = ["setup pictures"]
+        self.assertEqual(self.called("study", ""), [*pictures, "build", "package"])
+        self.assertEqual(self.called("study", "/bin/true"), [*pictures, "package"])
+        self.assertEqual(self.called("report", ""), [*pictures, "package"])
+        self.assertEqual(self.called("scenes", ""), ["package"])
 
 
 class Lengths(unittest.TestCase):

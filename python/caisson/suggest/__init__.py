@@ -98,6 +98,8 @@ def check(options: argparse.Namespace) -> None:
         raise SuggestError("--wall-friction must be between 0 and 89 degrees")
     files: list[Path] = [f for f in (options.file, options.study) if f]
     for file in files:
+        if not file.parent.is_dir():
+            raise SuggestError(f"there is no directory {file.parent}")
         if file.exists() and not options.overwrite:
             raise SuggestError(f"{file} exists; --overwrite replaces it")
     if options.study and options.study.suffix != ".toml":
@@ -222,12 +224,12 @@ def main(options: argparse.Namespace) -> int:
     try:
         check(options)
         layers = layers_of(options.layer, entries_of_layers())
-        options.file.write_text(
-            scene_of(options, layers, LEVELS[options.error]), encoding="utf-8"
-        )
-        print(cost_of(options.file))
+        texts = {options.file: scene_of(options, layers, LEVELS[options.error])}
         if options.study:
-            options.study.write_text(study_of(options, layers), encoding="utf-8")
+            texts[options.study] = study_of(options, layers)
+        for file, text in texts.items():  # all or none
+            file.write_text(text, encoding="utf-8")
+        print(cost_of(options.file))
     except (SuggestError, RunError, OSError) as error:
         print(f"suggest: {error}", file=sys.stderr)
         return 1
