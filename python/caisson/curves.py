@@ -121,8 +121,11 @@ def common_depths(positions: Sequence[np.ndarray], interval: float) -> np.ndarra
 
 
 def round_depths(position: np.ndarray) -> np.ndarray:
-    """Return each meter that a curve passes, or finer steps of a short one."""
+    """Return each meter that a curve passes, or finer steps of a short one; none of
+    a curve that stays where it is."""
     span = float(np.ptp(position))
+    if span == 0:
+        return np.empty(0)
     step = 1.0 if span >= 2 else 10.0 ** math.floor(math.log10(span / 2))
     first = math.floor(position.min() / step + 1e-9) + 1
     last = math.floor(position.max() / step + 1e-9)

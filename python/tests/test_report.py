@@ -144,6 +144,29 @@ class Report(unittest.TestCase):
         self.assertEqual(row["unit outer friction (kPa)"], "7.96")
         self.assertEqual(row["required suction (kPa)"], "25")
 
+    def test_numbers_of_a_run_that_pulls(self) -> None:
+        """-3 MN at 3 m on the way from 4.5 to 0.5 m."""
+        depth = np.linspace(4.5, 0.5, 401)
+        table = {"time_s": 4.5 - depth, "penetration_m": depth}
+        for name in ("total", "tip"):
+            table[f"{name}_force_N"] = -1e6 * depth
+        for name in ("inner", "outer"):
+            table[f"{name}_friction_N"] = np.zeros(len(depth))
+        write_run(self.path, table, SUMMARY)
+        found = content.table_of(Results(self.path))
+        rows = [dict(zip(found["heads"], row)) for row in found["rows"]]
+        self.assertEqual([row["depth (m)"] for row in rows], ["1", "2", "3", "4"])
+        self.assertEqual(rows[2]["total (kN)"], "-3000")
+
+    def test_run_that_failed(self) -> None:
+        """Its run.json has no results; the page has the reason."""
+        unknown = ("material_points", "peak_memory_bytes", "energies")
+        known = {k: v for k, v in SUMMARY.items() if k not in unknown}
+        reason = "Time/Time step exceeds the stability limit."
+        page = self.page({**known, "status": "failed", "failure": reason})
+        self.assertIn(f"Failed: {reason}", page)
+        self.assertIn("5000, not known", page)
+
     def test_design_methods(self) -> None:
         """The computed 3000 kN at 3 m; DNV with 2 MPa per meter and a tip of 1.2516 m2:
         0.3 6 MPa 1.2516 m2 = 2252.9 kN, and 0.001 9 MN/m on pi 19.92 m of wall =

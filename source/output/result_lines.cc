@@ -96,7 +96,8 @@ namespace CaissonMPM
     std::string
     kilonewtons(const double newtons)
     {
-      return to_text(1e-3 * newtons, 4);
+      constexpr double round_off = 1e-6; // N
+      return std::abs(newtons) < round_off ? "0" : to_text(1e-3 * newtons, 4);
     }
 
     std::string

@@ -164,18 +164,21 @@ def figures_of(run: Results) -> list[dict[str, Any]]:
 def table_of(run: Results) -> dict[str, Any]:
     """Return forces and unit resistances at each meter: heads and rows of text.
 
-    Values are means over 0.2 m, or less at the ends. Friction is over the wall below
-    the mudline of the start, the tip force over the area of the flat tip.
+    They are those of the way down, or of the way up where there is none. Values are
+    means over 0.2 m, or less at the ends. Friction is over the wall below the mudline
+    of the start, the tip force over the area of the flat tip.
     """
     history, scene = run.history, run.scene
     if penetration(history) is None:
         return {"heads": [], "rows": []}
-    rows_down = curves.way_down(history["penetration_m"])
-    depth = history["penetration_m"][rows_down]
+    way = curves.way_down(history["penetration_m"])
+    if len(way) < 2:
+        way = curves.way_up(history["penetration_m"])[::-1]
+    depth = history["penetration_m"][way]
     at = curves.round_depths(depth)
 
     def mean(column: str) -> np.ndarray:
-        return curves.smoothed_at(depth, history[column][rows_down], at)
+        return curves.smoothed_at(depth, history[column][way], at)
 
     columns: dict[str, np.ndarray] = {"depth (m)": at}
     for name in COLORS:

@@ -59,10 +59,11 @@ def pictures_of(run: Results) -> list[dict[str, str]]:
 
 
 def facts_of(run: Results) -> list[tuple[str, str]]:
-    """Return versions, sizes and times."""
+    """Return versions, sizes and times; of a run that failed, those that are known."""
     if run.is_running:
         return []
     summary = run.summary
+    points = summary.get("material_points", "not known")
     facts = [
         (
             "Program",
@@ -70,14 +71,15 @@ def facts_of(run: Results) -> list[tuple[str, str]]:
         ),
         ("Scene", str(summary["scene_file"])),
         ("Results", str(run.directory)),
-        ("Cells, material points", f"{summary['cells']}, {summary['material_points']}"),
+        ("Cells, material points", f"{summary['cells']}, {points}"),
         ("Steps", f"{summary['steps']} of {summary['time_step_s']:.3g} s"),
         ("Limit of the step", str(summary["time_step_limit"])),
         ("Ranks", str(summary["ranks"])),
         ("Time", f"{summary['wall_time_s']:.0f} s"),
-        ("Memory", f"{summary['peak_memory_bytes'] / 1e6:.0f} MB"),
         ("Fingerprint of the scene", str(summary["fingerprint"])),
     ]
+    if "peak_memory_bytes" in summary:
+        facts.append(("Memory", f"{summary['peak_memory_bytes'] / 1e6:.0f} MB"))
     ended = time.localtime((run.directory / "run.json").stat().st_mtime)
     return [("Ended", time.strftime("%Y-%m-%d %H:%M", ended)), *facts]
 
@@ -86,6 +88,8 @@ def status_of(run: Results) -> str:
     """Return how the run ended, in words."""
     if run.is_running:
         return f"The run goes on; this page loads itself anew every {REFRESH} seconds."
+    if failure := run.summary.get("failure"):
+        return f"Failed: {failure}"
     reason = run.scene.get("end_reason")
     status = str(run.summary.get("status", "finished"))
     return f"Ended early: {reason}." if reason else f"Status: {status}."
