@@ -15,25 +15,19 @@ row; below the last row there is no answer (nan).
 
 SI units; z is the depth below the mudline (m), q_c is in Pa.
 """
-import csv
-import io
-import re
 import shutil
 from collections.abc import Mapping, Sequence
-from math import inf, isfinite, nan, pi, radians, tan
+from math import inf, nan, pi, radians, tan
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
+from caisson.design import cone_file
 from caisson.design.method import Forces
 from caisson.results import ResultsError
 
 NAME = "cone.csv"  # of the test in the directory of a run
-LARGEST = 200e6  # Pa; more than any cone can bear
-HIGHEST_START = 1.0  # m, of the first row
-PASCAL = {"pa": 1.0, "kpa": 1e3, "mpa": 1e6}
-HEADS = "depth_m and qc_MPa (or qc_kPa, qc_Pa)"
 
 
 class Profile:
@@ -141,93 +135,11 @@ class ConeMethod:
 # ------------------------------------------------------------------- files
 
 
-def head_of(text: str) -> tuple[str, str]:
-    """Return quantity and unit of a head such as depth_m, "qc (MPa)" or qc [kPa]."""
-    words = re.findall(r"[a-z]+", text.lower())
-    return ("".join(words[:-1]), words[-1]) if words else ("", "")
-
-
-def columns_of(path: Path, heads: Sequence[str]) -> tuple[int, int, float]:
-    """Return the columns of depth and q_c, and the unit of q_c in Pa."""
-    names = [head_of(head) for head in heads]
-    depths = [i for i, name in enumerate(names) if name == ("depth", "m")]
-    cones = [i for i, (name, u) in enumerate(names) if name == "qc" and u in PASCAL]
-    if len(depths) != 1 or len(cones) != 1:
-        raise ResultsError(
-            f"{path}: the first row must name one column of depth and one of cone"
-            f" resistance, {HEADS}; it is {', '.join(heads)!r}"
-        )
-    return depths[0], cones[0], PASCAL[names[cones[0]][1]]
-
-
-def number_of(path: Path, row: int, cells: Sequence[str], column: int) -> float:
-    """Return a cell as a number."""
-    text = cells[column].strip() if column < len(cells) else ""
-    try:
-        value = float(text)
-    except ValueError:
-        value = nan
-    if not isfinite(value):
-        raise ResultsError(
-            f"{path}, row {row}: {text!r} is no number; write numbers with a point and"
-            " leave out rows without one"
-        )
-    return value
-
-
-def check_row(path: Path, row: int, z: float, above: float | None, q: float) -> None:
-    """Refuse a row that cannot be meant. above: the depth of the row before."""
-    wrong = ""
-    if above is None and not 0 <= z <= HIGHEST_START:
-        wrong = (
-            f"the test begins at a depth of {z:g} m; it must begin between 0 and"
-            f" {HIGHEST_START:g} m, with depth positive downward"
-        )
-    elif above is not None and z <= above:
-        wrong = f"the depth of {z:g} m is not below that of the row before, {above:g} m"
-    elif not 0 <= q <= LARGEST:
-        wrong = (
-            f"the cone resistance is {q / 1e6:g} MPa, which is not between 0 and"
-            f" {LARGEST / 1e6:g} MPa; check the unit in the first row"
-        )
-    if wrong:
-        raise ResultsError(f"{path}, row {row}: {wrong}")
-
-
 def read(path: Path) -> Profile:
-    """Return the test of a .csv file.
-
-    The first row names the columns with their units; others than depth and q_c are
-    not read. Cells are divided by commas, semicolons or tabs. Rows that are empty or
-    begin with "#" are left out, but count. Raises ResultsError, with the row.
-    """
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ResultsError(f"{path} cannot be read as a cone test: {error}") from error
-    lines = [
-        (row, line)
-        for row, line in enumerate(text.splitlines(), 1)
-        if line.strip() and not line.startswith("#")
-    ]
-    if len(lines) < 3:
-        raise ResultsError(
-            f"{path}: a cone test needs a row of heads, {HEADS}, and two"
-        )
-    divider = next((mark for mark in ";\t" if mark in lines[0][1]), ",")
-    cells = list(
-        csv.reader(io.StringIO("\n".join(line for _, line in lines)), delimiter=divider)
-    )
-    depth_column, cone_column, unit = columns_of(path, cells[0])
-    depth: list[float] = []
-    resistance: list[float] = []
-    for (row, _), entries in zip(lines[1:], cells[1:]):
-        z = number_of(path, row, entries, depth_column)
-        q = unit * number_of(path, row, entries, cone_column)
-        check_row(path, row, z, depth[-1] if depth else None, q)
-        depth.append(z)
-        resistance.append(q)
-    return Profile(depth, resistance)
+    """Return depth and resistance of the test in a file (caisson.design.cone_file).
+    Raises ResultsError, with the rows that are wrong."""
+    test = cone_file.read(path, with_friction=False)
+    return Profile(test.depth.tolist(), test.resistance.tolist())
 
 
 def adopt(path: Path, directory: Path) -> None:

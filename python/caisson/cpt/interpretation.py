@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""From the file of a cone test to layers with estimates, as options choose it."""
+import argparse
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from caisson.cpt import correlations, layers
+from caisson.cpt.correlations import BY_NAME
+from caisson.cpt.estimates import Estimates, estimates_of
+from caisson.cpt.ground import CLAY, SAND, SILT, WATER, Ground, ground_of
+from caisson.design import cone_file
+from caisson.design.cone_file import Test
+from caisson.results import ResultsError
+
+AREA_RATIO = 0.8
+
+
+@dataclass(frozen=True)
+class Interpretation:
+    """A test: its ground, the correlations by quantity, and its layers with their
+    estimates; unread: heads of columns that were left out."""
+
+    file: Path
+    ground: Ground
+    names: dict[str, str]
+    layers: list[Estimates]
+    unread: tuple[str, ...]
+
+
+def depths(text: str) -> list[float]:
+    """Return the depths of a list such as 0,3,7.5."""
+    found = [float(word) for word in text.split(",")]
+    if found[:1] != [0.0] or any(a >= b for a, b in zip(found, found[1:])):
+        raise argparse.ArgumentTypeError(
+            f"{text!r} must begin with 0 and grow, as 0,3,7.5 does"
+        )
+    if len(found) > layers.MOST:
+        raise argparse.ArgumentTypeError(
+            f"{text!r} has {len(found)} layers; a scene has at most {layers.MOST}"
+        )
+    return found
+
+
+def positive(text: str) -> float:
+    """Return a positive number."""
+    if not 0 < float(text) < 1e6:
+        raise argparse.ArgumentTypeError(f"{text!r} is no positive number")
+    return float(text)
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say how a test is read."""
+    add = parser.add_argument_group("how the cone test is read").add_argument
+    add(
+        "--tops",
+        type=depths,
+        metavar="0,M,...",
+        help="tops of the layers (m), instead of those found",
+    )
+    add(
+        "--thinnest",
+        type=positive,
+        default=layers.THINNEST,
+        metavar="M",
+        help="thickness of the thinnest layer, default %(default)g m",
+    )
+    add(
+        "--correlation",
+        action="append",
+        default=[],
+        choices=BY_NAME,
+        metavar="NAME",
+        help=f"one of {', '.join(BY_NAME)}; give one option for each",
+    )
+    add(
+        "--soil",
+        choices=(SAND, SILT, CLAY),
+        help="kind of all the soil; needed where the test has no sleeve friction",
+    )
+    add(
+        "--unit-weight",
+        type=positive,
+        metavar="KN/M3",
+        help="of the wet soil; needed where the test has no sleeve friction",
+    )
+    add(
+        "--area-ratio",
+        type=positive,
+        default=AREA_RATIO,
+        metavar="A",
+        help="net area ratio of the cone, for u2, default %(default)g",
+    )
+
+
+def to_depth(test: Test, deepest: float | None) -> Test:
+    """Return the rows of a test down to a depth (m), at least two."""
+    if deepest is None:
+        return test
+    n = max(int(np.searchsorted(test.depth, deepest, "right")), 2)
+    columns = [column if column is None else column[:n] for column in test[:4]]
+    return Test(*columns, test.unread)  # type: ignore[arg-type]
+
+
+def check(file: Path, test: Test, options: argparse.Namespace) -> None:
+    """Refuse what the options leave open or cannot mean. Raises ResultsError."""
+    if test.friction is None:
+        missing = [
+            word
+            for word, value in (
+                ("--soil sand", options.soil),
+                ("--unit-weight 19", options.unit_weight),
+            )
+            if value is None
+        ]
+        if missing:
+            raise ResultsError(
+                f"{file} has no sleeve friction (fs_kPa), from which the kind of soil"
+                f" and its unit weight follow; give it, or {' and '.join(missing)}"
+            )
+        if "robertson-2009" in options.correlation:
+            raise ResultsError(f"robertson-2009 needs a sleeve friction, not in {file}")
+    weight = options.unit_weight
+    if weight is not None and not WATER < 1e3 * weight < 25e3:
+        raise ResultsError(
+            f"--unit-weight {weight:g}: give the unit weight of the wet soil in kN/m3,"
+            f" between {WATER / 1e3:g} and 25"
+        )
+    if not 0 < options.area_ratio <= 1:
+        raise ResultsError(f"--area-ratio {options.area_ratio:g} is not from 0 to 1")
+
+
+def interpret(
+    file: Path, options: argparse.Namespace, deepest: float | None = None
+) -> Interpretation:
+    """Return what a test says. deepest: below it (m) it does not count. Raises
+    ResultsError."""
+    test = to_depth(cone_file.read(file), deepest)
+    check(file, test, options)
+    weight = options.unit_weight
+    ground = ground_of(test, options.area_ratio, weight and 1e3 * weight)
+    names = correlations.chosen(options.correlation)
+    tops = options.tops or layers.tops_of(ground, options.thinnest)
+    try:
+        found = layers.layers_of(ground, tops, options.soil or "")
+    except ValueError as error:
+        raise ResultsError(f"{file}: {error}; choose other --tops") from error
+    return Interpretation(
+        file, ground, names, estimates_of(ground, found, names), test.unread
+    )

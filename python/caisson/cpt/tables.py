@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The estimates as a table on the terminal and as layers.csv."""
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from caisson.cpt.correlations import (
+    ANGLE,
+    BY_NAME,
+    DENSITY,
+    EVERY,
+    MODULUS,
+    STRENGTH,
+)
+from caisson.cpt.estimates import (
+    CAN,
+    ENDS,
+    INDEX,
+    K0,
+    RESISTANCE,
+    WEIGHT,
+    Estimate,
+    Estimates,
+)
+from caisson.cpt.ground import SAND
+from caisson.table import markdown, write_csv
+
+
+class Shown(NamedTuple):
+    """How a quantity is shown: its head, the column of the file, and what it is
+    multiplied by for both."""
+
+    head: str
+    column: str
+    scale: float
+    digits: int
+
+
+SHOWN = {
+    RESISTANCE: Shown("q_c (MPa)", "qc_MPa", 1e-6, 1),
+    INDEX: Shown("I_c", "Ic", 1.0, 2),
+    WEIGHT: Shown("unit weight (kN/m3)", "unit_weight_kN_m3", 1e-3, 1),
+    DENSITY: Shown("D_r (%)", "relative_density_percent", 100.0, 0),
+    ANGLE: Shown("phi (deg)", "friction_angle_deg", 1.0, 1),
+    MODULUS: Shown("E (MPa)", "youngs_modulus_MPa", 1e-6, 1),
+    STRENGTH: Shown("s_u (kPa)", "undrained_strength_kPa", 1e-3, 0),
+    K0: Shown("K_0", "K0", 1.0, 2),
+}
+
+
+def text_of(estimate: Estimate | None, shown: Shown) -> str:
+    """Return low, best and high for the terminal."""
+    if estimate is None:
+        return ""
+    values = (estimate.low, estimate.best, estimate.high)
+    return " / ".join(f"{value * shown.scale:.{shown.digits}f}" for value in values)
+
+
+def quantities_of(every: Sequence[Estimates]) -> list[str]:
+    """Return the quantities that a layer has, in their order."""
+    return [name for name in SHOWN if any(name in e.values for e in every)]
+
+
+def table(every: Sequence[Estimates]) -> str:
+    """Return the table for the terminal: low / best / high."""
+    names = quantities_of(every)
+    heads = ["layer", "from to (m)", "soil", *(SHOWN[name].head for name in names)]
+    rows = []
+    for number, e in enumerate(every, 1):
+        where = f"{e.layer.top:g} to {e.layer.bottom:g}"
+        cells = [text_of(e.values.get(name), SHOWN[name]) for name in names]
+        rows.append([str(number), where, e.layer.kind, *cells])
+    return markdown(heads, rows)
+
+
+def remarks(every: Sequence[Estimates], names: dict[str, str]) -> list[str]:
+    """Return what the table rests on, lenses, and what can be done with other soil
+    than sand."""
+    used = [c for c in EVERY if names[c.quantity] == c.name]
+    have = {name for e in every for name in e.values}
+    found = [
+        f"{c.quantity}: {BY_NAME[c.name].name}, {c.source}; {c.holds}"
+        for c in used
+        if c.quantity in have
+    ]
+    for number, e in enumerate(every, 1):
+        for top, bottom, kind in e.layer.lenses:
+            found.append(
+                f"layer {number} has {kind} from {top:g} to {bottom:g} m, which does"
+                " not count in its estimates and is no layer of its own"
+            )
+        if e.layer.kind != SAND:
+            found.append(f"layer {number} is {e.layer.kind}: {CAN[e.layer.kind]}")
+    return found
+
+
+def write(path: Path, every: Sequence[Estimates]) -> Path:
+    """Write layers.csv: a row for each layer, empty cells where it has no value."""
+    names = quantities_of(every)
+    heads = ["layer", "top_m", "bottom_m", "soil"]
+    heads += [f"{SHOWN[name].column}_{end}" for name in names for end in ENDS]
+    rows = []
+    for number, e in enumerate(every, 1):
+        row = [str(number), f"{e.layer.top:g}", f"{e.layer.bottom:g}", e.layer.kind]
+        for name in names:
+            estimate = e.values.get(name)
+            for end in ENDS:
+                value = estimate and estimate.at(end) * SHOWN[name].scale
+                row.append("" if value is None else f"{value:.4g}")
+        rows.append(row)
+    write_csv(path, heads, rows)
+    return path
