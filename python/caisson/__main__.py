@@ -13,6 +13,7 @@ STUDY = "caisson.study_command"
 # command: module with declare(parser) and main(options), and what it does
 COMMANDS = {
     "suggest": ("caisson.suggest", "write a scene for your own caisson"),
+    "cpt": ("caisson.cpt.command", "take layers and parameters from a cone test"),
     "run": ("caisson.launch", "run a scene and draw its pictures"),
     "scenes": ("caisson.scenes", "list the scenes that come with the program"),
     "plot": ("caisson.plot", "draw the pictures of runs"),

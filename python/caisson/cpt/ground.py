@@ -11,9 +11,10 @@
 with logarithms of base 10, R_f and F_r in percent, and p_a = 100 kPa. The unit weight
 is that of Robertson & Cabal (2010, "Estimating soil unit weight from CPT", CPT'10,
 Huntington Beach), the index that of Robertson (2009, doi 10.1139/T09-065). I_c and n
-depend on each other and are found by iteration; the unit weight does not depend on the
-stress. Both formulas have been compared with two published programs, not with the
-papers themselves.
+depend on each other and are found by iteration. Both formulas have been compared with
+two published programs, not with the papers themselves. Under low stress the first one
+gives loose sand a weight that no sand has: that of sand (I_c < 2.6) is held at 17.5
+kN/m3 and more, a void ratio of 1.1, for which stress and I_c are found again.
 
 The ground is below water: stresses are those above the pressure of the water at the
 mudline, and u_2 counts from there.
@@ -31,6 +32,8 @@ WATER = 9.81e3  # unit weight
 GRAVITY = 9.81
 LEAST_STRESS = 1e3  # of sigma'_v where something is divided by it: some 0.1 m of depth
 WEIGHTS = 14e3, 22e3  # between which the formula is held
+LEAST_OF_SAND = 17.5e3
+ROUNDS = 3  # of weight, stress and kind of soil
 FRICTION_RATIOS = 0.1, 10.0  # %, the ends of the chart of soil types
 SAND, SILT, CLAY = "sand", "silt", "clay"
 # I_c below which soil is sand-like, and above which it is clay-like (Robertson 2009)
@@ -100,14 +103,23 @@ def normalize(
 def ground_of(test: Test, area_ratio: float, unit_weight: float | None) -> Ground:
     """Return the ground of a test. unit_weight: of all the soil; None takes that of
     Robertson & Cabal, for which the test must have a sleeve friction."""
-    depth, tip = test.depth, test.resistance
+    tip = test.resistance
     if test.pore_pressure is not None:
         tip = tip + (1 - area_ratio) * test.pore_pressure
     if unit_weight is not None:
-        weight = np.full(len(depth), unit_weight)
-    else:
-        assert test.friction is not None
-        weight = unit_weight_of(tip, test.friction)
+        return under(test, tip, np.full(len(tip), unit_weight))
+    assert test.friction is not None
+    weight = unit_weight_of(tip, test.friction)
+    for _ in range(ROUNDS):
+        found = under(test, tip, weight)
+        is_light_sand = (found.index < SAND_BELOW) & (weight < LEAST_OF_SAND)
+        weight = np.where(is_light_sand, LEAST_OF_SAND, weight)
+    return under(test, tip, weight)
+
+
+def under(test: Test, tip: np.ndarray, weight: np.ndarray) -> Ground:
+    """Return the ground of a test with q_t and unit weight [n]."""
+    depth = test.depth
     means = np.concatenate([weight[:1], (weight[1:] + weight[:-1]) / 2])
     total = np.cumsum(means * np.diff(depth, prepend=0.0))
     effective = total - WATER * depth
@@ -116,8 +128,7 @@ def ground_of(test: Test, area_ratio: float, unit_weight: float | None) -> Groun
         ratio = np.full(len(depth), np.nan)
     else:
         ratio = np.clip(100 * test.friction / net, *FRICTION_RATIOS)
-    stress = np.maximum(effective, LEAST_STRESS)
-    normalized, index = normalize(net, stress, ratio)
+    normalized, index = normalize(net, np.maximum(effective, LEAST_STRESS), ratio)
     return Ground(
         depth,
         test.resistance,

@@ -20,13 +20,15 @@ AREA_RATIO = 0.8
 @dataclass(frozen=True)
 class Interpretation:
     """A test: its ground, the correlations by quantity, and its layers with their
-    estimates; unread: heads of columns that were left out."""
+    estimates; unread: heads of columns that were left out; weight: where the unit
+    weight comes from."""
 
     file: Path
     ground: Ground
     names: dict[str, str]
     layers: list[Estimates]
     unread: tuple[str, ...]
+    weight: str
 
 
 def depths(text: str) -> list[float]:
@@ -147,5 +149,10 @@ def interpret(
     except ValueError as error:
         raise ResultsError(f"{file}: {error}; choose other --tops") from error
     return Interpretation(
-        file, ground, names, estimates_of(ground, found, names), test.unread
+        file,
+        ground,
+        names,
+        estimates_of(ground, found, names),
+        test.unread,
+        "robertson-cabal-2010" if weight is None else "--unit-weight",
     )

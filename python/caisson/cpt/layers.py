@@ -2,8 +2,9 @@
 """Divides the ground of a cone test into layers.
 
 Boundaries are where the mean of x = log10 Q_tn changes. x is taken each 5 cm and
-smoothed by the median over 25 cm. Of all divisions into at most n layers that are not
-thinner than d, the one is taken that makes
+smoothed by the median over 2 d, which keeps steps and takes away what is thinner than
+d. Of all divisions into at most n layers that are not thinner than d, the one is taken
+that makes
 
     sum of (x - mean of x in its layer)^2 + (number of layers) m s^2 / 2
 
@@ -24,7 +25,6 @@ from scipy.ndimage import median_filter
 from caisson.cpt.ground import Ground, kind_of
 
 SPACING = 0.05  # m
-SMOOTHED = 5  # points
 STEP = 0.2  # in log10 Q_tn: a factor of 1.6
 THINNEST = 0.5  # m
 MOST = 5  # layers, as many as a scene has
@@ -82,8 +82,8 @@ def tops_of(
     spacing = max(SPACING, last / 800)
     z = np.arange(spacing / 2, last, spacing)
     x = np.interp(z, ground.depth, np.log10(ground.normalized))
-    x = median_filter(x, SMOOTHED, mode="nearest")
     shortest = max(int(round(thinnest / spacing)), 1)
+    x = median_filter(x, 2 * shortest - 1, mode="nearest")
     if len(x) < 2 * shortest:
         return [0.0]
     return [round(start * spacing / 0.05) * 0.05 for start in divide(x, shortest, most)]
@@ -101,7 +101,7 @@ def lenses_of(
             continue
         first, last = places[begin], places[i - 1]
         top, bottom = float(ground.depth[first]), float(ground.depth[last])
-        if kinds[first] != kind and bottom - top >= THINNEST_LENS:
+        if kinds[first] != kind and bottom - top > THINNEST_LENS - 1e-6:
             found.append((top, bottom, str(kinds[first])))
         begin = i
     return found

@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 from caisson.cpt.correlations import (
     ANGLE,
-    BY_NAME,
     DENSITY,
     EVERY,
     MODULUS,
@@ -23,6 +22,7 @@ from caisson.cpt.estimates import (
     Estimates,
 )
 from caisson.cpt.ground import SAND
+from caisson.cpt.interpretation import Interpretation
 from caisson.table import markdown, write_csv
 
 
@@ -61,8 +61,8 @@ def quantities_of(every: Sequence[Estimates]) -> list[str]:
     return [name for name in SHOWN if any(name in e.values for e in every)]
 
 
-def table(every: Sequence[Estimates]) -> str:
-    """Return the table for the terminal: low / best / high."""
+def cells_of(every: Sequence[Estimates]) -> tuple[list[str], list[list[str]]]:
+    """Return heads and rows of the table: low / best / high."""
     names = quantities_of(every)
     heads = ["layer", "from to (m)", "soil", *(SHOWN[name].head for name in names)]
     rows = []
@@ -70,20 +70,24 @@ def table(every: Sequence[Estimates]) -> str:
         where = f"{e.layer.top:g} to {e.layer.bottom:g}"
         cells = [text_of(e.values.get(name), SHOWN[name]) for name in names]
         rows.append([str(number), where, e.layer.kind, *cells])
-    return markdown(heads, rows)
+    return heads, rows
 
 
-def remarks(every: Sequence[Estimates], names: dict[str, str]) -> list[str]:
-    """Return what the table rests on, lenses, and what can be done with other soil
-    than sand."""
-    used = [c for c in EVERY if names[c.quantity] == c.name]
-    have = {name for e in every for name in e.values}
-    found = [
-        f"{c.quantity}: {BY_NAME[c.name].name}, {c.source}; {c.holds}"
-        for c in used
-        if c.quantity in have
-    ]
-    for number, e in enumerate(every, 1):
+def text_of_test(test: Interpretation) -> str:
+    """Return table and remarks for the terminal."""
+    text = markdown(*cells_of(test.layers))
+    return "\n".join([f"{test.file}: low / best / high", text, *remarks(test)])
+
+
+def remarks(test: Interpretation) -> list[str]:
+    """Return what the table rests on, lenses, what can be done with other soil than
+    sand, and columns that were not read."""
+    have = {name for e in test.layers for name in e.values}
+    found = [f"{WEIGHT}: {test.weight}"]
+    for c in EVERY:
+        if test.names[c.quantity] == c.name and c.quantity in have:
+            found.append(f"{c.quantity}: {c.name}, {c.source}; {c.holds}")
+    for number, e in enumerate(test.layers, 1):
         for top, bottom, kind in e.layer.lenses:
             found.append(
                 f"layer {number} has {kind} from {top:g} to {bottom:g} m, which does"
@@ -91,6 +95,8 @@ def remarks(every: Sequence[Estimates], names: dict[str, str]) -> list[str]:
             )
         if e.layer.kind != SAND:
             found.append(f"layer {number} is {e.layer.kind}: {CAN[e.layer.kind]}")
+    if test.unread:
+        found.append(f"columns that were not read: {', '.join(test.unread)}")
     return found
 
 

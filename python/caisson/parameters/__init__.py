@@ -14,6 +14,8 @@ because the parameters make the runs:
     depths         of the table (m), default each meter
     tornado_depth  of tornado.png (m), default the deepest of depths in all runs
     reference = {} runs the scene as it is, too, for fan.png
+    cone           a file with a cone test, beside this one: the design methods stand
+                   beside the runs in methods.png and methods.csv
 
     [parameters."Soil/Layer 1/Friction angle"]   # and one of
     values = [28, 31, 34]                  # numbers or words
@@ -37,22 +39,26 @@ because the parameters make the runs:
 A distribution is taken at its quantiles of 5 and 95 % where one parameter changes at a
 time. All runs are checked before the first one starts. Results, besides those of the
 runs, go to the directory of the study: table.csv, fan.csv, fan.png, tornado.png.
+A cone test is read before the first run, and kept with each of them.
 """
 import concurrent.futures
 import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from caisson.parameters import pictures, tables
+from caisson.design import cone
+from caisson.parameters import methods, pictures, tables
 from caisson.parameters.outcome import Outcomes
 from caisson.parameters.sampling import runs_of
 from caisson.paths import short
+from caisson.results import ResultsError
 from caisson.run import RunError
 from caisson.study import Options, Study, StudyError, StudyRun, file_name
 
 NAME = "parameters"
 STUDY_KEYS = set(
-    "parameters sampling samples seed correlations observe depths tornado_depth".split()
+    "parameters sampling samples seed correlations observe depths tornado_depth"
+    " cone".split()
 )
 RUN_KEYS = {"sample"}
 make_runs = runs_of
@@ -76,6 +82,8 @@ def check(studies: Sequence[Study], jobs: int) -> str:
         except (RunError, OSError) as error:
             return f"{run.study}: the run {run.name!r} is refused: {error}"
 
+    for study in studies:
+        cone_of(study)
     runs = [run for study in studies for run in study.runs]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         found = list(pool.map(refusal_or_time, runs))
@@ -96,6 +104,34 @@ def check(studies: Sequence[Study], jobs: int) -> str:
     return text
 
 
+def cone_of(study: Study) -> Path | None:
+    """Return the cone test of a study, None where it names none. Raises StudyError
+    where it cannot be read."""
+    if "cone" not in study.keys:
+        return None
+    path = study.file.parent / str(study.keys["cone"])
+    try:
+        cone.read(path)
+    except ResultsError as error:
+        raise StudyError(f"{study.file}: cone: {error}") from error
+    return path
+
+
+def by_methods(directory: Path, outcomes: Outcomes) -> list[Path]:
+    """Keep the cone test with each run, and write what the design methods say beside
+    the runs; return the files."""
+    test = cone_of(outcomes.study)
+    if test is None:
+        return []
+    for outcome in outcomes.complete:
+        cone.adopt(test, outcome.run.run.directory)
+    found = methods.answers_of(outcomes)
+    return [
+        methods.write(directory / "methods.csv", found),
+        methods.draw(directory / "methods.png", found, outcomes),
+    ]
+
+
 def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
     """Write and print the results of each study; return 1 where a run is missing."""
     status = 0
@@ -111,6 +147,7 @@ def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
                 tables.write_fan(directory / "fan.csv", outcomes),
                 pictures.draw_fan(directory / "fan.png", outcomes),
                 pictures.draw_tornado(directory / "tornado.png", outcomes, depth),
+                *by_methods(directory, outcomes),
             ]
         print("\n".join(tables.lines(outcomes, depth)))
         for file in filter(None, files):

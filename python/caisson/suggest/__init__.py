@@ -8,7 +8,9 @@ error that you want, and what it will cost.
 
 Lengths are in meters, or have a unit: 40mm. All else is in SI units, and angles in
 degrees. With --weight the caisson sinks by its weight and is then drawn in by
-suction; without, it is jacked.
+suction; without, it is jacked. In place of layers a cone test may be given,
+
+    caisson suggest --diameter 10 --skirt 8 --wall 40mm --cpt FILE.csv own.prm
 """
 import argparse
 import os
@@ -19,8 +21,12 @@ from pathlib import Path
 
 import jinja2
 
+from caisson.cpt import interpretation, tables
+from caisson.cpt.interpretation import Interpretation
 from caisson.paths import INSTALLED
+from caisson.results import ResultsError
 from caisson.run import RunError, ask, read_parameters
+from caisson.suggest import cone
 from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
 from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of
 
@@ -44,36 +50,46 @@ def declare(parser: argparse.ArgumentParser) -> None:
     """Add the options."""
     add = parser.add_argument
     add("file", type=Path, help="the scene to write, a .prm file")
+    declare_caisson(parser, required=True)
+    add(
+        "--layer",
+        action="append",
+        metavar='"TOP: ENTRY = VALUE, ..."',
+        help="a layer of soil; give one option for each, from the surface down",
+    )
+    add(
+        "--cpt",
+        type=Path,
+        metavar="FILE.csv",
+        help="a cone test that gives the layers, in place of --layer",
+    )
+    text = "write a study, too: of the friction angle, or of a cone test's estimates"
+    add("--study", type=Path, metavar="FILE.toml", help=text)
+    add("--overwrite", action="store_true", help="replace files that exist")
+    interpretation.declare(parser)
+
+
+def declare_caisson(parser: argparse.ArgumentParser, required: bool) -> None:
+    """Add the options of the caisson and of its run."""
+    add = parser.add_argument
     for name, what in {
         "diameter": "outer diameter",
         "skirt": "length of the skirt",
         "wall": "thickness of its wall",
     }.items():
-        add(f"--{name}", type=length, required=True, metavar="M", help=what)
-    add(
-        "--layer",
-        action="append",
-        required=True,
-        metavar='"TOP: ENTRY = VALUE, ..."',
-        help="a layer of soil; give one option for each, from the surface down",
-    )
+        add(f"--{name}", type=length, required=required, metavar="M", help=what)
     add("--wall-friction", type=float, metavar="DEGREES", help="on both sides")
     add("--penetration", type=length, metavar="M", help="where the run ends")
     add("--weight", type=float, metavar="N", help="in water; the rest takes suction")
     add("--water-depth", type=float, metavar="M", help="bounds the suction")
     add("--error", type=int, choices=LEVELS, default=10, help="wanted, in %%")
-    add(
-        "--study",
-        type=Path,
-        metavar="FILE.toml",
-        help="write a study of the friction angle, too",
-    )
-    add("--overwrite", action="store_true", help="replace files that exist")
 
 
 def check(options: argparse.Namespace) -> None:
     """Refuse what cannot be meant. Raises SuggestError."""
     body, end = options, options.penetration
+    if bool(options.layer) == bool(options.cpt):
+        raise SuggestError("give the soil: either --layer, or a cone test by --cpt")
     if body.wall > body.diameter / 10:
         raise SuggestError(
             f"--wall {body.wall:g} m is more than a tenth of the diameter"
@@ -149,6 +165,27 @@ def template(name: str) -> jinja2.Template:
     return environment_of_text.get_template(name)
 
 
+def end_of(options: argparse.Namespace) -> float:
+    """Return where the run ends (m)."""
+    return float(options.penetration or options.skirt - start_of(options.skirt))
+
+
+def reached(options: argparse.Namespace, layers: Sequence[Layer]) -> list[Layer]:
+    """Return the layers that the skirt reaches."""
+    return [layer for layer in layers if layer.top < end_of(options)]
+
+
+def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
+    """Return the text of a study with low, best and high estimate of a cone test."""
+    return template("soil_study.toml.jinja").render(
+        scene=os.path.relpath(options.file, options.study.parent),
+        cone=os.path.relpath(options.cpt, options.study.parent),
+        name=options.cpt.name,
+        follows=options.wall_friction is None,
+        choices=cone.choices_of(found, end_of(options), options.wall_friction),
+    )
+
+
 def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
     """Return the text of a study with five friction angles of each layer. Raises
     SuggestError where a layer has none."""
@@ -166,7 +203,8 @@ def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
             entries[f"Soil/Layer {number}/Friction angle"] = angle
         name = ", ".join(f"{angle:g}" for angle in entries.values())
         if follows:
-            wall = float(f"{2 / 3 * min(entries.values()):.3g}")
+            least = min(list(entries.values())[: len(reached(options, layers))])
+            wall = float(f"{2 / 3 * least:.3g}")
             for side in ("outer", "inner"):
                 entries[f"Rigid body/Friction angle of the {side} wall"] = wall
         choices[name] = entries
@@ -180,7 +218,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
     """Return the text of the scene."""
     body = Body(options.diameter, options.skirt, options.wall)
     start = start_of(body.skirt)
-    end = options.penetration or body.skirt - start
+    end = end_of(options)
     mesh = mesh_of(body, end, level)
     how = "by weight and suction" if options.weight else "jacked"
     smallest = body.wall / level.cells
@@ -193,7 +231,9 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         smallest_mm=f"{smallest * 1e3:.3g}",
         start=start,
         end=end,
-        wall_friction=wall_friction_of(options.wall_friction, layers),
+        wall_friction=wall_friction_of(
+            options.wall_friction, reached(options, layers)
+        ),
         layers=with_permeability(layers) if options.weight else layers,
         weight=options.weight,
         water_depth=options.water_depth,
@@ -219,18 +259,33 @@ def cost_of(file: Path) -> str:
         raise SuggestError(f"the program refuses {file}:\n{error}") from error
 
 
+def write(options: argparse.Namespace) -> None:
+    """Write the scene, and the study if there is to be one; say what the scene will
+    cost. Raises SuggestError, RunError, ResultsError or OSError."""
+    check(options)
+    found = None
+    if options.cpt:
+        deepest = cone.REACH * options.skirt
+        found = interpretation.interpret(options.cpt, options, deepest)
+        print(tables.text_of_test(found))
+        layers = cone.layers_of(found, end_of(options))
+    else:
+        layers = layers_of(options.layer, entries_of_layers())
+    texts = {options.file: scene_of(options, layers, LEVELS[options.error])}
+    if options.study:
+        texts[options.study] = (
+            soil_study_of(options, found) if found else study_of(options, layers)
+        )
+    for file, text in texts.items():  # all or none
+        file.write_text(text, encoding="utf-8")
+    print(cost_of(options.file))
+
+
 def main(options: argparse.Namespace) -> int:
     """Write the scene, and say what it will cost."""
     try:
-        check(options)
-        layers = layers_of(options.layer, entries_of_layers())
-        texts = {options.file: scene_of(options, layers, LEVELS[options.error])}
-        if options.study:
-            texts[options.study] = study_of(options, layers)
-        for file, text in texts.items():  # all or none
-            file.write_text(text, encoding="utf-8")
-        print(cost_of(options.file))
-    except (SuggestError, RunError, OSError) as error:
+        write(options)
+    except (SuggestError, RunError, ResultsError, OSError) as error:
         print(f"suggest: {error}", file=sys.stderr)
         return 1
     run, study = (

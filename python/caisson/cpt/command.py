@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Layers of soil and their parameters, low, best and high, from a cone test; of a
+caisson also its scene, and a study of the three estimates beside all design methods.
+
+    caisson cpt FILE.csv
+    caisson cpt FILE.csv --diameter 10 --skirt 8 --wall 40mm --run
+
+The file is a table with the columns depth_m and qc_MPa and, where they were measured,
+fs_kPa and u2_kPa. Results go to results/cpt/NAME: layers.csv and cpt.png; of a caisson
+scene.prm and study.toml, and with --run report.html.
+"""
+import argparse
+import sys
+from pathlib import Path
+
+from caisson import suggest
+from caisson.cpt import interpretation, page, picture, tables
+from caisson.cpt.correlations import EVERY
+from caisson.cpt.interpretation import Interpretation
+from caisson.paths import RESULTS, scene_or_study, short
+from caisson.results import ResultsError
+from caisson.run import RunError
+from caisson.suggest.cone import REACH
+from caisson.suggest.soil import SuggestError
+from caisson.study import StudyError
+
+SIZES = ("diameter", "skirt", "wall")
+SCENE, STUDY = "scene.prm", "study.toml"
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson cpt`."""
+    add = parser.add_argument
+    add("cpt", type=scene_or_study, nargs="?", metavar="FILE.csv", help="the test")
+    add("--out", type=Path, metavar="DIR", help="of the results")
+    add("--list", action="store_true", help="list the correlations, and do no more")
+    add("--run", action="store_true", help="run the study of a caisson")
+    add("--jobs", type=int, metavar="N", help="runs at a time, default one a core")
+    suggest.declare_caisson(parser, required=False)
+    interpretation.declare(parser)
+
+
+def list_correlations() -> None:
+    """Print all correlations."""
+    for c in EVERY:
+        print(f"{c.name:20}{c.quantity:20}{c.source}; {c.holds}")
+
+
+def check(options: argparse.Namespace) -> bool:
+    """Return whether there is a caisson. Raises ResultsError."""
+    if options.cpt is None:
+        raise ResultsError("give the file of a cone test, or --list")
+    given = [name for name in SIZES if getattr(options, name) is not None]
+    if given and len(given) < len(SIZES):
+        missing = [f"--{name}" for name in SIZES if name not in given]
+        raise ResultsError(f"of the caisson, {' and '.join(missing)} are missing")
+    if options.run and not given:
+        raise ResultsError("--run needs a caisson: --diameter, --skirt and --wall")
+    if options.jobs is not None and options.jobs < 1:
+        raise ResultsError("--jobs must be 1 or more")
+    return bool(given)
+
+
+def write(found: Interpretation, directory: Path) -> list[Path]:
+    """Write table and picture into a directory; return the files."""
+    directory.mkdir(parents=True, exist_ok=True)
+    title = f"Cone test {found.file.name}"
+    return [
+        tables.write(directory / "layers.csv", found.layers),
+        picture.draw(
+            directory / "cpt.png", title, found.ground, found.layers, found.names
+        ),
+    ]
+
+
+def work(options: argparse.Namespace) -> int:
+    """Do what the options ask for; return the exit status."""
+    has_caisson = check(options)
+    deepest = REACH * options.skirt if has_caisson else None
+    found = interpretation.interpret(options.cpt, options, deepest)
+    directory: Path = options.out or RESULTS / "cpt" / options.cpt.stem
+    if not has_caisson:
+        print(tables.text_of_test(found))
+    files = write(found, directory)
+    if has_caisson:
+        options.file, options.study = directory / SCENE, directory / STUDY
+        options.layer, options.overwrite = None, True
+        suggest.write(options)  # which prints the table
+        files += [options.file, options.study]
+    for file in files:
+        print(f"cpt: {short(file)}")
+    if not options.run:
+        return 0
+    status = page.run_study(options.study, directory, options.jobs)
+    print(f"cpt: {short(page.write(found, options.study, directory))}")
+    return status
+
+
+def main(options: argparse.Namespace) -> int:
+    """Write layers, picture and, of a caisson, scene, study and report."""
+    if options.list:
+        list_correlations()
+        return 0
+    try:
+        return work(options)
+    except (ResultsError, SuggestError, StudyError, RunError, OSError) as error:
+        print(f"cpt: {error}", file=sys.stderr)
+        return 1

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs the study of a cone test, and writes report.html: the test, layers, and the
+forces of all estimates beside the design methods, on one page."""
+import argparse
+import base64
+from pathlib import Path
+
+import jinja2
+import numpy as np
+
+from caisson import plot, report, study_command
+from caisson.cpt import tables
+from caisson.cpt.interpretation import Interpretation
+from caisson.parameters import methods
+from caisson.parameters.methods import Answers
+from caisson.parameters.outcome import Outcomes
+from caisson.plot import theory
+from caisson.report import content
+from caisson.results import ResultsError
+from caisson.study import Options, Study, file_name
+
+HERE = Path(__file__).parent
+NAME = "report.html"
+
+
+def run_study(file: Path, directory: Path, jobs: int | None) -> int:
+    """Run what is missing of a study, into a directory; return its status."""
+    parser = argparse.ArgumentParser(prog="caisson study")
+    study_command.declare(parser)
+    words = [str(file), "--results", str(directory)]
+    words += ["--jobs", str(jobs)] if jobs else []
+    return study_command.main(parser.parse_args(words))
+
+
+def study_of(file: Path, directory: Path) -> Study:
+    """Return the study of a file with results in a directory. Raises StudyError."""
+    module = study_command.module_of(file)
+    options = Options(results=directory.resolve())
+    return study_command.reader_of(file, options, module).studies()[0]
+
+
+def forces_of(found: Answers) -> tuple[list[str], list[list[str]]]:
+    """Return heads and rows of the total force (kN) at each meter: of each run, and
+    the range of each method."""
+    at = np.flatnonzero(np.isclose(found.depth % 1, 0) | np.isclose(found.depth % 1, 1))
+    heads = ["depth (m)", *(f"computed, {name}" for name in found.names)]
+    columns = [[content.text_of(depth) for depth in found.depth[at]]]
+    for force in found.computed:
+        columns.append([content.text_of(value / 1e3) for value in force[at]])
+    for i, method in enumerate(theory.METHODS):
+        band = found.band(i)
+        if band is None:
+            continue
+        heads.append(method.name)
+        low, high = (end[at] / 1e3 for end in band)
+        columns.append([range_of(a, b) for a, b in zip(low, high)])
+    return heads, [list(row) for row in zip(*columns)]
+
+
+def range_of(low: float, high: float) -> str:
+    """Return two ends, nothing where there are none."""
+    if not np.isfinite(low + high):
+        return ""
+    return f"{content.text_of(low)} to {content.text_of(high)}"
+
+
+def picture_of(path: Path) -> str:
+    """Return a picture as data for the page."""
+    return base64.b64encode(path.read_bytes()).decode("ascii")
+
+
+def reports_of(outcomes: Outcomes, directory: Path) -> list[tuple[str, str]]:
+    """Draw pictures and report of each run; return (name, path from the page)."""
+    found = []
+    for outcome in outcomes.complete:
+        of_run = outcome.run.run.directory
+        plot.draw(of_run)
+        path = report.write(of_run)
+        found.append((outcome.name, str(path.relative_to(directory.resolve()))))
+    return found
+
+
+def troubles_of(outcomes: Outcomes) -> list[str]:
+    """Return what has failed, and the warnings of the runs."""
+    found = [
+        f"{outcome.name}: {outcome.status}, {outcome.why}".rstrip(", ")
+        for outcome in outcomes.all
+        if not outcome.is_complete
+    ]
+    warnings: dict[str, list[str]] = {}
+    for outcome in outcomes.complete:
+        for warning in outcome.run.results.summary.get("warnings", []):
+            warnings.setdefault(warning, []).append(outcome.name)
+    return found + [f"{', '.join(names)}: {text}" for text, names in warnings.items()]
+
+
+def write(test: Interpretation, file: Path, directory: Path) -> Path:
+    """Write the page of a study with a cone test. Raises ResultsError where no run
+    has an answer."""
+    study = study_of(file, directory)
+    outcomes = Outcomes(study)
+    if not outcomes.complete:
+        raise ResultsError(f"no run of {file} is complete: see their logs")
+    answers = methods.answers_of(outcomes)
+    results = directory / file_name(study.id)
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(HERE),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    css = Path(report.__file__).parent / "page.css"
+    path = directory / NAME
+    path.write_text(
+        environment.get_template("page.html.jinja").render(
+            title=study.title,
+            test=test.file.name,
+            troubles=troubles_of(outcomes),
+            soil=tables.cells_of(test.layers),
+            remarks=tables.remarks(test),
+            forces=forces_of(answers),
+            reasons=theory.reasons(answers.answers[0]),
+            profile=picture_of(directory / "cpt.png"),
+            methods=picture_of(results / "methods.png"),
+            reports=reports_of(outcomes, directory),
+            style=css.read_text(encoding="utf-8"),
+        ),
+        encoding="utf-8",
+    )
+    return path

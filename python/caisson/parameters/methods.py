@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The runs of a study beside the design methods: methods.csv and methods.png.
+
+Each method answers for the soil of each run, so that a band goes from the smallest to
+the largest of both cases in all runs.
+"""
+import math
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from caisson.parameters.effects import order
+from caisson.parameters.entry import text_of
+from caisson.parameters.outcome import DEPTH, Outcome, Outcomes, values_at
+from caisson.plot import theory
+from caisson.table import write_csv
+
+TOTAL = "total_force_N"
+INTERVAL = 0.1  # m
+FEW = 5  # runs that a legend names one by one
+
+
+class Answers(NamedTuple):
+    """What runs and methods say: the runs, embedments [n_depths] (m), the total force
+    of each run [n_runs, n_depths] (N), and the answers of each run."""
+
+    runs: list[Outcome]
+    names: list[str]
+    depth: np.ndarray
+    computed: np.ndarray
+    answers: list[list[theory.Answer]]
+
+    def band(self, method: int) -> tuple[np.ndarray, np.ndarray] | None:
+        """Return smallest and largest total force [n_depths] by a method, None where
+        it has no answer."""
+        forces = [
+            force
+            for of_run in self.answers
+            if of_run[method].forces
+            for force in of_run[method].band("total")
+        ]
+        if not forces:
+            return None
+        table = np.array(forces)
+        known = np.isfinite(table).all(axis=0)
+        if not known.any():
+            return None
+        table[:, ~known] = math.nan
+        return table.min(axis=0), table.max(axis=0)
+
+
+def answers_of(outcomes: Outcomes) -> Answers:
+    """Return what the complete runs and the methods say at common depths. Raises
+    ResultsError where a cone test of a run cannot be read."""
+    runs = list(outcomes.complete)
+    if len(outcomes.free) == 1:
+        parameter = outcomes.free[0]
+        runs.sort(key=lambda run: order(parameter, run.sample[parameter.name]))
+        names = [text_of(run.sample[parameter.name]) for run in runs]
+    else:
+        names = [run.name for run in runs]
+    histories = [run.history for run in runs if run.history is not None]
+    deepest = max(float(history[DEPTH].max()) for history in histories)
+    depth = np.arange(1, int(deepest / INTERVAL + 1e-6) + 1) * INTERVAL
+    computed = np.array([values_at(history, TOTAL, depth) for history in histories])
+    sites = [theory.site_of(run.run.results) for run in runs]
+    answers = [theory.answers_of(site, depth) for site in sites]
+    return Answers(runs, names, depth, computed, answers)
+
+
+def write(path: Path, found: Answers) -> Path:
+    """Write the total force (N) of each run, and by each case of each method with the
+    soil of each run, at each 0.1 m; cells without an answer are empty."""
+    columns: dict[str, np.ndarray] = {DEPTH: found.depth}
+    for name, force in zip(found.names, found.computed):
+        columns[f"{TOTAL} [{name}]"] = force
+    for i, method in enumerate(theory.METHODS):
+        for name, of_run in zip(found.names, found.answers):
+            for case, parts in of_run[i].forces.items():
+                head = f"{method.key}_{case.replace(' ', '_')}_{TOTAL} [{name}]"
+                columns[head] = parts["total"]
+    rows = [
+        ["" if math.isnan(value) else f"{value:.6g}" for value in row]
+        for row in zip(*columns.values())
+    ]
+    write_csv(path, list(columns), rows)
+    return path
+
+
+def draw_methods(axes: Axes, found: Answers) -> None:
+    """Draw the band of each method."""
+    for i, method in enumerate(theory.METHODS):
+        band = found.band(i)
+        if band is None:
+            continue
+        low, high = band[0] / 1e3, band[1] / 1e3
+        axes.fill_betweenx(
+            found.depth,
+            low,
+            high,
+            color=method.color,
+            alpha=0.16,
+            linewidth=0,
+            label=f"{method.name}: {' to '.join(method.cases)}",
+        )
+        for end in (low, high):
+            axes.plot(end, found.depth, color=method.color, linewidth=0.9)
+
+
+def draw_runs(axes: Axes, found: Answers) -> None:
+    """Draw the total force of each run."""
+    n = len(found.runs)
+    shades = colormaps["viridis"](np.linspace(0, 0.8, n)) if n > FEW else None
+    styles = ("--", "-", ":") if n == 3 else ("-",) * n
+    for k, (name, force) in enumerate(zip(found.names, found.computed)):
+        is_middle = n == 3 and k == 1
+        axes.plot(
+            force / 1e3,
+            found.depth,
+            color="black" if shades is None else shades[k],
+            linestyle=styles[k],
+            linewidth=2.4 if is_middle else 1.6,
+            label=f"computed, {name}" if n <= FEW else None,
+            zorder=4,
+        )
+
+
+def reasons_of(found: Answers) -> str:
+    """Return which methods have no answer, and why."""
+    texts = [f"{names}: {why}" for names, why in theory.reasons(found.answers[0])]
+    return f"no answer from {'; '.join(texts)}" if texts else ""
+
+
+def draw(path: Path, found: Answers, outcomes: Outcomes) -> Path:
+    """Write the picture."""
+    figure = Figure(figsize=(8.5, 8.5))
+    axes = figure.subplots()
+    draw_methods(axes, found)
+    draw_runs(axes, found)
+    computed = found.computed[np.isfinite(found.computed)] / 1e3
+    bands = [found.band(i) for i in range(len(theory.METHODS))]
+    tops = [float(np.nanmax(band[1])) / 1e3 for band in bands if band is not None]
+    axes.set_xlim(0, 1.05 * max([*tops, float(computed.max())]))
+    axes.set_ylim(float(found.depth.max()), 0)
+    axes.grid(color="0.9")
+    axes.set_axisbelow(True)
+    axes.xaxis.set_label_position("top")
+    axes.xaxis.tick_top()
+    axes.set_xlabel("total force (kN)")
+    axes.set_ylabel("penetration of the skirt tip (m)")
+    axes.legend(fontsize=8, framealpha=0.9, loc="lower left")
+    figure.suptitle(outcomes.study.title, fontsize=11)
+    note = "bands: both cases of a method with the soil of all runs"
+    note = "\n".join(filter(None, [note, reasons_of(found)]))
+    figure.text(0.5, 0.01, note, ha="center", fontsize=8, color="0.3", wrap=True)
+    figure.tight_layout(rect=(0, 0.03 + 0.02 * note.count("\n"), 1, 1))
+    figure.savefig(path, dpi=150)
+    return path

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Layers of a scene, and low, best and high estimates for a study, from a cone test."""
+from typing import Any
+
+from caisson.cpt.correlations import ANGLE, MODULUS, STRENGTH
+from caisson.cpt.estimates import CAN, ENDS, K0, SOLID_DENSITY, WEIGHT, Estimates
+from caisson.cpt.ground import SAND
+from caisson.cpt.interpretation import Interpretation
+from caisson.cpt.tables import SHOWN, text_of
+from caisson.suggest.soil import ASSUMED, Entry, Layer, SuggestError
+
+REACH = 1.5  # times the skirt: the test counts to this depth
+ASSUMPTION = " # ASSUMED"
+POISSON_OF_CLAY = "0.45"  # hardly any change of volume, as without drainage
+
+
+def refuse_fines(found: Interpretation, end: float) -> None:
+    """Refuse clay and silt that the skirt reaches. Raises SuggestError."""
+    wrong = [
+        f"layer {number}, {e.layer.top:g} to {e.layer.bottom:g} m, is {e.layer.kind}"
+        f" ({CAN[e.layer.kind]})"
+        for number, e in enumerate(found.layers, 1)
+        if e.layer.kind != SAND and e.layer.top < end
+    ]
+    if wrong:
+        raise SuggestError(
+            f"{found.file}: {'; '.join(wrong)}. No scene is written by itself where"
+            " the skirt reaches other soil than sand: the walls have one friction and"
+            " one adhesion for all layers. Give the layers in words, --layer, or end"
+            " above it, --penetration"
+        )
+
+
+def remark(found: Interpretation, e: Estimates, name: str) -> str:
+    """Return where the value of a parameter comes from."""
+    source = found.names.get(name, found.weight)
+    shown = SHOWN[name]
+    return f" # FROM CPT ({source}): {shown.head} {text_of(e.values[name], shown)}"
+
+
+def number(value: float) -> str:
+    """Return a value with four digits."""
+    return f"{value:.4g}"
+
+
+def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
+    """Return strength and stiffness of a layer; clay and silt, which are below the
+    skirt, are undrained."""
+    modulus = number(e.values[MODULUS].best)
+    if e.layer.kind == SAND:
+        return [
+            Entry(
+                "Friction angle",
+                number(e.values[ANGLE].best),
+                remark(found, e, ANGLE),
+            ),
+            Entry("Cohesion", "0", ASSUMPTION),
+            Entry("Youngs modulus", modulus, remark(found, e, MODULUS)),
+            Entry("Poisson ratio", ASSUMED["Poisson ratio"], ASSUMPTION),
+        ]
+    return [
+        Entry("Friction angle", "0", f" # {e.layer.kind}, undrained"),
+        Entry("Cohesion", number(e.values[STRENGTH].best), remark(found, e, STRENGTH)),
+        Entry("Youngs modulus", modulus, f"{ASSUMPTION}: a multiple of s_u"),
+        Entry("Poisson ratio", POISSON_OF_CLAY, ASSUMPTION),
+        Entry("K0", number(e.values[K0].best), " # FROM CPT"),
+    ]
+
+
+def entries_of(found: Interpretation, e: Estimates) -> list[Entry]:
+    """Return the entries of a layer with the best estimates."""
+    return [
+        Entry("Law", ASSUMED["Law"]),
+        *strength_of(found, e),
+        Entry("Dilatancy angle", ASSUMED["Dilatancy angle"], ASSUMPTION),
+        Entry("Porosity", f"{e.porosity():.3f}", remark(found, e, WEIGHT)),
+        Entry("Solid density", f"{SOLID_DENSITY:g}", ASSUMPTION),
+    ]
+
+
+def layers_of(found: Interpretation, end: float) -> list[Layer]:
+    """Return the layers of a scene whose skirt ends at a depth (m). Raises
+    SuggestError."""
+    refuse_fines(found, end)
+    return [Layer(e.layer.top, entries_of(found, e)) for e in found.layers]
+
+
+def choices_of(
+    found: Interpretation, end: float, wall_friction: float | None
+) -> dict[str, dict[str, float]]:
+    """Return the entries of the low, the best and the high estimate: strength and
+    stiffness of all layers together, and the friction of the walls that follows."""
+    choices: dict[str, dict[str, float]] = {}
+    for name in ENDS:
+        entries: dict[str, Any] = {}
+        angles = []
+        for place, e in enumerate(found.layers, 1):
+            head = f"Soil/Layer {place}"
+            if e.layer.kind == SAND:
+                angle = float(number(e.values[ANGLE].at(name)))
+                entries[f"{head}/Friction angle"] = angle
+                angles += [angle] if e.layer.top < end else []
+            else:
+                strength = e.values[STRENGTH].at(name)
+                entries[f"{head}/Cohesion"] = float(number(strength))
+            modulus = e.values[MODULUS].at(name)
+            entries[f"{head}/Youngs modulus"] = float(number(modulus))
+        if wall_friction is None:
+            for side in ("outer", "inner"):
+                entry = f"Rigid body/Friction angle of the {side} wall"
+                entries[entry] = float(f"{2 / 3 * min(angles):.3g}")
+        choices[name] = entries
+    return choices
