@@ -10,8 +10,8 @@ programs and commercial manuals quote them, not copied from the papers.
 Relative density D_r of silica sand
     jamiolkowski-2003  D_r = ln(q_c/p_a / (24.94 (sigma'_m/p_a)^0.46)) / 2.96
         Jamiolkowski, Lo Presti & Manassero (2003), ASCE GSP 119, p. 201; chamber tests
-        on dry Ticino, Toyoura and Hokksund sand, sigma'_v 50 to 400 kPa, K_0 0.4 to 1.5;
-        saturated sand is up to a tenth denser
+        on dry Ticino, Toyoura and Hokksund sand, sigma'_v 50 to 400 kPa, K_0 0.4 to
+        1.5; saturated sand is up to a tenth denser
     baldi-1986         D_r = ln(q_c / (157 sigma'_v^0.55)) / 2.41, in kPa
         Baldi et al. (1986), 4th Int. Geotech. Seminar, Singapore; normally consolidated
         Ticino sand
@@ -20,11 +20,11 @@ Relative density D_r of silica sand
 
 Friction angle of sand, in degrees
     kulhawy-mayne-1990 phi = 17.6 + 11 log10(q_t/p_a / sqrt(sigma'_v/p_a))
-        Kulhawy & Mayne (1990), EPRI EL-6800; clean sands in chambers; scatter 2.8
+        Kulhawy & Mayne (1990), EPRI EL-6800; clean sands in chambers; a scatter of 2.8
         degrees, which is quoted and unconfirmed
-    bolton-1986        phi = 33 + 3 I_R, I_R = D_r (10 - ln sigma'_m) - 1, in kPa, 0 to 4
-        Bolton (1986), doi 10.1680/geot.1986.36.1.65; quartz sand in triaxial
-        compression; scatter 2 degrees, and that of D_r
+    bolton-1986        phi = 33 + 3 I_R, I_R = D_r (10 - ln sigma'_m) - 1, in kPa
+        I_R from 0 to 4; Bolton (1986), doi 10.1680/geot.1986.36.1.65; quartz sand in
+        triaxial compression; scatter 2 degrees, and that of D_r
 
 Young's modulus of sand
     schmertmann-1978   E = 2.5 q_c, from 2.0 to 3.5

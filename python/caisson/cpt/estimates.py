@@ -26,6 +26,7 @@ SOLID_DENSITY = 2650.0  # kg/m3, assumed, of quartz
 # E / s_u of clay, for the low, the best and the high estimate: assumed, no source
 CLAY_RATIOS = (100.0, 200.0, 400.0)
 Limits = tuple[float, float]
+ANY: Limits = (0.0, inf)
 LIMITS: dict[str, Limits] = {DENSITY: (0.0, 1.0), ANGLE: correlations.ANGLES}
 # what a kind of soil has
 HAS = {
@@ -122,13 +123,13 @@ def estimates_of(
     for layer in layers:
         rows, values = layer.rows, {}
         for name, column in measured.items():
-            values[name] = combined(*[column[rows]] * 3, (0.0, inf))
+            values[name] = combined(column[rows], column[rows], column[rows], ANY)
         functions = of_clay if layer.kind == CLAY else of_sand
         for name in HAS[layer.kind]:
             low, best, high = [
                 functions[name](ground, names, end)[rows] for end in ENDS.values()
             ]
-            limits = LIMITS.get(name, (0.0, inf))
+            limits = LIMITS.get(name, ANY)
             values[name] = combined(best, low, high, limits)
         found.append(Estimates(layer, values))
     return found

@@ -4,8 +4,6 @@ import argparse
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from caisson.cpt import correlations, layers
 from caisson.cpt.correlations import BY_NAME
 from caisson.cpt.estimates import Estimates, estimates_of
@@ -96,15 +94,6 @@ def declare(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def to_depth(test: Test, deepest: float | None) -> Test:
-    """Return the rows of a test down to a depth (m), at least two."""
-    if deepest is None:
-        return test
-    n = max(int(np.searchsorted(test.depth, deepest, "right")), 2)
-    columns = [column if column is None else column[:n] for column in test[:4]]
-    return Test(*columns, test.unread)  # type: ignore[arg-type]
-
-
 def check(file: Path, test: Test, options: argparse.Namespace) -> None:
     """Refuse what the options leave open or cannot mean. Raises ResultsError."""
     if test.friction is None:
@@ -138,7 +127,9 @@ def interpret(
 ) -> Interpretation:
     """Return what a test says. deepest: below it (m) it does not count. Raises
     ResultsError."""
-    test = to_depth(cone_file.read(file), deepest)
+    test = cone_file.read(file)
+    if deepest is not None:
+        test = test.down_to(deepest)
     check(file, test, options)
     weight = options.unit_weight
     ground = ground_of(test, options.area_ratio, weight and 1e3 * weight)

@@ -42,7 +42,8 @@ def study_of(file: Path, directory: Path) -> Study:
 def forces_of(found: Answers) -> tuple[list[str], list[list[str]]]:
     """Return heads and rows of the total force (kN) at each meter: of each run, and
     the range of each method."""
-    at = np.flatnonzero(np.isclose(found.depth % 1, 0) | np.isclose(found.depth % 1, 1))
+    meters = np.arange(1, int(found.depth[-1] + 1e-6) + 1)
+    at = np.searchsorted(found.depth, meters - 1e-6)
     heads = ["depth (m)", *(f"computed, {name}" for name in found.names)]
     columns = [[content.text_of(depth) for depth in found.depth[at]]]
     for force in found.computed:

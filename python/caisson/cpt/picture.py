@@ -93,7 +93,8 @@ def draw_panel(
         if estimate is None:
             continue
         low, best, high = (
-            value * panel.scale for value in (estimate.low, estimate.best, estimate.high)
+            value * panel.scale
+            for value in (estimate.low, estimate.best, estimate.high)
         )
         where = [e.layer.top, e.layer.bottom]
         axes.fill_betweenx(where, low, high, color=BAND, alpha=0.22, lw=0, zorder=2)

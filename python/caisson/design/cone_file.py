@@ -52,6 +52,17 @@ class Test(NamedTuple):
     pore_pressure: np.ndarray | None
     unread: tuple[str, ...]
 
+    def down_to(self, deepest: float) -> "Test":
+        """Return the rows down to a depth (m), at least two."""
+        n = max(int(np.searchsorted(self.depth, deepest, "right")), 2)
+        return Test(
+            self.depth[:n],
+            self.resistance[:n],
+            None if self.friction is None else self.friction[:n],
+            None if self.pore_pressure is None else self.pore_pressure[:n],
+            self.unread,
+        )
+
 
 class Column(NamedTuple):
     """Where a quantity is, and its unit in m or Pa."""

@@ -65,7 +65,7 @@ def answers_of(outcomes: Outcomes) -> Answers:
         names = [run.name for run in runs]
     histories = [run.history for run in runs if run.history is not None]
     deepest = max(float(history[DEPTH].max()) for history in histories)
-    depth = np.arange(1, int(deepest / INTERVAL + 1e-6) + 1) * INTERVAL
+    depth = np.arange(int(deepest / INTERVAL + 1e-6) + 1) * INTERVAL
     computed = np.array([values_at(history, TOTAL, depth) for history in histories])
     sites = [theory.site_of(run.run.results) for run in runs]
     answers = [theory.answers_of(site, depth) for site in sites]
@@ -152,7 +152,7 @@ def draw(path: Path, found: Answers, outcomes: Outcomes) -> Path:
     axes.xaxis.tick_top()
     axes.set_xlabel("total force (kN)")
     axes.set_ylabel("penetration of the skirt tip (m)")
-    axes.legend(fontsize=8, framealpha=0.9, loc="lower left")
+    axes.legend(fontsize=8, framealpha=0.9, loc="upper right")
     figure.suptitle(outcomes.study.title, fontsize=11)
     note = "bands: both cases of a method with the soil of all runs"
     note = "\n".join(filter(None, [note, reasons_of(found)]))

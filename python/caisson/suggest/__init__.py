@@ -231,9 +231,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         smallest_mm=f"{smallest * 1e3:.3g}",
         start=start,
         end=end,
-        wall_friction=wall_friction_of(
-            options.wall_friction, reached(options, layers)
-        ),
+        wall_friction=wall_friction_of(options.wall_friction, reached(options, layers)),
         layers=with_permeability(layers) if options.weight else layers,
         weight=options.weight,
         water_depth=options.water_depth,
