@@ -1,0 +1,464 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Cone tests: files, formulas against numbers worked out by hand, layers, estimates,
+and what goes into a scene."""
+import argparse
+import contextlib
+import csv
+import io
+import itertools
+import tempfile
+import unittest
+from math import inf, log10
+from pathlib import Path
+
+import numpy as np
+from scipy.optimize import brentq
+
+from caisson.cpt import command, correlations, interpretation, layers
+from caisson.cpt.correlations import ANGLE, BEST, DENSITY, HIGH, LOW, MODULUS, STRENGTH
+from caisson.cpt.estimates import K0, WEIGHT
+from caisson.cpt.ground import (
+    ATMOSPHERE,
+    Ground,
+    ground_of,
+    index_of,
+    normalize,
+    unit_weight_of,
+)
+from caisson.cpt.interpretation import Interpretation
+from caisson.design import cone_file
+from caisson.paths import SCENES
+from caisson.results import ResultsError
+from caisson.suggest import cone
+from caisson.suggest.soil import SuggestError
+
+EXAMPLE = SCENES / "cpt_example.csv"
+HEAD = "depth_m,qc_MPa,fs_kPa,u2_kPa\n"
+
+
+def options(*words: str) -> argparse.Namespace:
+    """Return the options that say how a test is read."""
+    parser = argparse.ArgumentParser()
+    interpretation.declare(parser)
+    return parser.parse_args(words)
+
+
+def uniform(resistance: float, stress: float, index: float = 1.8) -> Ground:
+    """Return ground of one row with a resistance and a vertical effective stress (Pa),
+    the total stress of which is twice that."""
+    one = np.ones(1)
+    return Ground(
+        depth=one,
+        resistance=resistance * one,
+        friction=None,
+        tip=resistance * one,
+        unit_weight=19e3 * one,
+        total_stress=2 * stress * one,
+        effective_stress=stress * one,
+        normalized=one,
+        friction_ratio=one,
+        index=index * one,
+    )
+
+
+class WithFiles(unittest.TestCase):
+    """Has a directory for files."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name) / "mine.csv"
+
+    def written(self, text: str) -> Path:
+        """Return a file with this text."""
+        self.path.write_text(text, encoding="utf-8")
+        return self.path
+
+    def layered(self, *soils: tuple[float, float, float]) -> Path:
+        """Return the file of a test in soils (bottom, q_c in MPa at 10 m, f_s/q_c in
+        %); q_c grows with the root of the depth."""
+        rows, top = [], 0.0
+        for bottom, resistance, ratio in soils:
+            for z in np.arange(top + 0.05, bottom + 0.01, 0.05):
+                q = resistance * (z / 10) ** 0.5
+                rows.append(f"{z:.2f},{q:.4f},{10 * q * ratio:.3f},0")
+            top = bottom
+        return self.written(HEAD + "\n".join(rows))
+
+
+class Files(WithFiles):
+    """Columns and rows of a file."""
+
+    def test_units(self) -> None:
+        """Each column in its own unit; what is not read is told."""
+        test = cone_file.read(
+            self.written(
+                "# mine\ndepth [m];fs (MPa);tilt_deg;qc_kPa;u2_Pa\n"
+                "0;0;1;500;0\n1;0.02;1;4e3;9.8e3\n"
+            )
+        )
+        np.testing.assert_allclose(test.depth, [0, 1])
+        np.testing.assert_allclose(test.resistance, [0.5e6, 4e6])
+        assert test.friction is not None and test.pore_pressure is not None
+        np.testing.assert_allclose(test.friction, [0, 2e4])
+        np.testing.assert_allclose(test.pore_pressure, [0, 9.8e3])
+        self.assertEqual(test.unread, ("tilt_deg",))
+
+    def test_each_wrong_row_is_named(self) -> None:
+        rows = [
+            "0,0.5,3,0",  # row 2
+            "0.5,x,3,0",
+            "0.4,1,3,0",  # below the last good row, which is the first
+            "1,-2,3,0",
+            "1,2,,0",
+            "1,2,-5,0",
+            "1,2,3000,0",
+            "1,2,30,30000",
+            "2,5000,30,0",
+            "2,5,30,0",
+            "2,5,30,0",
+            "500,5,30,0",
+        ]
+        with self.assertRaises(ResultsError) as caught:
+            cone_file.read(self.written(HEAD + "\n".join(rows)))
+        lines = str(caught.exception).splitlines()
+        for row, words in {
+            3: "'x' is no number",
+            5: "cone resistance is -2 MPa",
+            6: "'' is no number",
+            7: "sleeve friction is -0.005 MPa",
+            8: "3000 kPa is more than the cone resistance of 2000 kPa",
+            9: "pore pressure is 30 MPa",
+            10: "check the unit",
+            12: "not below that of the row before",
+            13: "no length in meters",
+        }.items():
+            found = [line for line in lines if f"mine.csv, row {row}: " in line]
+            self.assertEqual(len(found), 1, str(caught.exception))
+            self.assertIn(words, found[0])
+        self.assertEqual(len(lines), 9)
+
+    def test_many_wrong_rows_are_counted(self) -> None:
+        text = HEAD + "0,1,1,0\n" + "1,x,1,0\n" * 13
+        with self.assertRaisesRegex(ResultsError, "3 more rows are wrong: 13, 14, 15"):
+            cone_file.read(self.written(text))
+
+    def test_wrong_heads(self) -> None:
+        for head, words in {
+            "depth_m,qc_psi,fs_kPa": "'qc_psi' has no unit that is known.*fs_kPa",
+            "depth_m,qc_MPa,fs": "'fs' has no unit",
+            "depth_m,qc_MPa,qc_kPa": "two columns of qc",
+            "depth_ft,qc_MPa,fs_kPa": "one column of depth",
+        }.items():
+            with self.assertRaisesRegex(ResultsError, words):
+                cone_file.read(self.written(head + "\n0,1,1\n1,2,1\n"))
+
+    def test_a_test_in_the_wrong_unit(self) -> None:
+        """Megapascals below a head of pascals."""
+        with self.assertRaisesRegex(ResultsError, "largest cone resistance is 12 Pa"):
+            cone_file.read(self.written("depth_m,qc_Pa\n0,1\n1,12\n"))
+
+
+class ByHand(unittest.TestCase):
+    """Formulas against numbers worked out on paper."""
+
+    def test_relative_density(self) -> None:
+        """D_r = 0.5 at 100 kPa: 2494 kPa 0.66667^0.46 exp(1.48) = 9.0917 MPa with
+        K_0 = 0.5; 157 kPa 100^0.55 exp(1.205) = 6.5952 MPa."""
+        k0 = np.array([0.5])
+        for function, resistance in (
+            (correlations.jamiolkowski, 9.0917e6),
+            (correlations.baldi, 6.5952e6),
+        ):
+            found = function(uniform(resistance, 100e3), k0, BEST)
+            np.testing.assert_allclose(found, [0.5], atol=5e-5)
+        # ln 1.3 / 2.96 = 0.08864
+        high = correlations.jamiolkowski(uniform(9.0917e6, 100e3), k0, HIGH)
+        np.testing.assert_allclose(high, [0.58864], atol=5e-5)
+
+    def test_friction_angle(self) -> None:
+        """17.6 + 11 log10 100; 33 + 3 (0.8 (10 - ln 100) - 1)."""
+        found = correlations.kulhawy_mayne(uniform(10e6, 100e3), BEST)
+        np.testing.assert_allclose(found, [39.6])
+        found = correlations.kulhawy_mayne(uniform(10e6, 100e3), LOW)
+        np.testing.assert_allclose(found, [36.8])
+        density = np.array([0.8])
+        found = correlations.bolton_of_density(
+            uniform(10e6, 100e3), np.array([1.0]), density
+        )
+        np.testing.assert_allclose(found, [42.94759], atol=1e-5)
+
+    def test_bolton_finds_its_own_pressure_at_rest(self) -> None:
+        """K_0 = 1 - sin phi goes into D_r, which goes into phi."""
+        ground = uniform(5e6, 80e3)
+        names = correlations.chosen(["bolton-1986"])
+        angle = correlations.angles_of(ground, names, BEST)
+        k0 = 1 - np.sin(np.radians(angle))
+        density = correlations.densities_of(ground, names, BEST)
+        again = correlations.bolton_of_density(ground, k0, density)
+        np.testing.assert_allclose(angle, again, atol=1e-6)
+        # at least 2 degrees from the source, more with the scatter of D_r
+        self.assertGreater(
+            float(correlations.angles_of(ground, names, HIGH)[0] - angle[0]), 2.5
+        )
+
+    def test_modulus(self) -> None:
+        """2.5 q_c; 0.015 10^(1.1 + 1.68) = 9.03839 of the net resistance 9.8 MPa."""
+        ground = uniform(10e6, 100e3, index=2.0)
+        names = correlations.chosen([])
+        for end, ratio in ((LOW, 2.0), (BEST, 2.5), (HIGH, 3.5)):
+            found = correlations.moduli_of(ground, names, end)
+            np.testing.assert_allclose(found, [ratio * 10e6])
+        names = correlations.chosen(["robertson-2009"])
+        found = correlations.moduli_of(ground, names, BEST)
+        np.testing.assert_allclose(found, [9.03839 * 9.8e6], rtol=1e-6)
+
+    def test_undrained_strength(self) -> None:
+        """(1 - 0.2) MPa over 18, 14 and 10."""
+        ground = uniform(1e6, 100e3)
+        found = [correlations.strengths_of(ground, {}, e)[0] for e in (LOW, BEST, HIGH)]
+        np.testing.assert_allclose(found, [44444.44, 57142.86, 80000.0], rtol=1e-6)
+
+    def test_unit_weight(self) -> None:
+        """q_t = 10 MPa with 1 %: 9.81 (0.36 2 + 1.236) kN/m3."""
+        found = unit_weight_of(np.array([10e6]), np.array([100e3]))
+        np.testing.assert_allclose(found, [19188.36])
+
+    def test_index(self) -> None:
+        """sqrt(1.47^2 + 1.22^2) of Q_tn = 100 and F_r = 1 %; at 1 bar n does not
+        matter; at half of that n is found, here by a solver for I_c."""
+        np.testing.assert_allclose(index_of(np.array([100.0]), np.ones(1)), 1.910314)
+        q, index = normalize(np.array([10e6]), np.array([ATMOSPHERE]), np.ones(1))
+        np.testing.assert_allclose(q, [100])
+        np.testing.assert_allclose(index, [1.910314], rtol=1e-6)
+
+        def residual(ic: float) -> float:
+            n = min(0.381 * ic + 0.05 * 0.5 - 0.15, 1)
+            logarithm = log10(100 * 2**n)
+            return float(ic - np.hypot(3.47 - logarithm, 1.22))
+
+        _, index = normalize(np.array([10e6]), np.array([ATMOSPHERE / 2]), np.ones(1))
+        np.testing.assert_allclose(index, [brentq(residual, 1, 4)], atol=1e-5)
+
+    def test_stress_of_a_given_weight(self) -> None:
+        """19 and 9.19 kN/m3 times 4 m; q_t has a fifth of u_2 more."""
+        z = np.array([0.0, 1.0, 4.0])
+        test = cone_file.Test(z, 1e6 + 0 * z, None, 1e5 * z, ())
+        found = ground_of(test, 0.8, 19e3)
+        np.testing.assert_allclose(found.total_stress, [0, 19e3, 76e3])
+        np.testing.assert_allclose(found.effective_stress, [0, 9190, 36760])
+        np.testing.assert_allclose(found.tip, [1e6, 1.02e6, 1.08e6])
+
+
+class Layers(WithFiles):
+    """Boundaries and kinds."""
+
+    def test_the_division_is_the_best(self) -> None:
+        """Of all that there are, tried one by one."""
+        x = np.array([1.0, 1.1, 0.9, 1.6, 1.5, 1.7, 1.6, 0.8, 0.9, 0.7, 1.0, 1.2])
+        shortest, most = 2, 4
+        best, places = inf, [0]
+        for count in range(most):
+            for cuts in itertools.combinations(range(1, len(x)), count):
+                edges = [0, *cuts, len(x)]
+                if min(np.diff(edges)) < shortest:
+                    continue
+                parts = [x[a:b] for a, b in zip(edges, edges[1:])]
+                total = sum(float(((p - p.mean()) ** 2).sum()) for p in parts)
+                total += len(parts) * shortest * layers.STEP**2 / 2
+                if total < best:
+                    best, places = total, edges[:-1]
+        self.assertEqual(layers.divide(x, shortest, most), places)
+        self.assertEqual(places, [0, 3, 7, 10])
+
+    def test_step_that_counts(self) -> None:
+        """Two layers of the least thickness differ by STEP or are one."""
+        for share, starts in ((0.9, [0]), (1.1, [0, 10])):
+            x = np.repeat([1.0, 1.0 + share * layers.STEP], 10)
+            self.assertEqual(layers.divide(x, 10, 5), starts)
+
+    def test_example(self) -> None:
+        """Loose sand, from 3 m dense sand, with a lens of silt."""
+        found = interpretation.interpret(EXAMPLE, options())
+        first, second = (e.layer for e in found.layers)
+        self.assertAlmostEqual(second.top, 3, delta=0.1)
+        self.assertEqual((first.kind, second.kind), ("sand", "sand"))
+        [(top, bottom, kind)] = first.lenses
+        self.assertEqual(kind, "silt")
+        self.assertTrue(1.7 <= top < bottom <= 2.05)
+        self.assertEqual(second.lenses, [])
+        # the densities that it was made of
+        for e, density in zip(found.layers, (0.40, 0.78)):
+            self.assertAlmostEqual(e.values[DENSITY].best, density, delta=0.04)
+
+    def test_kinds(self) -> None:
+        """Dense sand, clay, and silt between the two."""
+        path = self.layered((4, 15, 0.5), (8, 0.6, 4.5), (12, 2.5, 3.0))
+        found = interpretation.interpret(path, options())
+        kinds = [e.layer.kind for e in found.layers]
+        self.assertEqual(kinds, ["sand", "clay", "silt"])
+        for e, top in zip(found.layers, (0, 4, 8)):
+            self.assertAlmostEqual(e.layer.top, top, delta=0.1)
+        sand, clay, silt = (e.values for e in found.layers)
+        self.assertNotIn(STRENGTH, sand)
+        self.assertNotIn(ANGLE, clay)
+        self.assertTrue({ANGLE, STRENGTH} <= set(silt))
+
+    def test_given_tops(self) -> None:
+        found = interpretation.interpret(EXAMPLE, options("--tops", "0,1,5.5"))
+        self.assertEqual([e.layer.top for e in found.layers], [0, 1, 5.5])
+        with self.assertRaisesRegex(ResultsError, "no row .* choose other --tops"):
+            interpretation.interpret(EXAMPLE, options("--tops", "0,30"))
+        for text in ("1,2", "0,3,2", "0,1,2,3,4,5", "0,a"):
+            with contextlib.redirect_stderr(io.StringIO()):
+                with self.assertRaises(SystemExit):
+                    options("--tops", text)
+
+
+class Estimates(WithFiles):
+    """Low, best and high."""
+
+    def test_they_are_in_order(self) -> None:
+        """For all correlations; low and high are not closer than the scatter."""
+        for names in ([], ["bolton-1986", "baldi-1986", "robertson-2009"]):
+            words = [word for name in names for word in ("--correlation", name)]
+            found = interpretation.interpret(EXAMPLE, options(*words), 9.0)
+            for e in found.layers:
+                for name, value in e.values.items():
+                    self.assertLessEqual(value.low, value.best, name)
+                    self.assertLessEqual(value.best, value.high, name)
+                self.assertGreater(e.values[MODULUS].high / e.values[MODULUS].best, 1.3)
+            if not names:
+                angle = found.layers[0].values[ANGLE]
+                self.assertGreaterEqual(angle.high - angle.best, 2.8)
+                rest = found.layers[0].values[K0]
+                expected = 1 - np.sin(np.radians(angle.best))
+                self.assertAlmostEqual(rest.best, expected, places=2)
+
+    def test_no_variation_leaves_the_scatter(self) -> None:
+        """In ground with the same Q everywhere phi has 2.8 degrees to both sides."""
+        rows = [f"{z:.2f},{(0.0919 * z) ** 0.5 * 10:.5f}" for z in np.arange(1, 9, 0.1)]
+        path = self.written("depth_m,qc_MPa\n" + "\n".join(rows))
+        words = ["--soil", "sand", "--unit-weight", "19"]
+        [one] = interpretation.interpret(path, options(*words)).layers
+        angle = one.values[ANGLE]
+        self.assertAlmostEqual(angle.best, 39.6, delta=0.01)
+        self.assertAlmostEqual(angle.high - angle.best, 2.8, delta=0.01)
+        self.assertAlmostEqual(angle.best - angle.low, 2.8, delta=0.01)
+        # 25.9965 (1 - n) + 9.81 n = 19, in kN/m3, of quartz with 2650 kg/m3
+        self.assertAlmostEqual(one.porosity(), 0.43224, places=4)
+        self.assertAlmostEqual(one.values[WEIGHT].best, 19e3)
+
+    def test_what_must_be_said(self) -> None:
+        path = self.written("depth_m,qc_MPa\n0,1\n1,2\n2,3\n")
+        for words, said in (
+            ([], "no sleeve friction .* --soil sand and --unit-weight 19"),
+            (["--soil", "sand"], "give it, or --unit-weight 19"),
+            (["--soil", "sand", "--unit-weight", "9"], "wet soil in kN/m3"),
+            (
+                ["--soil", "sand", "--unit-weight", "19", "--correlation"]
+                + ["robertson-2009"],
+                "robertson-2009 needs",
+            ),
+        ):
+            with self.assertRaisesRegex(ResultsError, said):
+                interpretation.interpret(path, options(*words))
+        with self.assertRaisesRegex(ResultsError, "--area-ratio 2 is not"):
+            interpretation.interpret(EXAMPLE, options("--area-ratio", "2"))
+
+
+class Scenes(WithFiles):
+    """What goes into a scene and into its study."""
+
+    def test_choices(self) -> None:
+        """They grow, and the walls follow the smallest angle that is reached."""
+        found = interpretation.interpret(EXAMPLE, options(), 12.0)
+        choices = cone.choices_of(found, 8.0, None)
+        self.assertEqual(list(choices), ["low", "best", "high"])
+        for entry in choices["low"]:
+            low, best, high = (choices[name][entry] for name in choices)
+            self.assertTrue(low < best < high, entry)
+        for entries in choices.values():
+            angle = entries["Soil/Layer 1/Friction angle"]
+            wall = entries["Rigid body/Friction angle of the inner wall"]
+            self.assertAlmostEqual(wall, 2 / 3 * angle, delta=0.05)
+        given = cone.choices_of(found, 8.0, 20.0)
+        self.assertEqual(
+            set(choices["low"]) - set(given["low"]),
+            {f"Rigid body/Friction angle of the {s} wall" for s in ("inner", "outer")},
+        )
+
+    def test_entries_say_where_they_come_from(self) -> None:
+        found = interpretation.interpret(EXAMPLE, options(), 12.0)
+        first = cone.layers_of(found, 8.0)[0]
+        remarks = {entry.name: entry.remark for entry in first.entries}
+        self.assertIn("FROM CPT (kulhawy-mayne-1990)", remarks["Friction angle"])
+        self.assertIn("FROM CPT (schmertmann-1978)", remarks["Youngs modulus"])
+        self.assertIn("FROM CPT (robertson-cabal-2010)", remarks["Porosity"])
+        self.assertIn("ASSUMED", remarks["Dilatancy angle"])
+
+    def test_clay_is_never_sand(self) -> None:
+        """Refused where the skirt reaches it, undrained below."""
+        path = self.layered((5, 15, 0.5), (12, 0.6, 4.5))
+        found = interpretation.interpret(path, options("--tops", "0,5"))
+        with self.assertRaisesRegex(
+            SuggestError, "layer 2, 5 to 12 m, is clay.*--layer"
+        ):
+            cone.layers_of(found, 6.0)
+        _, clay = cone.layers_of(found, 4.0)
+        self.assertEqual(clay.value("Friction angle"), "0")
+        strength = found.layers[1].values[STRENGTH].best
+        self.assertAlmostEqual(float(clay.value("Cohesion")), strength, delta=100)
+        choices = cone.choices_of(found, 4.0, None)
+        self.assertNotIn("Soil/Layer 2/Friction angle", choices["low"])
+        self.assertLess(
+            choices["low"]["Soil/Layer 2/Cohesion"],
+            choices["high"]["Soil/Layer 2/Cohesion"],
+        )
+
+
+class Command(WithFiles):
+    """The command without a caisson."""
+
+    def call(self, *words: str) -> tuple[int, str]:
+        """Return status and words of `caisson cpt`."""
+        parser = argparse.ArgumentParser()
+        command.declare(parser)
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            status = command.main(parser.parse_args(words))
+        return status, said.getvalue()
+
+    def test_files(self) -> None:
+        out = self.path.parent / "out"
+        status, said = self.call(str(EXAMPLE), "--out", str(out))
+        self.assertEqual(status, 0, said)
+        self.assertIn("kulhawy-mayne-1990", said)
+        self.assertIn("layer 1 has silt from", said)
+        self.assertGreater((out / "cpt.png").stat().st_size, 20000)
+        with open(out / "layers.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["layer"] for row in rows], ["1", "2"])
+        low, best, high = (
+            float(rows[1][f"friction_angle_deg_{end}"])
+            for end in ("low", "best", "high")
+        )
+        self.assertTrue(low < best < high)
+
+    def test_refusals(self) -> None:
+        wrong = self.written(HEAD + "0,1,1,0\n0,2,1,0\n1,2,1,0\n")
+        for words, said in (
+            ([str(wrong)], "row 3: the depth of 0 m"),
+            ([], "give the file"),
+            ([str(EXAMPLE), "--run"], "--run needs a caisson"),
+            ([str(EXAMPLE), "--wall", "40mm"], "--diameter and --skirt are missing"),
+            (["none.csv"], "none.csv cannot be read"),
+        ):
+            status, text = self.call(*words)
+            self.assertEqual(status, 1)
+            self.assertIn(said, text)
+        self.assertIn("bolton-1986", self.call("--list")[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
