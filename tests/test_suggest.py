@@ -12,6 +12,7 @@ from program import SUCCESS, HERE, ProgramTest, history
 
 from caisson.run import environment, read_parameters
 
+EXAMPLE = HERE.parent / "prm/cpt_example.csv"
 SAND = "0: Friction angle = 33, Youngs modulus = 20e6"
 
 
@@ -26,12 +27,15 @@ class Suggest(ProgramTest):
         layers: tuple[str, ...] = (SAND,),
     ) -> str:
         """Run the command; return what it says."""
+        given = [w for layer in layers for w in ("--layer", layer)]
+        return self.caisson("suggest", str(path), *given, *words, status=status)
+
+    def caisson(self, *words: str, status: int = 0) -> str:
+        """Run a command for a caisson of 10 m, unless other sizes are given."""
         sizes = {"--diameter": "10", "--skirt": "8", "--wall": "40mm"}
         given = [w for k, v in sizes.items() if k not in words for w in (k, v)]
-        given += [w for layer in layers for w in ("--layer", layer)]
         done = subprocess.run(
-            [sys.executable, "-B", "-m", "caisson", "suggest", str(path), *given]
-            + list(words),
+            [sys.executable, "-B", "-m", "caisson", *words, *given],
             text=True,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
@@ -111,6 +115,50 @@ class Suggest(ProgramTest):
         self.assertIn("Poisson ratio", assumed)
         self.assertIn("Permeability", assumed)
         self.assertNotIn("Friction angle", assumed)
+
+    def test_layers_of_a_cone_test(self) -> None:
+        """The scene is accepted, with the best estimates and where they are from; the
+        study has low, best and high."""
+        path = self.made_directory()
+        scene, study = path / "own.prm", path / "own_study.toml"
+        words = ["--cpt", str(EXAMPLE), "--study", str(study), "--tops", "0,3"]
+        said = self.suggest(scene, *words, layers=())
+        self.assertIn("layer 1 has silt from", said)
+        self.run_program(SUCCESS, scene, "--validate", "--strict")
+        self.assertIn("# FROM CPT (kulhawy-mayne-1990)", scene.read_text("utf-8"))
+        entries = read_parameters([str(scene)])
+        with open(study, "rb") as file:
+            content = tomllib.load(file)
+        choices = content["parameters"]["soil"]["choices"]
+        self.assertEqual(list(choices), ["low", "best", "high"])
+        for entry, value in choices["best"].items():
+            self.assertAlmostEqual(float(entries[entry]) / value, 1, places=2)
+        self.assertEqual(entries["Soil/Layer 2/Top depth"], "3")
+        self.assertTrue((path / content["cone"]).samefile(EXAMPLE))
+        refused = "either --layer, or a cone test by --cpt"
+        both, neither = ["--cpt", str(EXAMPLE)], list[str]()
+        other = path / "other.prm"
+        self.assertIn(refused, self.suggest(other, *both, status=1))
+        self.assertIn(refused, self.suggest(other, *neither, status=1, layers=()))
+
+    def test_from_a_cone_test_to_a_report(self) -> None:
+        """By one command: three runs, all methods, one page."""
+        out = self.made_directory() / "out"
+        words = ["--wall", "0.4", "--penetration", "0.53", "--out", str(out), "--run"]
+        said = self.caisson("cpt", str(EXAMPLE), *words)
+        self.assertIn("report.html", said)
+        page = (out / "report.html").read_text("utf-8")
+        for words_of_page in ("kulhawy-mayne-1990", "DNV", "layer 1 has silt"):
+            self.assertIn(words_of_page, page)
+        for name in ("low", "best", "high"):
+            run = out / f"study/soil_{name}"
+            self.assertTrue((run / "report.html").is_file())
+            self.assertIn(f"study/soil_{name}/report.html", page)
+            self.assertTrue((run / "cone.csv").is_file())
+        head = (out / "study/methods.csv").read_text("utf-8").splitlines()[0]
+        self.assertIn("total_force_N [best]", head)
+        for method in ("houlsby_byrne", "dnv", "senders_randolph", "andersen"):
+            self.assertIn(f"{method}_", head)
 
     def test_it_runs(self) -> None:
         path = self.made_directory()
