@@ -25,7 +25,6 @@ from caisson.cpt.ground import (
     normalize,
     unit_weight_of,
 )
-from caisson.cpt.interpretation import Interpretation
 from caisson.design import cone_file
 from caisson.paths import SCENES
 from caisson.results import ResultsError
@@ -320,7 +319,8 @@ class Estimates(WithFiles):
 
     def test_they_are_in_order(self) -> None:
         """For all correlations; low and high are not closer than the scatter."""
-        for names in ([], ["bolton-1986", "baldi-1986", "robertson-2009"]):
+        others = ["bolton-1986", "baldi-1986", "robertson-2009"]
+        for names in (list[str](), others):
             words = [word for name in names for word in ("--correlation", name)]
             found = interpretation.interpret(EXAMPLE, options(*words), 9.0)
             for e in found.layers:

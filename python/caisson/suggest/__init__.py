@@ -219,7 +219,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
     body = Body(options.diameter, options.skirt, options.wall)
     start = start_of(body.skirt)
     end = end_of(options)
-    mesh = mesh_of(body, end, level)
+    mesh = mesh_of(body, end, level, [layer.top for layer in layers])
     how = "by weight and suction" if options.weight else "jacked"
     smallest = body.wall / level.cells
     return template("scene.prm.jinja").render(

@@ -9,6 +9,7 @@ it is was measured (doc/how_to/own_caisson.md).
 
 SI units; depths are positive below the surface.
 """
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil
 
@@ -70,19 +71,28 @@ def to_two_digits(value: float) -> float:
     return float(f"{value:.2g}")
 
 
-def mesh_of(body: Body, end: float, level: Level) -> Mesh:
-    """Return the mesh for a travel to the depth end."""
+def zone_of(body: Body, cell_height: float, tops: Sequence[float]) -> float:
+    """Return the height of the moving zone below the tip. Where it would end close to
+    the top of a layer it ends there: the boundary of a layer is a line of the mesh, and
+    a cell between the two would be so thin that the run is unstable."""
+    start, zone = start_of(body.skirt), to_two_digits(max(body.diameter / 4, 1.0))
+    near = [top - start for top in tops if abs(top - start - zone) < cell_height / 2]
+    return round(min(near, key=lambda height: abs(height - zone), default=zone), 6)
+
+
+def mesh_of(body: Body, end: float, level: Level, tops: Sequence[float]) -> Mesh:
+    """Return the mesh for a travel to the depth end in layers with these tops."""
     d = body.diameter
-    moving_zone = max(d / 4, 1.0)
+    cell_height = to_two_digits(level.far * d / 15)
     return Mesh(
         outer_radius=2.5 * d,
         bottom=-float(ceil(max(3 * d, end + 1.5 * d))),
         top=float(ceil(body.skirt) + 1),
         cell_width=to_two_digits(level.far * d / 5),
-        cell_height=to_two_digits(level.far * d / 15),
+        cell_height=cell_height,
         growth=level.growth,
         fine=5 * body.wall,
-        moving_zone=to_two_digits(moving_zone),
+        moving_zone=zone_of(body, cell_height, tops),
         levels=level.levels,
         refined_distance=3 * body.wall,
         near_distance=to_two_digits(d / 10),
