@@ -96,8 +96,10 @@ class Suggest(ProgramTest):
         """Where the moving zone ends close to the top of a layer, here 5 cm below it,
         the soil collapsed: 230 kJ at 0.6 m, and no force at the tip."""
         path = self.made_directory()
-        layers = ("0: Friction angle = 38, Youngs modulus = 5e6",)
-        layers += ("2.95: Friction angle = 43, Youngs modulus = 4e7",)
+        layers = (
+            "0: Friction angle = 38, Youngs modulus = 5e6",
+            "2.95: Friction angle = 43, Youngs modulus = 4e7",
+        )
         self.suggest(path / "own.prm", layers=layers)
         zone = read_parameters([str(path / "own.prm")])["Grid/Moving zone below tip"]
         self.assertAlmostEqual(float(zone), 2.45)

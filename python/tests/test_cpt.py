@@ -351,15 +351,12 @@ class Estimates(WithFiles):
 
     def test_what_must_be_said(self) -> None:
         path = self.written("depth_m,qc_MPa\n0,1\n1,2\n2,3\n")
+        both = ["--soil", "sand", "--unit-weight", "19"]
         for words, said in (
-            ([], "no sleeve friction .* --soil sand and --unit-weight 19"),
+            (list[str](), "no sleeve friction .* --soil sand and --unit-weight 19"),
             (["--soil", "sand"], "give it, or --unit-weight 19"),
             (["--soil", "sand", "--unit-weight", "9"], "wet soil in kN/m3"),
-            (
-                ["--soil", "sand", "--unit-weight", "19", "--correlation"]
-                + ["robertson-2009"],
-                "robertson-2009 needs",
-            ),
+            ([*both, "--correlation", "robertson-2009"], "robertson-2009 needs"),
         ):
             with self.assertRaisesRegex(ResultsError, said):
                 interpretation.interpret(path, options(*words))
@@ -449,7 +446,7 @@ class Command(WithFiles):
         wrong = self.written(HEAD + "0,1,1,0\n0,2,1,0\n1,2,1,0\n")
         for words, said in (
             ([str(wrong)], "row 3: the depth of 0 m"),
-            ([], "give the file"),
+            (list[str](), "give the file"),
             ([str(EXAMPLE), "--run"], "--run needs a caisson"),
             ([str(EXAMPLE), "--wall", "40mm"], "--diameter and --skirt are missing"),
             (["none.csv"], "none.csv cannot be read"),

@@ -76,8 +76,10 @@ def zone_of(body: Body, cell_height: float, tops: Sequence[float]) -> float:
     the top of a layer it ends there: the boundary of a layer is a line of the mesh, and
     a cell between the two would be so thin that the run is unstable."""
     start, zone = start_of(body.skirt), to_two_digits(max(body.diameter / 4, 1.0))
-    near = [top - start for top in tops if abs(top - start - zone) < cell_height / 2]
-    return round(min(near, key=lambda height: abs(height - zone), default=zone), 6)
+    for top in tops:
+        if abs(top - start - zone) < cell_height / 2:
+            return round(top - start, 6)
+    return zone
 
 
 def mesh_of(body: Body, end: float, level: Level, tops: Sequence[float]) -> Mesh:
