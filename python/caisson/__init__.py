@@ -15,6 +15,7 @@ above those that it uses:
     study                   the format of all studies, and how they are run
     verification, accuracy, error_bar, stability, forces, parameters, drainage,
     speed                   what a study is for: each evaluates one kind
+    cpt, suggest            layers from a cone test, and scenes for one's own caisson
     developer               checks of the sources
 
 scripts/caisson is the command line. Needed besides Python 3.11: numpy,
