@@ -73,6 +73,12 @@ def write(found: Interpretation, directory: Path) -> list[Path]:
     ]
 
 
+def tell(files: list[Path]) -> None:
+    """Say what has been written."""
+    for file in files:
+        print(f"cpt: {short(file)}")
+
+
 def work(options: argparse.Namespace) -> int:
     """Do what the options ask for; return the exit status."""
     has_caisson = check(options)
@@ -81,18 +87,16 @@ def work(options: argparse.Namespace) -> int:
     directory: Path = options.out or RESULTS / "cpt" / options.cpt.stem
     if not has_caisson:
         print(tables.text_of_test(found))
-    files = write(found, directory)
+    tell(write(found, directory))
     if has_caisson:
         options.file, options.study = directory / SCENE, directory / STUDY
         options.layer, options.overwrite = None, True
         suggest.write(options)  # which prints the table
-        files += [options.file, options.study]
-    for file in files:
-        print(f"cpt: {short(file)}")
+        tell([options.file, options.study])
     if not options.run:
         return 0
     status = page.run_study(options.study, directory, options.jobs)
-    print(f"cpt: {short(page.write(found, options.study, directory))}")
+    tell([page.write(found, options.study, directory)])
     return status
 
 
@@ -103,6 +107,8 @@ def main(options: argparse.Namespace) -> int:
         return 0
     try:
         return work(options)
+    except BrokenPipeError:  # as of `| head`
+        raise
     except (ResultsError, SuggestError, StudyError, RunError, OSError) as error:
         print(f"cpt: {error}", file=sys.stderr)
         return 1

@@ -12,8 +12,8 @@ smallest, with m points in a layer of thickness d. The second part is what it ta
 justify a boundary: between two layers of thickness d their means must differ by s, and
 by less between thicker ones. The minimum is found exactly, by dynamic programming.
 
-Soil of another kind within a layer, of which some 5 cm and more lie together, is a
-lens. A cone feels a layer before it reaches it, so that thin ones look thicker and less
+Soil of another kind within a layer, of which 0.1 m and more lie together, is a lens. A
+cone feels a layer before it reaches it, so that thin ones look thicker and less
 different than they are.
 """
 from dataclasses import dataclass, field
@@ -29,7 +29,7 @@ STEP = 0.2  # in log10 Q_tn: a factor of 1.6
 THINNEST = 0.5  # m
 MOST = 5  # layers, as many as a scene has
 TRANSITION = 0.1  # m at a boundary, whose rows do not count
-THINNEST_LENS = 0.05  # m
+THINNEST_LENS = 0.1  # m
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,8 @@ from caisson import plot, report, study_command
 from caisson.cpt import tables
 from caisson.cpt.interpretation import Interpretation
 from caisson.parameters import methods
-from caisson.parameters.methods import Answers
-from caisson.parameters.outcome import Outcomes
+from caisson.parameters.methods import TOTAL, Answers
+from caisson.parameters.outcome import Outcomes, words_of
 from caisson.plot import theory
 from caisson.report import content
 from caisson.results import ResultsError
@@ -124,6 +124,8 @@ def write(test: Interpretation, file: Path, directory: Path) -> Path:
             reasons=theory.reasons(answers.answers[0]),
             profile=picture_of(directory / "cpt.png"),
             methods=picture_of(results / "methods.png"),
+            observed="" if outcomes.column == TOTAL else words_of(outcomes.column),
+            fan=picture_of(results / "fan.png"),
             reports=reports_of(outcomes, directory),
             style=css.read_text(encoding="utf-8"),
         ),

@@ -109,7 +109,9 @@ def draw_panel(
     else:
         shown = panel.profile[np.isfinite(panel.profile)]
         top = float(shown.max()) * 1.05 if len(shown) else 1.0
-        axes.set_xlim(0, min(top, WIDEST * largest) if largest else top)
+        if largest:
+            top = max(1.05 * largest, min(top, WIDEST * largest))
+        axes.set_xlim(0, top)
     axes.xaxis.set_label_position("top")
     axes.xaxis.tick_top()
     axes.set_xlabel(panel.title)

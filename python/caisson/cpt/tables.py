@@ -88,10 +88,11 @@ def remarks(test: Interpretation) -> list[str]:
         if test.names[c.quantity] == c.name and c.quantity in have:
             found.append(f"{c.quantity}: {c.name}, {c.source}; {c.holds}")
     for number, e in enumerate(test.layers, 1):
-        for top, bottom, kind in e.layer.lenses:
+        lenses = [f"{kind} from {a:g} to {b:g} m" for a, b, kind in e.layer.lenses]
+        if lenses:
             found.append(
-                f"layer {number} has {kind} from {top:g} to {bottom:g} m, which does"
-                " not count in its estimates and is no layer of its own"
+                f"layer {number} has {', '.join(lenses)}: too thin for a layer, and"
+                " left out of its estimates and of a scene"
             )
         if e.layer.kind != SAND:
             found.append(f"layer {number} is {e.layer.kind}: {CAN[e.layer.kind]}")
