@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 
 from caisson.cpt import command, correlations, interpretation, layers
 from caisson.cpt.correlations import ANGLE, BEST, DENSITY, HIGH, LOW, MODULUS, STRENGTH
-from caisson.cpt.estimates import K0, WEIGHT
+from caisson.cpt.estimates import K0, REFERENCE, WEIGHT, reference_moduli
 from caisson.cpt.ground import (
     ATMOSPHERE,
     Ground,
@@ -212,6 +212,12 @@ class ByHand(unittest.TestCase):
         found = correlations.moduli_of(ground, names, BEST)
         np.testing.assert_allclose(found, [9.03839 * 9.8e6], rtol=1e-6)
 
+    def test_modulus_at_100_kpa(self) -> None:
+        """25 MPa at a mean stress of 100 kPa (1 + 2 (1 - sin 39.6))/3 = 57.505 kPa."""
+        ground = uniform(10e6, 100e3)
+        found = reference_moduli(ground, correlations.chosen([]), BEST)
+        np.testing.assert_allclose(found, [32.9674e6], rtol=1e-5)
+
     def test_undrained_strength(self) -> None:
         """(1 - 0.2) MPa over 18, 14 and 10."""
         ground = uniform(1e6, 100e3)
@@ -388,6 +394,9 @@ class Scenes(WithFiles):
     def test_entries_say_where_they_come_from(self) -> None:
         found = interpretation.interpret(EXAMPLE, options(), 12.0)
         first = cone.layers_of(found, 8.0)[0]
+        self.assertEqual(first.value("Law"), cone.BY_STRESS)
+        modulus = found.layers[0].values[REFERENCE].best
+        self.assertAlmostEqual(float(first.value("Youngs modulus")) / modulus, 1, 3)
         remarks = {entry.name: entry.remark for entry in first.entries}
         self.assertIn("FROM CPT (kulhawy-mayne-1990)", remarks["Friction angle"])
         self.assertIn("FROM CPT (schmertmann-1978)", remarks["Youngs modulus"])

@@ -22,6 +22,7 @@ from caisson.cpt.layers import Layer
 ENDS = {"low": LOW, "best": BEST, "high": HIGH}
 QUANTILES = 0.16, 0.84
 RESISTANCE, INDEX, WEIGHT, K0 = "resistance", "index", "unit weight", "K0"
+REFERENCE = "modulus at 100 kPa"
 SOLID_DENSITY = 2650.0  # kg/m3, assumed, of quartz
 # E / s_u of clay, for the low, the best and the high estimate: assumed, no source
 CLAY_RATIOS = (100.0, 200.0, 400.0)
@@ -30,7 +31,7 @@ ANY: Limits = (0.0, inf)
 LIMITS: dict[str, Limits] = {DENSITY: (0.0, 1.0), ANGLE: correlations.ANGLES}
 # what a kind of soil has
 HAS = {
-    SAND: (DENSITY, ANGLE, MODULUS, K0),
+    SAND: (DENSITY, ANGLE, MODULUS, REFERENCE, K0),
     SILT: (ANGLE, MODULUS, STRENGTH, K0),
     CLAY: (MODULUS, STRENGTH, K0),
 }
@@ -88,6 +89,14 @@ def clay_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
     return CLAY_RATIOS[end + 1] * strength
 
 
+def reference_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
+    """Return E (Pa) [n] of sand at a mean effective stress of 100 kPa, if it grows with
+    the square root of the stress and is that of the correlation at rest."""
+    k0 = correlations.at_rest(correlations.angles_of(ground, names, BEST))
+    relative = correlations.mean_stress(ground, k0) / correlations.ATMOSPHERE
+    return correlations.moduli_of(ground, names, end) / np.sqrt(relative)
+
+
 def rests_of(
     ground: Ground, names: dict[str, str], end: int, is_clay: bool
 ) -> np.ndarray:
@@ -112,6 +121,7 @@ def estimates_of(
         DENSITY: correlations.densities_of,
         ANGLE: correlations.angles_of,
         MODULUS: correlations.moduli_of,
+        REFERENCE: reference_moduli,
         STRENGTH: correlations.strengths_of,
         K0: sand_rests,
     }

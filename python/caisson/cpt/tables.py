@@ -16,6 +16,7 @@ from caisson.cpt.estimates import (
     ENDS,
     INDEX,
     K0,
+    REFERENCE,
     RESISTANCE,
     WEIGHT,
     Estimate,
@@ -43,6 +44,7 @@ SHOWN = {
     DENSITY: Shown("D_r (%)", "relative_density_percent", 100.0, 0),
     ANGLE: Shown("phi (deg)", "friction_angle_deg", 1.0, 1),
     MODULUS: Shown("E (MPa)", "youngs_modulus_MPa", 1e-6, 1),
+    REFERENCE: Shown("E at 100 kPa (MPa)", "modulus_at_100_kPa_MPa", 1e-6, 1),
     STRENGTH: Shown("s_u (kPa)", "undrained_strength_kPa", 1e-3, 0),
     K0: Shown("K_0", "K0", 1.0, 2),
 }

@@ -3,7 +3,15 @@
 from typing import Any
 
 from caisson.cpt.correlations import ANGLE, MODULUS, STRENGTH
-from caisson.cpt.estimates import CAN, ENDS, K0, SOLID_DENSITY, WEIGHT, Estimates
+from caisson.cpt.estimates import (
+    CAN,
+    ENDS,
+    K0,
+    REFERENCE,
+    SOLID_DENSITY,
+    WEIGHT,
+    Estimates,
+)
 from caisson.cpt.ground import SAND
 from caisson.cpt.interpretation import Interpretation
 from caisson.cpt.tables import SHOWN, text_of
@@ -11,6 +19,7 @@ from caisson.suggest.soil import ASSUMED, Entry, Layer, SuggestError
 
 REACH = 1.5  # times the skirt: the test counts to this depth
 ASSUMPTION = " # ASSUMED"
+BY_STRESS = "Mohr-Coulomb with stiffness by stress"
 POISSON_OF_CLAY = "0.45"  # hardly any change of volume, as without drainage
 
 
@@ -33,7 +42,8 @@ def refuse_fines(found: Interpretation, end: float) -> None:
 
 def remark(found: Interpretation, e: Estimates, name: str) -> str:
     """Return where the value of a parameter comes from."""
-    source = found.names.get(name, found.weight)
+    names = found.names | {REFERENCE: found.names[MODULUS], WEIGHT: found.weight}
+    source = names[name]
     shown = SHOWN[name]
     return f" # FROM CPT ({source}): {shown.head} {text_of(e.values[name], shown)}"
 
@@ -44,21 +54,27 @@ def number(value: float) -> str:
 
 
 def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
-    """Return strength and stiffness of a layer; clay and silt, which are below the
-    skirt, are undrained."""
-    modulus = number(e.values[MODULUS].best)
+    """Return law, strength and stiffness of a layer; clay and silt, which are below
+    the skirt, are undrained."""
     if e.layer.kind == SAND:
         return [
+            Entry("Law", BY_STRESS),
             Entry(
                 "Friction angle",
                 number(e.values[ANGLE].best),
                 remark(found, e, ANGLE),
             ),
             Entry("Cohesion", "0", ASSUMPTION),
-            Entry("Youngs modulus", modulus, remark(found, e, MODULUS)),
+            Entry(
+                "Youngs modulus",
+                number(e.values[REFERENCE].best),
+                remark(found, e, REFERENCE),
+            ),
             Entry("Poisson ratio", ASSUMED["Poisson ratio"], ASSUMPTION),
         ]
+    modulus = number(e.values[MODULUS].best)
     return [
+        Entry("Law", ASSUMED["Law"]),
         Entry("Friction angle", "0", f" # {e.layer.kind}, undrained"),
         Entry("Cohesion", number(e.values[STRENGTH].best), remark(found, e, STRENGTH)),
         Entry("Youngs modulus", modulus, f"{ASSUMPTION}: a multiple of s_u"),
@@ -70,7 +86,6 @@ def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
 def entries_of(found: Interpretation, e: Estimates) -> list[Entry]:
     """Return the entries of a layer with the best estimates."""
     return [
-        Entry("Law", ASSUMED["Law"]),
         *strength_of(found, e),
         Entry("Dilatancy angle", ASSUMED["Dilatancy angle"], ASSUMPTION),
         Entry("Porosity", f"{e.porosity():.3f}", remark(found, e, WEIGHT)),
@@ -103,7 +118,8 @@ def choices_of(
             else:
                 strength = e.values[STRENGTH].at(name)
                 entries[f"{head}/Cohesion"] = float(number(strength))
-            modulus = e.values[MODULUS].at(name)
+            quantity = REFERENCE if e.layer.kind == SAND else MODULUS
+            modulus = e.values[quantity].at(name)
             entries[f"{head}/Youngs modulus"] = float(number(modulus))
         if wall_friction is None:
             for side in ("outer", "inner"):
