@@ -53,6 +53,7 @@ class Suggest(ProgramTest):
             ("15", "6", "50mm", "5"),
             ("20", "20", "5cm", "10"),
             ("6", "7", "0.1", "5"),
+            ("10", "8", "40mm", "20"),
         ]
         for number, (diameter, skirt, wall, error) in enumerate(cases):
             with self.subTest(diameter=diameter, wall=wall):

@@ -33,6 +33,7 @@ class Level:
 LEVELS = {
     level.error: level
     for level in (
+        Level(20, cells=2, levels=1, mass_scaling=100, far=1, growth=1.2),
         Level(10, cells=4, levels=2, mass_scaling=100, far=1, growth=1.2),
         Level(5, cells=8, levels=3, mass_scaling=100, far=0.5, growth=1.1),
         Level(2, cells=16, levels=4, mass_scaling=25, far=0.25, growth=1.05),
