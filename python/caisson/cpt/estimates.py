@@ -89,12 +89,16 @@ def clay_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
     return CLAY_RATIOS[end + 1] * strength
 
 
-def reference_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
-    """Return E (Pa) [n] of sand at a mean effective stress of 100 kPa, if it grows with
-    the square root of the stress and is that of the correlation at rest."""
+def growth_of(ground: Ground, names: dict[str, str]) -> np.ndarray:
+    """Return the stiffness of sand at rest [n] over that at a mean effective stress of
+    100 kPa, if it grows with the square root of the stress."""
     k0 = correlations.at_rest(correlations.angles_of(ground, names, BEST))
-    relative = correlations.mean_stress(ground, k0) / correlations.ATMOSPHERE
-    return correlations.moduli_of(ground, names, end) / np.sqrt(relative)
+    return np.sqrt(correlations.mean_stress(ground, k0) / correlations.ATMOSPHERE)
+
+
+def reference_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
+    """Return E (Pa) [n] of sand at a mean effective stress of 100 kPa."""
+    return correlations.moduli_of(ground, names, end) / growth_of(ground, names)
 
 
 def rests_of(

@@ -12,7 +12,14 @@ from matplotlib.patches import Patch
 
 from caisson.cpt import correlations
 from caisson.cpt.correlations import ANGLE, BEST, MODULUS, STRENGTH
-from caisson.cpt.estimates import INDEX, RESISTANCE, Estimates
+from caisson.cpt.estimates import (
+    ENDS,
+    INDEX,
+    REFERENCE,
+    RESISTANCE,
+    Estimates,
+    growth_of,
+)
 from caisson.cpt.ground import CLAY, CLAY_ABOVE, SAND, SAND_BELOW, SILT, Ground
 
 COLORS = {SAND: "#f3e2b3", SILT: "#d8d3c4", CLAY: "#c9b8a8"}
@@ -23,12 +30,14 @@ WIDEST = 1.6  # of an axis over the largest estimate, so that no spike hides the
 
 class Panel(NamedTuple):
     """A panel: title, profile [n] in the unit of the title, and the estimate to be
-    drawn with its scale, "" for none."""
+    drawn with its scale, "" for none. growth: what a modulus at 100 kPa is multiplied
+    with at each depth [n], where a layer has one."""
 
     title: str
     profile: np.ndarray
     estimate: str = ""
     scale: float = 1.0
+    growth: np.ndarray | None = None
 
 
 def panels_of(
@@ -45,7 +54,9 @@ def panels_of(
         angle = correlations.angles_of(ground, names, BEST)
         found.append(Panel("friction angle (°)", np.where(sand, angle, np.nan), ANGLE))
     modulus = correlations.moduli_of(ground, names, BEST) * 1e-6
-    found.append(Panel("$E$ (MPa)", np.where(sand, modulus, np.nan), MODULUS, 1e-6))
+    shown = np.where(sand, modulus, np.nan)
+    growth = growth_of(ground, names)
+    found.append(Panel("$E$ (MPa)", shown, MODULUS, 1e-6, growth))
     if STRENGTH in has:
         fine = rows_with(every, STRENGTH, len(ground.depth))
         strength = correlations.strengths_of(ground, names, BEST) * 1e-3
@@ -82,6 +93,23 @@ def draw_layers(axes: Axes, every: Sequence[Estimates]) -> None:
             )
 
 
+def curves_of(
+    panel: Panel, depth: np.ndarray, e: Estimates
+) -> tuple[np.ndarray, list[np.ndarray]] | None:
+    """Return depths, and low, best and high there, of what a panel shows of a layer;
+    None where it has no such estimate."""
+    where = np.array([e.layer.top, e.layer.bottom])
+    estimate, factor = e.values.get(panel.estimate), np.full(2, panel.scale)
+    if panel.growth is not None and REFERENCE in e.values:
+        inside = (depth > e.layer.top) & (depth < e.layer.bottom)
+        where = np.concatenate([where[:1], depth[inside], where[1:]])
+        estimate = e.values[REFERENCE]
+        factor = panel.scale * np.interp(where, depth, panel.growth)
+    if estimate is None:
+        return None
+    return where, [estimate.at(end) * factor for end in ENDS]
+
+
 def draw_panel(
     axes: Axes, panel: Panel, depth: np.ndarray, every: Sequence[Estimates]
 ) -> None:
@@ -89,17 +117,13 @@ def draw_panel(
     axes.plot(panel.profile, depth, color=PROFILE, linewidth=0.9, zorder=3)
     largest = 0.0
     for e in every:
-        estimate = e.values.get(panel.estimate)
-        if estimate is None:
+        curves = curves_of(panel, depth, e)
+        if curves is None:
             continue
-        low, best, high = (
-            value * panel.scale
-            for value in (estimate.low, estimate.best, estimate.high)
-        )
-        where = [e.layer.top, e.layer.bottom]
+        where, (low, best, high) = curves
         axes.fill_betweenx(where, low, high, color=BAND, alpha=0.22, lw=0, zorder=2)
-        axes.plot([best, best], where, color=LINE, linewidth=2.2, zorder=4)
-        largest = max(largest, high)
+        axes.plot(best, where, color=LINE, linewidth=2.2, zorder=4)
+        largest = max(largest, float(high.max()))
     if panel.estimate == INDEX:
         for limit in (SAND_BELOW, CLAY_ABOVE):
             axes.axvline(limit, color="0.5", linewidth=0.8, linestyle=":")
