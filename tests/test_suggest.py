@@ -224,6 +224,7 @@ class Suggest(ProgramTest):
             (["--penetration", "9"], (SAND,), "length of the skirt"),
             (["--water-depth", "9"], (SAND,), "give --weight"),
             (["--weight", "-1"], (SAND,), "must be positive"),
+            (["--tops", "0,3"], (SAND,), "--tops is for a cone test"),
             ([], ("0: Friction angle = 33",), "needs Youngs modulus"),
             ([], ("0: Frction angel = 33",), "did you mean Friction angle"),
             ([], ("1: Friction angle = 33, Youngs modulus = 1e7",), "begin at 0"),

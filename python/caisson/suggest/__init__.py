@@ -90,6 +90,9 @@ def check(options: argparse.Namespace) -> None:
     body, end = options, options.penetration
     if bool(options.layer) == bool(options.cpt):
         raise SuggestError("give the soil: either --layer, or a cone test by --cpt")
+    for name in ("tops", "correlation", "soil", "unit_weight"):
+        if options.layer and getattr(options, name):
+            raise SuggestError(f"--{name.replace('_', '-')} is for a cone test, --cpt")
     if body.wall > body.diameter / 10:
         raise SuggestError(
             f"--wall {body.wall:g} m is more than a tenth of the diameter"
