@@ -84,6 +84,7 @@ class Command(unittest.TestCase):
             (package / "__main__.py").write_text("print('package')\n", "utf-8")
             return subprocess.run(
                 [scripts / "caisson", command],
+                cwd=folder,  # whose package comes first
                 env={**os.environ, "CAISSON_MPM_PROGRAM": program},
                 text=True,
                 stdout=subprocess.PIPE,
