@@ -99,6 +99,28 @@ class Limits(ProgramTest):
         self.assertGreater(max(row["added_mass_kg"] for row in history(path)), 0.0)
 
 
+class Points(ProgramTest):
+    """Points that are split and merged."""
+
+    def test_a_thin_row_comes_to_large_points(self) -> None:
+        """The row between a layer and the end of the moving zone is thinner than
+        points of the cells below it, and still bears the soil."""
+        path = self.directory()
+        self.run_scene(
+            "jack",
+            path,
+            entries={
+                "Soil/Number of layers": 2,
+                "Soil/Layer 2/Top depth": 1.45,
+                "Material points/Split and merge": "true",
+                "Grid/Cell height": 1,
+                "Output/Record interval": 0.05,
+            },
+        )
+        # 49 kJ where the row is empty at times
+        self.assertLess(max(row["kinetic_energy_J"] for row in history(path)), 1e3)
+
+
 class Step(ProgramTest):
     """Kernels and energy."""
 

@@ -2,6 +2,7 @@
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/fingerprint.h>
 #include <caisson_mpm/base/text.h>
+#include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/simulation/physics_text.h>
 #include <caisson_mpm/simulation/simulation.h>
@@ -210,13 +211,32 @@ namespace CaissonMPM
            clock.step_size;
   }
 
+  std::array<double, 2>
+  Simulation::wanted_size_of_points(const unsigned int cell) const
+  {
+    auto size = generator.wanted_size(grid.geometry(cell),
+                                      body.shape(),
+                                      lines.total_travel());
+    // Rows move through the soil. One that is much thinner than the points of
+    // the soil that it comes to would be empty there, and bear nothing.
+    constexpr double much_thinner = .75;
+    for (const unsigned int face : {2, 3})
+      if (const int beyond = grid.neighbor(cell, face);
+          beyond >= 0 && !grid.is_rigid(beyond))
+        {
+          const double height = height_of(grid.geometry(beyond));
+          if (height < much_thinner * size[vertical])
+            size[vertical] = height;
+        }
+    return size;
+  }
+
   void
   Simulation::adapt_points(const double interval)
   {
-    since_adaptation    = 0.;
-    const double travel = lines.total_travel();
-    const auto   wanted = [&](const unsigned int cell) {
-      return generator.wanted_size(grid.geometry(cell), body.shape(), travel);
+    since_adaptation  = 0.;
+    const auto wanted = [this](const unsigned int cell) {
+      return wanted_size_of_points(cell);
     };
     points.stretch(
       [&](const unsigned int cell, const Point<2> &place) {

@@ -32,6 +32,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -167,6 +168,9 @@ namespace CaissonMPM
     find_pore_pressure();
     void
     update_points();
+    /** The width and height that points in this cell should have. Units: m. */
+    std::array<double, 2>
+    wanted_size_of_points(const unsigned int cell) const;
     void
     adapt_points(const double interval);
     /** Hand the sums of this step to those who keep them. */

@@ -75,7 +75,7 @@ def to_two_digits(value: float) -> float:
 def zone_of(body: Body, cell_height: float, tops: Sequence[float]) -> float:
     """Return the height of the moving zone below the tip. Where it would end close to
     the top of a layer it ends there: the boundary of a layer is a line of the mesh, and
-    a cell between the two would be so thin that the run is unstable."""
+    a row between the two would be thin, which costs points and a short step."""
     start, zone = start_of(body.skirt), to_two_digits(max(body.diameter / 4, 1.0))
     for top in tops:
         if abs(top - start - zone) < cell_height / 2:
