@@ -33,7 +33,7 @@ from caisson.paths import ROOT
 RELEASES = ("trixie", "bookworm")
 COMMANDS = ["scripts/run prm/jack.prm", "scripts/test"]
 DAY = [
-    "scripts/caisson suggest --diameter 10 --skirt 8 --wall 40mm --error 10"
+    "scripts/caisson suggest --diameter 10 --skirt 8 --wall 40mm --error 20"
     " --layer '0: Friction angle = 33, Youngs modulus = 20e6'"
     " --layer '3: Friction angle = 37, Youngs modulus = 40e6'"
     " own.prm --study own_study.toml",
