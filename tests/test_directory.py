@@ -75,10 +75,14 @@ class Directory(ProgramTest):
         )
         before = (path / "run.json").read_text()
         (path / "earlier_999999999").mkdir()
-        (path / "earlier_1000000000").symlink_to("/nonexistent")
-        text = self.run_scene("jack", path, BAD_INPUT, entries=short)
-        self.assertIn("cannot be moved", text)
-        self.assertEqual((path / "run.json").read_text(), before)
+        for target in ("nowhere", "earlier_3"):
+            link = path / "earlier_1000000000"
+            link.unlink(missing_ok=True)
+            link.symlink_to(target)
+            text = self.run_scene("jack", path, BAD_INPUT, entries=short)
+            self.assertIn("cannot be moved", text)
+            self.assertEqual((path / "run.json").read_text(), before)
+        self.assertEqual(list((path / "earlier_3").iterdir()), [])
 
 
 class Failures(ProgramTest):

@@ -85,7 +85,8 @@ namespace CaissonMPM
     {
       std::error_code       error, ignored;
       std::vector<fs::path> moved;
-      fs::create_directory(place, error);
+      if (!fs::create_directory(place, error) && !error)
+        return std::make_error_code(std::errc::file_exists);
       for (const fs::path &file : files)
         if (!error)
           {
