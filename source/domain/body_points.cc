@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/domain/body_points.h>
+#include <caisson_mpm/domain/cell_geometry.h>
 
 namespace CaissonMPM
 {
@@ -15,7 +16,7 @@ namespace CaissonMPM
         {
           const auto  &g           = grid.geometry(cell);
           const double r           = g.left + .5 * g.width;
-          const double mean_height = .5 * (g.height_left + g.height_right);
+          const double mean_height = height_of(g);
           BodyPoint    p;
           p.position =
             Point<2>(r, .5 * (g.bottom_left + g.bottom_right + mean_height));

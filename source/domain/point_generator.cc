@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
+#include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/domain/point_generator.h>
 
 #include <deal.II/base/patterns.h>
@@ -163,7 +164,7 @@ namespace CaissonMPM
                               const double                 travel) const
   {
     const unsigned int n = points_per_direction(g, body, travel);
-    return {{g.width / n, .5 * (g.height_left + g.height_right) / n}};
+    return {{g.width / n, height_of(g) / n}};
   }
 
   namespace

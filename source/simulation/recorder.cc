@@ -273,8 +273,7 @@ namespace CaissonMPM
                   std::string(kernels->name) + ", " + to_text(kernels->width) + " lanes"},
                  {"ranks", to_text(parts.grid.n_ranks())},
                  {"step limited by", parts.time_step.reason()}};
-    const double n_steps = std::ceil(
-      (parts.schedule.end_time() - parts.clock.time) / parts.clock.step_size);
+    const double n_steps = parts.schedule.steps_left(parts.clock.step_size);
     if (std::isfinite(n_steps))
       first.emplace_back("steps", "about " + rough(n_steps));
     if (!installation.empty())

@@ -36,8 +36,7 @@ namespace CaissonMPM
   std::string
   describe(const RunCost &cost)
   {
-    const double n_points = cost.n_points,
-                 n_steps  = std::ceil(cost.duration / cost.step_size),
+    const double n_points = cost.n_points, n_steps = cost.n_steps,
                  // no more than one for each step, and the first
       n_frames       = std::min(n_steps + 1., 1. * cost.n_frames);
     std::string text = "  grid       " + cost.grid + "\n  points     " +

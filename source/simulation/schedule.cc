@@ -108,6 +108,14 @@ namespace CaissonMPM
 
 
 
+  double
+  Schedule::steps_left(const double step_size) const
+  {
+    return std::ceil((end_time() - clock.time) / step_size);
+  }
+
+
+
   void
   Schedule::name_unused_entries(ParameterOrigins &origins) const
   {

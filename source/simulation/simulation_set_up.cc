@@ -133,7 +133,7 @@ namespace CaissonMPM
     cost.step_size = time_step.step_size();
     cost.end   = schedule.end_description() + ", by " + schedule.entry_of_end();
     cost.limit = time_step.reason();
-    cost.duration = schedule.end_time() - clock.time;
+    cost.n_steps = number_of_steps();
 
     unsigned int  n = 0;
     dealii::Timer timer(grid.communicator(), true);
@@ -158,7 +158,7 @@ namespace CaissonMPM
     cost.peak_bytes =
       Utilities::MPI::sum(peak_memory_bytes(), grid.communicator());
     constexpr double long_run = 120.; // s
-    if (number_of_steps() * cost.seconds_per_step > long_run)
+    if (cost.n_steps * cost.seconds_per_step > long_run)
       cost.savings = ways_to_save();
     return cost;
   }
@@ -274,8 +274,7 @@ namespace CaissonMPM
   double
   Simulation::number_of_steps() const
   {
-    return std::ceil((schedule.end_time() - clock.time) /
-                     time_step.step_size());
+    return schedule.steps_left(time_step.step_size());
   }
 
   double

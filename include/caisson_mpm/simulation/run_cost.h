@@ -17,7 +17,7 @@ namespace CaissonMPM
     double        step_size = 0.;  // s
     std::string   limit;           // what limits the step
     std::string   end;             // when, and by which entry
-    double        duration   = 0.; // s; infinite where it is not known
+    double        n_steps    = 0.; // infinite where it is not known
     double        peak_bytes = 0.; // memory so far
     /** Measured in the first steps; 0 where there is no measurement. */
     double seconds_per_step = 0.;

@@ -99,6 +99,11 @@ namespace CaissonMPM
       return end;
     }
 
+    /** How many steps of this size are left, infinite where the end is not
+     * known. Units: s. */
+    double
+    steps_left(const double step_size) const;
+
     /** How much of the run is done, from 0 to 1. */
     double
     fraction_done() const;
