@@ -338,8 +338,8 @@ namespace CaissonMPM
         : soil(soil)
         , velocity(soil.initial_velocity())
       {
-        for (unsigned int i = 0; i < soil.n_layers(); ++i)
-          states.push_back(soil.layer(i).start_of_state());
+        for (unsigned int i = 0; i < soil.n_materials(); ++i)
+          states.push_back(soil.material(i).start_of_state());
       }
 
       MaterialPoint
@@ -347,7 +347,7 @@ namespace CaissonMPM
       {
         MaterialPoint p;
         p.position = p.initial_position = part.position;
-        p.material = soil.layer_at(part.position[vertical]);
+        p.material = soil.material_at(part.position[vertical]);
         p.stress   = soil.initial_stress(part.position[vertical]);
         for (unsigned int d = 0; d < 2; ++d)
           {

@@ -93,7 +93,7 @@ namespace CaissonMPM
     std::vector<double> found(materials.size(), -1.);
     bool                any = false;
     for (unsigned int i = 0; i < materials.size(); ++i)
-      if (soil.layer(i).stiffness_varies())
+      if (soil.material(i).stiffness_varies())
         {
           found[i] = 0.;
           any      = true;
@@ -107,7 +107,7 @@ namespace CaissonMPM
           largest,
           p_wave_modulus(materials[p.material],
                          p.stress,
-                         p.void_ratio(soil.layer(p.material).void_ratio())));
+                         p.void_ratio(soil.material(p.material).void_ratio())));
     });
     Utilities::MPI::max(found, communicator, found);
     for (unsigned int i = 0; i < materials.size(); ++i)
@@ -159,7 +159,7 @@ namespace CaissonMPM
                        const std::vector<Kernels::Material> &materials)
   {
     std::vector<double> squares, squares_of_soil; // of wave speeds, m2/s2
-    for (unsigned int i = 0; i < soil.n_layers(); ++i)
+    for (unsigned int i = 0; i < soil.n_materials(); ++i)
       {
         const Kernels::Material &material = materials[i];
         const double             density  = soil.inertial_density(i);

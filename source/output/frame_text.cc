@@ -30,7 +30,7 @@ namespace CaissonMPM
     void_ratio_of(const MaterialPoint &p, const Soil &soil)
     {
       constexpr double largest_volume_ratio = 2.;
-      const double     initial = soil.layer(p.material).void_ratio(),
+      const double     initial = soil.material(p.material).void_ratio(),
                    now         = p.void_ratio(initial);
       const bool is_known      = initial > 0. && now >= 0. &&
                             p.volume <= largest_volume_ratio * p.initial_volume;

@@ -143,19 +143,19 @@ namespace CaissonMPM
       return result;
     }
 
-    /** What design methods need of a layer. */
+    /** What design methods need of a m. */
     Json::Members
-    about_layer(const Soil &soil, const unsigned int i)
+    about_material(const Soil &soil, const unsigned int i)
     {
-      const SoilLayer &layer   = soil.layer(i);
-      Json::Members    members = {
-           {"top_depth_m", Json::number(layer.top_depth)},
-           {"law", Json::text(layer.law)},
-           {"submerged_unit_weight_N_m3", Json::number(soil.unit_weight(i))},
-           {"K0", Json::number(layer.earth_pressure_at_rest())}};
+      const SoilMaterial &m       = soil.material(i);
+      Json::Members       members = {{"top_depth_m", Json::number(m.top_depth)},
+                                     {"law", Json::text(m.law_name())},
+                                     {"submerged_unit_weight_N_m3",
+                                      Json::number(soil.unit_weight(i))},
+                                     {"K0", Json::number(m.earth_pressure_at_rest)}};
       const std::pair<const char *, std::optional<double>> values[] = {
-        {"friction_angle_deg", layer.friction_angle()},
-        {"cohesion_Pa", layer.law_value("Cohesion")}};
+        {"friction_angle_deg", m.friction_angle()},
+        {"cohesion_Pa", m.law_value("Cohesion")}};
       for (const auto &[name, value] : values)
         if (value)
           members.emplace_back(name, Json::number(*value));
@@ -175,9 +175,9 @@ namespace CaissonMPM
         {{"inner_wall_friction_angle_deg", Json::number(angles[inner_wall])},
          {"outer_wall_friction_angle_deg", Json::number(angles[outer_wall])}});
       std::string layers, frames;
-      for (unsigned int i = 0; i < parts.soil.n_layers(); ++i)
-        layers +=
-          (i > 0 ? ", " : "") + Json::flat_object(about_layer(parts.soil, i));
+      for (unsigned int i = 0; i < parts.soil.n_materials(); ++i)
+        layers += (i > 0 ? ", " : "") +
+                  Json::flat_object(about_material(parts.soil, i));
       for (const double depth : parts.schedule.penetrations_of_frames())
         frames += (frames.empty() ? "" : ", ") + Json::number(depth);
       append(members,

@@ -92,11 +92,11 @@ namespace CaissonMPM
   void
   SceneReview::layers()
   {
-    for (unsigned int i = 0; i < scene.soil.n_layers(); ++i)
+    for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
       {
         stiffness_and_strength(i);
         solid_density(i);
-        const double k = scene.soil.layer(i).permeability;
+        const double k = scene.soil.material(i).permeability;
         if (scene.water.flows() && k > largest_permeability)
           doubt(section_of(i) + "/Permeability",
                 k,
@@ -108,7 +108,7 @@ namespace CaissonMPM
   void
   SceneReview::stiffness_and_strength(const unsigned int layer)
   {
-    const SoilLayer &soil = scene.soil.layer(layer);
+    const SoilMaterial &soil = scene.soil.material(layer);
     for (const std::string name : {"Youngs modulus", "Granular hardness"})
       if (const auto value = soil.law_value(name))
         if (*value < least_modulus || *value > largest_modulus)
@@ -129,7 +129,7 @@ namespace CaissonMPM
   void
   SceneReview::solid_density(const unsigned int layer)
   {
-    const double density = scene.soil.layer(layer).solid_density;
+    const double density = scene.soil.material(layer).solid_density;
     if (density < least_solid_density || density > largest_solid_density)
       doubt(section_of(layer) + "/Solid density",
             density,
@@ -170,13 +170,13 @@ namespace CaissonMPM
   SceneReview::thin_layers()
   {
     const double width = scene.body.shape().cell_width();
-    for (unsigned int i = 0; i + 1 < scene.soil.n_layers(); ++i)
+    for (unsigned int i = 0; i + 1 < scene.soil.n_materials(); ++i)
       {
-        const double thickness =
-          scene.soil.layer(i + 1).top_depth - scene.soil.layer(i).top_depth;
+        const double thickness = scene.soil.material(i + 1).top_depth -
+                                 scene.soil.material(i).top_depth;
         if (thickness < width)
           doubt(section_of(i + 1) + "/Top depth",
-                scene.soil.layer(i + 1).top_depth,
+                scene.soil.material(i + 1).top_depth,
                 "m",
                 "makes layer " + to_text(i + 1) + " only " + meters(thickness) +
                   " thick, thinner than the cells at the "
@@ -241,9 +241,9 @@ namespace CaissonMPM
                                      scene.lines.total_travel() - shape.bottom();
     std::optional<double> of_soil; // of the weakest layer that is reached
     unsigned int          weakest = 0;
-    for (unsigned int i = 0; i < scene.soil.n_layers(); ++i)
-      if (const auto angle = scene.soil.layer(i).friction_angle();
-          angle && scene.soil.layer(i).top_depth <= depth &&
+    for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
+      if (const auto angle = scene.soil.material(i).friction_angle();
+          angle && scene.soil.material(i).top_depth <= depth &&
           (!of_soil || *angle < *of_soil))
         {
           of_soil = angle;

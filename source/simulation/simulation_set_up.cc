@@ -240,7 +240,7 @@ namespace CaissonMPM
   Simulation::check_initial_speed() const
   {
     double fastest_wave = 0., fastest_point = 0.;
-    for (unsigned int i = 0; i < soil.n_layers(); ++i)
+    for (unsigned int i = 0; i < soil.n_materials(); ++i)
       fastest_wave = std::max(fastest_wave, wave_speed(i));
     points.for_each_motion([&](const Point<2> &,
                                const Vector2 &velocity,
@@ -278,10 +278,10 @@ namespace CaissonMPM
   }
 
   double
-  Simulation::wave_speed(const unsigned int layer) const
+  Simulation::wave_speed(const unsigned int material) const
   {
-    return std::sqrt(materials[layer].p_wave_modulus /
-                     soil.inertial_density(layer));
+    return std::sqrt(materials[material].p_wave_modulus /
+                     soil.inertial_density(material));
   }
 
   void
@@ -369,7 +369,7 @@ namespace CaissonMPM
   Simulation::review(ParameterOrigins &origins) const
   {
     double slowest_wave = std::numeric_limits<double>::infinity();
-    for (unsigned int i = 0; i < soil.n_layers(); ++i)
+    for (unsigned int i = 0; i < soil.n_materials(); ++i)
       slowest_wave = std::min(slowest_wave, wave_speed(i));
     SceneReview({lines,
                  soil,

@@ -397,12 +397,12 @@ namespace CaissonMPM
           continue;
         double volume = 0., mass = 0., along = 0., across = 0.;
         points.for_each_in(cell, [&](const MaterialPoint &p) {
-          const SoilLayer &layer = soil.layer(p.material);
-          const double     k =
-            faster * layer.permeability_at(p.void_ratio(layer.void_ratio()));
+          const SoilMaterial &material = soil.material(p.material);
+          const double        k        = faster * material.permeability_at(
+                                      p.void_ratio(material.void_ratio()));
           volume += p.volume;
           mass += p.mass;
-          along += p.volume * k * layer.anisotropy;
+          along += p.volume * k * material.anisotropy;
           across += p.volume / k;
         });
         if (volume > 0.)
@@ -410,11 +410,12 @@ namespace CaissonMPM
         else // a gap
           {
             const auto        &g = grid.geometry(cell);
-            const unsigned int i = soil.layer_at(std::min(0., g.bottom_left));
-            const double       k = faster * soil.layer(i).permeability;
-            permeability[cell]   = {k * soil.layer(i).anisotropy, k};
-            volume               = 1.;
-            mass                 = soil.inertial_density(i);
+            const unsigned int i =
+              soil.material_at(std::min(0., g.bottom_left));
+            const double k     = faster * soil.material(i).permeability;
+            permeability[cell] = {k * soil.material(i).anisotropy, k};
+            volume             = 1.;
+            mass               = soil.inertial_density(i);
           }
         const double gamma = soil.unit_weight_of_water();
         properties[cell]   = {{permeability[cell].horizontal / gamma,

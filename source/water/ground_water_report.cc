@@ -272,7 +272,7 @@ namespace CaissonMPM
     const double least = least_lifted_share * body.penetration() *
                          critical_gradient() * soil.unit_weight_of_water();
     return suction.value() > least &&
-           soil.layer(0).law_value("Cohesion").value_or(0.) == 0. &&
+           soil.material(0).law_value("Cohesion").value_or(0.) == 0. &&
            flow_scale() * std::max(exit.wall, exit.axis) >
              near_critical * critical_gradient();
   }
@@ -307,11 +307,11 @@ namespace CaissonMPM
       return result;
     const double diameter = 2. * body.shape().right(),
                  speed    = body.motion().usual_velocity();
-    for (unsigned int i = 0; i < soil.n_layers(); ++i)
+    for (unsigned int i = 0; i < soil.n_materials(); ++i)
       {
         const double modulus = materials[i].p_wave_modulus;
         Drainage     d;
-        d.c_v = time_compression * soil.layer(i).permeability * modulus /
+        d.c_v = time_compression * soil.material(i).permeability * modulus /
                 soil.unit_weight_of_water();
         d.group = speed * diameter / d.c_v;
         d.inertia =

@@ -5,125 +5,19 @@
 #ifndef caisson_mpm_materials_soil_h
 #define caisson_mpm_materials_soil_h
 
-#include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/base/expression.h>
-#include <caisson_mpm/base/parameter_origins.h>
-#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/materials/soil_layer.h>
 
-#include <deal.II/base/parameter_acceptor.h>
-
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace CaissonMPM
 {
-  /** What a material law keeps of a point besides its plastic strains. */
-  using StateVariables = std::array<double, Kernels::n_state_variables>;
-
   /**
-   * One layer of soil: what the user says of it, and what follows. The section
-   * of layer k is "Soil/Layer k". It declares the entries of all material laws
-   * (kernels/laws.h) and hands those of the layer's own law on.
-   */
-  class SoilLayer : public dealii::ParameterAcceptor
-  {
-  public:
-    explicit SoilLayer(const unsigned int index);
-
-    /** Throws BadInput where the entries contradict each other. */
-    void
-    check_parameters() const;
-
-    /** Name the entries of laws other than the layer's own. */
-    void
-    name_unused_entries(ParameterOrigins &origins) const;
-
-    /** Mass of solids per volume of soil. Units: kg/m3. */
-    double
-    dry_density() const;
-
-    /** The ratio of horizontal to vertical effective stress at the start. */
-    double
-    earth_pressure_at_rest() const;
-
-    /** The void ratio at the start. */
-    double
-    void_ratio() const
-    {
-      return porosity / (1. - porosity);
-    }
-
-    /** The friction angle of the law (peak, critical) if it has one. Units:
-     * degrees. */
-    std::optional<double>
-    friction_angle() const;
-
-    /** Return the value of an entry if the layer's law has it. */
-    std::optional<double>
-    law_value(const std::string &entry) const;
-
-    /** What the law is known not to describe; empty if nothing. */
-    std::string
-    known_limit() const;
-
-    /** Whether the stiffness depends on stress or void ratio. */
-    bool
-    stiffness_varies() const;
-
-    /** Return the vertical permeability at a void ratio. Units: m/s. */
-    double
-    permeability_at(const double void_ratio) const;
-
-    /** Write the law and its parameters for the kernels. */
-    void
-    set_law(Kernels::Material &material) const;
-
-    /** The law's variables of a point at the start. */
-    StateVariables
-    start_of_state() const;
-
-    double                top_depth          = 0.;
-    std::string           law                = "Mohr-Coulomb";
-    double                porosity           = 0.4;
-    double                internal_length    = 0.;
-    double                internal_velocity  = 0.1;
-    double                solid_density      = 2500.;
-    double                permeability       = 1e-4; // vertical
-    double                anisotropy         = 1.;   // horizontal over vertical
-    bool                  loosening_conducts = false;
-    std::optional<double> k0; // no value: the law's own
-
-    /** The entries of all laws by name, in the units of the entries. */
-    std::map<std::string, double> values;
-
-  private:
-    void
-    declare_internal_length();
-    void
-    declare_permeability();
-
-    /** "Soil/Layer k". */
-    std::string
-    section() const;
-
-    /** The values that the layer's law asks for, in its order. */
-    std::vector<double>
-    law_values() const;
-  };
-
-  /** lambda + 2 mu of a material in this state, and the bulk modulus of its
-   * water if it is undrained. Units: Pa. */
-  double
-  p_wave_modulus(const Kernels::Material &material,
-                 const Stress            &stress,
-                 const double             void_ratio);
-
-  /**
-   * The soil profile below z = 0. Owns the layers; layer i is the material i of
-   * the kernels. Nothing here is collective.
+   * The soil profile below z = 0. Owns the layers, and the materials of which
+   * they are: material i is that of the number i in the points and kernels.
+   * Nothing here is collective.
    */
   class Soil : public dealii::ParameterAcceptor
   {
@@ -132,9 +26,10 @@ namespace CaissonMPM
 
     Soil();
 
-    /** Throws BadInput where the entries contradict each other. */
+    /** Make the materials. Throws BadInput where the entries contradict each
+     * other. */
     void
-    check_parameters() const;
+    check_parameters();
 
     /** Tell which entries of the section have no effect. */
     void
@@ -146,15 +41,21 @@ namespace CaissonMPM
       return n_layers_;
     }
 
-    const SoilLayer &
-    layer(const unsigned int i) const
+    unsigned int
+    n_materials() const
     {
-      return *layers[i];
+      return materials.size();
     }
 
-    /** The layer at depth -z. */
+    const SoilMaterial &
+    material(const unsigned int i) const
+    {
+      return materials[i];
+    }
+
+    /** The number of the material at depth -z. */
     unsigned int
-    layer_at(const double z) const;
+    material_at(const double z) const;
 
     /** The z of the boundaries between layers, from above. Units: m. */
     std::vector<double>
@@ -169,14 +70,14 @@ namespace CaissonMPM
 
     /** The inertia per volume, mass scaling included. Units: kg/m3. */
     double
-    inertial_density(const unsigned int layer) const
+    inertial_density(const unsigned int material) const
     {
-      return mass_scaling() * mass_density(layer);
+      return mass_scaling() * mass_density(material);
     }
 
     /** The effective unit weight (submerged or dry). Units: N/m3. */
     double
-    unit_weight(const unsigned int layer) const;
+    unit_weight(const unsigned int material) const;
 
     /** Whether the soil is below water. */
     bool
@@ -198,7 +99,7 @@ namespace CaissonMPM
     VectorExpression
     initial_velocity() const;
 
-    /** The kernels' materials, one per layer. Their body force is that on a
+    /** The kernels' materials. Their body force is that on a
      * unit of inertia: mass scaling leaves the weight as it is. */
     std::vector<Kernels::Material>
     kernel_materials() const;
@@ -221,7 +122,7 @@ namespace CaissonMPM
 
     /** The mass of grains and water per volume. Units: kg/m3. */
     double
-    mass_density(const unsigned int layer) const;
+    mass_density(const unsigned int material) const;
 
     /** The effective stress in the soil at the start. */
     enum class InitialStress
@@ -241,6 +142,7 @@ namespace CaissonMPM
     std::string                             gravity_text   = "0, -9.81";
     Stress                                  uniform_stress = {{0., 0., 0., 0.}};
     std::vector<std::unique_ptr<SoilLayer>> layers;
+    std::vector<SoilMaterial>               materials; // from above
   };
 } // namespace CaissonMPM
 

@@ -122,10 +122,10 @@ namespace CaissonMPM
     /** What would make a long run shorter, in words. */
     std::vector<std::string>
     ways_to_save() const;
-    /** Return the speed of compression waves in a layer, with mass scaling.
+    /** Return the speed of compression waves in a material, with mass scaling.
      * Units: m/s. */
     double
-    wave_speed(const unsigned int layer) const;
+    wave_speed(const unsigned int material) const;
     /** Set up what knows the cells or nodes of this rank. */
     void
     set_up_part();

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The soil of one kind: numbers, and what follows from them.
+#ifndef caisson_mpm_materials_soil_material_h
+#define caisson_mpm_materials_soil_material_h
+
+#include <caisson_mpm/base/conventions.h>
+#include <caisson_mpm/kernels/layout.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** What a material law keeps of a point besides its plastic strains. */
+  using StateVariables = std::array<double, Kernels::n_state_variables>;
+
+  /**
+   * The numbers of a soil, the same in the whole of it, its material law, and
+   * what follows from them. A layer of the user is of one such material, or of
+   * several where its numbers change with depth.
+   */
+  struct SoilMaterial
+  {
+    unsigned int layer     = 0;  // from 0
+    double       top_depth = 0.; // below the soil surface, m
+
+    int                 law = 0;    // its number in Kernels::law_table
+    std::vector<double> law_values; // in the order of its entries
+
+    double porosity               = 0.4;
+    double solid_density          = 2500.; // kg/m3
+    double earth_pressure_at_rest = 0.5;   // horizontal over vertical stress
+    double permeability           = 1e-4;  // vertical, m/s
+    double anisotropy             = 1.;    // horizontal over vertical
+    bool   loosening_conducts     = false;
+    double internal_length        = 0.;  // m
+    double internal_velocity      = 0.1; // m/s
+
+    /** "Soil/Layer k", with k from 1. */
+    std::string
+    section() const;
+
+    /** Throws BadInput where the numbers contradict each other. */
+    void
+    check() const;
+
+    /** Mass of solids per volume of soil. Units: kg/m3. */
+    double
+    dry_density() const
+    {
+      return (1. - porosity) * solid_density;
+    }
+
+    /** The void ratio at the start. */
+    double
+    void_ratio() const
+    {
+      return porosity / (1. - porosity);
+    }
+
+    /** The name of the law. */
+    std::string
+    law_name() const;
+
+    /** The friction angle of the law (peak, critical) if it has one. Units:
+     * degrees. */
+    std::optional<double>
+    friction_angle() const;
+
+    /** Return the value of an entry if the law has it. */
+    std::optional<double>
+    law_value(const std::string &entry) const;
+
+    /** The ratio of horizontal to vertical stress of the law itself. */
+    double
+    earth_pressure_of_law() const;
+
+    /** What the law is known not to describe; empty if nothing. */
+    std::string
+    known_limit() const;
+
+    /** Whether the stiffness depends on stress or void ratio. */
+    bool
+    stiffness_varies() const;
+
+    /** Return the vertical permeability at a void ratio. Units: m/s. */
+    double
+    permeability_at(const double void_ratio) const;
+
+    /** Write the law and its parameters for the kernels. */
+    void
+    set_law(Kernels::Material &material) const;
+
+    /** The law's variables of a point at the start. */
+    StateVariables
+    start_of_state() const;
+  };
+
+  /** lambda + 2 mu of a material in this state, and the bulk modulus of its
+   * water if it is undrained. Units: Pa. */
+  double
+  p_wave_modulus(const Kernels::Material &material,
+                 const Stress            &stress,
+                 const double             void_ratio);
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/kernels/laws.h>
+#include <caisson_mpm/materials/soil_material.h>
+
+#include <algorithm>
+
+namespace CaissonMPM
+{
+  namespace
+  {
+    const Kernels::LawDescription &
+    description(const int law)
+    {
+      return Kernels::law_table.law[law];
+    }
+  } // namespace
+
+  std::string
+  SoilMaterial::section() const
+  {
+    return "Soil/Layer " + to_text(layer + 1);
+  }
+
+  void
+  SoilMaterial::check() const
+  {
+    Kernels::LawMessage message;
+    if (!description(law).check(law_values.data(),
+                                {earth_pressure_at_rest, void_ratio()},
+                                message))
+      throw BadInput(section() + "/" + message.text);
+    if (internal_length > 0. && !description(law).has_yield_surface)
+      throw BadInput(
+        section() + "/Internal length = " + to_text(internal_length) +
+        " m: the law " + law_name() + " has none. Set the length to 0, or " +
+        section() + "/Law to Mohr-Coulomb or Mohr-Coulomb with softening.");
+  }
+
+  std::string
+  SoilMaterial::law_name() const
+  {
+    return description(law).name;
+  }
+
+  std::optional<double>
+  SoilMaterial::friction_angle() const
+  {
+    if (description(law).friction_entry < 0)
+      return {};
+    return law_values[description(law).friction_entry];
+  }
+
+  std::optional<double>
+  SoilMaterial::law_value(const std::string &entry) const
+  {
+    for (int i = 0; i < description(law).n_entries; ++i)
+      if (entry == description(law).entries[i].name)
+        return law_values[i];
+    return {};
+  }
+
+  double
+  SoilMaterial::earth_pressure_of_law() const
+  {
+    Kernels::Material material;
+    set_law(material);
+    return description(law).earth_pressure_at_rest(material);
+  }
+
+  std::string
+  SoilMaterial::known_limit() const
+  {
+    // what is said of softening, the length takes care of
+    if (internal_length > 0. && description(law).has_yield_surface &&
+        law_value("Softening shape factor"))
+      return "";
+    const char *const limit = description(law).warning(law_values.data());
+    return limit == nullptr ? "" : section() + ": " + limit;
+  }
+
+  bool
+  SoilMaterial::stiffness_varies() const
+  {
+    return description(law).stiffness_varies;
+  }
+
+  double
+  SoilMaterial::permeability_at(const double e) const
+  {
+    if (!loosening_conducts)
+      return permeability;
+    const auto carman = [](const double e) { return e * e * e / (1. + e); };
+    // points that are pressed together may have lost all pores
+    return permeability * carman(std::max(e, .1 * void_ratio())) /
+           carman(void_ratio());
+  }
+
+  void
+  SoilMaterial::set_law(Kernels::Material &material) const
+  {
+    description(law).set(material, law_values.data());
+    material.initial_void_ratio = void_ratio();
+    material.overstress_time    = internal_length / internal_velocity;
+  }
+
+  StateVariables
+  SoilMaterial::start_of_state() const
+  {
+    Kernels::Material material;
+    set_law(material);
+    StateVariables result;
+    description(law).start(material, result.data());
+    return result;
+  }
+
+  double
+  p_wave_modulus(const Kernels::Material &material,
+                 const Stress            &stress,
+                 const double             void_ratio)
+  {
+    return material.water_modulus +
+           Kernels::law_table.law[material.law].p_wave_modulus(material,
+                                                               stress.data(),
+                                                               void_ratio);
+  }
+} // namespace CaissonMPM
