@@ -50,8 +50,13 @@ namespace CaissonMPM
     follow(body);
     const Spacing in_r = spacing_in_r(body), in_z = spacing_in_z(body, soil);
     check_number_of_cells(in_r, in_z);
-    columns    = lines_of(in_r);
-    rows       = lines_of(in_z);
+    columns = lines_of(in_r);
+    rows    = lines_of(in_z);
+    if (columns.size() < 2 || rows.size() < 2)
+      throw BadInput(
+        "the mesh, as wide as Grid/Outer radius = " + meters(outer_radius) +
+        " allows and from Grid/Bottom = " + meters(bottom) + " to Grid/Top = " +
+        meters(top) + ", is too small to have a cell. Lengths are in m.");
     fixed_rows = in_z.fixed;
     if (distortion > 0.)
       distort_columns();

@@ -61,7 +61,7 @@ namespace CaissonMPM
                        "Frames (VTU) are written this time apart, besides the "
                        "first, the last and those at Frame penetrations. "
                        "Units: s.",
-                       not_negative);
+                       Patterns::Double(1e-9));
     add_parameter("Frame penetrations",
                   frame_penetrations,
                   "Further frames are written at these penetrations. Units: "
@@ -227,11 +227,12 @@ namespace CaissonMPM
       next = std::min(next, *listed);
     if (frame_interval)
       {
-        double number = std::floor(passed / *frame_interval);
-        while (number * *frame_interval <= passed)
-          ++number;
-        if (number * *frame_interval < end - tolerance)
-          next = std::min(next, number * *frame_interval);
+        double at =
+          (std::floor(passed / *frame_interval) + 1.) * *frame_interval;
+        if (at <= passed) // rounded
+          at += *frame_interval;
+        if (at < end - tolerance)
+          next = std::min(next, at);
       }
     return next;
   }
