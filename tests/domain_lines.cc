@@ -20,6 +20,7 @@ struct Lines : EmptyParameters
                  const double       uplift = 0.)
   {
     auto &prm = dealii::ParameterAcceptor::prm;
+    soil.declare_layers(3);
     prm.parse_input_from_string(parameters);
     dealii::ParameterAcceptor::parse_all_parameters(prm);
     lines.check_parameters();

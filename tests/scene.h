@@ -41,12 +41,14 @@ struct Scene : EmptyParameters
     , points(grid)
   {
     auto &prm = dealii::ParameterAcceptor::prm;
+    soil.declare_layers(3);
     prm.parse_input_from_string(parameters);
     dealii::ParameterAcceptor::parse_all_parameters(prm);
     body.check_parameters();
     soil.check_parameters();
     lines.check_parameters();
     lines.place(body.shape(), soil, travel, uplift);
+    soil.divide(lines.row_lines());
     grid.create_mesh();
   }
 

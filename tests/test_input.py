@@ -41,8 +41,35 @@ CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
         {**HYPOPLASTIC, f"{LAYER}/Critical void ratio": 0.5},
     ),
     (["Solid density", "float"], {f"{LAYER}/Solid density": 900}),
+    (
+        ["Cohesion = 5e3 - 4e3*d", "a depth of 1.", "at least 0"],
+        {f"{LAYER}/Cohesion": "5e3 - 4e3*d"},
+    ),
+    (
+        ["Youngs modulus", "5 MPa", "expression in d"],
+        {f"{LAYER}/Youngs modulus": "5 MPa"},
+    ),
+    (["Number of layers = 3", "no Soil/Layer 2"], {"Soil/Number of layers": 3}),
+    (["Surcharge", "K0"], {"Soil/Surcharge": 1e4, "Soil/Initial stress": "none"}),
+    (
+        ["Stress expression", "four expressions"],
+        {"Soil/Initial stress": "expression", "Soil/Stress expression": "1*z ; 2*z"},
+    ),
+    (
+        ["Outer radius = 1e-09 m", "a cell"],
+        {
+            f"{BODY}/Kind": "none",
+            "Grid/Outer radius": 1e-9,
+            "Time/End penetration": 0,
+            "Time/End time": 1,
+        },
+    ),
+    (["Frame interval", "at least 1e-09"], {"Output/Frame interval": 1e-300}),
     (["K0", "Change"], {f"{LAYER}/K0": 9}),
-    (["Top depth", "layers"], {"Soil/Number of layers": 2}),
+    (
+        ["Top depth", "layers"],
+        {"Soil/Number of layers": 2, "Soil/Layer 2/Porosity": 0.4},
+    ),
     (
         ["Layer 2/Top depth", "below the mesh", "lower the bottom"],
         {"Soil/Number of layers": 2, "Soil/Layer 2/Top depth": 300},

@@ -56,7 +56,7 @@ class Options(ProgramTest):
         self.assertNotIn("subsection Layer 2", text)
         self.assertIn("set Friction angle of the tip", text)
         self.assertNotIn("subsection Grid", text)
-        section = self.run_program(SUCCESS, "--explain", "Layer 2")
+        section = self.run_program(SUCCESS, "--explain", "Layer 1")
         self.assertIn("set Friction angle", section)
         self.assertIn("No entry has", self.run_program(BAD_INPUT, "--explain", "xyz"))
 

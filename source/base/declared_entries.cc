@@ -382,6 +382,10 @@ namespace CaissonMPM
   {
     if (const auto word = read_word_description(pattern))
       return word->word + ", or " + allowed_values(word->number);
+    if (starts_with(pattern, "[Profile "))
+      return allowed_numbers(pattern) +
+             ", or an expression in d (the depth, m), s and p (the effective "
+             "vertical and mean stress at the start, Pa)";
     if (starts_with(pattern, "[Integer"))
       return allowed_integers(pattern);
     if (starts_with(pattern, "[Double"))

@@ -73,24 +73,50 @@ namespace CaissonMPM
     }
   } // namespace
 
-  Expression::Expression(const std::string &text, const std::string &where)
-    : where(where)
-    , function(std::make_unique<FunctionParser<2>>(1))
-    , zero(text == "0")
+  template <int dim>
+  std::unique_ptr<FunctionParser<dim>>
+  parse_function(const std::string &text,
+                 const std::string &variables,
+                 const Point<dim>  &place,
+                 const std::string &where)
   {
+    auto                 names    = Utilities::split_string_list(variables);
+    auto                 function = std::make_unique<FunctionParser<dim>>(1);
     const CapturedErrors errors;
     try
       {
-        function->initialize("r,z,t", text, {{"pi", pi}}, true);
+        function->initialize(variables, text, {{"pi", pi}}, names.size() > dim);
         // the parser looks at the expression when it is used first
-        function->value(Point<2>(1., -1.));
+        function->value(place);
       }
     catch (const std::exception &)
       {
-        throw BadInput(where + " must be an expression in r, z, t and pi: " +
+        names.push_back("pi");
+        std::string list = names[0];
+        for (std::size_t i = 1; i < names.size(); ++i)
+          list += (i + 1 < names.size() ? ", " : " and ") + names[i];
+        throw BadInput(where + " must be an expression in " + list + ": " +
                        explain(text, errors) + ".");
       }
+    return function;
   }
+
+  template std::unique_ptr<FunctionParser<2>>
+  parse_function<2>(const std::string &,
+                    const std::string &,
+                    const Point<2> &,
+                    const std::string &);
+  template std::unique_ptr<FunctionParser<3>>
+  parse_function<3>(const std::string &,
+                    const std::string &,
+                    const Point<3> &,
+                    const std::string &);
+
+  Expression::Expression(const std::string &text, const std::string &where)
+    : where(where)
+    , function(parse_function<2>(text, "r,z,t", Point<2>(1., -1.), where))
+    , zero(text == "0")
+  {}
 
   double
   Expression::at_time(const double t) const

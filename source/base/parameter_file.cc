@@ -37,8 +37,9 @@ namespace CaissonMPM
     class Reader
     {
     public:
-      explicit Reader(dealii::ParameterHandler &prm)
+      Reader(dealii::ParameterHandler &prm, const DeclareSubsection &declare)
         : prm(prm)
+        , declare(declare)
         , entries(prm)
         , origins(entries.entry_paths())
       {}
@@ -137,8 +138,13 @@ namespace CaissonMPM
         return files.back().open;
       }
 
+      /** Whether there is such a subsection, or one could be declared. */
+      bool
+      has_subsection(const std::string &path);
+
       dealii::ParameterHandler          &prm;
-      const DeclaredEntries              entries;
+      const DeclareSubsection           &declare;
+      DeclaredEntries                    entries;
       ParameterOrigins                   origins;
       std::vector<OpenFile>              files;
       std::map<std::string, std::string> place_of_include;
@@ -291,12 +297,26 @@ namespace CaissonMPM
         throw BadInput(at(line) + ": " + quote(name) +
                        " is a path.\n  Open one subsection per line.");
       const std::string path = full_path(name);
-      if (!entries.has_subsection(path))
+      if (!has_subsection(path))
         throw BadInput(
           at(line) + ": there is no subsection " + quote(path) + "." +
           did_you_mean(nearest_names(path, entries.subsection_paths())) +
           missing_end_hint(name) + list_hint);
       open().push_back({path, line});
+    }
+
+
+
+    bool
+    Reader::has_subsection(const std::string &path)
+    {
+      if (entries.has_subsection(path))
+        return true;
+      if (!declare || !declare(path))
+        return false;
+      entries = DeclaredEntries(prm);
+      origins.set_paths(entries.entry_paths());
+      return true;
     }
 
 
@@ -366,6 +386,7 @@ namespace CaissonMPM
                            ": the \"=\" is missing.\n  Write --set "
                            "\"Section/Entry=value\" (mind the quotes).");
           const std::string path = normalize_path(text.substr(0, equal_sign));
+          has_subsection(path.substr(0, path.rfind('/')));
           if (entries.find(path) == nullptr)
             throw BadInput(unknown_entry(path, place) + list_hint);
           set(path, trim(text.substr(equal_sign + 1)), place);
@@ -471,9 +492,10 @@ namespace CaissonMPM
   ParameterOrigins
   read_parameters(dealii::ParameterHandler       &prm,
                   const std::string              &file_name,
-                  const std::vector<std::string> &overrides)
+                  const std::vector<std::string> &overrides,
+                  const DeclareSubsection        &declare)
   {
-    Reader reader(prm);
+    Reader reader(prm, declare);
     if (!file_name.empty())
       reader.read_file(file_name);
     reader.read_overrides(overrides);

@@ -46,6 +46,14 @@ namespace CaissonMPM
 
 
   void
+  ParameterOrigins::set_paths(const std::vector<std::string> &all_paths)
+  {
+    paths = all_paths;
+  }
+
+
+
+  void
   ParameterOrigins::record(const std::string &path,
                            const std::string &place,
                            const bool         may_be_unused)

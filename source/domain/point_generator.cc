@@ -348,7 +348,7 @@ namespace CaissonMPM
         MaterialPoint p;
         p.position = p.initial_position = part.position;
         p.material = soil.material_at(part.position[vertical]);
-        p.stress   = soil.initial_stress(part.position[vertical]);
+        p.stress   = soil.initial_stress(part.position);
         for (unsigned int d = 0; d < 2; ++d)
           {
             if (!velocity[d].is_zero())

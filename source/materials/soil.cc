@@ -51,23 +51,7 @@ namespace CaissonMPM
                   "Units: m/s2.",
                   prm,
                   Patterns::List(Patterns::Double(), 2, 2));
-    add_choice(*this,
-               "Initial stress",
-               stress_state,
-               {{"K0", InitialStress::k0},
-                {"none", InitialStress::none},
-                {"uniform", InitialStress::uniform}},
-               "The stress in the soil at the start: K0 is the geostatic "
-               "effective stress under the soil's own weight, none is no "
-               "stress, and uniform takes the entry Uniform stress. Units: "
-               "none.");
-    add_parameter("Uniform stress",
-                  uniform_text,
-                  "With Initial stress = uniform, the effective stress is this "
-                  "one everywhere at the start: rr, zz, tt (hoop) and rz, "
-                  "positive in tension. Units: Pa.",
-                  prm,
-                  Patterns::List(Patterns::Double(), 4, 4));
+    declare_initial_stress();
     add_parameter("Initial velocity",
                   velocity_text,
                   "The velocity at the start is given by two expressions in r, "
@@ -81,32 +65,87 @@ namespace CaissonMPM
       for (unsigned int c = 0; c < 4; ++c)
         uniform_stress[c] = Utilities::string_to_double(stresses[c]);
     });
-    for (unsigned int i = 0; i < max_layers; ++i)
-      layers.push_back(std::make_unique<SoilLayer>(i));
+    declare_layers(1);
   }
 
   void
-  Soil::check_parameters()
+  Soil::declare_initial_stress()
   {
-    materials.clear();
+    add_choice(*this,
+               "Initial stress",
+               stress_state,
+               {{"K0", InitialStress::k0},
+                {"none", InitialStress::none},
+                {"uniform", InitialStress::uniform},
+                {"expression", InitialStress::expression}},
+               "The stress in the soil at the start: K0 is the geostatic "
+               "effective stress under the soil's own weight and the "
+               "surcharge, none is no stress, uniform takes the entry Uniform "
+               "stress, and expression the entry Stress expression. Units: "
+               "none.");
+    add_parameter("Uniform stress",
+                  uniform_text,
+                  "With Initial stress = uniform, the effective stress is this "
+                  "one everywhere at the start: rr, zz, tt (hoop) and rz, "
+                  "positive in tension. Units: Pa.",
+                  prm,
+                  Patterns::List(Patterns::Double(), 4, 4));
+    add_parameter("Stress expression",
+                  expression_text,
+                  "With Initial stress = expression, the effective stress at "
+                  "the start is given by four expressions in r, z and pi, for "
+                  "rr, zz, tt (hoop) and rz, with semicolons between them. "
+                  "Tension is positive. Units: Pa.");
+    add_parameter("Surcharge",
+                  surcharge,
+                  "A load on the soil surface that was there before the body "
+                  "came. The uppermost row of cells bears it as a weight "
+                  "without inertia. Units: Pa.",
+                  prm,
+                  Patterns::Double(0.));
+  }
+
+  void
+  Soil::declare_layers(const unsigned int n)
+  {
+    while (layers.size() < n)
+      layers.push_back(std::make_unique<SoilLayer>(layers.size()));
+  }
+
+  bool
+  Soil::declare_subsection(const std::string &path)
+  {
+    const std::string beginning = "Soil/Layer ";
+    if (path.compare(0, beginning.size(), beginning) != 0)
+      return false;
+    const std::string number = path.substr(beginning.size());
+    if (number.empty() || number.size() > 4 || number[0] == '0' ||
+        number.find_first_not_of("0123456789") != std::string::npos ||
+        std::stoul(number) > max_layers)
+      return false;
+    declare_layers(std::stoul(number));
+    return true;
+  }
+
+  void
+  Soil::check_parameters() const
+  {
+    if (n_layers_ > layers.size())
+      throw BadInput("Soil/Number of layers = " + to_text(n_layers_) +
+                     ", but there is no Soil/Layer " +
+                     to_text(layers.size() + 1) +
+                     ". Describe each layer, with its Top depth, or reduce the "
+                     "number.");
     for (unsigned int i = 0; i < n_layers_; ++i)
       {
-        materials.push_back(layers[i]->material());
-        const SoilMaterial &m = materials.back();
-        m.check();
-        if (i == 0 ? m.top_depth != 0. :
-                     m.top_depth <= materials[i - 1].top_depth)
+        const SoilLayer &layer = *layers[i];
+        layer.check_parameters();
+        if (i == 0 ? layer.top_depth() != 0. :
+                     layer.top_depth() <= layers[i - 1]->top_depth())
           throw BadInput(
-            m.section() + "/Top depth = " + to_text(m.top_depth) +
+            layer.section() + "/Top depth = " + to_text(layer.top_depth()) +
             " m: layers must be listed from the surface (Top "
             "depth = 0) downward, each deeper than the one above.");
-        if (submerged && m.solid_density <= fluid_density)
-          throw BadInput(m.section() +
-                         "/Solid density = " + to_text(m.solid_density) +
-                         " kg/m3 does not exceed Soil/Fluid density = " +
-                         to_text(fluid_density) +
-                         " kg/m3: the soil would float. Correct one of them, "
-                         "or set Soil/Submerged = false.");
       }
     if (stress_state == InitialStress::k0 && gravity[radial] != 0.)
       throw BadInput(
@@ -118,15 +157,127 @@ namespace CaissonMPM
                      "stress = K0 the soil would be in tension. Write 0, "
                      "-9.81.");
     initial_velocity();
+    if (surcharge > 0. && stress_state != InitialStress::k0)
+      throw BadInput("Soil/Surcharge = " + to_text(surcharge) +
+                     " Pa is part of the stress at the start with Soil/Initial "
+                     "stress = K0 only. Set K0, or the surcharge to 0.");
+  }
+
+  namespace
+  {
+    /** The depths of the lines between two depths, and the lower one. */
+    std::vector<double>
+    depths_between(const std::vector<double> &row_lines,
+                   const double               top,
+                   const double               bottom)
+    {
+      std::vector<double> result;
+      for (auto z = row_lines.rbegin(); z != row_lines.rend(); ++z)
+        if (-*z > top && -*z < bottom)
+          result.push_back(-*z);
+      result.push_back(bottom);
+      return result;
+    }
+  } // namespace
+
+  void
+  Soil::divide(const std::vector<double> &row_lines)
+  {
+    materials.clear();
+    if (stress_state == InitialStress::expression)
+      parse_stress();
+    double stress = 0.;
+    for (unsigned int i = 0; i < n_layers_; ++i)
+      {
+        const double top    = layers[i]->top_depth(),
+                     bottom = i + 1 < n_layers_ ? layers[i + 1]->top_depth() :
+                                                  -row_lines.front();
+        divide(*layers[i], depths_between(row_lines, top, bottom), stress);
+      }
+  }
+
+  void
+  Soil::divide(const SoilLayer           &layer,
+               const std::vector<double> &lines,
+               double                    &stress)
+  {
+    // what a number may change within a material, relatively
+    constexpr double largest_change = .04;
+    double           top            = layer.top_depth();
+    for (unsigned int i = 0; i < lines.size(); ++i)
+      {
+        const auto may_reach = [&](const double bottom) {
+          if (surcharge > 0. && top == 0.)
+            return false; // one row bears it
+          return !layer.varies() ||
+                 layer.change(
+                   top,
+                   vertical_stress(top, stress),
+                   bottom,
+                   vertical_stress(bottom,
+                                   stress_below(layer, top, bottom, stress))) <=
+                   largest_change;
+        };
+        while (i + 1 < lines.size() && may_reach(lines[i + 1]))
+          ++i;
+        add_material(layer, top, lines[i], stress);
+        top = lines[i];
+      }
+  }
+
+  double
+  Soil::stress_below(const SoilLayer &layer,
+                     const double     top,
+                     const double     bottom,
+                     const double     stress) const
+  {
+    return stress + (top == 0. ? surcharge : 0.) +
+           unit_weight(layer.weight_at(.5 * (top + bottom))) * (bottom - top);
+  }
+
+  void
+  Soil::add_material(const SoilLayer &layer,
+                     const double     top,
+                     const double     bottom,
+                     double          &stress)
+  {
+    const double middle = .5 * (top + bottom);
+    const double below  = stress_below(layer, top, bottom, stress);
+    SoilMaterial m =
+      layer.material_at(middle, vertical_stress(middle, .5 * (stress + below)));
+    if (submerged && m.solid_density <= fluid_density)
+      throw BadInput(m.section() +
+                     "/Solid density = " + to_text(m.solid_density) +
+                     " kg/m3 does not exceed Soil/Fluid density = " +
+                     to_text(fluid_density) +
+                     " kg/m3: the soil would float. Correct one of them, "
+                     "or set Soil/Submerged = false.");
+    m.top_depth = top;
+    if (top == 0.)
+      m.added_weight = surcharge / (bottom - top);
+    stress = below;
+    materials.push_back(m);
+  }
+
+  double
+  Soil::vertical_stress(const double depth, const double of_weight) const
+  {
+    switch (stress_state)
+      {
+        case InitialStress::k0:
+          return of_weight;
+        case InitialStress::none:
+          return 0.;
+        default:
+          return std::max(0., -initial_stress(Point<2>(0., -depth))[zz]);
+      }
   }
 
   void
   Soil::name_unused_entries(ParameterOrigins &origins) const
   {
-    const std::string stress =
-      std::string("Soil/Initial stress is ") +
-      (stress_state == InitialStress::none ? "none" : "uniform");
-    for (unsigned int i = 0; i < max_layers; ++i)
+    const std::string stress = "Soil/Initial stress is not K0";
+    for (unsigned int i = 0; i < layers.size(); ++i)
       {
         const std::string section = "Soil/Layer " + to_text(i + 1);
         if (i >= n_layers_)
@@ -135,13 +286,28 @@ namespace CaissonMPM
         else
           layers[i]->name_unused_entries(origins);
         if (i < n_layers_ && stress_state != InitialStress::k0)
-          origins.add_unused({section + "/K0"}, stress);
+          origins.add_unused({section + "/K0",
+                              section + "/Overconsolidation ratio"},
+                             stress);
       }
     if (stress_state != InitialStress::uniform)
       origins.add_unused({"Soil/Uniform stress"},
                          "Soil/Initial stress is not uniform");
+    if (stress_state != InitialStress::expression)
+      origins.add_unused({"Soil/Stress expression"},
+                         "Soil/Initial stress is not expression");
     if (!submerged)
       origins.add_unused({"Soil/Fluid density"}, "Soil/Submerged is false");
+  }
+
+  std::vector<unsigned int>
+  Soil::uppermost_materials() const
+  {
+    std::vector<unsigned int> result;
+    for (unsigned int i = 0; i < n_materials(); ++i)
+      if (i == 0 || materials[i].layer != materials[i - 1].layer)
+        result.push_back(i);
+    return result;
   }
 
   unsigned int
@@ -170,9 +336,8 @@ namespace CaissonMPM
   }
 
   double
-  Soil::unit_weight(const unsigned int i) const
+  Soil::unit_weight(const SoilMaterial &m) const
   {
-    const SoilMaterial &m = materials[i];
     return -gravity[vertical] * (1. - m.porosity) *
            (m.solid_density - (submerged ? fluid_density : 0.));
   }
@@ -184,23 +349,59 @@ namespace CaissonMPM
   }
 
   Stress
-  Soil::initial_stress(const double z) const
+  Soil::initial_stress(const Point<2> &place) const
   {
+    const double z = place[vertical];
     if (stress_state == InitialStress::uniform)
       return uniform_stress;
+    if (stress_state == InitialStress::expression)
+      return stress_by_expression(place);
     if (stress_state == InitialStress::none || z >= 0.)
       return {{0., 0., 0., 0.}};
     double sigma_zz = 0.;
     for (unsigned int i = 0; i < n_materials() && -z > materials[i].top_depth;
          ++i)
       {
-        const double bottom =
+        const SoilMaterial &m = materials[i];
+        const double        bottom =
           i + 1 < n_materials() ? std::min(-z, materials[i + 1].top_depth) : -z;
-        sigma_zz -= unit_weight(i) * (bottom - materials[i].top_depth);
+        sigma_zz -= (unit_weight(m) + m.added_weight) * (bottom - m.top_depth);
       }
     const double sigma_rr =
       materials[material_at(z)].earth_pressure_at_rest * sigma_zz;
     return {{sigma_rr, sigma_zz, sigma_rr, 0.}};
+  }
+
+  Stress
+  Soil::stress_by_expression(const Point<2> &place) const
+  {
+    Stress result;
+    for (unsigned int c = 0; c < 4; ++c)
+      {
+        result[c] = stress_expression[c](place, 0.);
+        if (!std::isfinite(result[c]))
+          throw BadInput("Soil/Stress expression is " + to_text(result[c]) +
+                         " at r = " + to_text(place[radial]) +
+                         " m, z = " + to_text(place[vertical]) +
+                         " m. Write expressions that are finite where there "
+                         "is soil.");
+      }
+    return result;
+  }
+
+  void
+  Soil::parse_stress()
+  {
+    const auto parts = Utilities::split_string_list(expression_text, ';');
+    const std::string entry = "Soil/Stress expression = " + expression_text;
+    if (parts.size() != 4)
+      throw BadInput(entry +
+                     " must be four expressions, for rr, zz, tt and rz, with "
+                     "semicolons between them, for instance 4e3*z ; 8e3*z ; "
+                     "4e3*z ; 0.");
+    for (unsigned int c = 0; c < 4; ++c)
+      stress_expression[c] =
+        Expression(parts[c], entry + ": \"" + parts[c] + "\"");
   }
 
   VectorExpression
@@ -214,7 +415,8 @@ namespace CaissonMPM
   {
     std::vector<std::string> limits;
     for (const SoilMaterial &m : materials)
-      if (const std::string limit = m.known_limit(); !limit.empty())
+      if (const std::string limit = m.known_limit();
+          !limit.empty() && (limits.empty() || limits.back() != limit))
         limits.push_back(limit);
     if (mass_scaling() > 100.)
       limits.push_back(
@@ -241,6 +443,7 @@ namespace CaissonMPM
           mass_density(i);
         for (unsigned int d = 0; d < 2; ++d)
           result[i].body_force[d] = gravity[d] * buoyancy / mass_scaling();
+        result[i].body_force[vertical] -= m.added_weight / inertial_density(i);
       }
     return result;
   }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/base/choice.h>
+#include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/kernels/laws.h>
 #include <caisson_mpm/materials/soil_layer.h>
 
 #include <deal.II/base/patterns.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace CaissonMPM
 {
@@ -52,6 +55,10 @@ namespace CaissonMPM
 
   SoilLayer::SoilLayer(const unsigned int index)
     : ParameterAcceptor("/Soil/Layer " + to_text(index + 1))
+    , porosity(soil.porosity, Patterns::Double(0., 0.95))
+    , solid_density(soil.solid_density, Patterns::Double(1e-12))
+    , permeability(soil.permeability, Patterns::Double(1e-20))
+    , overconsolidation(1., Patterns::Double(1., 1e3))
   {
     soil.layer = index;
     add_parameter("Top depth",
@@ -70,51 +77,84 @@ namespace CaissonMPM
       for (int i = 0; i < law.n_entries; ++i)
         {
           const LawEntry &e = law.entries[i];
-          if (values.count(e.name) > 0)
-            continue;
-          double &value = values[e.name] = e.value;
-          add_parameter(e.name,
-                        value,
-                        e.text,
-                        prm,
-                        Patterns::Double(e.smallest, e.largest));
+          const auto [place, is_new] =
+            values.try_emplace(e.name,
+                               e.value,
+                               Patterns::Double(e.smallest, e.largest));
+          if (is_new)
+            add_profile(*this, e.name, place->second, e.text);
         }
     });
-    add_parameter("Porosity",
-                  soil.porosity,
-                  "The porosity is the share of the pores in the volume of the "
-                  "soil at the start. Units: none.",
-                  prm,
-                  Patterns::Double(0., 0.95));
-    add_parameter("Solid density",
-                  soil.solid_density,
-                  "The solid density is that of the grains, without pores. "
-                  "Units: kg/m3.",
-                  prm,
-                  Patterns::Double(1e-12));
-    add_word_or_number(*this,
-                       "K0",
-                       k0,
-                       "auto",
-                       -1.,
-                       "K0 is the ratio of the horizontal to the vertical "
-                       "effective stress at the start; auto takes the value of "
-                       "the layer's law, 1 - sin(phi) or, without a friction "
-                       "angle, nu / (1 - nu). Units: none.",
-                       Patterns::Double(0., 10.));
+    declare_density();
+    declare_earth_pressure();
     declare_permeability();
     declare_internal_length();
   }
 
   void
+  SoilLayer::declare_density()
+  {
+    add_profile(*this,
+                "Porosity",
+                porosity,
+                "The porosity is the share of the pores in the volume of the "
+                "soil at the start. Units: none.");
+    add_profile(*this,
+                "Solid density",
+                solid_density,
+                "The solid density is that of the grains, without pores. "
+                "Units: kg/m3.");
+    add_word_or_profile(
+      *this,
+      "Relative density",
+      relative_density,
+      "by porosity",
+      "The relative density D gives the void ratio at the start as "
+      "e_max - D (e_max - e_min), in the place of Porosity. Units: none.",
+      Patterns::Double(-0.2, 1.3));
+    add_parameter(
+      "Minimum void ratio",
+      minimum_void_ratio,
+      "The void ratio e_min of the relative density 1. Units: none.",
+      prm,
+      Patterns::Double(0.));
+    add_parameter(
+      "Maximum void ratio",
+      maximum_void_ratio,
+      "The void ratio e_max of the relative density 0. Units: none.",
+      prm,
+      Patterns::Double(0., 19.));
+  }
+
+  void
+  SoilLayer::declare_earth_pressure()
+  {
+    add_word_or_profile(
+      *this,
+      "K0",
+      k0,
+      "auto",
+      "K0 is the ratio of the horizontal to the vertical "
+      "effective stress at the start; auto takes the value of "
+      "the layer's law, 1 - sin(phi) or, without a friction "
+      "angle, nu / (1 - nu). Units: none.",
+      Patterns::Double(0., 10.),
+      -1.);
+    add_profile(*this,
+                "Overconsolidation ratio",
+                overconsolidation,
+                "With K0 = auto, K0 is multiplied by this ratio to the power "
+                "sin(phi) (Mayne and Kulhawy 1982). Units: none.");
+  }
+
+  void
   SoilLayer::declare_permeability()
   {
-    add_parameter("Permeability",
-                  soil.permeability,
-                  "The permeability to water in the vertical, where water "
-                  "flows (Water/Level). Units: m/s.",
-                  prm,
-                  Patterns::Double(1e-20));
+    add_profile(*this,
+                "Permeability",
+                permeability,
+                "The permeability to water in the vertical, where water "
+                "flows (Water/Level). Units: m/s.");
     add_parameter("Permeability ratio",
                   soil.anisotropy,
                   "The horizontal permeability over the vertical one. Units: "
@@ -166,6 +206,16 @@ namespace CaissonMPM
     if (soil.internal_length == 0.)
       origins.add_unused({section() + "/Internal velocity"},
                          section() + "/Internal length is 0");
+    if (k0)
+      origins.add_unused({section() + "/Overconsolidation ratio"},
+                         section() + "/K0 is not auto");
+    if (relative_density)
+      origins.add_unused({section() + "/Porosity"},
+                         section() + "/Relative density is set");
+    else
+      origins.add_unused({section() + "/Minimum void ratio",
+                          section() + "/Maximum void ratio"},
+                         section() + "/Relative density is by porosity");
   }
 
   std::string
@@ -174,16 +224,141 @@ namespace CaissonMPM
     return soil.section();
   }
 
-  SoilMaterial
-  SoilLayer::material() const
+  std::vector<const Profile *>
+  SoilLayer::profiles() const
   {
-    SoilMaterial result = soil;
+    std::vector<const Profile *> result = {relative_density ?
+                                             relative_density.get() :
+                                             &porosity,
+                                           &solid_density,
+                                           &permeability,
+                                           k0 ? k0.get() : &overconsolidation};
+    const LawDescription &description = Kernels::law_table.law[law_named(law)];
+    for (int i = 0; i < description.n_entries; ++i)
+      result.push_back(&values.at(description.entries[i].name));
+    return result;
+  }
+
+  bool
+  SoilLayer::varies() const
+  {
+    const auto all = profiles();
+    return std::any_of(all.begin(), all.end(), [](const Profile *p) {
+      return !p->is_constant();
+    });
+  }
+
+  double
+  SoilLayer::change(const double top,
+                    const double stress_at_top,
+                    const double bottom,
+                    const double stress_at_bottom) const
+  {
+    double result = 0.;
+    for (const Profile *const p : profiles())
+      {
+        // of the mean stress the change counts only
+        const double above = p->unchecked({top, stress_at_top, stress_at_top}),
+                     below = p->unchecked(
+                       {bottom, stress_at_bottom, stress_at_bottom}),
+                     larger = std::max(std::abs(above), std::abs(below));
+        if (!std::isfinite(above) || !std::isfinite(below))
+          return std::numeric_limits<double>::infinity();
+        if (larger > 0.)
+          result = std::max(result, std::abs(above - below) / larger);
+      }
+    return result;
+  }
+
+  void
+  SoilLayer::check_parameters() const
+  {
+    for (const Profile *const p : {&porosity, &solid_density})
+      if (p->knows_stress())
+        throw BadInput(p->name() +
+                       " depends on s or p, the stress at the start, which "
+                       "follows from it. Write it with the depth d alone.");
+    if (!relative_density)
+      return;
+    if (relative_density->knows_stress())
+      throw BadInput(relative_density->name() +
+                     " depends on s or p, the stress at the start, which "
+                     "follows from it. Write it with the depth d alone.");
+    if (minimum_void_ratio >= maximum_void_ratio)
+      throw BadInput(section() + "/Relative density needs " + section() +
+                     "/Minimum void ratio = " + to_text(minimum_void_ratio) +
+                     " below Maximum void ratio = " +
+                     to_text(maximum_void_ratio) + ". Set both.");
+  }
+
+  double
+  SoilLayer::porosity_at(const PlaceInGround &place) const
+  {
+    if (!relative_density)
+      return porosity(place);
+    const double e =
+      maximum_void_ratio -
+      (*relative_density)(place) * (maximum_void_ratio - minimum_void_ratio);
+    if (e < 0.)
+      throw BadInput(relative_density->name() + " makes a void ratio of " +
+                     to_text(e, 3) + " at a depth of " +
+                     to_text(place.depth, 4) + " m. Reduce it.");
+    return e / (1. + e);
+  }
+
+  SoilMaterial
+  SoilLayer::weight_at(const double depth) const
+  {
+    SoilMaterial result  = soil;
+    result.top_depth     = depth;
+    result.porosity      = porosity_at({depth, 0., 0.});
+    result.solid_density = solid_density({depth, 0., 0.});
+    return result;
+  }
+
+  void
+  SoilLayer::set_values(SoilMaterial &result, const PlaceInGround &place) const
+  {
     result.law          = law_named(law);
+    result.permeability = permeability(place);
     result.law_values.clear();
     const LawDescription &description = Kernels::law_table.law[result.law];
     for (int i = 0; i < description.n_entries; ++i)
-      result.law_values.push_back(values.at(description.entries[i].name));
-    result.earth_pressure_at_rest = k0 ? *k0 : result.earth_pressure_of_law();
+      result.law_values.push_back(
+        values.at(description.entries[i].name)(place));
+  }
+
+  double
+  SoilLayer::earth_pressure_at(const SoilMaterial  &material,
+                               const PlaceInGround &place) const
+  {
+    if (k0)
+      return (*k0)(place);
+    const double ratio  = overconsolidation(place);
+    double       result = material.earth_pressure_of_law();
+    if (ratio > 1.)
+      result *=
+        std::pow(ratio,
+                 std::sin(material.friction_angle().value_or(0.) * pi / 180.));
+    return result;
+  }
+
+  SoilMaterial
+  SoilLayer::material_at(const double depth, const double vertical_stress) const
+  {
+    SoilMaterial  result = weight_at(depth);
+    PlaceInGround place  = {depth, vertical_stress, vertical_stress};
+    // K0 may depend on the law, whose numbers may depend on K0 by the mean
+    // stress: the friction angle does so little that this is done once
+    for (int i = 0; i < 2; ++i)
+      {
+        set_values(result, place);
+        result.earth_pressure_at_rest = earth_pressure_at(result, place);
+        place.mean_stress =
+          vertical_stress * (1. + 2. * result.earth_pressure_at_rest) / 3.;
+      }
+    set_values(result, place);
+    result.check();
     return result;
   }
 } // namespace CaissonMPM

@@ -107,7 +107,8 @@ namespace CaissonMPM
               "",
               "none",
               drawn,
-              "number of its layer, from 0",
+              "number from 0 of its layer, or of its part of a layer whose "
+              "numbers change with depth",
               [](P p) { return double(p.material); })};
   } // namespace
 

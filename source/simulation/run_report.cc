@@ -151,7 +151,7 @@ namespace CaissonMPM
       Json::Members       members = {{"top_depth_m", Json::number(m.top_depth)},
                                      {"law", Json::text(m.law_name())},
                                      {"submerged_unit_weight_N_m3",
-                                      Json::number(soil.unit_weight(i))},
+                                      Json::number(soil.unit_weight(m))},
                                      {"K0", Json::number(m.earth_pressure_at_rest)}};
       const std::pair<const char *, std::optional<double>> values[] = {
         {"friction_angle_deg", m.friction_angle()},

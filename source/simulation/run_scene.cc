@@ -101,7 +101,10 @@ namespace CaissonMPM
     Simulation simulation(MPI_COMM_WORLD);
     auto       origins = read_parameters(dealii::ParameterAcceptor::prm,
                                    command_line.parameter_file,
-                                   command_line.overrides);
+                                   command_line.overrides,
+                                   [&simulation](const std::string &path) {
+                                     return simulation.declare_subsection(path);
+                                   });
     if (command_line.print_parameters || !command_line.explain.empty())
       {
         print_parameters(origins, command_line.explain, out);

@@ -32,12 +32,6 @@ namespace CaissonMPM
     constexpr double least_to_side = 2., least_to_bottom = 1.5, shallow = .25;
 
     std::string
-    section_of(const unsigned int layer)
-    {
-      return "Soil/Layer " + to_text(layer + 1);
-    }
-
-    std::string
     meters(const double x)
     {
       return to_text(x, 4) + " m";
@@ -92,13 +86,14 @@ namespace CaissonMPM
   void
   SceneReview::layers()
   {
-    for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
+    for (const unsigned int i : scene.soil.uppermost_materials())
       {
-        stiffness_and_strength(i);
-        solid_density(i);
-        const double k = scene.soil.material(i).permeability;
+        const SoilMaterial &soil = scene.soil.material(i);
+        stiffness_and_strength(soil);
+        solid_density(soil);
+        const double k = soil.permeability;
         if (scene.water.flows() && k > largest_permeability)
-          doubt(section_of(i) + "/Permeability",
+          doubt(soil.section() + "/Permeability",
                 k,
                 "m/s",
                 "is more than that of gravel. Check the unit, m/s.");
@@ -106,13 +101,12 @@ namespace CaissonMPM
   }
 
   void
-  SceneReview::stiffness_and_strength(const unsigned int layer)
+  SceneReview::stiffness_and_strength(const SoilMaterial &soil)
   {
-    const SoilMaterial &soil = scene.soil.material(layer);
     for (const std::string name : {"Youngs modulus", "Granular hardness"})
       if (const auto value = soil.law_value(name))
         if (*value < least_modulus || *value > largest_modulus)
-          doubt(section_of(layer) + "/" + name,
+          doubt(soil.section() + "/" + name,
                 *value,
                 "Pa",
                 "is not the stiffness of a soil. Check the unit, Pa: 1 MPa is "
@@ -120,18 +114,18 @@ namespace CaissonMPM
     for (const std::string name : {"Cohesion", "Residual cohesion"})
       if (const auto value = soil.law_value(name))
         if (*value > largest_strength)
-          doubt(section_of(layer) + "/" + name,
+          doubt(soil.section() + "/" + name,
                 *value,
                 "Pa",
                 "is not the strength of a soil. Check the unit, Pa.");
   }
 
   void
-  SceneReview::solid_density(const unsigned int layer)
+  SceneReview::solid_density(const SoilMaterial &soil)
   {
-    const double density = scene.soil.material(layer).solid_density;
+    const double density = soil.solid_density;
     if (density < least_solid_density || density > largest_solid_density)
-      doubt(section_of(layer) + "/Solid density",
+      doubt(soil.section() + "/Solid density",
             density,
             "kg/m3",
             "is not the density of grains, which is about 2650 kg/m3." +
@@ -170,13 +164,13 @@ namespace CaissonMPM
   SceneReview::thin_layers()
   {
     const double width = scene.body.shape().cell_width();
-    for (unsigned int i = 0; i + 1 < scene.soil.n_materials(); ++i)
+    const auto   tops  = scene.soil.interfaces();
+    for (std::size_t i = 0; i < tops.size(); ++i)
       {
-        const double thickness = scene.soil.material(i + 1).top_depth -
-                                 scene.soil.material(i).top_depth;
+        const double thickness = (i > 0 ? tops[i - 1] : 0.) - tops[i];
         if (thickness < width)
-          doubt(section_of(i + 1) + "/Top depth",
-                scene.soil.material(i + 1).top_depth,
+          doubt("Soil/Layer " + to_text(i + 2) + "/Top depth",
+                -tops[i],
                 "m",
                 "makes layer " + to_text(i + 1) + " only " + meters(thickness) +
                   " thick, thinner than the cells at the "
@@ -265,7 +259,8 @@ namespace CaissonMPM
     doubt("Rigid body/Friction angle of the " + name_of(rougher[0]),
           angles[rougher[0]],
           "degrees",
-          "exceeds the friction angle of layer " + to_text(weakest + 1) + ", " +
+          "exceeds the friction angle of layer " +
+            to_text(scene.soil.material(weakest).layer + 1) + ", " +
             to_text(*of_soil, 4) + " degrees" + others +
             ": the soil beside such a wall fails before it slides on the wall. "
             "Set at most that angle; in clay, set 0 and an adhesion.");
@@ -342,8 +337,8 @@ namespace CaissonMPM
     if (!scene.water.has_suction())
       return;
     const BodyShape &shape = scene.body.shape();
-    const double     least =
-      part * scene.soil.unit_weight(0) * (shape.top() - shape.bottom());
+    const double least = part * scene.soil.unit_weight(scene.soil.material(0)) *
+                         (shape.top() - shape.bottom());
     const auto check = [&](const std::string &entry, const double pressure) {
       if (pressure > 0. && pressure < least)
         origins.add_warning(

@@ -70,12 +70,12 @@ namespace CaissonMPM
                      "volume change is false: the points of a cell are "
                      "strained with the volume change that the pressure sees. "
                      "Set it to true.");
-    recorder.check_parameters();
     schedule.check_parameters();
     if (Kernels::select_kernels(instruction_set.c_str()) == nullptr)
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");
     place_lines();
+    recorder.check_parameters();
     kernels = Kernels::select_kernels(instruction_set.c_str());
   }
 
@@ -96,6 +96,7 @@ namespace CaissonMPM
         down = std::max(down, mesh_down);
       }
     lines.place(body.shape(), soil, down, -up);
+    soil.divide(lines.row_lines());
   }
 
   void

@@ -296,7 +296,7 @@ namespace CaissonMPM
   double
   GroundWater::critical_gradient() const
   {
-    return soil.unit_weight(0) / soil.unit_weight_of_water();
+    return soil.unit_weight(soil.material(0)) / soil.unit_weight_of_water();
   }
 
   std::vector<GroundWater::Drainage>
@@ -307,7 +307,7 @@ namespace CaissonMPM
       return result;
     const double diameter = 2. * body.shape().right(),
                  speed    = body.motion().usual_velocity();
-    for (unsigned int i = 0; i < soil.n_materials(); ++i)
+    for (const unsigned int i : soil.uppermost_materials())
       {
         const double modulus = materials[i].p_wave_modulus;
         Drainage     d;
@@ -335,8 +335,9 @@ namespace CaissonMPM
           " kPa on it; water boils there at " +
           to_text(1e-3 * suction.cavitation(height_of_lid()), 3) + " kPa");
     if (is_undrained())
-      for (unsigned int i = 0; i < materials.size(); ++i)
-        lines.emplace_back("water in layer " + to_text(i + 1),
+      for (const unsigned int i : soil.uppermost_materials())
+        lines.emplace_back("water in layer " +
+                             to_text(soil.material(i).layer + 1),
                            "undrained, bears " +
                              to_text(share_of_load(materials[i]), 3) +
                              " of a load on confined soil");
@@ -364,10 +365,10 @@ namespace CaissonMPM
     const std::vector<Kernels::Material> &materials) const
   {
     std::vector<std::string> limits;
-    for (unsigned int i = 0; is_undrained() && i < materials.size(); ++i)
-      if (share_of_load(materials[i]) < least_share)
+    for (const unsigned int i : soil.uppermost_materials())
+      if (is_undrained() && share_of_load(materials[i]) < least_share)
         limits.push_back(
-          "the water of layer " + to_text(i + 1) +
+          "the water of layer " + to_text(soil.material(i).layer + 1) +
           " is so soft that the soil is not undrained: it bears " +
           to_text(share_of_load(materials[i]), 2) +
           " of a load on confined soil, less than " + to_text(least_share) +

@@ -13,6 +13,19 @@
 namespace CaissonMPM
 {
   /**
+   * Parse a function of @p variables, as "r,z,t", of which the last is the time
+   * of the function if there is one more than @p dim. Throws BadInput if it
+   * cannot be parsed or evaluated at @p place; @p where is the beginning of the
+   * message, for instance "Loads/Body force".
+   */
+  template <int dim>
+  std::unique_ptr<dealii::FunctionParser<dim>>
+  parse_function(const std::string        &text,
+                 const std::string        &variables,
+                 const dealii::Point<dim> &place,
+                 const std::string        &where);
+
+  /**
    * A muParser expression in r and z (m), the time t (s) and pi, for instance
    * "-0.01*z*min(t, 1)". It is parsed once; an empty one has no value.
    */

@@ -9,16 +9,22 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace CaissonMPM
 {
+  /** Declares the entries of a subsection of which a scene may have any number,
+   * as "Soil/Layer 7"; returns whether there can be one with this path. */
+  using DeclareSubsection = std::function<bool(const std::string &path)>;
+
   /**
    * Read the file and then the overrides ("Section/Sub/Entry=value") into
    * @p prm, in which all entries have been declared; classes derived from
    * ParameterAcceptor declare theirs in ParameterAcceptor::prm. An empty file
-   * name reads the overrides only. An override replaces the file's value.
+   * name reads the overrides only. An override replaces the file's value. Where
+   * a subsection is not declared, @p declare is asked to do so.
    *
    * The syntax is deal.II's (subsection, set, end, include; "#" begins a
    * comment, "\" at the end of a line continues it), with three differences
@@ -38,7 +44,8 @@ namespace CaissonMPM
   ParameterOrigins
   read_parameters(dealii::ParameterHandler       &prm,
                   const std::string              &file_name,
-                  const std::vector<std::string> &overrides = {});
+                  const std::vector<std::string> &overrides = {},
+                  const DeclareSubsection        &declare   = {});
 } // namespace CaissonMPM
 
 #endif

@@ -24,6 +24,11 @@ namespace CaissonMPM
     /** @p paths are all entries that can be set. */
     explicit ParameterOrigins(const std::vector<std::string> &paths);
 
+    /** Tell it all entries that can be set, after there have come to be more.
+     */
+    void
+    set_paths(const std::vector<std::string> &all_paths);
+
     /**
      * Remember that the entry "Section/Sub/Entry" was set at this place;
      * @p may_be_unused says that add_unused() passes it over.

@@ -132,6 +132,14 @@ namespace CaissonMPM
       return tree_.block(cell).row;
     }
 
+    /** Return the z of the lines between the rows at the start, from below.
+     * Units: m. */
+    const std::vector<double> &
+    row_lines() const
+    {
+      return rows;
+    }
+
     /** Return where the node on these two lines is at the start. */
     dealii::Point<2>
     node_start(const unsigned int column_line,

@@ -206,6 +206,34 @@ namespace CaissonMPM
         return result;
       }
 
+      /** The volume of the soil of a cell at the start, if all of it gains
+       * volume in shear; else 0. */
+      CAISSON_INLINE double
+      volume_of_gaining_soil(const StepContext &step, const unsigned int cell)
+      {
+        const CellMoments &moments  = step.moments[cell];
+        const Material    &material = step.materials[moments.material];
+        if (material.volume_in_shear != VolumeInShear::gained)
+          return 0.;
+        if (!moments.several_materials)
+          return moments.mass[0] / material.initial_density;
+        const PointsView &points = step.points;
+        double            result = 0.;
+        for (int block = points.first_block[cell]; block >= 0;
+             block     = points.headers[block].next)
+          {
+                const Material &own =
+                  step.materials[points.headers[block].material];
+                if (own.volume_in_shear != VolumeInShear::gained)
+              return 0.;
+            double mass = 0.; // padding has none
+                for (int lane = 0; lane < block_size; ++lane)
+              mass += points.blocks[block].mass[lane];
+            result += mass / own.initial_density;
+          }
+        return result;
+      }
+
       /**
        * The share of the slope of the mean stress that acts on the nodes of a
        * cell. B-bar gives all points of a cell the same change of volume. Where
@@ -225,15 +253,11 @@ namespace CaissonMPM
               return 0.;
             default:
               {
-                const CellMoments &moments  = step.moments[cell];
-                const Material    &material = step.materials[moments.material];
-                if (material.volume_in_shear != VolumeInShear::gained ||
-                    moments.several_materials)
+                const double initial = volume_of_gaining_soil(step, cell);
+                if (initial == 0.)
                   return 1.;
-                const double dilation = step.points.filled_volume[cell] *
-                                          material.initial_density /
-                                          moments.mass[0] -
-                                        1.;
+                const double dilation =
+                  step.points.filled_volume[cell] / initial - 1.;
                 return 1. - ramp(dilation, .005, .02);
               }
           }

@@ -22,14 +22,35 @@ namespace CaissonMPM
   class Soil : public dealii::ParameterAcceptor
   {
   public:
-    static constexpr unsigned int max_layers = 5;
+    /** No soil has more; each needs a row of cells. */
+    static constexpr unsigned int max_layers = 1000;
 
+    /** Declares the first layer. */
     Soil();
 
-    /** Make the materials. Throws BadInput where the entries contradict each
-     * other. */
+    /** Declare the layers down to number @p n, counted from 1. */
     void
-    check_parameters();
+    declare_layers(const unsigned int n);
+
+    /** Declare the layer "Soil/Layer k" and those above it; return whether the
+     * path is that of a layer. */
+    bool
+    declare_subsection(const std::string &path);
+
+    /** Throws BadInput where the entries contradict each other. */
+    void
+    check_parameters() const;
+
+    /**
+     * Make the materials. A layer whose numbers change with depth becomes
+     * several: each consists of whole rows of cells, and has the numbers in its
+     * middle. Throws BadInput where the numbers contradict each other.
+     *
+     * @param row_lines The z of the lines between the rows, from below. Units:
+     *                  m.
+     */
+    void
+    divide(const std::vector<double> &row_lines);
 
     /** Tell which entries of the section have no effect. */
     void
@@ -53,6 +74,10 @@ namespace CaissonMPM
       return materials[i];
     }
 
+    /** Return the uppermost material of each layer. */
+    std::vector<unsigned int>
+    uppermost_materials() const;
+
     /** The number of the material at depth -z. */
     unsigned int
     material_at(const double z) const;
@@ -75,9 +100,10 @@ namespace CaissonMPM
       return mass_scaling() * mass_density(material);
     }
 
-    /** The effective unit weight (submerged or dry). Units: N/m3. */
+    /** The effective unit weight (submerged or dry), without a surcharge.
+     * Units: N/m3. */
     double
-    unit_weight(const unsigned int material) const;
+    unit_weight(const SoilMaterial &material) const;
 
     /** Whether the soil is below water. */
     bool
@@ -90,9 +116,9 @@ namespace CaissonMPM
     double
     unit_weight_of_water() const;
 
-    /** Effective stress at height z before anything happens. Units: Pa. */
+    /** Effective stress at a place before anything happens. Units: Pa. */
     Stress
-    initial_stress(const double z) const;
+    initial_stress(const dealii::Point<2> &place) const;
 
     /** The velocity before anything happens, of the initial place. Units: m/s.
      * Throws BadInput where its text cannot be parsed. */
@@ -129,18 +155,60 @@ namespace CaissonMPM
     {
       k0,
       none,
-      uniform
+      uniform,
+      expression
     };
 
+    void
+    declare_initial_stress();
+
+    /** Make the materials of a layer. @p lines are the depths at which they may
+     * end, of which the last is the bottom of the layer; @p stress is the
+     * vertical one at its top, and then at its bottom. Units: m, Pa. */
+    void
+    divide(const SoilLayer           &layer,
+           const std::vector<double> &lines,
+           double                    &stress);
+
+    /** Make the material between two depths. */
+    void
+    add_material(const SoilLayer &layer,
+                 const double     top,
+                 const double     bottom,
+                 double          &stress);
+
+    /** The vertical stress of the weight below a part of a layer, with @p
+     * stress above it. Positive in compression, Pa. */
+    double
+    stress_below(const SoilLayer &layer,
+                 const double     top,
+                 const double     bottom,
+                 const double     stress) const;
+
+    /** Parse Stress expression. */
+    void
+    parse_stress();
+
+    Stress
+    stress_by_expression(const dealii::Point<2> &place) const;
+
+    /** The vertical stress at a depth if it is given, and else that of the
+     * weight. Positive in compression, Pa. */
+    double
+    vertical_stress(const double depth, const double of_weight) const;
+
     MassScaling                             scaling;
-    unsigned int                            n_layers_      = 1;
-    bool                                    submerged      = true;
-    double                                  fluid_density  = 1000.;
-    InitialStress                           stress_state   = InitialStress::k0;
-    std::string                             uniform_text   = "0, 0, 0, 0";
-    std::string                             velocity_text  = "0 ; 0";
-    std::string                             gravity_text   = "0, -9.81";
+    unsigned int                            n_layers_       = 1;
+    bool                                    submerged       = true;
+    double                                  fluid_density   = 1000.;
+    InitialStress                           stress_state    = InitialStress::k0;
+    std::string                             uniform_text    = "0, 0, 0, 0";
+    std::string                             velocity_text   = "0 ; 0";
+    std::string                             gravity_text    = "0, -9.81";
+    std::string                             expression_text = "0 ; 0 ; 0 ; 0";
     Stress                                  uniform_stress = {{0., 0., 0., 0.}};
+    std::array<Expression, 4>               stress_expression;
+    double                                  surcharge = 0.; // Pa
     std::vector<std::unique_ptr<SoilLayer>> layers;
     std::vector<SoilMaterial>               materials; // from above
   };

@@ -5,13 +5,15 @@
 #define caisson_mpm_materials_soil_layer_h
 
 #include <caisson_mpm/base/parameter_origins.h>
+#include <caisson_mpm/materials/profile.h>
 #include <caisson_mpm/materials/soil_material.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <map>
-#include <optional>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace CaissonMPM
 {
@@ -41,22 +43,71 @@ namespace CaissonMPM
       return soil.top_depth;
     }
 
-    /** Return the soil of the layer. */
+    /** Whether one of its numbers changes with depth. */
+    bool
+    varies() const;
+
+    /** Return the largest relative change of a number from one depth to
+     * another, with the vertical effective stresses there. Units: m, Pa. */
+    double
+    change(const double top,
+           const double stress_at_top,
+           const double bottom,
+           const double stress_at_bottom) const;
+
+    /** Throws BadInput where the entries contradict each other at any depth. */
+    void
+    check_parameters() const;
+
+    /**
+     * Return the soil of the layer at a place. Throws BadInput where the
+     * numbers contradict each other, or their entries.
+     *
+     * @param depth           Below the soil surface, m.
+     * @param vertical_stress The effective one at the start there, positive in
+     *                        compression, Pa.
+     */
     SoilMaterial
-    material() const;
+    material_at(const double depth, const double vertical_stress) const;
+
+    /** Porosity and density of solids alone, which make the stress. */
+    SoilMaterial
+    weight_at(const double depth) const;
 
   private:
+    void
+    declare_density();
+    void
+    declare_earth_pressure();
     void
     declare_internal_length();
     void
     declare_permeability();
 
-    SoilMaterial          soil;
-    std::string           law = "Mohr-Coulomb";
-    std::optional<double> k0; // no value: the law's own
+    /** The profiles in use. */
+    std::vector<const Profile *>
+    profiles() const;
+
+    double
+    porosity_at(const PlaceInGround &place) const;
+
+    /** Set what depends on the mean stress; K0 not yet. */
+    void
+    set_values(SoilMaterial &result, const PlaceInGround &place) const;
+
+    double
+    earth_pressure_at(const SoilMaterial  &material,
+                      const PlaceInGround &place) const;
+
+    SoilMaterial soil; // the numbers that cannot change
+    std::string  law = "Mohr-Coulomb";
+    Profile      porosity, solid_density, permeability, overconsolidation;
+    std::unique_ptr<Profile> k0;               // none: the law's own
+    std::unique_ptr<Profile> relative_density; // none: the porosity counts
+    double                   minimum_void_ratio = 0., maximum_void_ratio = 0.;
 
     /** The entries of all laws by name, in the units of the entries. */
-    std::map<std::string, double> values;
+    std::map<std::string, Profile> values;
   };
 } // namespace CaissonMPM
 

@@ -29,6 +29,7 @@ namespace CaissonMPM
     int                 law = 0;    // its number in Kernels::law_table
     std::vector<double> law_values; // in the order of its entries
 
+    double added_weight           = 0.; // that the soil carries, N/m3
     double porosity               = 0.4;
     double solid_density          = 2500.; // kg/m3
     double earth_pressure_at_rest = 0.5;   // horizontal over vertical stress

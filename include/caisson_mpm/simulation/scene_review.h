@@ -51,9 +51,9 @@ namespace CaissonMPM
     void
     layers();
     void
-    stiffness_and_strength(const unsigned int layer);
+    stiffness_and_strength(const SoilMaterial &soil);
     void
-    solid_density(const unsigned int layer);
+    solid_density(const SoilMaterial &soil);
     void
     gravity();
     void

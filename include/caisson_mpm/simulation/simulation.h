@@ -55,6 +55,14 @@ namespace CaissonMPM
   public:
     explicit Simulation(const MPI_Comm communicator);
 
+    /** Declare the entries of a subsection of which a scene may have any
+     * number; see read_parameters(). */
+    bool
+    declare_subsection(const std::string &path)
+    {
+      return soil.declare_subsection(path);
+    }
+
     /** Tell which entries have no effect in this scene; before or after
      * set_up(). */
     void

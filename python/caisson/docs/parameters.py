@@ -76,15 +76,14 @@ def escaped(text: str) -> str:
 
 
 def with_repeated_ones_once(sections: list[Section]) -> list[Section]:
-    """The sections, with 'Layer 1' to 'Layer 5' shown as one 'Layer k'."""
+    """The sections, with 'Layer 1', of which there may be any number, as 'Layer k'."""
     shown: list[Section] = []
     for section in sections:
         word = re.sub(r" \d+$", "", section.name)
         if word == section.name:
             shown.append(section)
         elif section.name.endswith(" 1"):
-            last = sum(s.name.startswith(word + " ") for s in sections)
-            name = f"{word} k, with k from 1 to {last}"
+            name = f"{word} k, with k = 1, 2, ..."
             shown.append(Section(name, section.entries, section.sections))
         else:
             first = next(s for s in sections if s.name == f"{word} 1")
