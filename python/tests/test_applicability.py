@@ -27,6 +27,9 @@ LAYER: dict[str, Any] = {
 CLAY: dict[str, Any] = {**LAYER, "friction_angle_deg": 0, "cohesion_Pa": 20e3}
 
 
+NOT_CLAY = "layer 1 is sand, and the method is for clay"
+
+
 class Applicability(unittest.TestCase):
     """Answers in the scene of run.json."""
 
@@ -42,18 +45,33 @@ class Applicability(unittest.TestCase):
         return [answer.why_not for answer in answers]
 
     def test_sand(self) -> None:
-        self.assertEqual(self.why(self.site(LAYER)), [""] * 4)
+        self.assertEqual(self.why(self.site(LAYER)), [""] * 4 + [NOT_CLAY])
         without = self.site(LAYER)._replace(cone=None)
         needs = "a cone test is needed (--cpt FILE)"
-        self.assertEqual(self.why(without), ["", needs, needs, needs])
+        self.assertEqual(self.why(without), ["", needs, needs, needs, NOT_CLAY])
 
     def test_clay(self) -> None:
-        """Only DNV has coefficients of clay, also where it is undrained."""
+        """Its strength answers, and DNV has coefficients, undrained or not."""
         for level in ("drained", "undrained", "coupled"):
             byrne, *others = self.why(self.site(CLAY, level=level))
             self.assertIn("layer 1 has no friction angle", byrne)
             only = "layer 1 is clay, and the method is for sand"
-            self.assertEqual(others, ["", only, only])
+            self.assertEqual(others, ["", only, only, ""])
+
+    def test_forces_in_clay(self) -> None:
+        """In two layers; the second has an adhesion of its own, the first the
+        body's."""
+        soft = {**CLAY, "cohesion_Pa": 10e3}
+        stiff = {**CLAY, "layer": 7, "top_depth_m": 1.5, "wall_adhesion_Pa": 5e3}
+        scene = {**SCENE, "layers": [soft, stiff], "outer_wall_adhesion_Pa": 2e3}
+        answer = theory.answers_of(theory.Site(scene), np.array([1.0, 3.0]))[-1]
+        tip, inner, outer = [answer.band(part) for part in theory.PARTS[:3]]
+        area = np.pi * 5.8 * 0.2
+        for n_c, found in zip((7.5, 9.0), tip):
+            expected = [area * (8829 * h + n_c * s) for h, s in ((1, 10e3), (3, 20e3))]
+            np.testing.assert_allclose(found, expected)
+        np.testing.assert_allclose(inner[0], [0, np.pi * 5.6 * 7.5e3])
+        np.testing.assert_allclose(outer[0], [np.pi * 6 * 2e3, np.pi * 6 * 10.5e3])
 
     def test_undrained_sand(self) -> None:
         for found in self.why(self.site(LAYER, level="undrained")):
@@ -63,7 +81,7 @@ class Applicability(unittest.TestCase):
         """A cone answers for it; it has no single friction angle."""
         byrne, *others = self.why(self.site({**LAYER, "law": "hypoplastic sand"}))
         self.assertIn("hypoplastic", byrne)
-        self.assertEqual(others, [""] * 3)
+        self.assertEqual(others, [""] * 3 + [NOT_CLAY])
 
     def test_soils_that_nobody_knows(self) -> None:
         changes: list[tuple[dict[str, Any], str]] = [
@@ -79,7 +97,7 @@ class Applicability(unittest.TestCase):
 
     def test_layers_that_the_tip_does_not_reach(self) -> None:
         site = self.site(LAYER, {**CLAY, "top_depth_m": 3})
-        self.assertEqual(self.why(site, 2.9), [""] * 4)
+        self.assertEqual(self.why(site, 2.9), [""] * 4 + [NOT_CLAY])
         self.assertIn("layer 2 has no friction", self.why(site, 3.1)[0])
 
     def test_bodies(self) -> None:

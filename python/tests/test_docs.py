@@ -56,7 +56,7 @@ class Parameters(unittest.TestCase):
     def test_layers_are_shown_once(self) -> None:
         page = parsed(PRINTED).markdown(1)
         self.assertEqual(page.count("Top depth"), 1)
-        self.assertIn("### Layer k, with k from 1 to 2", page)
+        self.assertIn("### Layer k, with k = 1, 2, ...", page)
         self.assertIn("Depth of the \\*upper\\* boundary, below the surface.", page)
 
     def test_layers_must_agree(self) -> None:

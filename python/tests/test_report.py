@@ -174,14 +174,15 @@ class Report(unittest.TestCase):
         leave_run(self.path, SUMMARY)
         found = content.methods_of(Results(self.path))
         self.assertEqual(len(found["heads"]), 4)
-        (reason,) = found["reasons"]
+        reason, of_clay = found["reasons"]
+        self.assertIn("the method is for clay", of_clay[1])
         self.assertEqual(reason[0].count(","), 2)
         self.assertIn("a cone test is needed", reason[1])
         page = report.write(self.path).read_text(encoding="utf-8")
         self.assertIn("a cone test is needed (--cpt FILE).", page)
         (self.path / "cone.csv").write_text("depth_m,qc_kPa\n0,0\n3.5,7000\n")
         found = content.methods_of(Results(self.path))
-        self.assertEqual(found["reasons"], [])
+        self.assertEqual(found["reasons"], [of_clay])
         rows = [dict(zip(found["heads"], row)) for row in found["rows"]]
         self.assertEqual(rows[2]["computed"], "3000")
         self.assertEqual(rows[2]["DNV, most probable"], "2816")

@@ -300,6 +300,16 @@ namespace CaissonMPM
       origins.add_unused({"Soil/Fluid density"}, "Soil/Submerged is false");
   }
 
+  bool
+  Soil::has_walls() const
+  {
+    return std::any_of(materials.begin(),
+                       materials.end(),
+                       [](const SoilMaterial &m) {
+                         return m.wall_friction_angle || m.wall_adhesion;
+                       });
+  }
+
   std::vector<unsigned int>
   Soil::uppermost_materials() const
   {
@@ -313,10 +323,14 @@ namespace CaissonMPM
   unsigned int
   Soil::material_at(const double z) const
   {
-    unsigned int i = n_materials() - 1;
-    while (i > 0 && -z < materials[i].top_depth)
-      --i;
-    return i;
+    const auto below =
+      std::upper_bound(materials.begin(),
+                       materials.end(),
+                       -z,
+                       [](const double depth, const SoilMaterial &m) {
+                         return depth < m.top_depth;
+                       });
+    return below == materials.begin() ? 0 : below - materials.begin() - 1;
   }
 
   std::vector<double>

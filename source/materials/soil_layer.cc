@@ -59,6 +59,7 @@ namespace CaissonMPM
     , solid_density(soil.solid_density, Patterns::Double(1e-12))
     , permeability(soil.permeability, Patterns::Double(1e-20))
     , overconsolidation(1., Patterns::Double(1., 1e3))
+    , sensitivity(1., Patterns::Double(1., 1e3))
   {
     soil.layer = index;
     add_parameter("Top depth",
@@ -89,6 +90,35 @@ namespace CaissonMPM
     declare_earth_pressure();
     declare_permeability();
     declare_internal_length();
+    declare_walls();
+  }
+
+  void
+  SoilLayer::declare_walls()
+  {
+    add_word_or_profile(*this,
+                        "Friction angle of the walls",
+                        wall_friction_angle,
+                        "of the body",
+                        "The angle of friction between the layer and the inner "
+                        "and outer wall of the body, in the place of the "
+                        "body's own. Units: degrees.",
+                        Patterns::Double(0., 89.));
+    add_word_or_profile(
+      *this,
+      "Adhesion factor of the walls",
+      adhesion_factor,
+      "of the body",
+      "The adhesion between the layer and the inner and outer "
+      "wall of the body is this factor alpha times Cohesion "
+      "over Sensitivity, in the place of the body's own. "
+      "Units: none.",
+      Patterns::Double(0., 10.));
+    add_profile(*this,
+                "Sensitivity",
+                sensitivity,
+                "The strength of clay over that of the same clay after it has "
+                "been remoulded, as at the walls. Units: none.");
   }
 
   void
@@ -206,6 +236,10 @@ namespace CaissonMPM
     if (soil.internal_length == 0.)
       origins.add_unused({section() + "/Internal velocity"},
                          section() + "/Internal length is 0");
+    if (!adhesion_factor)
+      origins.add_unused({section() + "/Sensitivity"},
+                         section() +
+                           "/Adhesion factor of the walls is of the body");
     if (k0)
       origins.add_unused({section() + "/Overconsolidation ratio"},
                          section() + "/K0 is not auto");
@@ -233,6 +267,13 @@ namespace CaissonMPM
                                            &solid_density,
                                            &permeability,
                                            k0 ? k0.get() : &overconsolidation};
+    if (wall_friction_angle)
+      result.push_back(wall_friction_angle.get());
+    if (adhesion_factor)
+      {
+        result.push_back(adhesion_factor.get());
+        result.push_back(&sensitivity);
+      }
     const LawDescription &description = Kernels::law_table.law[law_named(law)];
     for (int i = 0; i < description.n_entries; ++i)
       result.push_back(&values.at(description.entries[i].name));
@@ -328,6 +369,21 @@ namespace CaissonMPM
         values.at(description.entries[i].name)(place));
   }
 
+  void
+  SoilLayer::set_walls(SoilMaterial &result, const PlaceInGround &place) const
+  {
+    if (wall_friction_angle)
+      result.wall_friction_angle = (*wall_friction_angle)(place);
+    if (!adhesion_factor)
+      return;
+    const auto cohesion = result.law_value("Cohesion");
+    if (!cohesion)
+      throw BadInput(adhesion_factor->name() + ", but the law " + law +
+                     " has no Cohesion. Set it to \"of the body\".");
+    result.wall_adhesion =
+      (*adhesion_factor)(place) * *cohesion / sensitivity(place);
+  }
+
   double
   SoilLayer::earth_pressure_at(const SoilMaterial  &material,
                                const PlaceInGround &place) const
@@ -358,6 +414,7 @@ namespace CaissonMPM
           vertical_stress * (1. + 2. * result.earth_pressure_at_rest) / 3.;
       }
     set_values(result, place);
+    set_walls(result, place);
     result.check();
     return result;
   }

@@ -30,15 +30,48 @@ namespace CaissonMPM
     on_body.assign(grid.n_nodes(), false);
     faces = find_contact_faces(grid);
     if (corner_normals == BodySurface::CornerNormals::split)
-      corners_.initialize(grid, faces, body);
-    collect_surface_nodes(grid, body);
+      corners_.initialize(grid, faces);
+    collect_surface_nodes(grid);
     collect_inner_nodes(grid);
     results.assign(nodes.size(), NodeResult());
+    set_strength(
+      [&body](const ContactFace &face) { return strength_of(body, face); });
   }
 
   void
-  Contact::collect_surface_nodes(const BackgroundGrid &grid,
-                                 const BodySurface    &body)
+  Contact::set_strength(const FindFaceStrength &find)
+  {
+    std::vector<double> areas(nodes.size(), 0.);
+    for (Node &node : nodes)
+      node.adhesion = 0.;
+    for (unsigned int f = 0; f < faces.size(); ++f)
+      {
+        const ContactFace &face     = faces[f];
+        const FaceStrength strength = find(face);
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            const int k = nodes_of_faces[f][i];
+            if (k < 0)
+              continue;
+            Node &node = nodes[k];
+            node.adhesion += strength.adhesion * face.areas[i];
+            if (face.surface != node.surface)
+              continue;
+            // the mean over the areas
+            const bool is_first = areas[k] == 0.;
+            areas[k] += face.areas[i];
+            if (is_first)
+              node.friction = strength.friction;
+            else
+              node.friction +=
+                (strength.friction - node.friction) * face.areas[i] / areas[k];
+          }
+      }
+    corners_.set_strength(faces, find);
+  }
+
+  void
+  Contact::collect_surface_nodes(const BackgroundGrid &grid)
   {
     std::map<unsigned int, Node> found;
     for (const ContactFace &face : faces)
@@ -55,23 +88,32 @@ namespace CaissonMPM
           if (node.n_normals == 0 ||
               (node.n_normals == 1 && node.normal[0] * face.normal < 1. - 1e-9))
             node.normal[node.n_normals++] = face.normal;
-          node.adhesion += body.adhesion[face.surface] * face.areas[i];
         }
     std::vector<unsigned int> n_rigid(grid.n_nodes(), 0);
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       for (const unsigned int node : grid.cell_nodes(cell).node)
         n_rigid[node] += grid.is_rigid(cell);
     nodes.clear();
+    std::map<unsigned int, int> index;
     for (auto &entry : found)
       {
         Node &node           = entry.second;
         node.concave         = n_rigid[node.node] == 3;
-        node.friction        = body.friction_coefficient(node.surface);
         on_body[entry.first] = true;
         if (corners_.is_corner(node.node))
           continue;
         find_normals(grid, node);
+        index[node.node] = nodes.size();
         nodes.push_back(node);
+      }
+    nodes_of_faces.clear();
+    for (const ContactFace &face : faces)
+      {
+        std::array<int, 2> own = {{-1, -1}};
+        for (unsigned int i = 0; i < 2; ++i)
+          if (index.count(face.nodes[i]) > 0)
+            own[i] = index[face.nodes[i]];
+        nodes_of_faces.push_back(own);
       }
   }
 

@@ -54,8 +54,7 @@ namespace CaissonMPM
 
   void
   ContactCorners::initialize(const BackgroundGrid           &grid,
-                             const std::vector<ContactFace> &faces,
-                             const BodySurface              &body)
+                             const std::vector<ContactFace> &faces)
   {
     n_owned_nodes = grid.n_owned_nodes();
     of_cell.assign(grid.n_nodes(), NodalSums());
@@ -83,7 +82,10 @@ namespace CaissonMPM
         Corner corner;
         corner.node = node;
         for (unsigned int i = 0; i < 2; ++i)
-          add_face(grid, body, *own[i].first, own[i].second, i, corner);
+          {
+            add_face(grid, *own[i].first, own[i].second, i, corner);
+            corner.face[i] = own[i].first - faces.data();
+          }
         corners.push_back(corner);
       }
     number_cells(grid);
@@ -92,25 +94,37 @@ namespace CaissonMPM
 
   void
   ContactCorners::add_face(const BackgroundGrid &grid,
-                           const BodySurface    &body,
                            const ContactFace    &face,
                            const unsigned int    end,
                            const unsigned int    i,
                            Corner               &corner)
   {
-    corner.normal[i]   = face.normal;
-    corner.surface[i]  = face.surface;
-    corner.friction[i] = body.friction_coefficient(face.surface);
-    corner.adhesion[i] = body.adhesion[face.surface] * face.areas[end];
-    Cell &cell         = corner.cells[i];
-    cell.cell          = face.soil_cell;
-    cell.corner        = face.corners[end];
-    cell.is_owned      = grid.is_owned(face.soil_cell);
-    cell.free          = face.is_vertical ? vertical : radial;
+    corner.normal[i]  = face.normal;
+    corner.surface[i] = face.surface;
+    corner.end[i]     = end;
+    Cell &cell        = corner.cells[i];
+    cell.cell         = face.soil_cell;
+    cell.corner       = face.corners[end];
+    cell.is_owned     = grid.is_owned(face.soil_cell);
+    cell.free         = face.is_vertical ? vertical : radial;
     // along the face, with the free component 1
     cell.q[radial]   = -face.normal[vertical];
     cell.q[vertical] = face.normal[radial];
     cell.q /= cell.q[cell.free];
+  }
+
+  void
+  ContactCorners::set_strength(const std::vector<ContactFace> &faces,
+                               const FindFaceStrength         &find)
+  {
+    for (Corner &corner : corners)
+      for (unsigned int i = 0; i < 2; ++i)
+        {
+          const ContactFace &face     = faces[corner.face[i]];
+          const FaceStrength strength = find(face);
+          corner.friction[i]          = strength.friction;
+          corner.adhesion[i] = strength.adhesion * face.areas[corner.end[i]];
+        }
   }
 
   void

@@ -46,6 +46,13 @@ namespace CaissonMPM
     }
   } // namespace
 
+  FaceStrength
+  strength_of(const BodySurface &body, const ContactFace &face)
+  {
+    return {body.friction_coefficient(face.surface),
+            body.adhesion[face.surface]};
+  }
+
   std::vector<ContactFace>
   find_contact_faces(const BackgroundGrid &grid)
   {

@@ -143,19 +143,22 @@ namespace CaissonMPM
       return result;
     }
 
-    /** What design methods need of a m. */
+    /** What design methods need of a material. */
     Json::Members
     about_material(const Soil &soil, const unsigned int i)
     {
       const SoilMaterial &m       = soil.material(i);
-      Json::Members       members = {{"top_depth_m", Json::number(m.top_depth)},
+      Json::Members       members = {{"layer", to_text(m.layer + 1)},
+                                     {"top_depth_m", Json::number(m.top_depth)},
                                      {"law", Json::text(m.law_name())},
                                      {"submerged_unit_weight_N_m3",
                                       Json::number(soil.unit_weight(m))},
                                      {"K0", Json::number(m.earth_pressure_at_rest)}};
       const std::pair<const char *, std::optional<double>> values[] = {
         {"friction_angle_deg", m.friction_angle()},
-        {"cohesion_Pa", m.law_value("Cohesion")}};
+        {"cohesion_Pa", m.law_value("Cohesion")},
+        {"wall_friction_angle_deg", m.wall_friction_angle},
+        {"wall_adhesion_Pa", m.wall_adhesion}};
       for (const auto &[name, value] : values)
         if (value)
           members.emplace_back(name, Json::number(*value));
@@ -174,6 +177,10 @@ namespace CaissonMPM
         members,
         {{"inner_wall_friction_angle_deg", Json::number(angles[inner_wall])},
          {"outer_wall_friction_angle_deg", Json::number(angles[outer_wall])}});
+      const auto &adhesion = parts.body.surface().adhesion;
+      append(members,
+             {{"inner_wall_adhesion_Pa", Json::number(adhesion[inner_wall])},
+              {"outer_wall_adhesion_Pa", Json::number(adhesion[outer_wall])}});
       std::string layers, frames;
       for (unsigned int i = 0; i < parts.soil.n_materials(); ++i)
         layers += (i > 0 ? ", " : "") +

@@ -228,11 +228,10 @@ namespace CaissonMPM
   void
   SceneReview::wall_friction()
   {
-    const BodyShape      &shape  = scene.body.shape();
-    const auto           &angles = scene.body.surface().friction_angle;
-    const double          depth  = shape.expands() ?
-                                     scene.lines.depth() :
-                                     scene.lines.total_travel() - shape.bottom();
+    const BodyShape      &shape = scene.body.shape();
+    const double          depth = shape.expands() ?
+                                    scene.lines.depth() :
+                                    scene.lines.total_travel() - shape.bottom();
     std::optional<double> of_soil; // of the weakest layer that is reached
     unsigned int          weakest = 0;
     for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
@@ -243,6 +242,10 @@ namespace CaissonMPM
           of_soil = angle;
           weakest = i;
         }
+    auto angles = scene.body.surface().friction_angle;
+    if (of_soil)
+      if (const auto own = scene.soil.material(weakest).wall_friction_angle)
+        angles[inner_wall] = angles[outer_wall] = *own;
     std::vector<Surface> rougher;
     for (const Surface s :
          {Surface::outer_wall, Surface::inner_wall, Surface::tip})
@@ -256,12 +259,14 @@ namespace CaissonMPM
     for (std::size_t i = 1; i < rougher.size(); ++i)
       others +=
         (i == 1 ? ", and so do those of the " : ", the ") + name_of(rougher[i]);
-    doubt("Rigid body/Friction angle of the " + name_of(rougher[0]),
+    const SoilMaterial &weak   = scene.soil.material(weakest);
+    const bool          is_own = weak.wall_friction_angle && rougher[0] != tip;
+    doubt(is_own ? weak.section() + "/Friction angle of the walls" :
+                   "Rigid body/Friction angle of the " + name_of(rougher[0]),
           angles[rougher[0]],
           "degrees",
-          "exceeds the friction angle of layer " +
-            to_text(scene.soil.material(weakest).layer + 1) + ", " +
-            to_text(*of_soil, 4) + " degrees" + others +
+          "exceeds the friction angle of layer " + to_text(weak.layer + 1) +
+            ", " + to_text(*of_soil, 4) + " degrees" + others +
             ": the soil beside such a wall fails before it slides on the wall. "
             "Set at most that angle; in clay, set 0 and an adhesion.");
   }

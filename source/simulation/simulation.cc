@@ -110,6 +110,11 @@ namespace CaissonMPM
       contact.open_lid(*filled, Mudline::touching);
     if (!body.motion().needs_response())
       timed("move body", [&]() { move_body(); });
+    if (soil.has_walls())
+      timed("contact", [&]() {
+        contact.set_strength(
+          [this](const ContactFace &face) { return strength_of_face(face); });
+      });
     const StepSize size = {clock.step_size,
                            time_step.courant_number_of_soil(clock.step_size)};
     timed("points to grid", [&]() {

@@ -75,6 +75,11 @@ namespace CaissonMPM
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");
     place_lines();
+    if (body.shape().expands() && soil.has_walls())
+      throw BadInput(
+        "the expanding cylinder takes its friction from Rigid body/"
+        "Friction angle of the outer wall. Remove the entries on "
+        "walls from the layers in Soil.");
     recorder.check_parameters();
     kernels = Kernels::select_kernels(instruction_set.c_str());
   }
@@ -283,6 +288,21 @@ namespace CaissonMPM
   {
     return std::sqrt(materials[material].p_wave_modulus /
                      soil.inertial_density(material));
+  }
+
+  FaceStrength
+  Simulation::strength_of_face(const ContactFace &face) const
+  {
+    FaceStrength strength = strength_of(body.surface(), face);
+    if (face.surface != inner_wall && face.surface != outer_wall)
+      return strength;
+    const double z = .5 * (grid.z_of(face.nodes[0]) + grid.z_of(face.nodes[1]));
+    const SoilMaterial &m = soil.material(soil.material_at(z));
+    if (m.wall_friction_angle)
+      strength.friction = std::tan(radians(*m.wall_friction_angle));
+    if (m.wall_adhesion)
+      strength.adhesion = *m.wall_adhesion;
+    return strength;
   }
 
   void

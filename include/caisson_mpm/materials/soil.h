@@ -74,6 +74,11 @@ namespace CaissonMPM
       return materials[i];
     }
 
+    /** Whether a material has a friction angle or adhesion of its own at the
+     * walls of the body. */
+    bool
+    has_walls() const;
+
     /** Return the uppermost material of each layer. */
     std::vector<unsigned int>
     uppermost_materials() const;

@@ -83,6 +83,8 @@ namespace CaissonMPM
     declare_internal_length();
     void
     declare_permeability();
+    void
+    declare_walls();
 
     /** The profiles in use. */
     std::vector<const Profile *>
@@ -90,6 +92,9 @@ namespace CaissonMPM
 
     double
     porosity_at(const PlaceInGround &place) const;
+
+    void
+    set_walls(SoilMaterial &result, const PlaceInGround &place) const;
 
     /** Set what depends on the mean stress; K0 not yet. */
     void
@@ -102,8 +107,11 @@ namespace CaissonMPM
     SoilMaterial soil; // the numbers that cannot change
     std::string  law = "Mohr-Coulomb";
     Profile      porosity, solid_density, permeability, overconsolidation;
-    std::unique_ptr<Profile> k0;               // none: the law's own
-    std::unique_ptr<Profile> relative_density; // none: the porosity counts
+    std::unique_ptr<Profile> k0;                  // none: the law's own
+    std::unique_ptr<Profile> relative_density;    // none: the porosity counts
+    std::unique_ptr<Profile> wall_friction_angle; // none: that of the body
+    std::unique_ptr<Profile> adhesion_factor;     // none: the body's adhesion
+    Profile                  sensitivity;
     double                   minimum_void_ratio = 0., maximum_void_ratio = 0.;
 
     /** The entries of all laws by name, in the units of the entries. */

@@ -36,8 +36,11 @@ namespace CaissonMPM
     double permeability           = 1e-4;  // vertical, m/s
     double anisotropy             = 1.;    // horizontal over vertical
     bool   loosening_conducts     = false;
-    double internal_length        = 0.;  // m
-    double internal_velocity      = 0.1; // m/s
+    std::optional<double> wall_friction_angle; // degrees; none: the body's
+    std::optional<double> wall_adhesion;       // Pa; none: the body's
+
+    double internal_length   = 0.;  // m
+    double internal_velocity = 0.1; // m/s
 
     /** "Soil/Layer k", with k from 1. */
     std::string

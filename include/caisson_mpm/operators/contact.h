@@ -49,6 +49,11 @@ namespace CaissonMPM
     void
     initialize(const BackgroundGrid &grid, const BodySurface &body);
 
+    /** Give the faces another strength than that of the body's entries, for
+     * instance that of the soil beside them. */
+    void
+    set_strength(const FindFaceStrength &find);
+
     bool
     empty() const
     {
@@ -218,7 +223,7 @@ namespace CaissonMPM
          const double      *u) const;
 
     void
-    collect_surface_nodes(const BackgroundGrid &grid, const BodySurface &body);
+    collect_surface_nodes(const BackgroundGrid &grid);
     /** Add the reactions of the corners. */
     void
     add_corners(ContactResult &sums, Vector2 &total) const;
@@ -232,13 +237,14 @@ namespace CaissonMPM
     void
     collect_inner_nodes(const BackgroundGrid &grid);
 
-    std::vector<ContactFace>   faces;
-    ContactCorners             corners_;
-    std::vector<Node>          nodes;       // but for corners_
-    std::vector<unsigned int>  inner_nodes; // inside the body
-    std::vector<NodeResult>    results;     // of the nodes, in the last step
-    std::vector<bool>          on_body;
-    BodySurface::CornerNormals corner_normals =
+    std::vector<ContactFace>        faces;
+    std::vector<std::array<int, 2>> nodes_of_faces; // -1: one of corners_
+    ContactCorners                  corners_;
+    std::vector<Node>               nodes;       // but for corners_
+    std::vector<unsigned int>       inner_nodes; // inside the body
+    std::vector<NodeResult>         results; // of the nodes, in the last step
+    std::vector<bool>               on_body;
+    BodySurface::CornerNormals      corner_normals =
       BodySurface::CornerNormals::average;
     Vector2      velocity;
     double       circumference = 2. * pi;

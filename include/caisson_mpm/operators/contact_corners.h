@@ -55,8 +55,12 @@ namespace CaissonMPM
     /** Set up for the corners among the @p faces. */
     void
     initialize(const BackgroundGrid           &grid,
-               const std::vector<ContactFace> &faces,
-               const BodySurface              &body);
+               const std::vector<ContactFace> &faces);
+
+    /** Set the strength of the faces, which are those of initialize(). */
+    void
+    set_strength(const std::vector<ContactFace> &faces,
+                 const FindFaceStrength         &find);
 
     /** Return whether the node is one of the corners. */
     bool
@@ -180,15 +184,16 @@ namespace CaissonMPM
     /** Both faces of a corner, and the cell at each. */
     struct Corner
     {
-      unsigned int           node;
-      bool                   has_soil = false;
-      std::array<Cell, 2>    cells;
-      std::array<Vector2, 2> normal;
-      std::array<Surface, 2> surface;
-      std::array<double, 2>  friction, adhesion; // adhesion: a A, N per radian
-      std::array<bool, 2>    sticks = {{false, false}}; // by component
-      CornerReaction         reaction;
-      Vector2                old; // the velocity before the step
+      unsigned int                node;
+      bool                        has_soil = false;
+      std::array<Cell, 2>         cells;
+      std::array<Vector2, 2>      normal;
+      std::array<Surface, 2>      surface;
+      std::array<unsigned int, 2> face, end;    // among the faces; its node
+      std::array<double, 2> friction, adhesion; // adhesion: a A, N per radian
+      std::array<bool, 2>   sticks = {{false, false}}; // by component
+      CornerReaction        reaction;
+      Vector2               old; // the velocity before the step
     };
 
     /** What a cell brings to its corner. */
@@ -200,7 +205,6 @@ namespace CaissonMPM
 
     void
     add_face(const BackgroundGrid &grid,
-             const BodySurface    &body,
              const ContactFace    &face,
              const unsigned int    end,
              const unsigned int    i,

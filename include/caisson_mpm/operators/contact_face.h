@@ -9,6 +9,7 @@
 #include <caisson_mpm/domain/background_grid.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace CaissonMPM
@@ -24,6 +25,20 @@ namespace CaissonMPM
     std::array<double, 2>       areas;  // int N_I r ds
     Surface                     surface;
   };
+
+  /** What a face bears along itself: the tangent of its friction angle, and its
+   * adhesion in Pa. */
+  struct FaceStrength
+  {
+    double friction, adhesion;
+  };
+
+  /** Gives the strength of a face. */
+  using FindFaceStrength = std::function<FaceStrength(const ContactFace &)>;
+
+  /** The strength of a face by the entries of the body. */
+  FaceStrength
+  strength_of(const BodySurface &body, const ContactFace &face);
 
   /** Find all faces of the body in the cells that this rank knows. */
   std::vector<ContactFace>

@@ -130,6 +130,11 @@ namespace CaissonMPM
     /** What would make a long run shorter, in words. */
     std::vector<std::string>
     ways_to_save() const;
+    /** Return the strength of a face: that of the body's entries, or on a wall
+     * that of the layer at its depth. */
+    FaceStrength
+    strength_of_face(const ContactFace &face) const;
+
     /** Return the speed of compression waves in a material, with mass scaling.
      * Units: m/s. */
     double

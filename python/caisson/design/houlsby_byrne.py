@@ -79,6 +79,7 @@ class Layer:
     unit_weight: float  # effective, N/m3
     friction_angle: float
     lateral_stress_ratio: float  # K
+    wall_friction_angle: float | None = None  # None: that of the wall
 
     def weight_under(self, added: float) -> float:
         """Return the unit weight with what flow adds to it, but not below 0."""
@@ -115,7 +116,9 @@ class Wall:
         """Return the vertical stress below a piece of a layer, from that above
         it, and the friction on the piece. added: to the unit weight, by flow."""
         weight = layer.weight_under(added)
-        k_tan = layer.lateral_stress_ratio * self.tan_delta
+        own = layer.wall_friction_angle
+        tan_delta = self.tan_delta if own is None else tan(radians(own))
+        k_tan = layer.lateral_stress_ratio * tan_delta
         d, z = thickness, self.reach / k_tan if k_tan > 0 else inf
         if enhanced and z < inf:
             growth = exp(d / z) - 1

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from caisson.design import andersen, dnv, senders_randolph
+from caisson.design import andersen, clay, dnv, senders_randolph
 from caisson.design.cone import Profile, Skirt, of_run
 from caisson.design.houlsby_byrne import Caisson, HoulsbyByrne, Layer
 from caisson.design.method import Forces, Method
@@ -39,10 +39,15 @@ class Site(NamedTuple):
     is_running: bool = False  # and has left no run.json yet
 
     def layers(self, deepest: float) -> list[tuple[int, Scene]]:
-        """Return the layers that begin above a depth (m), with their numbers. Older
-        files have no list of layers, but what counts for the only layer."""
+        """Return the layers that begin above a depth (m), with their numbers; a
+        layer whose numbers change with depth is several. Older files have no list of
+        layers, but what counts for the only layer."""
         pairs = enumerate(self.scene.get("layers", [self.scene]), 1)
-        return [(i, e) for i, e in pairs if i == 1 or top_of(e) < deepest]
+        return [
+            (int(e.get("layer", i)), e)
+            for i, e in pairs
+            if i == 1 or top_of(e) < deepest
+        ]
 
 
 def site_of(run: Results) -> Site:
@@ -76,6 +81,7 @@ def layer_of(entry: Scene, number: int) -> Layer:
         unit_weight=float(entry["submerged_unit_weight_N_m3"]),
         friction_angle=float(entry["friction_angle_deg"]),
         lateral_stress_ratio=float(entry["K0"]),
+        wall_friction_angle=entry.get("wall_friction_angle_deg"),
     )
 
 
@@ -155,9 +161,17 @@ def soils_of(site: Site, deepest: float) -> list[tuple[float, str]]:
 
 def sand_only(site: Site, deepest: float) -> None:
     """Raise NotApplicable where a layer is no sand, or not drained."""
-    for i, (_, soil) in enumerate(soils_of(site, deepest), 1):
-        if soil != "sand":
-            raise NotApplicable(f"layer {i} is {soil}, and the method is for sand")
+    only(site, deepest, "sand")
+
+
+def only(site: Site, deepest: float, soil: str) -> None:
+    """Raise NotApplicable where a layer is another soil."""
+    numbers = [number for number, _ in site.layers(deepest)]
+    for number, (_, found) in zip(numbers, soils_of(site, deepest)):
+        if found != soil:
+            raise NotApplicable(
+                f"layer {number} is {found}, and the method is for {soil}"
+            )
 
 
 def cone_of(site: Site) -> Profile:
@@ -194,6 +208,28 @@ def andersen_of(site: Site, deepest: float) -> Method:
     return andersen.method(skirt, cone_of(site))
 
 
+def clay_of(site: Site, deepest: float) -> Method:
+    """Return the method of clay for a site. Raises NotApplicable."""
+    skirt = skirt_of(site)
+    only(site, deepest, "clay")
+    layers = [
+        clay.Layer(
+            top_of(entry),
+            float(entry["submerged_unit_weight_N_m3"]),
+            float(entry["cohesion_Pa"]),
+            *(adhesion(site.scene, entry, side) for side in ("inner", "outer")),
+        )
+        for _, entry in site.layers(deepest)
+    ]
+    return clay.Clay(skirt, layers)
+
+
+def adhesion(scene: Scene, entry: Scene, side: str) -> float:
+    """Return the adhesion of a layer on a wall (Pa)."""
+    of_body = scene.get(f"{side}_wall_adhesion_Pa", 0.0)
+    return float(entry.get("wall_adhesion_Pa", of_body))
+
+
 class Description(NamedTuple):
     """A method: its name, the beginning of its columns, and its color in pictures."""
 
@@ -223,6 +259,7 @@ METHODS = (
     Description(
         "Andersen et al. (2008)", "andersen", "#7b3294", andersen.CASES, andersen_of
     ),
+    Description("Strength of clay", "clay", "#666666", clay.CASES, clay_of),
 )
 
 
