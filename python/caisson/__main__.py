@@ -25,6 +25,7 @@ COMMANDS = {
     "curve": ("caisson.curve", "print forces and other numbers of runs"),
     "study": (STUDY, "run any study and evaluate it"),
     "verify": (STUDY, "run the verification ladder"),
+    "validate": (STUDY, "hold runs against measurements"),
     "stability": (STUDY, "run the hard scenes of prm/stability"),
     "accuracy": (STUDY, "measure error against time over meshes and methods"),
     "error-bar": (STUDY, "make the error bar of prm/jack.prm"),

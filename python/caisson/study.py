@@ -3,8 +3,8 @@
 
 All studies have one format. A file (TOML) says what it is for,
 
-    kind = "verification"   # or accuracy, error bar, stability, forces,
-                            # parameters, drainage, speed
+    kind = "verification"   # or validation, accuracy, error bar, stability,
+                            # forces, parameters, drainage, speed
 
 and holds studies, or is one itself if it holds none (its id is then its name):
 
@@ -41,8 +41,8 @@ name of a run is made of its variant, mesh and own name, as far as it has them.
 A file that is one study takes all of its [variants].
 
 What a study is for takes further keys, of the study or its runs; each kind says
-which (caisson.verification, accuracy, error_bar, stability, forces, parameters,
-drainage, speed). A kind may make the runs of a study itself, from keys of its own. A
+which (caisson.verification, validation, accuracy, error_bar, stability, forces,
+parameters, drainage, speed). A kind may make the runs of a study itself, from keys of its own. A
 key that nobody knows is an error, so that no misspelt one is left out in silence.
 
 A run that is complete is not repeated while the program, all entries in effect

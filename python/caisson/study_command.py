@@ -29,6 +29,7 @@ from caisson.study import (
 # the studies of the project that have a command of their own
 OWN = {
     "verify": SCENES / "verification/ladder.toml",
+    "validate": SCENES / "validation/validation.toml",
     "accuracy": SCENES / "verification/accuracy.toml",
     "stability": SCENES / "stability/stability.toml",
     "error-bar": SCENES / "jack_study.toml",
@@ -39,6 +40,7 @@ OWN = {
 }
 KINDS = {
     "verification": "caisson.verification",
+    "validation": "caisson.validation",
     "accuracy": "caisson.accuracy",
     "stability": "caisson.stability",
     "error bar": "caisson.error_bar",
