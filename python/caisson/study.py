@@ -42,8 +42,9 @@ A file that is one study takes all of its [variants].
 
 What a study is for takes further keys, of the study or its runs; each kind says
 which (caisson.verification, validation, accuracy, error_bar, stability, forces,
-parameters, drainage, speed). A kind may make the runs of a study itself, from keys of its own. A
-key that nobody knows is an error, so that no misspelt one is left out in silence.
+parameters, drainage, speed). A kind may make the runs of a study itself, from keys of
+its own. A key that nobody knows is an error, so that no misspelt one is left out in
+silence.
 
 A run that is complete is not repeated while the program, all entries in effect
 and the ranks are the same (caisson.run.Run).

@@ -4,7 +4,7 @@
 A study of this kind has two keys of its own,
 
     compare = "triaxial"       # the module of caisson.validation that compares
-    measured = "triaxial.csv"  # what was measured, relative to the file of the study
+    measured = "triaxial.csv"  # what was measured, if that is in a file beside it
 
 and its runs are made by that module. It writes a picture and rows of a table; each row
 is a quantity, what was computed, what is asked, and whether that is met. A shortfall
@@ -26,7 +26,7 @@ from caisson.validation.verdict import COLUMNS, Row
 NAME = "validation"
 STUDY_KEYS = {"compare", "measured"}
 RUN_KEYS = set[str]()
-COMPARISONS = ("triaxial",)
+COMPARISONS = ("triaxial", "cone_clay")
 
 
 class Comparison(Protocol):
@@ -50,9 +50,10 @@ def comparison_of(keys: Mapping[str, Any]) -> Comparison:
 
 
 def measured_of(directory: Path, keys: Mapping[str, Any]) -> Path:
-    """Return the file of measurements. Raises StudyError."""
+    """Return the file of measurements, the directory where there is none. Raises
+    StudyError."""
     path = directory / keys.get("measured", "")
-    if not path.is_file():
+    if "measured" in keys and not path.is_file():
         raise StudyError(f"measured: there is no file {path}")
     return path
 
