@@ -46,7 +46,7 @@ def comparison_of(keys: Mapping[str, Any]) -> Comparison:
         names = ", ".join(COMPARISONS)
         raise StudyError(f"compare is {name!r}, not one of {names}")
     module: Any = importlib.import_module(f"caisson.validation.{name}")
-    return module  # type: ignore[no-any-return]
+    return module
 
 
 def measured_of(directory: Path, keys: Mapping[str, Any]) -> Path:
