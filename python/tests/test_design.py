@@ -43,6 +43,22 @@ class BearingCapacity(unittest.TestCase):
             found = factors(Footing(0, circular, rough), 40)["Nc"]
             np.testing.assert_allclose(found, exact, rtol=2e-4)
 
+    def test_strength_that_grows(self) -> None:
+        """A strip on 1 + k z, of half-width 1. For small k, the mechanism of Hill
+        dissipates 2 + pi + 2 k: its slip lines at 45 degrees bear 0.25 k each, the arc
+        k, and the fan k / 2. The rough strip bears more."""
+        smooth = [self.gradient(k, rough=False) for k in (0.0, 0.01, 2.0)]
+        self.assertAlmostEqual(smooth[0], 2 + np.pi, places=4)
+        self.assertAlmostEqual((smooth[1] - smooth[0]) / 0.01, 2.0, delta=0.03)
+        self.assertLess(smooth[2], self.gradient(2.0, rough=True))
+        self.assertAlmostEqual(smooth[2], self.gradient(2.0, False, 40), delta=0.01)
+
+    @staticmethod
+    def gradient(k: float, rough: bool, lines: int = 80) -> float:
+        """Return the pressure on a strip on clay of the strength 1 + k z."""
+        footing = Footing(0.0, False, rough, cohesion=1.0, gradient=k)
+        return converged(footing, lines)
+
     def test_surcharge(self) -> None:
         for (circular, rough), exact in NQ.items():
             found = factors(Footing(30, circular, rough), 60, False)

@@ -38,7 +38,7 @@ def depths(text: str) -> list[float]:
         )
     if len(found) > layers.MOST:
         raise argparse.ArgumentTypeError(
-            f"{text!r} has {len(found)} layers; a scene has at most {layers.MOST}"
+            f"{text!r} has {len(found)} layers; at most {layers.MOST} are taken"
         )
     return found
 

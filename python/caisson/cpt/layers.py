@@ -27,7 +27,7 @@ from caisson.cpt.ground import Ground, kind_of
 SPACING = 0.05  # m
 STEP = 0.2  # in log10 Q_tn: a factor of 1.6
 THINNEST = 0.5  # m
-MOST = 5  # layers, as many as a scene has
+MOST = 20  # layers; each is at least THINNEST thick
 TRANSITION = 0.1  # m at a boundary, whose rows do not count
 THINNEST_LENS = 0.1  # m
 

@@ -19,7 +19,9 @@ has two families of characteristics (Sokolovskii 1965; Cox, Eason and Hopkins
     B, at psi - e:  cos phi dp - 2 R dpsi = -(k 2 R sin psi sin e / r
                                               - gamma sin(psi + e)) ds
 
-with k = 1 for a circle and 0 for a strip. The net is that of Martin (2005),
+with k = 1 for a circle and 0 for a strip. Where phi = 0 and the cohesion grows with
+depth by c' per meter, the right-hand sides gain -c' cos(psi - e) ds and
+-c' cos(psi + e) ds. The net is that of Martin (2005),
 Exact bearing capacity calculations using the method of characteristics, Proc.
 11th IACMAG, Turin: A-lines start on the surface, pass beneath the edge, where
 rays of family B spread as a fan, and come up to the footing or to the ray that
@@ -54,6 +56,7 @@ class Footing:
     cohesion: float = 0.0  # Pa
     surcharge: float = 0.0  # Pa
     weight: float = 0.0  # of the soil (N/m3)
+    gradient: float = 0.0  # of the cohesion over depth, where phi = 0 (Pa/m)
 
     @property
     def friction(self) -> float:
@@ -77,16 +80,16 @@ class Footing:
             return self.surcharge + self.cohesion
         return (self.surcharge + self.shift) / (1 - sin(self.friction))
 
-    def radius(self, p: Array) -> Array:
+    def radius(self, p: Array, z: Array) -> Array:
         """Return R where the shifted p is this."""
         if self.phi == 0:
-            return np.full_like(p, self.cohesion)
+            return self.cohesion + self.gradient * z
         return p * sin(self.friction)
 
-    def mean_radius(self, p: Array, q: Array) -> Array:
-        """Return the logarithmic mean of R."""
+    def mean_radius(self, p: Array, q: Array, z: Array) -> Array:
+        """Return the logarithmic mean of R; z: the mean depth."""
         if self.phi == 0:
-            return np.full_like(p, self.cohesion)
+            return self.cohesion + self.gradient * z
         x = np.log(np.maximum(q / p, 1e-300))  # below 0 only while iterating
         small = np.abs(x) < 1e-3
         mean = (q - p) / np.where(small, 1.0, x)
@@ -140,8 +143,12 @@ def meeting(
         turn_b = turn_b - 4 * sin(e) * np.sin(psi_b) / (b.r + r) * ds_b
     weight_a = footing.weight * np.sin(psi_a - e) * ds_a
     weight_b = footing.weight * np.sin(psi_b + e) * ds_b
-    left_a = c * (p - a.p) + footing.mean_radius(a.p, p) * turn_a + weight_a
-    left_b = c * (p - b.p) - footing.mean_radius(b.p, p) * turn_b - weight_b
+    radius_a = footing.mean_radius(a.p, p, 0.5 * (a.z + z))
+    radius_b = footing.mean_radius(b.p, p, 0.5 * (b.z + z))
+    left_a = c * (p - a.p) + radius_a * turn_a + weight_a
+    left_b = c * (p - b.p) - radius_b * turn_b - weight_b
+    left_a = left_a + footing.gradient * np.cos(psi_a - e) * ds_a
+    left_b = left_b + footing.gradient * np.cos(psi_b + e) * ds_b
     return r, z, left_a, left_b
 
 
@@ -183,11 +190,11 @@ def point_on_base(footing: Footing, a: Front, psi: float) -> Front:
     if footing.circular:
         turn = turn + 4 * sin(e) * np.sin(middle) / (a.r + r) * ds
     weight = footing.weight * np.sin(middle - e) * ds
+    weight = weight + footing.gradient * np.cos(middle - e) * ds
     p = a.p
     for _ in range(80):
-        new = a.p - (footing.mean_radius(a.p, p) * turn + weight) / cos(
-            footing.friction
-        )
+        radius = footing.mean_radius(a.p, p, 0.5 * a.z)
+        new = a.p - (radius * turn + weight) / cos(footing.friction)
         done = not abs(new[0] / p[0] - 1) > 1e-14
         p = new
         if done:
@@ -283,13 +290,13 @@ def integral(weight: Array, x: Array) -> float:
 def load_on_base(footing: Footing, base: Front) -> float:
     """Return the load on this part of the footing, per pi or per half strip."""
     normal = base.p - footing.shift
-    normal = normal + footing.radius(base.p) * np.cos(2 * base.psi)
+    normal = normal + footing.radius(base.p, base.z) * np.cos(2 * base.psi)
     return -integral(normal * (2 * base.r if footing.circular else 1.0), base.r)
 
 
 def load_on_ray(footing: Footing, ray: Front) -> float:
     """Return what the soil below a ray bears, less the soil above it."""
-    radius = footing.radius(ray.p)
+    radius = footing.radius(ray.p, ray.z)
     vertical = ray.p - footing.shift + radius * np.cos(2 * ray.psi)
     shear = radius * np.sin(2 * ray.psi)
     ring = 2 * ray.r if footing.circular else np.ones_like(ray.r)
@@ -402,6 +409,8 @@ def pressure(footing: Footing, n_lines: int) -> float:
     if footing.weight > 0:
         finest = footing.surface_p / footing.weight
         mesh = mesh._replace(finest=finest)
+    if footing.gradient > 0:
+        mesh = mesh._replace(finest=min(footing.cohesion / footing.gradient, 1.0))
     if footing.rough:
         return RoughNet(footing, mesh).pressure()
     return smooth_pressure(footing, mesh)

@@ -26,7 +26,14 @@ from caisson.validation.verdict import COLUMNS, Row
 NAME = "validation"
 STUDY_KEYS = {"compare", "measured"}
 RUN_KEYS = set[str]()
-COMPARISONS = ("triaxial", "cone_clay")
+COMPARISONS = (
+    "triaxial",
+    "cone_clay",
+    "cone_coefficients",
+    "cone_layers",
+    "cone_sand",
+    "model_caisson",
+)
 
 
 class Comparison(Protocol):

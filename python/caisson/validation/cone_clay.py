@@ -51,11 +51,11 @@ class Case(NamedTuple):
             "Soil/Uniform stress": f"{radial:g}, 0, {radial:g}, 0",
             "Rigid body/Adhesion of the tip": self.roughness * STRENGTH,
             "Rigid body/Initial penetration": 0.12 * size,
-            "Rigid body/Skirt length": 0.5 * size,
-            "Time/End penetration": 0.33 * size,
+            "Rigid body/Skirt length": 0.7 * size,
+            "Time/End penetration": 0.5 * size,
             "Grid/Outer radius": 0.5 * size,
-            "Grid/Bottom": -0.8 * size,
-            "Grid/Top": 0.5 * size,
+            "Grid/Bottom": -1.0 * size,
+            "Grid/Top": 0.7 * size,
         }
 
 
@@ -99,7 +99,7 @@ def runs_of(_: Path) -> list[dict[str, Any]]:
     return [
         {
             "name": f"{case.name}_R{n}",
-            "seconds": 15 * n**2 * case.rigidity / 100,
+            "seconds": 10 * n**2 * case.rigidity / 100,
             "set": {**case.entries(), "Rigid body/Cells across the wall": n},
         }
         for case in CASES
