@@ -26,7 +26,7 @@ def runs_of(_: Path) -> list[dict[str, Any]]:
     return [
         {
             "name": f"wall_{angle}",
-            "seconds": 700,
+            "seconds": 230,
             "set": {f"Rigid body/Friction angle of the {s}": angle for s in SURFACES},
         }
         for angle in ANGLES
