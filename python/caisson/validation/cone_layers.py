@@ -127,6 +127,6 @@ def draw(figure: Figure, computed: Curve, measured: Curve) -> None:
     for value in HOMOGENEOUS.values():
         axes.axvline(value, color="0.6", lw=0.8, ls="--")
     axes.set(xlabel="q$_c$ (MPa)", ylabel="depth of the base of the cone (m)")
-    axes.set(xlim=(0, 2.4), ylim=(1, 0), title="grey: clay; dashed: in one soil alone")
+    axes.set(xlim=(0, 2.4), ylim=(1, 0), title="gray: clay; dashed: in one soil alone")
     axes.title.set_fontsize(9)
     axes.legend()
