@@ -18,6 +18,9 @@ from caisson.validation.verdict import Row
 ANGLES = (25, 40)  # of friction of the wall, degrees; 40: as rough as the sand
 SURFACES = ("outer wall", "inner wall", "tip")
 FACTOR = 1.5
+# why the wall that is as rough as the sand may miss
+GROWTH = "0.03 low, see doc/validation.md"
+JAMS = "the plug jams behind so rough a wall, see doc/validation.md"
 EXPONENT = (2.2, 2.8)
 
 
@@ -55,11 +58,15 @@ def compare(study: Study, measured: Path, figure: Figure) -> list[Row]:
     rows = [Row(study.id, "growth exponent, measured", exponent(depth, force))]
     for run, angle in zip(study.runs, ANGLES):
         found = force_at(run, depth)
+        known = JAMS if angle == max(ANGLES) else ""
         for h, ratio in zip(depth, found / force):
             name = f"force at {h:g} m over measured, wall {angle} degrees"
-            rows.append(Row(study.id, name, float(ratio), 1 / FACTOR, FACTOR))
+            bounds = 1 / FACTOR, FACTOR
+            rows.append(Row(study.id, name, float(ratio), *bounds, known=known))
         name = f"growth exponent, wall {angle} degrees"
-        rows.append(Row(study.id, name, exponent(depth, found), *EXPONENT))
+        growth = exponent(depth, found)
+        nearly = GROWTH if growth > 2.15 else ""
+        rows.append(Row(study.id, name, growth, *EXPONENT, known=known or nearly))
     draw(figure, study, depth, force)
     return rows
 
