@@ -76,6 +76,16 @@ check_constant()
               g.soil.n_materials());
 }
 
+/** An expression without a variable is a number. */
+void
+check_constant_expression()
+{
+  const Ground g("subsection Layer 1\nset Youngs modulus = 300*5e3\nend\n");
+  std::printf("a constant expression: %u material, %g Pa\n",
+              g.soil.n_materials(),
+              *g.soil.material(0).law_value("Youngs modulus"));
+}
+
 void
 check_strength()
 {
@@ -192,7 +202,11 @@ check_refusals()
         "set Maximum void ratio = 0.9\nset Solid density = 1e-3",
         "set Friction angle = 30 - 4*d\nset Dilatancy angle = 10",
         "set Cohesion = 1e3*log(d - 5)",
-        "set Cohesion = 1e3*(d"})
+        "set Cohesion = 1e3*(d",
+        "set Cohesion = 1e3*(2 + r)",
+        "set Relative density = 0.5\nset Maximum void ratio = 0.9",
+        "set Overconsolidation ratio = 1 + 100e3/s",
+        "set K0 = 0.4 + 1e-6*p"})
     try
       {
         const Ground g("subsection Layer 1\n" + layer + "\nend\n");
@@ -208,6 +222,7 @@ int
 main()
 {
   check_constant();
+  check_constant_expression();
   check_strength();
   check_stiffness_by_stress();
   check_relative_density();

@@ -314,7 +314,8 @@ class Layers(WithFiles):
         self.assertEqual([e.layer.top for e in found.layers], [0, 1, 5.5])
         with self.assertRaisesRegex(ResultsError, "no row .* choose other --tops"):
             interpretation.interpret(EXAMPLE, options("--tops", "0,30"))
-        for text in ("1,2", "0,3,2", "0,1,2,3,4,5", "0,a"):
+        many = ",".join(str(i) for i in range(21))
+        for text in ("1,2", "0,3,2", many, "0,a"):
             with contextlib.redirect_stderr(io.StringIO()):
                 with self.assertRaises(SystemExit):
                     options("--tops", text)

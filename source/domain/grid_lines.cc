@@ -221,6 +221,15 @@ namespace CaissonMPM
     return row >= (column < body_column_begin ? lid_row_begin : body_row_begin);
   }
 
+  std::vector<double>
+  GridLines::row_lines() const
+  {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < rows.size(); i += std::size_t(1) << levels)
+      result.push_back(rows[i]);
+    return result;
+  }
+
   Point<2>
   GridLines::free_node_start(const LatticeNode &node) const
   {

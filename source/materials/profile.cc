@@ -42,7 +42,13 @@ namespace CaissonMPM
       return owner.get_section_name().substr(1) + "/" + entry;
     }
 
-    constexpr const char *stresses = "sp", *variables = "dsp";
+    /** Whether a text is more than a number or a word. */
+    bool
+    is_expression(const std::string &text)
+    {
+      return has_variable(text, "dsp") ||
+             text.find_first_of("*/^(<>&|?") != std::string::npos;
+    }
   } // namespace
 
 
@@ -58,7 +64,7 @@ namespace CaissonMPM
     text  = new_text;
     entry = new_entry;
     function.reset();
-    if (has_variable(text, variables))
+    if (is_expression(text))
       function =
         parse_function<3>(text, "d,s,p", Point<3>(1., 1e4, 1e4), name());
     else
@@ -66,9 +72,9 @@ namespace CaissonMPM
   }
 
   bool
-  Profile::knows_stress() const
+  Profile::depends_on(const std::string &letters) const
   {
-    return !is_constant() && has_variable(text, stresses);
+    return !is_constant() && has_variable(text, letters);
   }
 
   double
@@ -113,7 +119,7 @@ namespace CaissonMPM
   bool
   ProfilePattern::match(const std::string &text) const
   {
-    return number->match(text) || has_variable(text, variables);
+    return number->match(text) || is_expression(text);
   }
 
   std::string

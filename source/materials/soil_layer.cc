@@ -319,16 +319,22 @@ namespace CaissonMPM
         throw BadInput(p->name() +
                        " depends on s or p, the stress at the start, which "
                        "follows from it. Write it with the depth d alone.");
+    for (const Profile *const p :
+         {static_cast<const Profile *>(k0.get()), &overconsolidation})
+      if (p != nullptr && p->depends_on("p"))
+        throw BadInput(p->name() +
+                       " depends on p, the mean stress at the start, which "
+                       "follows from it. Write it with d and s.");
     if (!relative_density)
       return;
     if (relative_density->knows_stress())
       throw BadInput(relative_density->name() +
                      " depends on s or p, the stress at the start, which "
                      "follows from it. Write it with the depth d alone.");
-    if (minimum_void_ratio >= maximum_void_ratio)
+    if (minimum_void_ratio <= 0. || minimum_void_ratio >= maximum_void_ratio)
       throw BadInput(section() + "/Relative density needs " + section() +
                      "/Minimum void ratio = " + to_text(minimum_void_ratio) +
-                     " below Maximum void ratio = " +
+                     " above 0 and below Maximum void ratio = " +
                      to_text(maximum_void_ratio) + ". Set both.");
   }
 
@@ -415,7 +421,22 @@ namespace CaissonMPM
       }
     set_values(result, place);
     set_walls(result, place);
-    result.check();
+    try
+      {
+        result.check();
+      }
+    catch (const BadInput &error)
+      {
+        if (!varies())
+          throw;
+        throw BadInput(std::string(error.what()) +
+                       " These are the numbers at a depth of " +
+                       to_text(depth, 4) + " m" +
+                       (k0 || overconsolidation.is_constant() ?
+                          "" :
+                          ", with " + overconsolidation.name()) +
+                       ".");
+      }
     return result;
   }
 } // namespace CaissonMPM

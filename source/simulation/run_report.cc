@@ -157,6 +157,8 @@ namespace CaissonMPM
       const std::pair<const char *, std::optional<double>> values[] = {
         {"friction_angle_deg", m.friction_angle()},
         {"cohesion_Pa", m.law_value("Cohesion")},
+        {"youngs_modulus_Pa", m.law_value("Youngs modulus")},
+        {"porosity", m.porosity},
         {"wall_friction_angle_deg", m.wall_friction_angle},
         {"wall_adhesion_Pa", m.wall_adhesion}};
       for (const auto &[name, value] : values)

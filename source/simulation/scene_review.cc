@@ -228,21 +228,27 @@ namespace CaissonMPM
   void
   SceneReview::wall_friction()
   {
-    const BodyShape      &shape = scene.body.shape();
-    const double          depth = shape.expands() ?
-                                    scene.lines.depth() :
-                                    scene.lines.total_travel() - shape.bottom();
-    std::optional<double> of_soil; // of the weakest layer that is reached
+    const BodyShape      &shape  = scene.body.shape();
+    const double          depth  = shape.expands() ?
+                                     scene.lines.depth() :
+                                     scene.lines.total_travel() - shape.bottom();
+    auto                  angles = scene.body.surface().friction_angle;
+    std::optional<double> of_soil; // of the material that the wall exceeds most
     unsigned int          weakest = 0;
+    double                least   = 0.; // of the soil less that of the wall
     for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
       if (const auto angle = scene.soil.material(i).friction_angle();
-          angle && scene.soil.material(i).top_depth <= depth &&
-          (!of_soil || *angle < *of_soil))
+          angle && scene.soil.material(i).top_depth <= depth)
         {
+          const double margin =
+            *angle - scene.soil.material(i).wall_friction_angle.value_or(
+                       std::max(angles[inner_wall], angles[outer_wall]));
+          if (of_soil && margin >= least)
+            continue;
           of_soil = angle;
           weakest = i;
+          least   = margin;
         }
-    auto angles = scene.body.surface().friction_angle;
     if (of_soil)
       if (const auto own = scene.soil.material(weakest).wall_friction_angle)
         angles[inner_wall] = angles[outer_wall] = *own;

@@ -132,13 +132,10 @@ namespace CaissonMPM
       return tree_.block(cell).row;
     }
 
-    /** Return the z of the lines between the rows at the start, from below.
-     * Units: m. */
-    const std::vector<double> &
-    row_lines() const
-    {
-      return rows;
-    }
+    /** Return the z of the lines at the start that no cell of any size crosses,
+     * from below. Units: m. */
+    std::vector<double>
+    row_lines() const;
 
     /** Return where the node on these two lines is at the start. */
     dealii::Point<2>

@@ -51,9 +51,16 @@ namespace CaissonMPM
       return function == nullptr;
     }
 
+    /** Whether it has one of these variables. */
+    bool
+    depends_on(const std::string &letters) const;
+
     /** Whether it depends on the stress. */
     bool
-    knows_stress() const;
+    knows_stress() const
+    {
+      return depends_on("sp");
+    }
 
     /** Return the value, whatever it is. */
     double
@@ -76,8 +83,8 @@ namespace CaissonMPM
     std::unique_ptr<dealii::FunctionParser<3>>           function;
   };
 
-  /** What the text of a profile may be: a number, or a text with one of the
-   * variables. */
+  /** What the text of a profile may be: a number, or what looks like an
+   * expression. */
   class ProfilePattern : public dealii::Patterns::PatternBase
   {
   public:
