@@ -159,11 +159,6 @@ def soils_of(site: Site, deepest: float) -> list[tuple[float, str]]:
     return found
 
 
-def sand_only(site: Site, deepest: float) -> None:
-    """Raise NotApplicable where a layer is no sand, or not drained."""
-    only(site, deepest, "sand")
-
-
 def only(site: Site, deepest: float, soil: str) -> None:
     """Raise NotApplicable where a layer is another soil."""
     numbers = [number for number, _ in site.layers(deepest)]
@@ -197,14 +192,14 @@ def dnv_of(site: Site, deepest: float) -> Method:
 def senders_randolph_of(site: Site, deepest: float) -> Method:
     """Return Senders and Randolph for a site. Raises NotApplicable."""
     skirt = skirt_of(site)
-    sand_only(site, deepest)
+    only(site, deepest, "sand")
     return senders_randolph.method(skirt, cone_of(site))
 
 
 def andersen_of(site: Site, deepest: float) -> Method:
     """Return Andersen et al. for a site. Raises NotApplicable."""
     skirt = skirt_of(site)
-    sand_only(site, deepest)
+    only(site, deepest, "sand")
     return andersen.method(skirt, cone_of(site))
 
 
