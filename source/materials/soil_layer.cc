@@ -314,8 +314,11 @@ namespace CaissonMPM
   void
   SoilLayer::check_parameters() const
   {
-    for (const Profile *const p : {&porosity, &solid_density})
-      if (p->knows_stress())
+    for (const Profile *const p :
+         {&porosity,
+          &solid_density,
+          static_cast<const Profile *>(relative_density.get())})
+      if (p != nullptr && p->knows_stress())
         throw BadInput(p->name() +
                        " depends on s or p, the stress at the start, which "
                        "follows from it. Write it with the depth d alone.");
@@ -325,13 +328,8 @@ namespace CaissonMPM
         throw BadInput(p->name() +
                        " depends on p, the mean stress at the start, which "
                        "follows from it. Write it with d and s.");
-    if (!relative_density)
-      return;
-    if (relative_density->knows_stress())
-      throw BadInput(relative_density->name() +
-                     " depends on s or p, the stress at the start, which "
-                     "follows from it. Write it with the depth d alone.");
-    if (minimum_void_ratio <= 0. || minimum_void_ratio >= maximum_void_ratio)
+    if (relative_density &&
+        (minimum_void_ratio <= 0. || minimum_void_ratio >= maximum_void_ratio))
       throw BadInput(section() + "/Relative density needs " + section() +
                      "/Minimum void ratio = " + to_text(minimum_void_ratio) +
                      " above 0 and below Maximum void ratio = " +
