@@ -34,6 +34,19 @@ namespace CaissonMPM
         Number rr, zz, tt, rz;
       };
 
+      /** Take the stress @p a where @p mask is set, else @p b. */
+      template <typename Number>
+      CAISSON_INLINE StressState<Number>
+                     select(const typename Number::Mask &mask,
+                            const StressState<Number>   &a,
+                            const StressState<Number>   &b)
+      {
+        return {select(mask, a.rr, b.rr),
+                select(mask, a.zz, b.zz),
+                select(mask, a.tt, b.tt),
+                select(mask, a.rz, b.rz)};
+      }
+
       /**
        * Add to @p sigma the stress that isotropic linear elasticity gives for
        * the increment @p de: lambda tr(de) I + 2 mu de.

@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Hypoplastic sand of von Wolffersdorff (1996): a rate equation without a yield
+// surface, in which strength, dilatancy and stiffness follow from the effective
+// stress T and the void ratio e. With D the strain increment,
+//
+//   dT = f_b f_e / tr(S S) [F^2 D + a^2 S tr(S D) + f_d a F (S + S*) |D|],
+//   S = T / tr T,   S* = S - 1/3,
+//   a = sqrt(3) (3 - sin phi_c) / (2 sqrt(2) sin phi_c),
+//   F = sqrt(t^2/8 + (2 - t^2) / (2 + sqrt(2) t cos 3theta)) - t / (2 sqrt 2),
+//   t = sqrt(3) |S*|,   cos 3theta = -sqrt(6) tr(S* S* S*) / |S*|^3,
+//   f_d = ((e - e_d) / (e_c - e_d))^alpha,   f_e = (e_c / e)^beta,
+//   f_b = h_s/n (e_i0/e_c0)^beta (1 + e_i)/e_i (3p/h_s)^(1-n)
+//         / [3 + a^2 - a sqrt(3) ((e_i0 - e_d0) / (e_c0 - e_d0))^alpha],
+//   e_i / e_i0 = e_c / e_c0 = e_d / e_d0 = exp(-(3p/h_s)^n)   (Bauer 1996),
+//
+// p = -tr T / 3. F is the stress criterion of Matsuoka & Nakai. What bounds the
+// law where it has no meaning:
+//
+// - T = sigma - p_t I with p_t = "Smallest mean stress": a small apparent
+//   cohesion p_t tan(phi), with which soil at a free surface keeps a stiffness.
+//   Where p falls below p_t the soil has parted, and sigma is set to 0 there.
+// - No principal value of S is less than 1/50; the deviator is reduced to that.
+// - e below e_d has f_d = 0, and e above e_i counts as e_i.
+//
+// References:
+//   P.-A. von Wolffersdorff (1996), A hypoplastic relation for granular
+//     materials with a predefined limit state surface. Mech. Cohes.-Frict.
+//     Mater. 1, 251-271. doi:10.1002/(SICI)1099-1484(199607)1:3<251::AID-CFM13>
+//     3.0.CO;2-3
+//   E. Bauer (1996), Calibration of a comprehensive hypoplastic model for
+//     granular materials. Soils Found. 36(1), 13-26.
+//     doi:10.3208/sandf.36.13
+//   G. Gudehus (1996), A comprehensive constitutive equation for granular
+//     materials. Soils Found. 36(1), 1-12. doi:10.3208/sandf.36.1
+//   I. Herle, G. Gudehus (1999), Determination of parameters of a hypoplastic
+//     constitutive model from properties of grain assemblies. Mech. Cohes.-
+//     Frict. Mater. 4, 461-486. (The defaults are their Karlsruhe sand.)
+#ifndef caisson_mpm_kernels_hypoplasticity_h
+#define caisson_mpm_kernels_hypoplasticity_h
+
+#include <caisson_mpm/kernels/material_law.h>
+#include <caisson_mpm/kernels/simd_math.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    inline namespace CAISSON_KERNEL_ISA
+    {
+      /** Entries that the laws of hypoplastic sand share. */
+      namespace HypoplasticEntries
+      {
+        constexpr LawEntry critical_friction_angle = {
+          "Critical friction angle",
+          "The friction angle phi_c of hypoplastic sand is that of the "
+          "critical state. Units: degrees.",
+          30.,
+          10.,
+          60.};
+        constexpr LawEntry granulate_hardness = {
+          "Granulate hardness",
+          "The granulate hardness of hypoplastic sand is h_s of Bauer's law "
+          "of compression. Units: Pa.",
+          5.8e9,
+          1e5,
+          no_limit};
+        constexpr LawEntry compression_exponent = {
+          "Compression exponent",
+          "The compression exponent of hypoplastic sand is n of Bauer's law "
+          "of compression. Units: none.",
+          0.28,
+          0.05,
+          0.95};
+        constexpr LawEntry densest_void_ratio = {
+          "Densest void ratio",
+          "The smallest void ratio of hypoplastic sand at zero pressure is "
+          "e_d0. Units: none.",
+          0.53,
+          0.01,
+          10.};
+        constexpr LawEntry critical_void_ratio = {
+          "Critical void ratio",
+          "The void ratio of hypoplastic sand in the critical state at zero "
+          "pressure is e_c0. Units: none.",
+          0.84,
+          0.01,
+          10.};
+        constexpr LawEntry loosest_void_ratio = {
+          "Loosest void ratio",
+          "The largest void ratio of hypoplastic sand at zero pressure is "
+          "e_i0. Units: none.",
+          1.,
+          0.01,
+          10.};
+        constexpr LawEntry density_exponent_of_strength = {
+          "Density exponent of strength",
+          "The exponent alpha sets the peak strength of dense hypoplastic "
+          "sand. Units: none.",
+          0.13,
+          0.,
+          1.};
+        constexpr LawEntry density_exponent_of_stiffness = {
+          "Density exponent of stiffness",
+          "The exponent beta sets the stiffness of dense hypoplastic sand. "
+          "Units: none.",
+          1.05,
+          0.,
+          10.};
+        constexpr LawEntry smallest_mean_stress = {
+          "Smallest mean stress",
+          "Hypoplastic sand behaves as if its mean effective stress were "
+          "larger by this, p_t, and parts under a larger tension. Units: Pa.",
+          100.,
+          1.,
+          1e5};
+      } // namespace HypoplasticEntries
+
+      /**
+       * The equations of hypoplastic sand: rate-type, without a yield surface,
+       * with the void ratio as state. See the head of the file.
+       */
+      struct Hypoplasticity
+      {
+        struct Parameters
+        {
+          double sin_phi, a, hardness, n, e_d0, e_c0, e_i0, alpha, beta;
+
+          /** p_t. Units: Pa. */
+          double shift;
+
+          /** What of f_b depends on neither stress nor e_i. Units: Pa. */
+          double stiffness;
+        };
+
+        static Parameters
+        make(const double *values)
+        {
+          Parameters p;
+          p.sin_phi = __builtin_sin(values[0] * radians_per_degree);
+          p.a       = __builtin_sqrt(3.) * (3. - p.sin_phi) /
+                (2. * __builtin_sqrt(2.) * p.sin_phi);
+          p.hardness  = values[1];
+          p.n         = values[2];
+          p.e_d0      = values[3];
+          p.e_c0      = values[4];
+          p.e_i0      = values[5];
+          p.alpha     = values[6];
+          p.beta      = values[7];
+          p.shift     = values[8];
+          p.stiffness = p.hardness / p.n *
+                        __builtin_pow(p.e_i0 / p.e_c0, p.beta) / denominator(p);
+          return p;
+        }
+
+        static bool
+        check(const double     *values,
+              const LawContext &context,
+              LawMessage       &message);
+
+        /** 1 - sin phi_c (Jaky). */
+        static double
+        earth_pressure_at_rest(const Parameters &p)
+        {
+          return 1. - p.sin_phi;
+        }
+
+        /**
+         * A bound of the stiffness rho c^2 of plane waves: for directions n
+         * and m, m.(dT/dD : m n).n is at most f_b f_e / tr(S S) (F^2 + a^2 s^2
+         * + f_d a F |2 s - 1/3|) with s the principal value of S that makes it
+         * largest.
+         */
+        static double
+        p_wave_modulus(const StressState<Lanes<1>> &stress,
+                       const double                 void_ratio,
+                       const Parameters            &parameters);
+
+        /** What the rate takes from stress and void ratio. */
+        template <typename Number>
+        struct Factors
+        {
+          StressState<Number> s; // S = T / tr T
+          Number              scale, F, f_d;
+        };
+
+        static double
+        denominator(const Parameters &p)
+        {
+          return 3. + p.a * p.a -
+                 p.a * __builtin_sqrt(3.) *
+                   __builtin_pow((p.e_i0 - p.e_d0) / (p.e_c0 - p.e_d0),
+                                 p.alpha);
+        }
+
+        template <typename Number>
+        static CAISSON_INLINE Number
+        product(const StressState<Number> &a, const StressState<Number> &b)
+        {
+          return a.rr * b.rr + a.zz * b.zz + a.tt * b.tt + 2. * (a.rz * b.rz);
+        }
+
+        template <typename Number>
+        static CAISSON_INLINE StressState<Number>
+                              sum(const StressState<Number> &a,
+                                  const Number               factor,
+                                  const StressState<Number> &b)
+        {
+          return {a.rr + factor * b.rr,
+                  a.zz + factor * b.zz,
+                  a.tt + factor * b.tt,
+                  a.rz + factor * b.rz};
+        }
+
+        /** @p T is the shifted stress, in bounds. */
+        template <typename Number>
+        static CAISSON_INLINE Factors<Number>
+                              factors(const StressState<Number> &T,
+                                      const Number               void_ratio,
+                                      const Parameters          &parameters);
+
+        /** Bring a shifted stress into the bounds of the file's head. */
+        template <typename Number>
+        static CAISSON_INLINE void
+        hold_in_bounds(StressState<Number> &T, const Parameters &parameters);
+
+        /** The increment of a shifted stress in bounds for all of @p D. */
+        template <typename Number>
+        static CAISSON_INLINE StressState<Number>
+                              stress_increment(const StressState<Number> &T,
+                                               const Number               void_ratio,
+                                               const StressState<Number> &D,
+                                               const Number               length,
+                                               const Parameters          &p)
+        {
+          const Factors<Number> f    = factors(T, void_ratio, p);
+          const Number          on_D = f.scale * f.F * f.F;
+          const Number          on_s = f.scale * (p.a * p.a) * product(f.s, D);
+          const Number on_length     = f.scale * f.f_d * p.a * f.F * length;
+          // S + S* = 2 S - 1/3
+          const Number along = on_s + 2. * on_length;
+          const Number less  = (1. / 3.) * on_length;
+          return {on_D * D.rr + along * f.s.rr - less,
+                  on_D * D.zz + along * f.s.zz - less,
+                  on_D * D.tt + along * f.s.tt - less,
+                  on_D * D.rz + along * f.s.rz};
+        }
+      };
+
+
+
+      inline bool
+      Hypoplasticity::check(const double     *values,
+                            const LawContext &context,
+                            LawMessage       &message)
+      {
+        const double e_d = values[3], e_c = values[4], e_i = values[5];
+        if (!(e_d < e_c && e_c < e_i))
+          {
+            __builtin_snprintf(
+              message.text,
+              sizeof(message.text),
+              "Densest void ratio = %g, Critical void ratio = %g and Loosest "
+              "void ratio = %g must grow in this order. Correct them.",
+              e_d,
+              e_c,
+              e_i);
+            return false;
+          }
+        if (context.void_ratio < e_d || context.void_ratio > e_i)
+          {
+            __builtin_snprintf(
+              message.text,
+              sizeof(message.text),
+              "Porosity = %g, a void ratio of %g, lies outside Densest void "
+              "ratio = %g to Loosest void ratio = %g (porosities %g to %g). "
+              "Change one of them.",
+              context.void_ratio / (1. + context.void_ratio),
+              context.void_ratio,
+              e_d,
+              e_i,
+              e_d / (1. + e_d),
+              e_i / (1. + e_i));
+            return false;
+          }
+        if (!(denominator(make(values)) > 0.))
+          {
+            __builtin_snprintf(message.text,
+                               sizeof(message.text),
+                               "Density exponent of strength = %g leaves the "
+                               "loosest sand without stiffness. Lower it.",
+                               values[6]);
+            return false;
+          }
+        return true;
+      }
+
+
+
+      template <typename Number>
+      CAISSON_INLINE Hypoplasticity::Factors<Number>
+                     Hypoplasticity::factors(const StressState<Number> &T,
+                              const Number               void_ratio,
+                              const Parameters          &p)
+      {
+        const Number    third(1. / 3.);
+        const Number    trace   = T.rr + T.zz + T.tt;
+        const Number    inverse = Number(1.) / trace;
+        Factors<Number> f;
+        f.s = {T.rr * inverse, T.zz * inverse, T.tt * inverse, T.rz * inverse};
+
+        // the deviator: its length and its third invariant
+        const Number x = f.s.rr - third, y = f.s.zz - third, z = f.s.tt - third,
+                     w      = f.s.rz;
+        const Number square = x * x + y * y + z * z + 2. * (w * w);
+        // tr(S* S* S*) = 3 det(S*)
+        const Number cubic      = 3. * (z * (x * y - w * w));
+        const Number length     = sqrt(square);
+        const Number cos_3theta = max(min(Number(-2.449489742783178) * cubic /
+                                            max(square * length, Number(1e-30)),
+                                          Number(1.)),
+                                      Number(-1.));
+        const Number t          = 1.7320508075688772 * length;
+        const Number radicand =
+          0.125 * (t * t) +
+          (2. - t * t) / (2. + 1.4142135623730951 * t * cos_3theta);
+        f.F = sqrt(max(radicand, Number(0.))) - 0.35355339059327373 * t;
+
+        // pressure and density
+        const Number pressure = -trace * (1. / p.hardness); // 3 p / h_s
+        const Number power    = pow(pressure, p.n);
+        const Number bauer    = exp(-power);
+        const Number e_i      = p.e_i0 * bauer;
+        const Number e        = max(min(void_ratio, e_i), Number(.5 * p.e_d0));
+        const Number e_d      = p.e_d0 * bauer;
+        const Number excess =
+          max(e - e_d, Number(0.)) / ((p.e_c0 - p.e_d0) * bauer);
+        f.f_d            = select(excess > Number(0.),
+                       pow(max(excess, Number(1e-30)), p.alpha),
+                       Number(0.));
+        const Number f_e = pow(p.e_c0 * bauer / e, p.beta);
+        f.scale = p.stiffness * f_e * (1. + e_i) / e_i * (pressure / power) /
+                  product(f.s, f.s);
+        return f;
+      }
+
+
+
+      template <typename Number>
+      CAISSON_INLINE void
+      Hypoplasticity::hold_in_bounds(StressState<Number> &T,
+                                     const Parameters    &parameters)
+      {
+        const Number mean   = (1. / 3.) * (T.rr + T.zz + T.tt);
+        const Number center = .5 * (T.rr + T.zz), half = .5 * (T.rr - T.zz);
+        const Number radius = sqrt(half * half + T.rz * T.rz);
+        // how far the least compressive value stands above the mean
+        const Number excess  = max(center + radius, T.tt) - mean;
+        const Number allowed = -(1. - 3. / 50.) * mean;
+        const auto   parted  = !(mean < Number(-parameters.shift));
+        const Number share   = select(excess > allowed,
+                                    allowed / max(excess, Number(1e-30)),
+                                    Number(1.));
+        const auto   held    = [&](const Number component) {
+          return select(parted,
+                        Number(-parameters.shift),
+                        mean + share * (component - mean));
+        };
+        T.rr = held(T.rr);
+        T.zz = held(T.zz);
+        T.tt = held(T.tt);
+        T.rz = select(parted, Number(0.), share * T.rz);
+      }
+
+
+
+      inline double
+      Hypoplasticity::p_wave_modulus(const StressState<Lanes<1>> &stress,
+                                     const double                 void_ratio,
+                                     const Parameters            &p)
+      {
+        using Scalar = Lanes<1>;
+        StressState<Scalar> T{stress.rr - p.shift,
+                              stress.zz - p.shift,
+                              stress.tt - p.shift,
+                              stress.rz};
+        hold_in_bounds(T, p);
+        const Factors<Scalar> f      = factors(T, Scalar(void_ratio), p);
+        const double          center = .5 * (f.s.rr[0] + f.s.zz[0]),
+                     half = .5 * (f.s.rr[0] - f.s.zz[0]), rz = f.s.rz[0],
+                     tt    = f.s.tt[0];
+        const double upper = center + __builtin_sqrt(half * half + rz * rz);
+        const double s     = upper > tt ? upper : tt;
+        const double F     = f.F[0];
+        return f.scale[0] * (F * F + p.a * p.a * s * s +
+                             f.f_d[0] * p.a * F * (2. * s - 1. / 3.));
+      }
+    } // namespace CAISSON_KERNEL_ISA
+  }   // namespace Kernels
+} // namespace CaissonMPM
+
+#endif
