@@ -35,6 +35,17 @@ CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
         ["Internal length", "hypoplastic sand has none", "Mohr-Coulomb with"],
         {**HYPOPLASTIC, f"{LAYER}/Internal length": 0.01},
     ),
+    (
+        ["Stress measure", "hypoplastic sand has no elasticity", "Cauchy"],
+        {**HYPOPLASTIC, f"{LAYER}/Stress measure": "Kirchhoff"},
+    ),
+    (
+        ["Stiffness factor of turns = 6 exceeds", "reversals = 5"],
+        {
+            f"{LAYER}/Law": "hypoplastic sand with intergranular strain",
+            f"{LAYER}/Stiffness factor of turns": 6,
+        },
+    ),
     (["Porosity", "0.346405", "0.5"], {**HYPOPLASTIC, f"{LAYER}/Porosity": 0.3}),
     (
         ["Critical void ratio", "order"],

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/kernels/laws.h>
@@ -89,6 +90,16 @@ namespace CaissonMPM
     declare_density();
     declare_earth_pressure();
     declare_permeability();
+    add_choice(
+      *this,
+      "Stress measure",
+      soil.stress_measure,
+      {{"Cauchy", Kernels::StressMeasure::cauchy},
+       {"Kirchhoff", Kernels::StressMeasure::kirchhoff}},
+      "The elasticity of the law is one for this stress: with "
+      "Kirchhoff, the law of Hencky for the logarithmic strain since "
+      "the start. Strength is always that of the Cauchy stress. Units: "
+      "none.");
     declare_internal_length();
     declare_walls();
   }

@@ -31,6 +31,11 @@ namespace CaissonMPM
                                 {earth_pressure_at_rest, void_ratio()},
                                 message))
       throw BadInput(section() + "/" + message.text);
+    if (stress_measure == Kernels::StressMeasure::kirchhoff &&
+        !law_value("Youngs modulus"))
+      throw BadInput(section() + "/Stress measure = Kirchhoff: the law " +
+                     law_name() +
+                     " has no elasticity of its own. Set it to Cauchy.");
     if (internal_length > 0. && !description(law).has_yield_surface)
       throw BadInput(
         section() + "/Internal length = " + to_text(internal_length) +
@@ -103,6 +108,7 @@ namespace CaissonMPM
     description(law).set(material, law_values.data());
     material.initial_void_ratio = void_ratio();
     material.overstress_time    = internal_length / internal_velocity;
+    material.stress_measure     = stress_measure;
   }
 
   StateVariables

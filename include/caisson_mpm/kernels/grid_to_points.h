@@ -167,22 +167,23 @@ namespace CaissonMPM
                      after  = volume * (Number(1.) + s.step.volume_change);
         sums.sum[4] += after;
         if constexpr (may_wait<Law, Number>)
-          {
-            StressState<Number> stress = s.old;
-            if (Law::update_elastic(stress, s.step.strain, parameters))
-              {
-                store_stress(s.half_turn(stress), b, lane);
-                after.store(b.volume + lane);
-                sums.add_work(p,
-                              mass,
-                              volume,
-                              work_per_volume(s.old, stress, s.step));
-                return;
-              }
-            if (!Law::needs_void_ratio(parameters) &&
-                material.overstress_time == 0.)
-              return waiting.add(b, s, p, material, in_group);
-          }
+          if (material.stress_measure == StressMeasure::cauchy)
+            {
+              StressState<Number> stress = s.old;
+              if (Law::update_elastic(stress, s.step.strain, parameters))
+                {
+                  store_stress(s.half_turn(stress), b, lane);
+                  after.store(b.volume + lane);
+                  sums.add_work(p,
+                                mass,
+                                volume,
+                                work_per_volume(s.old, stress, s.step));
+                  return;
+                }
+              if (!Law::needs_void_ratio(parameters) &&
+                  material.overstress_time == 0.)
+                return waiting.add(b, s, p, material, in_group);
+            }
         sums.add_work(p,
                       mass,
                       volume,
@@ -192,6 +193,7 @@ namespace CaissonMPM
                                          s,
                                          {material.initial_void_ratio,
                                           material.overstress_time / time_step,
+                                          material.stress_measure,
                                           parameters}));
       }
 

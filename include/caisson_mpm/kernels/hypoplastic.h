@@ -15,7 +15,7 @@ namespace CaissonMPM
     inline namespace CAISSON_KERNEL_ISA
     {
       /** The law "hypoplastic sand". */
-      struct HypoplasticSand : HypoplasticIntegration
+      struct HypoplasticSand : HypoplasticIntegration<false>
       {
         static constexpr const char *name      = "hypoplastic sand";
         static constexpr LawEntry    entries[] = {

@@ -8,10 +8,26 @@
 // Where a step changes the stress by very little, Euler alone is enough. The
 // rate is homogeneous in D: time steps have no meaning here.
 //
+// The law may remember the strain of the last steps: the intergranular strain h
+// of Niemunis & Herle (1997), with the sign of D and of the length R at most.
+// With rho = |h|/R and h^ = h/|h|, the stress feels, in place of D and |D|,
+//
+//   E = [rho^chi m_T + (1 - rho^chi) m_R] D
+//         + rho^chi (1 - m_T) (h^:D) h^,     l = rho^chi h^:D   if h^:D > 0,
+//         + rho^chi (m_R - m_T) (h^:D) h^,   l = 0              otherwise,
+//   dh = D - rho^beta_r (h^:D) h^            if h^:D > 0,   D   otherwise.
+//
+// Straight on, E tends to D and l to |D|: the law without a memory. After a
+// reversal, and where h = 0, the sand is m_R times as stiff as its linear part
+// alone, and next to elastic for strains that are small beside R. The error of
+// a substep in h stays below 1/50 of R.
+//
 // There are no plastic strains. plastic_deviatoric and plastic_volumetric keep
 // the accumulated sqrt(2/3 D*:D*) and tr D of the total strain.
 //
-// Reference:
+// References:
+//   A. Niemunis, I. Herle (1997), Hypoplastic model for cohesionless soils with
+//     elastic strain range. Mech. Cohes.-Frict. Mater. 2, 279-299.
 //   S.W. Sloan (1987), Substepping schemes for the numerical integration of
 //     elastoplastic stress-strain relations. Int. J. Numer. Meth. Engng 24,
 //     893-911. doi:10.1002/nme.1620240505
@@ -27,7 +43,9 @@ namespace CaissonMPM
     inline namespace CAISSON_KERNEL_ISA
     {
       /** The equations with their integration: what a law of hypoplastic sand
-       * consists of. See the head of the file. */
+       * consists of. If it @p remembers, the first four variables of its state are
+       * the intergranular strain. See the head of the file. */
+      template <bool remembers>
       struct HypoplasticIntegration : Hypoplasticity
       {
         /** Of the substeps: relative error, smallest share of a step. */
@@ -35,6 +53,9 @@ namespace CaissonMPM
 
         /** Relative change of stress up to which Euler alone is used. */
         static constexpr double small_change = 2e-4;
+
+        /** The same of the strain, over R; and the error of h, over R. */
+        static constexpr double small_strain = 2e-2, error_of_memory = 2e-2;
 
         template <typename Number>
         static CAISSON_INLINE void
@@ -54,8 +75,14 @@ namespace CaissonMPM
                                sigma.zz - p.shift,
                                sigma.tt - p.shift,
                                sigma.rz},
-                              law_state.void_ratio};
-          hold_in_bounds(state.stress, p);
+                              law_state.void_ratio,
+                              {}};
+          if constexpr (remembers)
+            state.memory = {law_state.variable[0],
+                            law_state.variable[1],
+                            law_state.variable[2],
+                            law_state.variable[3]};
+          hold_in_bounds(state, p);
 
           // the share of the step that is done, and that of the next substep
           Number done(0.), share(1.);
@@ -80,19 +107,78 @@ namespace CaissonMPM
                    state.stress.zz + p.shift,
                    state.stress.tt + p.shift,
                    state.stress.rz};
+          if constexpr (remembers)
+            {
+              law_state.variable[0] = state.memory.rr;
+              law_state.variable[1] = state.memory.zz;
+              law_state.variable[2] = state.memory.tt;
+              law_state.variable[3] = state.memory.rz;
+            }
           law_state.plastic_deviatoric +=
             sqrt(max((2. / 3.) * (square - (1. / 3.) * trace * trace), zero));
           law_state.plastic_volumetric += trace;
         }
 
       private:
-        /** Shifted stress and void ratio. */
+        using Hypoplasticity::product;
+        using Hypoplasticity::sum;
+
+        /** Shifted stress, void ratio and, with a memory, h. */
         template <typename Number>
         struct State
         {
           StressState<Number> stress;
           Number              void_ratio;
+          StressState<Number> memory;
         };
+
+        template <typename Number>
+        static CAISSON_INLINE void
+        hold_in_bounds(State<Number> &state, const Parameters &p)
+        {
+          Hypoplasticity::hold_in_bounds(state.stress, p);
+          if constexpr (remembers)
+            {
+              const Number length = sqrt(product(state.memory, state.memory));
+              const Number kept =
+                min(Number(p.range) / max(length, Number(1e-30)), Number(1.));
+              state.memory = scaled(kept, state.memory);
+            }
+        }
+
+        /** What the stress feels of a strain increment; and dh. */
+        template <typename Number>
+        struct Felt
+        {
+          StressState<Number> D;
+          Number              length;
+          StressState<Number> memory;
+        };
+
+        template <typename Number>
+        static CAISSON_INLINE Felt<Number>
+                              feel(const StressState<Number> &h,
+                                   const StressState<Number> &D,
+                                   const Parameters          &p)
+        {
+          const Number length  = sqrt(product(h, h));
+          const Number rho     = min(length * (1. / p.range), Number(1.));
+          const auto   along_h = scaled(1. / max(length, Number(1e-30)), h);
+          const Number along   = product(along_h, D);
+          const auto   forward = along > Number(0.);
+          // rho = 0 has no logarithm
+          const Number some = max(rho, Number(1e-30));
+          const Number kept = pow(some, p.decay);
+          const Number more = select(forward,
+                                     Number(1. - p.turned),
+                                     Number(p.reversed - p.turned));
+          const Number all  = p.reversed + kept * (p.turned - p.reversed);
+          const Number lost =
+            select(forward, pow(some, p.evolution) * along, Number(0.));
+          return {sum(scaled(all, D), kept * more * along, along_h),
+                  select(forward, kept * along, Number(0.)),
+                  sum(D, -lost, along_h)};
+        }
 
         /** The end of a substep and its relative error. */
         template <typename Number>
@@ -109,11 +195,15 @@ namespace CaissonMPM
                                      const State<Number>         &a,
                                      const State<Number>         &b)
         {
-          return {select(mask, a.stress, b.stress),
-                  select(mask, a.void_ratio, b.void_ratio)};
+          State<Number> result{select(mask, a.stress, b.stress),
+                               select(mask, a.void_ratio, b.void_ratio),
+                               {}};
+          if constexpr (remembers)
+            result.memory = select(mask, a.memory, b.memory);
+          return result;
         }
 
-        /** The increments of shifted stress and void ratio for all of @p D. */
+        /** The increments of a state for all of @p D. */
         template <typename Number>
         static CAISSON_INLINE State<Number>
                               rate(const State<Number>       &at,
@@ -121,8 +211,34 @@ namespace CaissonMPM
                                    const Number               length,
                                    const Parameters          &p)
         {
-          return {stress_increment(at.stress, at.void_ratio, D, length, p),
-                  (1. + at.void_ratio) * (D.rr + D.zz + D.tt)};
+          const Number void_ratio = (1. + at.void_ratio) * (D.rr + D.zz + D.tt);
+          if constexpr (remembers)
+            {
+              const Felt<Number> felt = feel(at.memory, D, p);
+              return {stress_increment(
+                        at.stress, at.void_ratio, felt.D, felt.length, p),
+                      void_ratio,
+                      felt.memory};
+            }
+          else
+            return {stress_increment(at.stress, at.void_ratio, D, length, p),
+                    void_ratio,
+                    {}};
+        }
+
+        /** The state after the share @p share of an increment. */
+        template <typename Number>
+        static CAISSON_INLINE State<Number>
+                              advanced(const State<Number> &start,
+                                       const Number         share,
+                                       const State<Number> &increment)
+        {
+          State<Number> result{sum(start.stress, share, increment.stress),
+                               start.void_ratio + share * increment.void_ratio,
+                               {}};
+          if constexpr (remembers)
+            result.memory = sum(start.memory, share, increment.memory);
+          return result;
         }
 
         /** One substep of the share @p share of the step: Euler, or Heun in
@@ -137,14 +253,16 @@ namespace CaissonMPM
         {
           // Euler: T + share dT(T)
           const State<Number> first = rate(start, D, length, p);
-          State<Number>       euler{sum(start.stress, share, first.stress),
-                              start.void_ratio + share * first.void_ratio};
-          hold_in_bounds(euler.stress, p);
+          State<Number>       euler = advanced(start, share, first);
+          hold_in_bounds(euler, p);
           const Number scale =
             sqrt(product(euler.stress, euler.stress)) + 10. * p.shift;
           const Number change =
             share * sqrt(product(first.stress, first.stress));
-          const auto is_large = change > small_change * scale;
+          auto is_large = change > small_change * scale;
+          if constexpr (remembers)
+            is_large =
+              is_large | (share * length > Number(small_strain * p.range));
 
           Substep<Number> result{euler, Number(0.)};
           if (any(is_large))
@@ -155,16 +273,21 @@ namespace CaissonMPM
               const Number              half   = .5 * share;
               const StressState<Number> difference =
                 sum(second.stress, Number(-1.), first.stress);
-              State<Number> heun{
-                sum(sum(start.stress, half, first.stress), half, second.stress),
-                start.void_ratio +
-                  half * (first.void_ratio + second.void_ratio)};
-              hold_in_bounds(heun.stress, p);
+              State<Number> heun =
+                advanced(advanced(start, half, first), half, second);
+              hold_in_bounds(heun, p);
               result.end = choose(is_large, heun, euler);
-              result.error =
-                select(is_large,
-                       half * sqrt(product(difference, difference)) / scale,
-                       Number(0.));
+              Number error =
+                half * sqrt(product(difference, difference)) / scale;
+              if constexpr (remembers)
+                {
+                  const StressState<Number> other =
+                    sum(second.memory, Number(-1.), first.memory);
+                  error = max(error,
+                              half * sqrt(product(other, other)) *
+                                (tolerance / (error_of_memory * p.range)));
+                }
+              result.error = select(is_large, error, Number(0.));
             }
           return result;
         }

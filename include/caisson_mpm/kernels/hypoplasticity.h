@@ -131,6 +131,11 @@ namespace CaissonMPM
 
           /** What of f_b depends on neither stress nor e_i. Units: Pa. */
           double stiffness;
+
+          /** Of the intergranular strain: R, m_R, m_T, beta_r, chi. A law
+           * without one has m_R = 1. */
+          double range = 1., reversed = 1., turned = 1., evolution = 1.,
+                 decay = 1.;
         };
 
         static Parameters
@@ -169,7 +174,8 @@ namespace CaissonMPM
          * A bound of the stiffness rho c^2 of plane waves: for directions n
          * and m, m.(dT/dD : m n).n is at most f_b f_e / tr(S S) (F^2 + a^2 s^2
          * + f_d a F |2 s - 1/3|) with s the principal value of S that makes it
-         * largest.
+         * largest. An intergranular strain makes the first two terms up to
+         * m_R times as large, and turns the strain, so that s is |S| there.
          */
         static double
         p_wave_modulus(const StressState<Lanes<1>> &stress,
@@ -392,8 +398,11 @@ namespace CaissonMPM
         const double upper = center + __builtin_sqrt(half * half + rz * rz);
         const double s     = upper > tt ? upper : tt;
         const double F     = f.F[0];
-        return f.scale[0] * (F * F + p.a * p.a * s * s +
-                             f.f_d[0] * p.a * F * (2. * s - 1. / 3.));
+        const double linear =
+          p.reversed > 1. ?
+            p.reversed * (F * F + p.a * p.a * product(f.s, f.s)[0]) :
+            F * F + p.a * p.a * s * s;
+        return f.scale[0] * (linear + f.f_d[0] * p.a * F * (2. * s - 1. / 3.));
       }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

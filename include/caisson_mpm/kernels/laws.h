@@ -7,6 +7,7 @@
 #define caisson_mpm_kernels_laws_h
 
 #include <caisson_mpm/kernels/hypoplastic.h>
+#include <caisson_mpm/kernels/hypoplastic_intergranular.h>
 #include <caisson_mpm/kernels/linear_elastic.h>
 #include <caisson_mpm/kernels/mohr_coulomb.h>
 #include <caisson_mpm/kernels/mohr_coulomb_softening.h>

@@ -27,7 +27,7 @@ namespace CaissonMPM
     constexpr int block_size = 8;
 
     /** What a material law may keep of a point besides its plastic strains. */
-    constexpr int n_state_variables = 2;
+    constexpr int n_state_variables = 4;
 
 // the members of a block, from the list of fields
 #define CAISSON_LANES(name, ...) double name[block_size];
@@ -96,6 +96,14 @@ namespace CaissonMPM
       by_state // or it has no plastic shear
     };
 
+    /** The stress that elasticity is a law for: that of the present area, or
+     * J times that, J being the volume over that at the start. */
+    enum class StressMeasure : unsigned char
+    {
+      cauchy,
+      kirchhoff
+    };
+
     /**
      * A soil material as the kernels see it. Which law reads the parameters
      * is chosen once per block.
@@ -108,6 +116,7 @@ namespace CaissonMPM
       double        p_wave_modulus;
       double        water_modulus = 0.; // of the water in undrained soil (Pa)
       VolumeInShear volume_in_shear;
+      StressMeasure stress_measure = StressMeasure::cauchy;
       double        initial_void_ratio;
       double        initial_density; // of the scaled mass, kg/m3
       double        overstress_time; // kernels/overstress.h; 0: none (s)

@@ -9,10 +9,11 @@
 //   static constexpr int         friction_entry;// its friction angle; -1: none
 //   static constexpr bool        uses_void_ratio;
 //   static constexpr bool        stiffness_varies; // with stress, void ratio
-//   static constexpr bool        has_yield_surface; // optional; see
-//   overstress.h static constexpr int         n_state;       //
-//   LawState::variable in use struct Parameters;                          //
-//   plain data
+//   static constexpr bool        has_yield_surface; // optional: overstress.h
+//   static constexpr int         n_state; // of LawState::variable in use
+//   static constexpr bool        state_is_a_tensor; // optional: the first four
+//                                   // variables turn with the soil
+//   struct Parameters;                              // plain data
 //
 //   static Parameters make(const double *values);
 //   static bool check(const double *values, const LawContext &, LawMessage &);

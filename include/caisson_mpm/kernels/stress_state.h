@@ -34,6 +34,13 @@ namespace CaissonMPM
         Number rr, zz, tt, rz;
       };
 
+      template <typename Number>
+      CAISSON_INLINE StressState<Number>
+                     scaled(const Number factor, const StressState<Number> &a)
+      {
+        return {factor * a.rr, factor * a.zz, factor * a.tt, factor * a.rz};
+      }
+
       /** Take the stress @p a where @p mask is set, else @p b. */
       template <typename Number>
       CAISSON_INLINE StressState<Number>

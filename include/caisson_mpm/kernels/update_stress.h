@@ -244,6 +244,7 @@ namespace CaissonMPM
       {
         double                          initial_void_ratio;
         double                          overstress_steps; // 0: none
+        StressMeasure                   stress_measure;
         const typename Law::Parameters &parameters;
       };
 
@@ -301,6 +302,39 @@ namespace CaissonMPM
           state.variable[i].store(history.state[i] + lane);
       }
 
+      /** Law::state_is_a_tensor; chosen for the argument 0. */
+      template <typename Law>
+      constexpr auto
+      state_is_a_tensor(int) -> decltype(Law::state_is_a_tensor)
+      {
+        return Law::state_is_a_tensor;
+      }
+
+      template <typename Law>
+      constexpr bool
+      state_is_a_tensor(long)
+      {
+        return false;
+      }
+
+      /** Turn the state of a law by half of the turn of a step, if the state is
+       * a tensor. */
+      template <typename Law, typename Number>
+      CAISSON_INLINE void
+      turn_state(const HalfTurn<Number> &half_turn, LawState<Number> &state)
+      {
+        if constexpr (state_is_a_tensor<Law>(0))
+          {
+            Number *const             v = state.variable;
+            const StressState<Number> turned =
+              half_turn(StressState<Number>{v[0], v[1], v[2], v[3]});
+            v[0] = turned.rr;
+            v[1] = turned.zz;
+            v[2] = turned.tt;
+            v[3] = turned.rz;
+          }
+      }
+
       template <typename Number>
       CAISSON_INLINE StressState<Number>
                      load_stress(const PointBlock &b, const int lane)
@@ -355,6 +389,60 @@ namespace CaissonMPM
         return result;
       }
 
+      /**
+       * The law over a step, with the stress @p stress at its start. Where the
+       * elasticity is one for the Kirchhoff stress tau = J sigma, with J the
+       * volume over that at the start and dtau = C : de (Hencky's law where the
+       * axes of strain stay), the new stress is (J sigma + C : de) / J'. The
+       * law gets J sigma / J' and de / J', so that it yields where the Cauchy
+       * stress does; its plastic strain is to be multiplied by J'.
+       */
+      template <typename Law, typename Number>
+      CAISSON_INLINE void
+      apply_law(StressState<Number>        &stress,
+                const StepOfStrain<Number> &step,
+                const Number                relative_volume,
+                LawState<Number>           &state,
+                const MaterialOf<Law>      &material)
+      {
+        StrainIncrement<Number> strain    = step.strain;
+        const bool              kirchhoff = //
+          material.stress_measure == StressMeasure::kirchhoff;
+        const Number deviatoric = state.plastic_deviatoric,
+                     volumetric = state.plastic_volumetric;
+        const Number growth     = Number(1.) + step.volume_change,
+                     after      = relative_volume * growth;
+        if (kirchhoff)
+          {
+            stress             = scaled(Number(1.) / growth, stress);
+            const Number share = Number(1.) / after;
+            strain             = {share * strain.rr,
+                                  share * strain.zz,
+                                  share * strain.tt,
+                                  share * strain.rz};
+          }
+        if constexpr (has_yield_surface<Law>(0))
+          {
+            if (material.overstress_steps > 0.)
+              update_with_overstress<Law>(stress,
+                                          strain,
+                                          state,
+                                          material.parameters,
+                                          material.overstress_steps);
+            else
+              Law::update(stress, strain, state, material.parameters);
+          }
+        else
+          Law::update(stress, strain, state, material.parameters);
+        if (kirchhoff)
+          {
+            state.plastic_deviatoric =
+              deviatoric + after * (state.plastic_deviatoric - deviatoric);
+            state.plastic_volumetric =
+              volumetric + after * (state.plastic_volumetric - volumetric);
+          }
+      }
+
       /** Set the stress and the volume of the points in the lanes from @p lane
        * on to those at the end of the step. Returns work_per_volume(). */
       template <typename Law, typename Number>
@@ -374,21 +462,19 @@ namespace CaissonMPM
                           volume,
                           material.initial_void_ratio,
                           needs_void_ratio<Law>(material.parameters, 0));
+        turn_state<Law>(s.half_turn, state);
         StressState<Number> stress = s.old;
-        if constexpr (has_yield_surface<Law>(0))
+        Number              relative_volume(1.);
+        if (material.stress_measure == StressMeasure::kirchhoff)
           {
-            if (material.overstress_steps > 0.)
-              update_with_overstress<Law>(stress,
-                                          s.step.strain,
-                                          state,
-                                          material.parameters,
-                                          material.overstress_steps);
-            else
-              Law::update(stress, s.step.strain, state, material.parameters);
+            const Number initial = Number::load(history.initial_volume + lane);
+            // empty lanes have no volume
+            relative_volume =
+              select(volume > Number(0.), volume / initial, relative_volume);
           }
-        else
-          Law::update(stress, s.step.strain, state, material.parameters);
+        apply_law<Law>(stress, s.step, relative_volume, state, material);
         store_stress(s.half_turn(stress), b, lane);
+        turn_state<Law>(s.half_turn, state);
         store_state<Law>(state, b, history, lane);
 
         // 5. V <- V (1 + dt div v)

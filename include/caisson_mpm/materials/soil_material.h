@@ -39,6 +39,8 @@ namespace CaissonMPM
     std::optional<double> wall_friction_angle; // degrees; none: the body's
     std::optional<double> wall_adhesion;       // Pa; none: the body's
 
+    Kernels::StressMeasure stress_measure = Kernels::StressMeasure::cauchy;
+
     double internal_length   = 0.;  // m
     double internal_velocity = 0.1; // m/s
 

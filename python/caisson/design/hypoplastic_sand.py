@@ -7,6 +7,8 @@ steps; the lateral strain rate of a drained triaxial test solves a quadratic
 equation. Nothing is taken from the C++ kernels.
 
 `scripts/caisson element-tests table` prints the values for tests/kernels_laws.cc,
+`scripts/caisson element-tests cycles` those for tests/kernels_intergranular.cc, with
+the intergranular strain of Niemunis & Herle (1997), and
 `scripts/caisson element-tests plot FILE` draws them with the results of the kernels
 in tests/kernels_laws.output.
 
@@ -59,6 +61,9 @@ TESTS = [
     Test("loose", "Karlsruhe", "oedometer", 0.88, 1e4, 0.06),
 ]
 POINTS = 6  # of each test in the table
+# R, m_R, m_T, beta_r, chi of Niemunis & Herle (1997), Hochstetten sand
+MEMORY = (1e-4, 5.0, 2.0, 0.5, 6.0)
+AMPLITUDES = (1e-5, 1e-4, 1e-3)  # of cycles of strain, from peak to peak
 
 
 class Sand:
@@ -151,6 +156,49 @@ def rate(sand: Sand, test: str, state: np.ndarray) -> np.ndarray:
     L, N = sand.operators(stress, state[2])
     change = np.tensordot(L, D) - N * np.sqrt(np.tensordot(D, D))
     return np.array([change[0, 0], change[2, 2], -(1.0 + state[2]) * np.trace(D)])
+
+
+def memory_rate(
+    sand: Sand, stress: np.ndarray, e: float, h: np.ndarray, D: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the rates of stress and intergranular strain h, both [3, 3], for the
+    strain rate D [3, 3]; compression positive."""
+    R, m_R, m_T, beta, chi = MEMORY
+    L, N = sand.operators(stress, e)
+    length = float(np.sqrt(np.tensordot(h, h)))
+    rho = min(length / R, 1.0)
+    unit = h / length if length > 0 else np.zeros((3, 3))
+    along = np.tensordot(unit, D)
+    weight = rho**chi
+    M = (weight * m_T + (1 - weight) * m_R) * L
+    L_unit = np.tensordot(L, unit)
+    if along > 0:
+        M = M + weight * (1 - m_T) * np.multiply.outer(L_unit, unit)
+        M = M - weight * np.multiply.outer(N, unit)
+        return np.tensordot(M, D), D - rho**beta * along * unit
+    M = M + weight * (m_R - m_T) * np.multiply.outer(L_unit, unit)
+    return np.tensordot(M, D), D
+
+
+def cycles(amplitude: float, n_steps: int = 4000) -> list[float]:
+    """Return the axial stress (Pa) [6] at the reversals of three oedometric cycles of
+    strain, of Karlsruhe sand with e = 0.6, from 100 and 50 kPa."""
+    sand = Sand(*SANDS["Karlsruhe"])
+    stress, h, e = np.diag([5e4, 5e4, 1e5]), np.zeros((3, 3)), 0.6
+    found = []
+    for half in range(6):
+        step = np.diag([0, 0, 1.0 if half % 2 == 0 else -1.0]) * amplitude / n_steps
+        for _ in range(n_steps):
+            # the midpoint rule
+            d_stress, d_h = memory_rate(sand, stress, e, h, step)
+            middle = e - (1 + e) * np.trace(step) / 2
+            d_stress, d_h = memory_rate(
+                sand, stress + d_stress / 2, middle, h + d_h / 2, step
+            )
+            stress, h = stress + d_stress, h + d_h
+            e -= (1 + middle) * np.trace(step)
+        found.append(float(stress[2, 2]))
+    return found
 
 
 def integrate(case: Test, n_steps: int = 6000) -> np.ndarray:
@@ -254,7 +302,7 @@ def plot(file: Path) -> None:
 
 def declare(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson element-tests`."""
-    parser.add_argument("what", choices=["table", "plot"])
+    parser.add_argument("what", choices=["table", "cycles", "plot"])
     parser.add_argument("file", nargs="?", type=Path, help="of the picture")
 
 
@@ -262,6 +310,10 @@ def main(options: argparse.Namespace) -> int:
     """Print the table or draw the picture."""
     if options.what == "table":
         print("\n".join(table()))
+    elif options.what == "cycles":
+        for amplitude in AMPLITUDES:
+            stresses = ", ".join(f"{stress:.6e}" for stress in cycles(amplitude))
+            print(f"{{{amplitude:g}, {{{stresses}}}}},")
     else:
         plot(options.file or Path("element_tests.png"))
     return 0

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The intergranular strain of hypoplastic sand: strain cycles against an
+// independent integration (scripts/caisson element-tests cycles), and what
+// Niemunis & Herle (1997) imply: straight on the law is the one without it,
+// after a reversal and at rest its linear part is m_R times as stiff, after a
+// turn by 90 degrees m_T times; its length grows by a closed form for
+// beta_r = 1; small cycles accumulate next to nothing; and it turns with the
+// soil.
+#include <caisson_mpm/kernels/hypoplastic.h>
+#include <caisson_mpm/kernels/hypoplastic_intergranular.h>
+#include <caisson_mpm/kernels/update_stress.h>
+
+#include <random>
+#include <vector>
+
+#include "law_test.h"
+
+using Law    = HypoplasticIntergranular;
+using Stress = StressState<Scalar>;
+
+constexpr double range = 1e-4, m_R = 5., m_T = 2.;
+
+struct Point
+{
+  Stress stress{-5e4, -1e5, -6e4, 1e4}, memory{0., 0., 0., 0.};
+  double void_ratio = .6;
+};
+
+Law::Parameters
+parameters(const double evolution = .5)
+{
+  const double values[] = {30.,
+                           5.8e9,
+                           .28,
+                           .53,
+                           .84,
+                           1.,
+                           .13,
+                           1.05,
+                           1.,
+                           range,
+                           m_R,
+                           m_T,
+                           evolution,
+                           6.,
+                           0.};
+  return Law::make(values);
+}
+
+Stress
+times(const double factor, const Stress &a)
+{
+  return {factor * a.rr, factor * a.zz, factor * a.tt, factor * a.rz};
+}
+
+Stress
+minus(const Stress &a, const Stress &b)
+{
+  return {a.rr - b.rr, a.zz - b.zz, a.tt - b.tt, a.rz - b.rz};
+}
+
+double
+product(const Stress &a, const Stress &b)
+{
+  return (a.rr * b.rr + a.zz * b.zz + a.tt * b.tt + 2. * (a.rz * b.rz))[0];
+}
+
+double
+norm(const Stress &a)
+{
+  return std::sqrt(product(a, a));
+}
+
+double
+difference(const Stress &a, const Stress &b)
+{
+  return norm(minus(a, b)) / norm(b);
+}
+
+template <typename AnyLaw>
+void
+strain(Point &point, const Stress &D, const typename AnyLaw::Parameters &p)
+{
+  LawState<Scalar> state;
+  state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
+  state.void_ratio         = Scalar(point.void_ratio);
+  const Stress &h          = point.memory;
+  const Scalar  variable[] = {h.rr, h.zz, h.tt, h.rz};
+  for (int i = 0; i < 4; ++i)
+    state.variable[i] = variable[i];
+  AnyLaw::update(point.stress, {D.rr, D.zz, D.tt, D.rz}, state, p);
+  point.void_ratio += (1. + point.void_ratio) * (D.rr + D.zz + D.tt)[0];
+  point.memory = {state.variable[0],
+                  state.variable[1],
+                  state.variable[2],
+                  state.variable[3]};
+}
+
+/** The stress increment for a tiny strain @p D, over its length. */
+template <typename AnyLaw>
+Stress
+stiffness(const Point                       &at,
+          const Stress                      &D,
+          const typename AnyLaw::Parameters &p)
+{
+  constexpr double tiny  = 1e-11;
+  Point            point = at;
+  strain<AnyLaw>(point, times(tiny, D), p);
+  return times(1. / tiny, minus(point.stress, at.stress));
+}
+
+/** The same of the linear part L alone, without intergranular strain. */
+Stress
+linear_stiffness(const Point &at, const Stress &D, const Law::Parameters &p)
+{
+  return times(.5,
+               minus(stiffness<HypoplasticSand>(at, D, p),
+                     stiffness<HypoplasticSand>(at, times(-1., D), p)));
+}
+
+const Stress forward{.3 / 1.1, -1. / 1.1, .1 / 1.1, .2 / 1.1};
+
+void
+test_stiffness()
+{
+  const auto   p = parameters();
+  const Stress D = times(1. / norm(forward), forward);
+  Point        point;
+  std::printf("Stiffness\n");
+  report("at rest, m_R L",
+         difference(stiffness<Law>(point, D, p),
+                    times(m_R, linear_stiffness(point, D, p))),
+         1e-3);
+  for (unsigned int i = 0; i < 200; ++i)
+    strain<Law>(point, times(range, D), p);
+  report("straight on, no memory",
+         difference(stiffness<Law>(point, D, p),
+                    stiffness<HypoplasticSand>(point, D, p)),
+         1e-3);
+  report("reversed, m_R L",
+         difference(stiffness<Law>(point, times(-1., D), p),
+                    times(-m_R, linear_stiffness(point, D, p))),
+         1e-3);
+  // normal to D, and on the side of the reversal
+  Stress       normal{1., 1., 1., -.5};
+  const double along = product(normal, D);
+  normal             = minus(normal, times(along, D));
+  normal             = times(1. / norm(normal), normal);
+  report("turned, m_T L",
+         difference(stiffness<Law>(point, minus(normal, times(1e-9, D)), p),
+                    times(m_T, linear_stiffness(point, normal, p))),
+         1e-3);
+}
+
+/** With beta_r = 1, |h| = R (1 - exp(-e / R)) on a straight path. */
+void
+test_growth()
+{
+  const auto   p     = parameters(1.);
+  const Stress D     = times(1. / norm(forward), forward);
+  double       error = 0., step = 0.;
+  for (const int n : {1, 10, 1000})
+    for (const double e : {.1, .5, 1., 3.})
+      {
+        Point point;
+        for (int i = 0; i < n; ++i)
+          strain<Law>(point, times(e * range / n, D), p);
+        const double found = norm(point.memory) / range - (1. - std::exp(-e));
+        raise(n == 1000 ? error : step, std::fabs(found));
+      }
+  std::printf("Growth\n");
+  report("error of |h| / R, small steps", error, 2e-3);
+  report("error of |h| / R, any steps", step, 3e-2);
+}
+
+/** Oedometric cycles of strain; amplitude from peak to peak. */
+template <typename AnyLaw>
+std::vector<double>
+cycles(const double amplitude, const int n_cycles, const int n_steps)
+{
+  const auto          p = parameters();
+  std::vector<double> axial;
+  Point               point;
+  point.stress = {-5e4, -1e5, -5e4, 0.};
+  for (int half = 0; half < 2 * n_cycles; ++half)
+    {
+      const double sign = half % 2 == 0 ? -1. : 1.;
+      for (int i = 0; i < n_steps; ++i)
+        strain<AnyLaw>(point, {0., sign * amplitude / n_steps, 0., 0.}, p);
+      axial.push_back(-point.stress.zz[0]);
+    }
+  return axial;
+}
+
+void
+test_cycles()
+{
+  // scripts/caisson element-tests cycles: axial stress at each reversal
+  struct Case
+  {
+    double amplitude, axial[6];
+  };
+  const Case cases[] = {{1e-05,
+                         {1.027956e+05,
+                          1.000000e+05,
+                          1.027956e+05,
+                          1.000000e+05,
+                          1.027956e+05,
+                          1.000000e+05}},
+                        {0.0001,
+                         {1.304394e+05,
+                          9.993318e+04,
+                          1.304289e+05,
+                          9.992723e+04,
+                          1.304254e+05,
+                          9.992503e+04}},
+                        {0.001,
+                         {3.089106e+05,
+                          5.705540e+04,
+                          2.512108e+05,
+                          4.112245e+04,
+                          2.023140e+05,
+                          2.921860e+04}}};
+  std::printf("Cycles of strain\n");
+  for (const Case &c : cases)
+    {
+      double error = 0.;
+      for (const int n_steps : {1, 20, 1000})
+        {
+          const auto found = cycles<Law>(c.amplitude, 3, n_steps);
+          for (int i = 0; i < 6; ++i)
+            raise(error, std::fabs(found[i] / c.axial[i] - 1.));
+        }
+      char name[80];
+      std::snprintf(name, sizeof(name), "amplitude %g, error", c.amplitude);
+      report(name, error, 5e-3);
+    }
+  const double with    = cycles<Law>(2e-5, 50, 10).back(),
+               without = cycles<HypoplasticSand>(2e-5, 50, 10).back();
+  std::printf("axial stress after 50 cycles of 2e-5: %.1f kPa, without %.1f\n",
+              with / 1e3,
+              without / 1e3);
+}
+
+/** Turning stress, strain and memory turns the answer. */
+void
+test_rotation()
+{
+  const auto turned = [](const Stress &s, const double angle) {
+    const double c = std::cos(angle), d = std::sin(angle);
+    return Stress{c * c * s.rr + d * d * s.zz - 2. * c * d * s.rz,
+                  d * d * s.rr + c * c * s.zz + 2. * c * d * s.rz,
+                  s.tt,
+                  c * d * (s.rr - s.zz) + (c * c - d * d) * s.rz};
+  };
+  const auto   p = parameters();
+  const Stress memory{.2e-4, -.5e-4, .1e-4, .3e-4}, D{3e-5, -8e-5, 1e-5, 2e-5};
+  double       error = 0., turn = 0.;
+  Point        straight;
+  for (const double angle : {0., .3, 1., 2.})
+    {
+      Point point;
+      point.stress = turned(point.stress, angle);
+      point.memory = turned(memory, angle);
+      strain<Law>(point, turned(D, angle), p);
+      if (angle == 0.)
+        straight = point;
+      raise(error,
+            difference(turned(point.stress, -angle), straight.stress) +
+              difference(turned(point.memory, -angle), straight.memory));
+
+      LawState<Scalar> state;
+      const Scalar variable[] = {memory.rr, memory.zz, memory.tt, memory.rz};
+      for (int i = 0; i < 4; ++i)
+        state.variable[i] = variable[i];
+      // a step of the soil by -2 angle / 100: the spin is (L_rz - L_zr) / 2
+      for (int i = 0; i < 100; ++i)
+        turn_state<Law>(HalfTurn<Scalar>(Scalar(-angle / 100.)), state);
+      const Scalar *v = state.variable;
+      raise(turn,
+            difference(Stress{v[0], v[1], v[2], v[3]},
+                       turned(memory, .5 * angle)));
+    }
+  std::printf("Rotation\n");
+  report("difference after turning back", error, 1e-12);
+  report("memory that turns with the soil", turn, 1e-6);
+}
+
+/** Any state and step: finite, |h| <= R, and the bound of wave stiffness. */
+void
+test_any_state()
+{
+  std::mt19937                           generator(9);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  const auto                             p          = parameters();
+  unsigned int                           not_finite = 0;
+  double                                 length = 0., excess = 0.;
+  const auto                             any = [&](const double size) {
+    return Stress{size * uniform(generator),
+                  size * uniform(generator),
+                  size * uniform(generator),
+                  size * uniform(generator)};
+  };
+  for (unsigned int n = 0; n < 20000; ++n)
+    {
+      Point point;
+      point.stress     = any(std::pow(10., 3. + 3. * uniform(generator)));
+      point.memory     = any(range);
+      point.void_ratio = .7 + .15 * uniform(generator);
+      strain<Law>(point, any(std::pow(10., -5. + 3. * uniform(generator))), p);
+      raise(length, norm(point.memory) / range);
+      not_finite += !std::isfinite(norm(point.stress));
+
+      const double pressure = std::pow(10., 4.5 + 1.5 * uniform(generator));
+      point.stress          = any(.3 * pressure);
+      point.stress.rr -= pressure;
+      point.stress.zz -= pressure;
+      point.stress.tt -= pressure;
+      point.void_ratio   = .7 + .15 * uniform(generator);
+      const double angle = 3.2 * uniform(generator),
+                   turn  = 3.2 * uniform(generator);
+      const double nr = std::cos(angle), nz = std::sin(angle);
+      const double mr = std::cos(turn), mz = std::sin(turn);
+      const Stress answer =
+        stiffness<Law>(point,
+                       {mr * nr, mz * nz, 0., .5 * (mr * nz + mz * nr)},
+                       p);
+      const double wave = (mr * (answer.rr * nr + answer.rz * nz) +
+                           mz * (answer.rz * nr + answer.zz * nz))[0];
+      raise(excess,
+            wave / Law::p_wave_modulus(point.stress, point.void_ratio, p));
+    }
+  std::printf("Any state\nnot finite: %u\n", not_finite);
+  report("|h| / R", length, 1. + 1e-12);
+  std::printf("largest stiffness over the bound: %.2f\n", excess);
+  report("excess over the bound", excess - 1., 1e-3);
+}
+
+int
+main()
+{
+  test_stiffness();
+  test_growth();
+  test_cycles();
+  test_rotation();
+  test_any_state();
+}
