@@ -52,9 +52,12 @@ namespace CaissonMPM
             "\n  frames     " + rough(n_frames) + ", about " +
             megabytes(n_frames * bytes_on_disk * n_points) + " on the disk";
     if (std::isfinite(n_steps) && cost.seconds_per_step > 0.)
-      text += "\n  duration   about " +
-              duration(n_steps * cost.seconds_per_step) +
-              " at the speed of the first steps";
+      text +=
+        "\n  duration   about " + duration(n_steps * cost.seconds_per_step) +
+        " at the speed of the first steps" +
+        (cost.stiffens ?
+           ", several times as long where soil grows stiffer under a tip" :
+           "");
     for (const std::string &saving : cost.savings)
       text += "\n  cheaper    " + saving;
     return text + "\n";

@@ -140,6 +140,8 @@ namespace CaissonMPM
     cost.end   = schedule.end_description() + ", by " + schedule.entry_of_end();
     cost.limit = time_step.reason();
     cost.n_steps = number_of_steps();
+    for (unsigned int i = 0; i < soil.n_materials(); ++i)
+      cost.stiffens = cost.stiffens || soil.material(i).stiffness_varies();
 
     unsigned int  n = 0;
     dealii::Timer timer(grid.communicator(), true);

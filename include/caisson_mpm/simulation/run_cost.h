@@ -21,6 +21,8 @@ namespace CaissonMPM
     double        peak_bytes = 0.; // memory so far
     /** Measured in the first steps; 0 where there is no measurement. */
     double seconds_per_step = 0.;
+    /** Whether the soil grows stiffer with its stress, and the step shorter. */
+    bool stiffens = false;
     /** What would make the run shorter, in words. */
     std::vector<std::string> savings;
   };
