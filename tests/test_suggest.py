@@ -144,7 +144,7 @@ class Suggest(ProgramTest):
         said = self.suggest(scene, *words, layers=())
         self.assertIn("layer 1 has silt from", said)
         self.run_program(SUCCESS, scene, "--validate", "--strict")
-        self.assertIn("# FROM CPT (kulhawy-mayne-1990)", scene.read_text("utf-8"))
+        self.assertIn("# FROM CPT (bolton-1986-tip)", scene.read_text("utf-8"))
         entries = read_parameters([str(scene)])
         with open(study, "rb") as file:
             content = tomllib.load(file)
@@ -167,7 +167,7 @@ class Suggest(ProgramTest):
         said = self.caisson("cpt", str(EXAMPLE), *words)
         self.assertIn("report.html", said)
         page = (out / "report.html").read_text("utf-8")
-        for words_of_page in ("kulhawy-mayne-1990", "DNV", "layer 1 has silt"):
+        for words_of_page in ("bolton-1986-tip", "DNV", "layer 1 has silt"):
             self.assertIn(words_of_page, page)
         for name in ("low", "best", "high"):
             run = out / f"study/soil_{name}"

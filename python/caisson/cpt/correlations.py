@@ -19,6 +19,11 @@ Relative density D_r of silica sand
     two formulas.
 
 Friction angle of sand, in degrees
+    bolton-1986-tip    phi of bolton-1986 at the mean stress sqrt(q_t sigma'_v) in the
+        place of sigma'_m: sand under a tip fails under a stress between that of the
+        tip and that of the ground, and the more it is pressed the less it dilates.
+        The geometric mean is that of Randolph, Dolwin & Beck (1994), Geotechnique 44,
+        427, for piles; quoted, and unconfirmed
     kulhawy-mayne-1990 phi = 17.6 + 11 log10(q_t/p_a / sqrt(sigma'_v/p_a))
         Kulhawy & Mayne (1990), EPRI EL-6800; clean sands in chambers; a scatter of 2.8
         degrees, which is quoted and unconfirmed
@@ -87,6 +92,12 @@ EVERY = (
         DENSITY, "baldi-1986", "Baldi et al. (1986)", "normally consolidated sand"
     ),
     Correlation(
+        ANGLE,
+        "bolton-1986-tip",
+        "Bolton (1986) at the mean stress of Randolph, Dolwin & Beck (1994)",
+        "quartz sand under a tip, from relative density",
+    ),
+    Correlation(
         ANGLE, "kulhawy-mayne-1990", "Kulhawy & Mayne (1990)", "clean silica sand"
     ),
     Correlation(
@@ -151,21 +162,29 @@ def kulhawy_mayne(ground: Ground, end: int) -> np.ndarray:
     return np.clip(angle + end * SCATTER_OF_ANGLE, *ANGLES)
 
 
-def bolton_of_density(
-    ground: Ground, k0: np.ndarray, density: np.ndarray
-) -> np.ndarray:
-    """Return phi [n] of Bolton (1986)."""
-    logarithm = np.log(mean_stress(ground, k0) / 1e3)
-    return CRITICAL_ANGLE + 3 * np.clip(density * (10 - logarithm) - 1, 0.0, 4.0)
+def bolton_of_density(stress: np.ndarray, density: np.ndarray) -> np.ndarray:
+    """Return phi [n] of Bolton (1986); stress: mean effective stress (Pa) [n]."""
+    index = density * (10 - np.log(stress / 1e3)) - 1
+    return CRITICAL_ANGLE + 3 * np.clip(index, 0.0, 4.0)
 
 
-def bolton(ground: Ground, density: Density, end: int) -> np.ndarray:
+def stress_at_tip(ground: Ground, _: np.ndarray) -> np.ndarray:
+    """Return the mean stress (Pa) [n] under which sand fails at a tip."""
+    return np.sqrt(np.maximum(ground.tip, ground.stress) * ground.stress)
+
+
+STRESSES = {"bolton-1986": mean_stress, "bolton-1986-tip": stress_at_tip}
+
+
+def bolton(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
     """Return phi [n] of Bolton (1986); K_0 = 1 - sin phi is found with it."""
+    stress_of, density = STRESSES[names[ANGLE]], DENSITIES[names[DENSITY]]
     k0 = np.full(len(ground.depth), 0.5)
     for _ in range(ROUNDS):
-        angle = bolton_of_density(ground, k0, density(ground, k0, BEST))
+        stress = stress_of(ground, k0)
+        angle = bolton_of_density(stress, density(ground, k0, BEST))
         k0 = at_rest(angle)
-    other = bolton_of_density(ground, k0, density(ground, k0, end))
+    other = bolton_of_density(stress_of(ground, k0), density(ground, k0, end))
     angle = angle + end * np.hypot(SCATTER_OF_BOLTON, other - angle)
     return np.clip(angle, *ANGLES)
 
@@ -177,8 +196,8 @@ def at_rest(angle: np.ndarray) -> np.ndarray:
 
 def angles_of(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
     """Return phi [n] by the correlation chosen."""
-    if names[ANGLE] == "bolton-1986":
-        return bolton(ground, DENSITIES[names[DENSITY]], end)
+    if names[ANGLE] in STRESSES:
+        return bolton(ground, names, end)
     return kulhawy_mayne(ground, end)
 
 

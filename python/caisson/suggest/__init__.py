@@ -27,8 +27,16 @@ from caisson.paths import INSTALLED
 from caisson.results import ResultsError
 from caisson.run import RunError, ask, read_parameters
 from caisson.suggest import cone
-from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
-from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of
+from caisson.suggest.sizes import (
+    LEVELS,
+    Body,
+    Level,
+    frames_of,
+    mass_scaling_of,
+    mesh_of,
+    start_of,
+)
+from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of, stiffens
 
 CHANGES = (-4, -2, 0, 2, 4)  # degrees, of a study of the friction angle
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "": 1.0}
@@ -126,9 +134,11 @@ def check(options: argparse.Namespace) -> None:
 
 
 def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
-    """Return the friction angle of the walls. Raises SuggestError."""
-    if given is not None:
-        return Entry("", f"{given:g}")
+    """Return the friction angle of the walls where a layer has none of its own.
+    Raises SuggestError."""
+    layers = [x for x in layers if not x.value("Friction angle of the walls")]
+    if given is not None or not layers:
+        return Entry("", f"{given or 0:g}")
     angles = [layer.value("Friction angle") for layer in layers]
     try:
         least = min(map(float, angles))
@@ -230,6 +240,9 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         f" {body.wall * 1e3:g} mm, {how}",
         body=body,
         level=level,
+        mass_scaling=mass_scaling_of(
+            level, all(map(stiffens, reached(options, layers)))
+        ),
         mesh=mesh,
         smallest_mm=f"{smallest * 1e3:.3g}",
         start=start,
@@ -269,7 +282,7 @@ def write(options: argparse.Namespace) -> None:
         deepest = cone.REACH * options.skirt
         found = interpretation.interpret(options.cpt, options, deepest)
         print(tables.text_of_test(found))
-        layers = cone.layers_of(found, end_of(options))
+        layers = cone.layers_of(found, end_of(options), bool(options.weight))
     else:
         layers = layers_of(options.layer, entries_of_layers())
     texts = {options.file: scene_of(options, layers, LEVELS[options.error])}

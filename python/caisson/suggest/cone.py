@@ -12,31 +12,33 @@ from caisson.cpt.estimates import (
     WEIGHT,
     Estimates,
 )
-from caisson.cpt.ground import SAND
+from caisson.cpt.ground import CLAY, SAND
 from caisson.cpt.interpretation import Interpretation
 from caisson.cpt.tables import SHOWN, text_of
-from caisson.suggest.soil import ASSUMED, Entry, Layer, SuggestError
+from caisson.suggest.soil import ASSUMED, BY_STRESS, Entry, Layer, SuggestError
 
 REACH = 1.5  # times the skirt: the test counts to this depth
 ASSUMPTION = " # ASSUMED"
-BY_STRESS = "Mohr-Coulomb with stiffness by stress"
+ADHESION = "0.5"  # of walls in clay, over its strength
 POISSON_OF_CLAY = "0.45"  # hardly any change of volume, as without drainage
 
 
-def refuse_fines(found: Interpretation, end: float) -> None:
-    """Refuse clay and silt that the skirt reaches. Raises SuggestError."""
+def refuse_fines(found: Interpretation, end: float, flows: bool) -> None:
+    """Refuse silt that the skirt reaches, and clay if water flows. Raises
+    SuggestError."""
+    allowed = (SAND,) if flows else (SAND, CLAY)
     wrong = [
         f"layer {number}, {e.layer.top:g} to {e.layer.bottom:g} m, is {e.layer.kind}"
         f" ({CAN[e.layer.kind]})"
         for number, e in enumerate(found.layers, 1)
-        if e.layer.kind != SAND and e.layer.top < end
+        if e.layer.kind not in allowed and e.layer.top < end
     ]
     if wrong:
         raise SuggestError(
             f"{found.file}: {'; '.join(wrong)}. No scene is written by itself where"
-            " the skirt reaches other soil than sand: the walls have one friction and"
-            " one adhesion for all layers. Give the layers in words, --layer, or end"
-            " above it, --penetration"
+            " the skirt reaches silt, or clay under suction: nothing says how far the"
+            " soil drains. Give the layers in words, --layer, or end above it,"
+            " --penetration"
         )
 
 
@@ -54,8 +56,8 @@ def number(value: float) -> str:
 
 
 def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
-    """Return law, strength and stiffness of a layer; clay and silt, which are below
-    the skirt, are undrained."""
+    """Return law, strength and stiffness of a layer; clay, and silt below the skirt,
+    are undrained."""
     if e.layer.kind == SAND:
         return [
             Entry("Law", BY_STRESS),
@@ -80,6 +82,8 @@ def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
         Entry("Youngs modulus", modulus, f"{ASSUMPTION}: a multiple of s_u"),
         Entry("Poisson ratio", POISSON_OF_CLAY, ASSUMPTION),
         Entry("K0", number(e.values[K0].best), " # FROM CPT"),
+        Entry("Friction angle of the walls", "0"),
+        Entry("Adhesion factor of the walls", ADHESION, f"{ASSUMPTION}: remoulded"),
     ]
 
 
@@ -93,10 +97,10 @@ def entries_of(found: Interpretation, e: Estimates) -> list[Entry]:
     ]
 
 
-def layers_of(found: Interpretation, end: float) -> list[Layer]:
-    """Return the layers of a scene whose skirt ends at a depth (m). Raises
-    SuggestError."""
-    refuse_fines(found, end)
+def layers_of(found: Interpretation, end: float, flows: bool = False) -> list[Layer]:
+    """Return the layers of a scene whose skirt ends at a depth (m); flows: water flows
+    through the ground. Raises SuggestError."""
+    refuse_fines(found, end, flows)
     return [Layer(e.layer.top, entries_of(found, e)) for e in found.layers]
 
 
@@ -121,7 +125,7 @@ def choices_of(
             quantity = REFERENCE if e.layer.kind == SAND else MODULUS
             modulus = e.values[quantity].at(name)
             entries[f"{head}/Youngs modulus"] = float(number(modulus))
-        if wall_friction is None:
+        if wall_friction is None and angles:
             for side in ("outer", "inner"):
                 entry = f"Rigid body/Friction angle of the {side} wall"
                 entries[entry] = float(f"{2 / 3 * min(angles):.3g}")

@@ -41,6 +41,20 @@ LEVELS = {
 }
 
 
+# where the stiffness of all layers grows with their stress, at 20 %: the force is 5 %
+# larger down to a meter, and the same from 2 m on (doc/how_to/own_caisson.md)
+MASS_SCALING_OF_STIFFENING = 400
+
+
+def mass_scaling_of(level: Level, stiffens: bool) -> float:
+    """Return the factor on the inertia; stiffens: the stiffness of all layers that the
+    skirt reaches grows with their stress, so that the soil at the tip is far stiffer
+    than elsewhere."""
+    if stiffens and level.error == 20:
+        return MASS_SCALING_OF_STIFFENING
+    return level.mass_scaling
+
+
 @dataclass(frozen=True)
 class Body:
     """A caisson: outer diameter, length of the skirt and thickness of the wall (m)."""

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 MOHR_COULOMB = "Mohr-Coulomb"
+BY_STRESS = "Mohr-Coulomb with stiffness by stress"
 # what soil of a law of Mohr-Coulomb has where nothing is given
 ASSUMED = {
     "Law": MOHR_COULOMB,
@@ -40,6 +41,11 @@ class Layer:
     def value(self, name: str) -> str:
         """Return an entry, "" where the layer has none of this name."""
         return next((e.value for e in self.entries if e.name == name), "")
+
+
+def stiffens(layer: Layer) -> bool:
+    """Return whether the stiffness of a layer grows with its stress."""
+    return layer.value("Law") == BY_STRESS
 
 
 def name_of(word: str, known: Sequence[str]) -> str:
