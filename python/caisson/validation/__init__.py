@@ -31,6 +31,7 @@ COMPARISONS = (
     "cone_clay",
     "cone_coefficients",
     "cone_layers",
+    "cone_quick",
     "cone_sand",
     "model_caisson",
 )

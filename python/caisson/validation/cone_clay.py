@@ -42,8 +42,10 @@ class Case(NamedTuple):
         return f"I{self.rigidity:g}_a{self.roughness:g}_D{self.stress:g}"
 
     def entries(self) -> dict[str, Any]:
-        """Return what differs from the scene. Lengths grow with the plastic zone."""
+        """Return what differs from the scene. Lengths grow with the plastic zone; where
+        the stress is not the same in all directions, the cone needs a longer way."""
         size = max(1.0, sqrt(self.rigidity / 100))
+        end = 0.7 if self.stress else 0.5  # m
         radial = 2 * self.stress * STRENGTH  # tension is positive
         return {
             "Soil/Layer 1/Youngs modulus": 2 * (1 + POISSON) * self.rigidity * STRENGTH,
@@ -51,11 +53,11 @@ class Case(NamedTuple):
             "Soil/Uniform stress": f"{radial:g}, 0, {radial:g}, 0",
             "Rigid body/Adhesion of the tip": self.roughness * STRENGTH,
             "Rigid body/Initial penetration": 0.12 * size,
-            "Rigid body/Skirt length": 0.7 * size,
-            "Time/End penetration": 0.5 * size,
+            "Rigid body/Skirt length": (end + 0.2) * size,
+            "Time/End penetration": end * size,
             "Grid/Outer radius": 0.5 * size,
-            "Grid/Bottom": -1.0 * size,
-            "Grid/Top": 0.7 * size,
+            "Grid/Bottom": -(end + 0.5) * size,
+            "Grid/Top": (end + 0.2) * size,
         }
 
 

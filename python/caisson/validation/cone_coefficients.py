@@ -4,13 +4,19 @@
 k_p is the stress on the tip of a skirt over the cone resistance at the same depth, and
 k_f the friction on a wall over the integral of the cone resistance along it. Design
 methods take both from experience; here both are computed.
+
+The error bar of each is that of both meshes: the difference from a coarser mesh, over
+the ratio of the cell sizes less 1, as for an error of first order; of cone and skirt it
+is the root of the sum of squares.
 """
 from math import pi
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from scipy.ndimage import uniform_filter1d
 
 from caisson import curves
 from caisson.design import dnv
@@ -22,6 +28,24 @@ CONE_AREA = pi * 0.1**2  # m2, of prm/validation/cone_in_sand.prm
 DIAMETER = 6.0  # m, of prm/jack.prm
 DEPTHS = (1.0, 2.0, 4.0, 6.0)
 WALLS = (0.05, 0.1, 0.2)  # m
+COARSE = "_coarse"  # ends the name of a run on a coarser mesh
+SMOOTHED = 11  # rows, 1 m, over which an error is a mean
+
+
+def mesh_of(cells: int, size: float) -> dict[str, Any]:
+    """Return entries with the cells across the wall, or the radius of the cone, and the
+    size of the other cells over that of prm/jack.prm."""
+    return {
+        "Rigid body/Cells across the wall": cells,
+        "Grid/Cell width": 1.2 * size,
+        "Grid/Cell height": 0.4 * size,
+        "Grid/Fine width": 0.15 * size,
+        "Grid/Fine height": 0.15 * size,
+    }
+
+
+# of skirts 4 cells are 3, of cones 3 are 2
+SKIRT_RATIO, CONE_RATIO = 4 / 3, 3 / 2
 
 
 class Sand(NamedTuple):
@@ -46,8 +70,10 @@ def runs_of(_: Path) -> list[dict[str, Any]]:
     """Return a cone and a skirt of each thickness in each sand."""
     runs = []
     for sand in SANDS:
-        cone = {"name": f"{sand.name}_cone", "seconds": 50, "set": sand.entries()}
-        runs.append(cone)
+        name, entries = f"{sand.name}_cone", sand.entries()
+        runs.append({"name": name, "seconds": 50, "set": entries})
+        coarse = {**entries, **mesh_of(2, CONE_RATIO)}
+        runs.append({"name": name + COARSE, "seconds": 15, "set": coarse})
         for wall in WALLS:
             entries = {
                 **sand.entries(),
@@ -58,8 +84,11 @@ def runs_of(_: Path) -> list[dict[str, Any]]:
             }
             name = f"{sand.name}_wall_{wall:g}"
             seconds = 60 * (0.1 / wall) ** 2
-            skirt = {"scene": "../jack.prm", "name": name, "set": entries}
-            runs.append({**skirt, "seconds": seconds})
+            skirt = {"scene": "../jack.prm", "seconds": seconds}
+            runs.append({**skirt, "name": name, "set": entries})
+            coarse = {**entries, **mesh_of(3, SKIRT_RATIO)}
+            skirt["seconds"] = seconds / 2
+            runs.append({**skirt, "name": name + COARSE, "set": coarse})
     return runs
 
 
@@ -103,6 +132,25 @@ def coefficients(
     )
 
 
+def estimate(
+    study: Study, sand: Sand, wall: float, depth: np.ndarray
+) -> tuple[Coefficients, Coefficients]:
+    """Return the coefficients at depths [n], 0.1 m apart, and their error bars."""
+    of_cone, of_skirt = f"{sand.name}_cone", f"{sand.name}_wall_{wall:g}"
+
+    def found(cone: str, skirt: str) -> Coefficients:
+        profile = cone_profile(study.run(cone))
+        return coefficients(study.run(skirt), profile, wall, depth)
+
+    fine = found(of_cone, of_skirt)
+    others = found(of_cone, of_skirt + COARSE), found(of_cone + COARSE, of_skirt)
+    errors = [
+        np.hypot((k - skirt) / (SKIRT_RATIO - 1), (k - cone) / (CONE_RATIO - 1))
+        for k, skirt, cone in zip(fine, *others)
+    ]
+    return fine, Coefficients(*(uniform_filter1d(e, SMOOTHED) for e in errors))
+
+
 def compare(study: Study, _: Path, figure: Figure) -> list[Row]:
     """Draw, and return the coefficients at some depths; nothing is asked of them."""
     figure.set_size_inches(10, 4.2)
@@ -110,30 +158,42 @@ def compare(study: Study, _: Path, figure: Figure) -> list[Row]:
     rows = []
     depth = np.arange(0.8, 6.4, 0.1)
     for i, sand in enumerate(SANDS):
-        cone = cone_profile(study.run(f"{sand.name}_cone"))
         for j, wall in enumerate(WALLS):
-            run = study.run(f"{sand.name}_wall_{wall:g}")
-            k = coefficients(run, cone, wall, depth)
+            k, error = estimate(study, sand, wall, depth)
             label = f"{sand.name}, wall {1e3 * wall:g} mm"
             style = {"color": f"C{i}", "ls": ("-", "--", ":")[j]}
-            axes[0].plot(k.tip, depth, label=label, **style)
-            axes[1].plot(1e3 * k.outer, depth, **style)
-            at = coefficients(run, cone, wall, np.array(DEPTHS))
-            for h, p, inner, outer in zip(DEPTHS, *at):
-                where = f"{label}, {h:g} m"
-                rows.append(Row(study.id, f"k_p, {where}", float(p)))
-                rows.append(
-                    Row(study.id, f"1000 k_f inner, {where}", float(1e3 * inner))
-                )
-                rows.append(
-                    Row(study.id, f"1000 k_f outer, {where}", float(1e3 * outer))
-                )
+            draw(axes[0], depth, (k.tip, error.tip), style, label)
+            draw(axes[1], depth, (1e3 * k.outer, 1e3 * error.outer), style, label)
+            names = ("k_p", 1), ("1000 k_f inner", 1e3), ("1000 k_f outer", 1e3)
+            for (name, factor), value, bar in zip(names, k, error):
+                for h in DEPTHS:
+                    at, within = (
+                        factor * float(np.interp(h, depth, y)) for y in (value, bar)
+                    )
+                    where = f"{name}, {label}, {h:g} m"
+                    rows.append(Row(study.id, where, at))
+                    rows.append(Row(study.id, f"error bar of {where}", within))
     for panel, index, factor in ((axes[0], 0, 1), (axes[1], 1, 1e3)):
         low, high = [pair[index] * factor for pair in dnv.COEFFICIENTS["sand"]]
         panel.axvspan(low, high, color="0.9", label="DNV, sand")
         panel.invert_yaxis()
         panel.grid(color="0.95")
-    axes[0].set(xlabel="$k_p$", ylabel="depth (m)")
-    axes[1].set(xlabel="1000 $k_f$, outer wall")
+    axes[0].set(xlabel="$k_p$", ylabel="depth (m)", xlim=(0, 1.6))
+    axes[1].set(xlabel="1000 $k_f$, outer wall", xlim=(0, 25))
     axes[0].legend(fontsize=8)
     return rows
+
+
+def draw(
+    axes: Axes,
+    depth: np.ndarray,
+    found: tuple[np.ndarray, np.ndarray],
+    style: dict[str, str],
+    label: str,
+) -> None:
+    """Draw a coefficient with its error bar over depth."""
+    value, error = found
+    axes.plot(value, depth, label=label, **style)
+    axes.fill_betweenx(
+        depth, value - error, value + error, color=style["color"], alpha=0.12, lw=0
+    )

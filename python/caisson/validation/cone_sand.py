@@ -46,20 +46,23 @@ def name_of(density: float, vertical: float) -> str:
     return f"D{100 * density:g}_{vertical:g}"
 
 
+def entries_of(density: float, vertical: float) -> dict[str, Any]:
+    """Return the entries of a state; vertical: stress in kPa."""
+    v, h = 1e3 * vertical, 1e3 * K0 * vertical
+    return {
+        "Soil/Uniform stress": f"{-h:g}, {-v:g}, {-h:g}, 0",
+        "Loads/Surrounding pressure": v,
+        "Soil/Layer 1/Relative density": density,
+    }
+
+
 def runs_of(_: Path) -> list[dict[str, Any]]:
     """Return a run for each density and stress."""
-    runs = []
-    for density in DENSITIES:
-        for vertical in STRESSES:
-            v, h = 1e3 * vertical, 1e3 * K0 * vertical
-            entries = {
-                "Soil/Uniform stress": f"{-h:g}, {-v:g}, {-h:g}, 0",
-                "Loads/Surrounding pressure": v,
-                "Soil/Layer 1/Relative density": density,
-            }
-            name = name_of(density, vertical)
-            runs.append({"name": name, "seconds": 150, "set": entries})
-    return runs
+    return [
+        {"name": name_of(d, v), "seconds": 150, "set": entries_of(d, v)}
+        for d in DENSITIES
+        for v in STRESSES
+    ]
 
 
 def resistance(run: StudyRun, vertical: float) -> float:
