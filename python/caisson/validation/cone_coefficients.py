@@ -44,8 +44,8 @@ def mesh_of(cells: int, size: float) -> dict[str, Any]:
     }
 
 
-# of skirts 4 cells are 3, of cones 3 are 2
-SKIRT_RATIO, CONE_RATIO = 4 / 3, 3 / 2
+# of skirts 4 cells are 2, of cones 3 are 2
+SKIRT_RATIO, CONE_RATIO = 2.0, 1.5
 
 
 class Sand(NamedTuple):
@@ -86,8 +86,8 @@ def runs_of(_: Path) -> list[dict[str, Any]]:
             seconds = 60 * (0.1 / wall) ** 2
             skirt = {"scene": "../jack.prm", "seconds": seconds}
             runs.append({**skirt, "name": name, "set": entries})
-            coarse = {**entries, **mesh_of(3, SKIRT_RATIO)}
-            skirt["seconds"] = seconds / 2
+            coarse = {**entries, **mesh_of(2, SKIRT_RATIO)}
+            skirt["seconds"] = seconds / 8
             runs.append({**skirt, "name": name + COARSE, "set": coarse})
     return runs
 

@@ -132,7 +132,9 @@ def draw(
         for values, style, case in ((low, ":", "plain"), (high, "--", "enhanced")):
             label = f"Houlsby & Byrne, {case}, wall {angle} degrees"
             axes.plot(values, answer.depth, style, color=f"C{i}", lw=1, label=label)
-    axes.plot(limit, depth, "C0o", mfc="none", label="the same, extrapolated")
+    axes.plot(
+        limit, depth, "C0o", mfc="none", label="computed, wall 25 degrees, extrapolated"
+    )
     axes.plot(force, depth, "ks", label="measured")
     axes.set(xlabel="force (N)", ylabel="penetration (m)", xlim=(0, 2 * force[-1]))
     axes.invert_yaxis()
