@@ -120,9 +120,6 @@ namespace CaissonMPM
         }
 
       private:
-        using Hypoplasticity::product;
-        using Hypoplasticity::sum;
-
         /** Shifted stress, void ratio and, with a memory, h. */
         template <typename Number>
         struct State

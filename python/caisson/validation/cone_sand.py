@@ -59,7 +59,7 @@ def entries_of(density: float, vertical: float) -> dict[str, Any]:
 def runs_of(_: Path) -> list[dict[str, Any]]:
     """Return a run for each density and stress."""
     return [
-        {"name": name_of(d, v), "seconds": 150, "set": entries_of(d, v)}
+        {"name": name_of(d, v), "seconds": 240, "set": entries_of(d, v)}
         for d in DENSITIES
         for v in STRESSES
     ]
