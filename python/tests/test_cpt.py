@@ -433,6 +433,21 @@ class Scenes(WithFiles):
         with self.assertRaisesRegex(SuggestError, "layer 2, 5 to 12 m, is clay"):
             cone.layers_of(found, 6.0, flows=True)
 
+    def test_no_strength_is_refused(self) -> None:
+        """Clay whose cone resistance is below the total vertical stress."""
+        path = self.layered((5, 15, 0.5), (12, 0.03, 4.5))
+        words = ["--tops", "0,5"]
+        found = interpretation.interpret(path, options(*words))
+        with self.assertRaisesRegex(
+            SuggestError, "layer 2, 5 to 12 m, has no strength"
+        ):
+            cone.layers_of(found, 4.0)
+
+    def test_end_of_test(self) -> None:
+        found = interpretation.interpret(EXAMPLE, options())
+        self.assertEqual(cone.end_of_test(found, 8.0), "")
+        self.assertIn("ends at 20 m", cone.end_of_test(found, 21.0))
+
     def test_clay_is_never_sand(self) -> None:
         """It is undrained, and its walls have adhesion in the place of friction."""
         path = self.layered((5, 15, 0.5), (12, 0.6, 4.5))

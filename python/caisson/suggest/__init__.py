@@ -283,6 +283,8 @@ def write(options: argparse.Namespace) -> None:
         found = interpretation.interpret(options.cpt, options, deepest)
         print(tables.text_of_test(found))
         layers = cone.layers_of(found, end_of(options), bool(options.weight))
+        if warning := cone.end_of_test(found, end_of(options)):
+            print(warning)
     else:
         layers = layers_of(options.layer, entries_of_layers())
     texts = {options.file: scene_of(options, layers, LEVELS[options.error])}

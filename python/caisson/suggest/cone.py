@@ -42,6 +42,29 @@ def refuse_fines(found: Interpretation, end: float, flows: bool) -> None:
         )
 
 
+def refuse_no_strength(found: Interpretation) -> None:
+    """Refuse clay and silt in which the cone met nothing. Raises SuggestError."""
+    for number, e in enumerate(found.layers, 1):
+        if e.layer.kind != SAND and e.values[STRENGTH].low <= 0:
+            raise SuggestError(
+                f"{found.file}: layer {number}, {e.layer.top:g} to"
+                f" {e.layer.bottom:g} m, has no strength: its cone resistance does not"
+                " exceed the total vertical stress. Check the zero of the test and"
+                " --unit-weight, or give the layers in words, --layer"
+            )
+
+
+def end_of_test(found: Interpretation, end: float) -> str:
+    """Return a warning where a test ends above the end of a run (m), else nothing."""
+    deepest = float(found.ground.depth[-1])
+    if deepest >= end:
+        return ""
+    return (
+        f"warning: {found.file} ends at {deepest:g} m, and the tip goes to {end:g} m:"
+        " the last layer is taken to go on"
+    )
+
+
 def remark(found: Interpretation, e: Estimates, name: str) -> str:
     """Return where the value of a parameter comes from."""
     names = found.names | {REFERENCE: found.names[MODULUS], WEIGHT: found.weight}
@@ -101,6 +124,7 @@ def layers_of(found: Interpretation, end: float, flows: bool = False) -> list[La
     """Return the layers of a scene whose skirt ends at a depth (m); flows: water flows
     through the ground. Raises SuggestError."""
     refuse_fines(found, end, flows)
+    refuse_no_strength(found)
     return [Layer(e.layer.top, entries_of(found, e)) for e in found.layers]
 
 
