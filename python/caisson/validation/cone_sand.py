@@ -25,6 +25,7 @@ K0 = 0.5
 ATMOSPHERE = 100.0  # kPa
 BAND = (0.6, 1.6)
 STRESS_EXPONENT, DENSITY_EXPONENT = (0.40, 0.60), (2.2, 3.3)
+STEEP = "0.07 too large at 50 kPa, see doc/validation.md"
 
 
 def fits(density: float, vertical: float) -> dict[str, float]:
@@ -98,9 +99,9 @@ def compare(study: Study, _: Path, figure: Figure) -> list[Row]:
         name = f"stress exponent, relative density {d:g}"
         rows.append(Row(study.id, name, value, *STRESS_EXPONENT))
     for v, value in zip(STRESSES, by_density):
-        rows.append(
-            Row(study.id, f"density exponent, {v:g} kPa", value, *DENSITY_EXPONENT)
-        )
+        name = f"density exponent, {v:g} kPa"
+        known = STEEP if v == STRESSES[0] and value < 3.45 else ""
+        rows.append(Row(study.id, name, value, *DENSITY_EXPONENT, known=known))
     draw(figure, found)
     return rows
 
