@@ -26,19 +26,22 @@ JAMS = "the plug jams behind so rough a wall, see doc/validation.md"
 EXPONENT = (2.2, 2.8)
 
 
+def name_of(angle: int, cells: int = CELLS) -> str:
+    """Return the name of a run."""
+    return f"wall_{angle}" + ("" if cells == CELLS else f"_{cells}")
+
+
 def runs_of(_: Path) -> list[dict[str, Any]]:
     """Return a run for each friction of the wall, and for each mesh."""
     runs = []
     for angle in ANGLES:
         friction = {f"Rigid body/Friction angle of the {s}": angle for s in SURFACES}
-        name = f"wall_{angle}"
-        runs.append({"name": name, "seconds": 230, "set": friction})
-        for cells in MESHES if angle == min(ANGLES) else ():
-            if cells != CELLS:
-                seconds = 230 * (cells / CELLS) ** 3
-                entries = {**friction, **mesh_of(cells)}
-                name_of_mesh = f"{name}_{cells}"
-                runs.append({"name": name_of_mesh, "seconds": seconds, "set": entries})
+        for cells in MESHES if angle == min(ANGLES) else (CELLS,):
+            entries = friction if cells == CELLS else {**friction, **mesh_of(cells)}
+            seconds = 230 * (cells / CELLS) ** 3
+            runs.append(
+                {"name": name_of(angle, cells), "seconds": seconds, "set": entries}
+            )
     return runs
 
 
@@ -67,8 +70,7 @@ def force_at(run: StudyRun, depth: np.ndarray) -> np.ndarray:
 def limit_of(study: Study, depth: np.ndarray) -> np.ndarray:
     """Return the total force (N) at depths (m), [n], with the smoother wall, for cells
     of no size: the line in the size of the cells through three meshes."""
-    name = f"wall_{min(ANGLES)}"
-    names = [name if cells == CELLS else f"{name}_{cells}" for cells in MESHES]
+    names = [name_of(min(ANGLES), cells) for cells in MESHES]
     forces = np.array([force_at(study.run(name), depth) for name in names])
     return np.asarray(np.polyfit([1 / cells for cells in MESHES], forces, 1)[1])
 
@@ -83,15 +85,16 @@ def compare(study: Study, measured: Path, figure: Figure) -> list[Row]:
     table = read_table(measured)
     depth, force = table["depth_m"], table["force_N"]
     rows = [Row(study.id, "growth exponent, measured", exponent(depth, force))]
+    limit = limit_of(study, depth)
     for angle in ANGLES:
         smooth = angle == min(ANGLES)
-        found = force_at(study.run(f"wall_{angle}"), depth)
+        found = force_at(study.run(name_of(angle)), depth)
         rows += [
             Row(study.id, f"force at {h:g} m (N), wall {angle} degrees", float(f))
             for h, f in zip(depth, found)
         ]
         if smooth:
-            found = limit_of(study, depth)
+            found = limit
         known = "" if smooth else JAMS
         for h, ratio in zip(depth, found / force):
             name = f"force at {h:g} m over measured, wall {angle} degrees"
@@ -102,7 +105,7 @@ def compare(study: Study, measured: Path, figure: Figure) -> list[Row]:
         name += ", extrapolated" if smooth else ""
         growth = exponent(depth, found)
         rows.append(Row(study.id, name, growth, *EXPONENT, known=known))
-    draw(figure, study, depth, force, limit_of(study, depth))
+    draw(figure, study, depth, force, limit)
     return rows
 
 
@@ -118,7 +121,7 @@ def draw(
     figure.set_size_inches(6, 5)
     axes = figure.subplots()
     for i, angle in enumerate(ANGLES):
-        run = study.run(f"wall_{angle}")
+        run = study.run(name_of(angle))
         history = run.results.history
         label = f"computed, wall {angle} degrees"
         axes.plot(
