@@ -30,9 +30,7 @@ namespace CaissonMPM
              HypoplasticEntries::smallest_mean_stress};
         static constexpr int friction_entry =
                                entry_named(entries, "Critical friction angle"),
-                             n_state           = 0;
-        static constexpr bool uses_void_ratio  = true;
-        static constexpr bool stiffness_varies = true;
+                             n_state = 0;
       };
 
       template <>

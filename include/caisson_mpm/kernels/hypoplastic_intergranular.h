@@ -74,27 +74,18 @@ namespace CaissonMPM
         static constexpr int friction_entry =
                                entry_named(entries, "Critical friction angle"),
                              n_state            = 4;
-        static constexpr bool uses_void_ratio   = true;
-        static constexpr bool stiffness_varies  = true;
         static constexpr bool state_is_a_tensor = true;
-
-        struct Parameters : HypoplasticIntegration<true>::Parameters
-        {
-          double start; // of |h| / R
-        };
 
         static Parameters
         make(const double *values)
         {
-          Parameters p;
-          static_cast<Hypoplasticity::Parameters &>(p) =
-            Hypoplasticity::make(values);
-          p.range     = values[9];
-          p.reversed  = values[10];
-          p.turned    = values[11];
-          p.evolution = values[12];
-          p.decay     = values[13];
-          p.start     = values[14];
+          Parameters p = Hypoplasticity::make(values);
+          p.range      = values[9];
+          p.reversed   = values[10];
+          p.turned     = values[11];
+          p.evolution  = values[12];
+          p.decay      = values[13];
+          p.start      = values[14];
           return p;
         }
 

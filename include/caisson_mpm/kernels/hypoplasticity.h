@@ -122,6 +122,8 @@ namespace CaissonMPM
        */
       struct Hypoplasticity
       {
+        static constexpr bool uses_void_ratio = true, stiffness_varies = true;
+
         struct Parameters
         {
           double sin_phi, a, hardness, n, e_d0, e_c0, e_i0, alpha, beta;
@@ -136,6 +138,9 @@ namespace CaissonMPM
            * without one has m_R = 1. */
           double range = 1., reversed = 1., turned = 1., evolution = 1.,
                  decay = 1.;
+
+          /** |h| / R at the start. */
+          double start = 0.;
         };
 
         static Parameters
