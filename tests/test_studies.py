@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Studies with the program: verdicts of the verification ladder."""
 import csv
+import re
 import subprocess
 import unittest
 from pathlib import Path
@@ -161,8 +162,13 @@ class ShippedStudies(ProgramTest):
             for quick in (False, True):
                 reader = reader_of(file, Options(quick=quick), module)
                 for run in (run for study in reader.studies() for run in study.runs):
+                    # all layers have the entries of the first
+                    entries = {
+                        re.sub(r"^Soil/Layer \d+/", "Soil/Layer 1/", entry)
+                        for entry in run.run.entries
+                    }
                     with self.subTest(file=file.name, study=run.study, run=run.name):
-                        self.assertEqual(set(run.run.entries) - declared, set())
+                        self.assertEqual(entries - declared, set())
 
 
 if __name__ == "__main__":

@@ -327,6 +327,9 @@ class Layers(WithFiles):
         self.assertEqual([e.layer.top for e in found.layers], [0, 1, 5.5])
         with self.assertRaisesRegex(ResultsError, "no row .* choose other --tops"):
             interpretation.interpret(EXAMPLE, options("--tops", "0,30"))
+        sparse = self.written(HEAD + "0.1,2,20,0\n10,5,30,0\n20,9,40,0\n")
+        with self.assertRaisesRegex(ResultsError, "no row .* give --tops of your own"):
+            interpretation.interpret(sparse, options())
         many = ",".join(str(i) for i in range(21))
         for text in ("1,2", "0,3,2", many, "0,a"):
             with contextlib.redirect_stderr(io.StringIO()):

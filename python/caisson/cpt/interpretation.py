@@ -138,7 +138,8 @@ def interpret(
     try:
         found = layers.layers_of(ground, tops, options.soil or "")
     except ValueError as error:
-        raise ResultsError(f"{file}: {error}; choose other --tops") from error
+        tops_are = "choose other --tops" if options.tops else "give --tops of your own"
+        raise ResultsError(f"{file}: {error}; {tops_are}") from error
     return Interpretation(
         file,
         ground,
