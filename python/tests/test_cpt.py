@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
-from caisson.cpt import command, correlations, interpretation, layers
+from caisson.cpt import command, correlations, interpretation, layers, tables
 from caisson.cpt.correlations import ANGLE, BEST, DENSITY, HIGH, LOW, MODULUS, STRENGTH
 from caisson.cpt.estimates import K0, REFERENCE, WEIGHT, reference_moduli
 from caisson.cpt.ground import (
@@ -156,6 +156,22 @@ class Files(WithFiles):
         """Megapascals below a head of pascals."""
         with self.assertRaisesRegex(ResultsError, "largest cone resistance is 12 Pa"):
             cone_file.read(self.written("depth_m,qc_Pa\n0,1\n1,12\n"))
+        for friction in (0, 0.02):
+            rows = "".join(f"{z / 10:g},{z + 1},{friction},0\n" for z in range(9))
+            with self.assertRaisesRegex(ResultsError, "less than in any soil"):
+                cone_file.read(self.written(HEAD + rows))
+
+    def test_decimal_commas_among_commas(self) -> None:
+        with self.assertRaisesRegex(ResultsError, "row 3: 5 cells, and 4 in the first"):
+            cone_file.read(self.written(HEAD + "0,1,5,0\n1,2,20,4,0\n"))
+        # cells without a number at the end of rows, and rows of them, are no mistake
+        test = cone_file.read(self.written(HEAD + "0,1,5,0,\n,,,\n1,2,20,4,,\n"))
+        self.assertEqual(list(test.depth), [0, 1])
+
+    def test_a_wrong_start_is_told_once(self) -> None:
+        with self.assertRaises(ResultsError) as caught:
+            cone_file.read(self.written(HEAD + "3,1,5,0\n4,2,20,0\n5,2,20,0\n"))
+        self.assertEqual(len(str(caught.exception).splitlines()), 1)
 
 
 class ByHand(unittest.TestCase):
@@ -304,7 +320,7 @@ class Layers(WithFiles):
         [(top, bottom, kind)] = first.lenses
         self.assertEqual(kind, "silt")
         self.assertTrue(1.7 <= top < bottom <= 2.05)
-        self.assertEqual(second.lenses, [])
+        self.assertEqual((second.lenses, first.bands, second.bands), ([], [], []))
         # the densities that it was made of
         for e, density in zip(found.layers, (0.40, 0.78)):
             self.assertAlmostEqual(e.values[DENSITY].best, density, delta=0.04)
@@ -321,6 +337,30 @@ class Layers(WithFiles):
         self.assertNotIn(STRENGTH, sand)
         self.assertNotIn(ANGLE, clay)
         self.assertTrue({ANGLE, STRENGTH} <= set(silt))
+
+    def test_bands(self) -> None:
+        """Cemented and soft sand in sand are told, though they are no lens."""
+        path = self.layered((4, 12, 0.5), (4.3, 90, 0.5), (8, 12, 0.5), (8.3, 2.5, 0.3))
+        found = interpretation.interpret(path, options("--tops", "0"))
+        self.assertEqual(found.layers[0].layer.lenses, [])
+        bands = found.layers[0].layer.bands
+        self.assertEqual([name for _, _, name in bands], ["hard", "soft"])
+        for (top, bottom, _), wanted in zip(bands, ((4.05, 4.3), (8.05, 8.3))):
+            self.assertAlmostEqual(top, wanted[0], delta=0.01)
+            self.assertAlmostEqual(bottom, wanted[1], delta=0.01)
+        text = tables.text_of_test(found)
+        self.assertIn(
+            "hard soil from 4.05 to 4.3 m, soft soil from 8.05 to 8.3 m", text
+        )
+
+    def test_gaps(self) -> None:
+        rows = [f"{z / 20:g},5,30,0" for z in (*range(1, 60), *range(90, 120))]
+        found = interpretation.interpret(
+            self.written(HEAD + "\n".join(rows)), options()
+        )
+        told = [r for r in tables.remarks(found) if r.startswith("no row lies")]
+        wanted = "no row lies between 2.95 and 4.5 m: the soil there is unknown"
+        self.assertEqual(told, [wanted])
 
     def test_given_tops(self) -> None:
         found = interpretation.interpret(EXAMPLE, options("--tops", "0,1,5.5"))

@@ -30,18 +30,21 @@ THINNEST = 0.5  # m
 MOST = 20  # layers; each is at least THINNEST thick
 TRANSITION = 0.1  # m at a boundary, whose rows do not count
 THINNEST_LENS = 0.1  # m
+BAND = 3.0  # times the median of Q_tn of a layer, or less than the median over this
 
 
 @dataclass(frozen=True)
 class Layer:
     """Soil from top to bottom (m) with its kind, the rows of the test that count
-    [n_rows of the test], and lenses: top, bottom and kind of other soil in it."""
+    [n_rows of the test]; lenses: top, bottom and kind of other soil in it; bands: the
+    same of "hard" and "soft" soil of its own kind."""
 
     top: float
     bottom: float
     kind: str
     rows: np.ndarray
     lenses: list[tuple[float, float, str]] = field(default_factory=list)
+    bands: list[tuple[float, float, str]] = field(default_factory=list)
 
 
 def costs(x: np.ndarray, shortest: int) -> np.ndarray:
@@ -89,22 +92,30 @@ def tops_of(
     return [round(start * spacing / 0.05) * 0.05 for start in divide(x, shortest, most)]
 
 
-def lenses_of(
-    ground: Ground, rows: np.ndarray, kinds: np.ndarray, kind: str
+def stretches_of(
+    ground: Ground, rows: np.ndarray, names: np.ndarray, usual: str
 ) -> list[tuple[float, float, str]]:
-    """Return the lenses among rows [n] of a layer of a kind."""
+    """Return top, bottom and name where the names [n] of rows [n] are not the usual
+    one for THINNEST_LENS and more."""
     found: list[tuple[float, float, str]] = []
     places = np.flatnonzero(rows)
     begin = 0
     for i in range(1, len(places) + 1):
-        if i < len(places) and kinds[places[i]] == kinds[places[begin]]:
+        if i < len(places) and names[places[i]] == names[places[begin]]:
             continue
         first, last = places[begin], places[i - 1]
         top, bottom = float(ground.depth[first]), float(ground.depth[last])
-        if kinds[first] != kind and bottom - top > THINNEST_LENS - 1e-6:
-            found.append((top, bottom, str(kinds[first])))
+        if names[first] != usual and bottom - top > THINNEST_LENS - 1e-6:
+            found.append((top, bottom, str(names[first])))
         begin = i
     return found
+
+
+def bands_of(ground: Ground, rows: np.ndarray) -> list[tuple[float, float, str]]:
+    """Return where rows [n] of one kind of soil differ much from their median."""
+    ratio = ground.normalized / np.median(ground.normalized[rows])
+    names = np.select([ratio > BAND, ratio < 1 / BAND], ["hard", "soft"], "")
+    return stretches_of(ground, rows, names, "")
 
 
 def layers_of(ground: Ground, tops: list[float], given_kind: str = "") -> list[Layer]:
@@ -124,8 +135,9 @@ def layers_of(ground: Ground, tops: list[float], given_kind: str = "") -> list[L
                 f"no row of the test lies in the layer from {top:g} to {bottom:g} m"
             )
         kind = given_kind or kind_of(float(np.median(ground.index[rows])))
-        lenses = lenses_of(ground, rows, kinds, kind)
+        lenses = stretches_of(ground, rows, kinds, kind)
         if (rows & (kinds == kind)).any():
             rows = rows & (kinds == kind)
-        found.append(Layer(top, bottom, kind, rows, lenses))
+        bands = bands_of(ground, rows)
+        found.append(Layer(top, bottom, kind, rows, lenses, bands))
     return found

@@ -24,7 +24,10 @@ from caisson.cpt.estimates import (
 )
 from caisson.cpt.ground import SAND
 from caisson.cpt.interpretation import Interpretation
+from caisson.cpt.layers import BAND
 from caisson.table import markdown, write_csv
+
+WIDEST_GAP = 1.0  # m between rows; a wider one is told
 
 
 class Shown(NamedTuple):
@@ -82,8 +85,8 @@ def text_of_test(test: Interpretation) -> str:
 
 
 def remarks(test: Interpretation) -> list[str]:
-    """Return what the table rests on, lenses, what can be done with other soil than
-    sand, and columns that were not read."""
+    """Return what the table rests on, lenses and bands, what can be done with other
+    soil than sand, gaps, and columns that were not read."""
     have = {name for e in test.layers for name in e.values}
     found = [f"{WEIGHT}: {test.weight}"]
     for c in EVERY:
@@ -93,11 +96,24 @@ def remarks(test: Interpretation) -> list[str]:
         lenses = [f"{kind} from {a:g} to {b:g} m" for a, b, kind in e.layer.lenses]
         if lenses:
             found.append(
-                f"layer {number} has {', '.join(lenses)}: too thin for a layer, and"
-                " left out of its estimates and of a scene"
+                f"layer {number} has {', '.join(lenses)}: no layer of its own, and left"
+                " out of its estimates and of a scene; --tops makes other layers"
+            )
+        bands = [f"{name} soil from {a:g} to {b:g} m" for a, b, name in e.layer.bands]
+        if bands:
+            found.append(
+                f"layer {number} has {', '.join(bands)}: more than a factor of {BAND:g}"
+                " from its usual resistance, and not in a scene; --tops makes other"
+                " layers"
             )
         if e.layer.kind != SAND:
             found.append(f"layer {number} is {e.layer.kind}: {CAN[e.layer.kind]}")
+    depth = test.ground.depth
+    found += [
+        f"no row lies between {a:g} and {b:g} m: the soil there is unknown"
+        for a, b in zip(depth, depth[1:])
+        if b - a > WIDEST_GAP
+    ]
     if test.unread:
         found.append(f"columns that were not read: {', '.join(test.unread)}")
     return found

@@ -36,6 +36,7 @@ NAMES = {
 # Pa; more and less than any test has
 RANGES = {"qc": (0.0, 200e6), "fs": (0.0, 5e6), "u2": (-0.5e6, 20e6)}
 WEAKEST = 20e3  # Pa; the largest resistance of a test is more
+SMOOTHEST = 2e-4  # f_s / q_c; the median of a test is more
 HIGHEST_START = 1.0  # m, of the first row
 DEEPEST = 200.0  # m
 MOST = 10  # rows that a message names
@@ -127,8 +128,8 @@ def number_of(cells: Sequence[str], column: Column) -> float:
 
 
 def check_depth(z: float, above: float | None) -> None:
-    """Refuse a depth that cannot be meant. above: that of the row before. Raises
-    ValueError."""
+    """Refuse a depth that cannot be meant. above: that of the row before, None for the
+    first, nan where all before are wrong. Raises ValueError."""
     if above is None and not 0 <= z <= HIGHEST_START:
         raise ValueError(
             f"the test begins at a depth of {z:g} m; it must begin between 0 and"
@@ -161,10 +162,30 @@ def check_stresses(values: Mapping[str, float]) -> None:
         )
 
 
+def check_friction(path: Path, friction: np.ndarray, resistance: np.ndarray) -> None:
+    """Refuse a sleeve friction (Pa) [n] that is 0, or in another unit than its column
+    says. Raises ResultsError."""
+    ratio = float(np.median(friction / np.maximum(resistance, 1.0)))
+    if ratio < SMOOTHEST:
+        raise ResultsError(
+            f"{path}: the sleeve friction is {100 * ratio:.2g} % of the cone resistance"
+            " in the median, less than in any soil; check its unit, or leave the column"
+            " out and give --soil and --unit-weight"
+        )
+
+
 def row_of(
-    cells: Sequence[str], columns: Mapping[str, Column], above: float | None
+    cells: Sequence[str],
+    columns: Mapping[str, Column],
+    n_heads: int,
+    above: float | None,
 ) -> dict[str, float]:
     """Return the values of a row in m and Pa. Raises ValueError."""
+    if any(cell.strip() for cell in cells[n_heads:]):
+        raise ValueError(
+            f"{len(cells)} cells, and {n_heads} in the first row; write numbers with a"
+            " point, not with a comma"
+        )
     values = {name: number_of(cells, column) for name, column in columns.items()}
     check_depth(values["depth"], above)
     check_stresses(values)
@@ -175,12 +196,16 @@ def cells_of(path: Path) -> list[tuple[int, list[str]]]:
     """Return the numbers and cells of all rows that count, the heads first."""
     try:
         text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError as error:
+        raise ResultsError(
+            f"{path} cannot be read as a cone test: it is not in UTF-8; save it so"
+        ) from error
+    except OSError as error:
         raise ResultsError(f"{path} cannot be read as a cone test: {error}") from error
     lines = [
         (row, line)
         for row, line in enumerate(text.splitlines(), 1)
-        if line.strip() and not line.startswith("#")
+        if line.strip(" \t,;") and not line.startswith("#")
     ]
     if len(lines) < 3:
         raise ResultsError(
@@ -214,10 +239,10 @@ def read(path: Path, with_friction: bool = True) -> Test:
     columns = columns_of(path, heads[1], wanted)
     table: dict[str, list[float]] = {name: [] for name in columns}
     wrong = []
-    for row, cells in rows:
-        above = table["depth"][-1] if table["depth"] else None
+    for place, (row, cells) in enumerate(rows):
+        above = table["depth"][-1] if table["depth"] else nan if place else None
         try:
-            values = row_of(cells, columns, above)
+            values = row_of(cells, columns, len(heads[1]), above)
         except ValueError as error:
             wrong.append((row, str(error)))
             continue
@@ -230,6 +255,8 @@ def read(path: Path, with_friction: bool = True) -> Test:
             f"{path}: the largest cone resistance is {arrays['qc'].max():g} Pa, less"
             " than any soil has; check the unit in the first row"
         )
+    if "fs" in arrays:
+        check_friction(path, arrays["fs"], arrays["qc"])
     places = {column.place for column in columns.values()}
     unread = tuple(h.strip() for i, h in enumerate(heads[1]) if i not in places)
     return Test(
