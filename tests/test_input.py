@@ -82,8 +82,8 @@ CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
         {"Soil/Number of layers": 2, "Soil/Layer 2/Porosity": 0.4},
     ),
     (
-        ["Layer 2/Top depth", "below the mesh", "lower the bottom"],
-        {"Soil/Number of layers": 2, "Soil/Layer 2/Top depth": 300},
+        ["Layer 2/Top depth = 5 m is not above", "lower the bottom"],
+        {"Soil/Number of layers": 2, "Soil/Layer 2/Top depth": 5},
     ),
     (["Wall thickness", "plug"], {f"{BODY}/Wall thickness": 3.5}),
     (["even number"], {f"{BODY}/Cells across the wall": 3}),

@@ -20,6 +20,13 @@ BODY = "Rigid body"
 LAYER = "Soil/Layer 1"
 WEIGHT: Entries = {f"{BODY}/Motion": "lowered", "Time/End time": 1}
 SUCTION: Entries = {"Water/Suction control": "table"}
+CLAY: Entries = {
+    f"{LAYER}/Friction angle": 0,
+    f"{LAYER}/Dilatancy angle": 0,
+    f"{LAYER}/Cohesion": 5e3,
+    f"{LAYER}/Friction angle of the walls": 0,
+    f"{BODY}/Friction angle of the tip": 0,
+}
 
 # words of the warning, entries of a scene that have it, entries that do not
 DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
@@ -49,7 +56,7 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
         {f"{BODY}/Friction angle of the outer wall": 30},
     ),
     (
-        ["friction angle of layer 2, 15", "inner wall", "tip"],
+        ["outer wall = 20", "friction angle of layer 2, 15", "of the other wall"],
         {
             "Soil/Number of layers": 2,
             "Soil/Layer 2/Top depth": 2,
@@ -60,6 +67,42 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
             "Soil/Layer 2/Top depth": 8,
             "Soil/Layer 2/Friction angle": 15,
         },
+    ),
+    (
+        ["Layer 2/Friction angle of the walls = 16 degrees", "layer 2, 15 degrees"],
+        {
+            "Soil/Number of layers": 2,
+            "Soil/Layer 2/Top depth": 2,
+            "Soil/Layer 2/Friction angle": 15,
+            "Soil/Layer 2/Friction angle of the walls": 16,
+        },
+        {
+            # the tip is rougher than this layer, and smoother than the other
+            "Soil/Number of layers": 2,
+            "Soil/Layer 2/Top depth": 2,
+            "Soil/Layer 2/Friction angle": 15,
+            "Soil/Layer 2/Friction angle of the walls": 15,
+        },
+    ),
+    (
+        ["of the tip = 31 degrees", "at most 30 degrees"],
+        {f"{BODY}/Friction angle of the tip": 31},
+        {f"{BODY}/Friction angle of the tip": 30},
+    ),
+    (
+        ["Cohesion = 0 Pa", "no strength at all"],
+        {**CLAY, f"{LAYER}/Cohesion": 0},
+        CLAY,
+    ),
+    (
+        ["adhesion of 5500 Pa", "the cohesion, 5000 Pa"],
+        {**CLAY, f"{LAYER}/Adhesion factor of the walls": 1.1},
+        {**CLAY, f"{LAYER}/Adhesion factor of the walls": 1},
+    ),
+    (
+        ["Overconsolidation ratio", "not used", "without a friction angle. Set K0."],
+        {**CLAY, f"{LAYER}/Overconsolidation ratio": 4},
+        {f"{LAYER}/Overconsolidation ratio": 4},
     ),
     (
         ["layer 2 only 0.05 m thick", "time step"],

@@ -362,12 +362,26 @@ class Layers(WithFiles):
         wanted = "no row lies between 2.95 and 4.5 m: the soil there is unknown"
         self.assertEqual(told, [wanted])
 
+    def test_given_soil(self) -> None:
+        """Another kind than the test says is told."""
+        found = interpretation.interpret(EXAMPLE, options("--soil", "clay"))
+        told = [r for r in tables.remarks(found) if "is taken as clay by --soil" in r]
+        self.assertEqual(len(told), len(found.layers))
+        self.assertTrue(all(r.endswith("is that of sand") for r in told))
+
+    def test_tops_below_the_test(self) -> None:
+        """They are refused below its end, and do not count below what counts."""
+        with self.assertRaisesRegex(ResultsError, "--tops 50: the test ends at"):
+            interpretation.interpret(EXAMPLE, options("--tops", "0,50"))
+        found = interpretation.interpret(EXAMPLE, options("--tops", "0,2,9"), 6.0)
+        self.assertEqual([e.layer.top for e in found.layers], [0, 2])
+
     def test_given_tops(self) -> None:
         found = interpretation.interpret(EXAMPLE, options("--tops", "0,1,5.5"))
         self.assertEqual([e.layer.top for e in found.layers], [0, 1, 5.5])
-        with self.assertRaisesRegex(ResultsError, "no row .* choose other --tops"):
-            interpretation.interpret(EXAMPLE, options("--tops", "0,30"))
         sparse = self.written(HEAD + "0.1,2,20,0\n10,5,30,0\n20,9,40,0\n")
+        with self.assertRaisesRegex(ResultsError, "no row .* choose other --tops"):
+            interpretation.interpret(sparse, options("--tops", "0,3,7"))
         with self.assertRaisesRegex(ResultsError, "no row .* give --tops of your own"):
             interpretation.interpret(sparse, options())
         many = ",".join(str(i) for i in range(21))

@@ -180,10 +180,10 @@ namespace CaissonMPM
       {
         const std::string entry =
           "Soil/Layer " + to_text(fixed.size() - 1) + "/Top depth";
-        if (z < bottom)
+        if (z <= bottom)
           throw BadInput(
             entry + " = " + meters(-z) +
-            " lies below the mesh, which ends at Grid/Bottom = " +
+            " is not above the end of the mesh, Grid/Bottom = " +
             meters(bottom) +
             ". Reduce Soil/Number of layers, or lower the bottom.");
         fixed.push_back({z, entry});

@@ -177,15 +177,16 @@ namespace CaissonMPM
       "auto",
       "K0 is the ratio of the horizontal to the vertical "
       "effective stress at the start; auto takes the value of "
-      "the layer's law, 1 - sin(phi) or, without a friction "
-      "angle, nu / (1 - nu). Units: none.",
+      "the layer's law: 1 - sin(phi), which is 1 where the friction "
+      "angle is 0, or nu / (1 - nu) for a linear elastic law. Units: none.",
       Patterns::Double(0., 10.),
       -1.);
     add_profile(*this,
                 "Overconsolidation ratio",
                 overconsolidation,
                 "With K0 = auto, K0 is multiplied by this ratio to the power "
-                "sin(phi) (Mayne and Kulhawy 1982). Units: none.");
+                "sin(phi) (Mayne and Kulhawy 1982). Where the friction angle "
+                "is 0, set K0 itself. Units: none.");
   }
 
   void
@@ -254,6 +255,10 @@ namespace CaissonMPM
     if (k0)
       origins.add_unused({section() + "/Overconsolidation ratio"},
                          section() + "/K0 is not auto");
+    else if (!has_friction())
+      origins.add_unused({section() + "/Overconsolidation ratio"},
+                         section() + "/K0 = auto does not depend on it without "
+                                     "a friction angle. Set K0");
     if (relative_density)
       origins.add_unused({section() + "/Porosity"},
                          section() + "/Relative density is set");
@@ -261,6 +266,17 @@ namespace CaissonMPM
       origins.add_unused({section() + "/Minimum void ratio",
                           section() + "/Maximum void ratio"},
                          section() + "/Relative density is by porosity");
+  }
+
+  bool
+  SoilLayer::has_friction() const
+  {
+    const LawDescription &description = Kernels::law_table.law[law_named(law)];
+    if (description.friction_entry < 0)
+      return false;
+    const Profile &angle =
+      values.at(description.entries[description.friction_entry].name);
+    return !angle.is_constant() || angle.unchecked({}) > 0.;
   }
 
   std::string

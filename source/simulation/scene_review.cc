@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 namespace CaissonMPM
@@ -30,6 +29,10 @@ namespace CaissonMPM
     // Distances from the wall and below the tip, in diameters, of a body that
     // is deeper than a quarter of them: see doc/limitations.md, Boundaries.
     constexpr double least_to_side = 2., least_to_bottom = 1.5, shallow = .25;
+
+    const std::string on_rough_surface =
+      ": the soil fails before it slides on such a surface. Set at most that "
+      "angle; in clay, set 0 and an adhesion.";
 
     std::string
     meters(const double x)
@@ -64,7 +67,7 @@ namespace CaissonMPM
       {
         size_of_body();
         motion_of_body();
-        wall_friction();
+        friction();
         boundaries();
         suction();
       }
@@ -118,6 +121,19 @@ namespace CaissonMPM
                 *value,
                 "Pa",
                 "is not the strength of a soil. Check the unit, Pa.");
+    const auto cohesion = soil.law_value("Cohesion");
+    if (cohesion == 0. && soil.friction_angle() == 0.)
+      doubt(soil.section() + "/Cohesion",
+            0.,
+            "Pa",
+            "with a friction angle of 0 is no strength at all. In clay, set it "
+            "to the undrained shear strength.");
+    if (cohesion && soil.wall_adhesion && *soil.wall_adhesion > *cohesion)
+      origins.add_warning(
+        soil.section() + "/Adhesion factor of the walls makes an adhesion of " +
+        to_text(*soil.wall_adhesion, 4) + " Pa, more than the cohesion, " +
+        to_text(*cohesion, 4) +
+        " Pa: the soil fails before it slides on such a wall. Set at most 1.");
   }
 
   void
@@ -226,55 +242,60 @@ namespace CaissonMPM
   }
 
   void
-  SceneReview::wall_friction()
+  SceneReview::friction()
   {
-    const BodyShape      &shape  = scene.body.shape();
-    const double          depth  = shape.expands() ?
-                                     scene.lines.depth() :
-                                     scene.lines.total_travel() - shape.bottom();
-    auto                  angles = scene.body.surface().friction_angle;
-    std::optional<double> of_soil; // of the material that the wall exceeds most
-    unsigned int          weakest = 0;
-    double                least   = 0.; // of the soil less that of the wall
+    const BodyShape    &shape   = scene.body.shape();
+    const auto         &angles  = scene.body.surface().friction_angle;
+    const double        depth   = shape.expands() ?
+                                    scene.lines.depth() :
+                                    scene.lines.total_travel() - shape.bottom();
+    const double        inner   = shape.left() > 0. ? angles[inner_wall] : 0.;
+    const double        wall    = std::max(angles[outer_wall], inner);
+    const SoilMaterial *weakest = nullptr, *strongest = nullptr;
+    const auto          margin = [wall](const SoilMaterial &soil) {
+      return *soil.friction_angle() - soil.wall_friction_angle.value_or(wall);
+    };
     for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
-      if (const auto angle = scene.soil.material(i).friction_angle();
-          angle && scene.soil.material(i).top_depth <= depth)
-        {
-          const double margin =
-            *angle - scene.soil.material(i).wall_friction_angle.value_or(
-                       std::max(angles[inner_wall], angles[outer_wall]));
-          if (of_soil && margin >= least)
-            continue;
-          of_soil = angle;
-          weakest = i;
-          least   = margin;
-        }
-    if (of_soil)
-      if (const auto own = scene.soil.material(weakest).wall_friction_angle)
-        angles[inner_wall] = angles[outer_wall] = *own;
-    std::vector<Surface> rougher;
-    for (const Surface s :
-         {Surface::outer_wall, Surface::inner_wall, Surface::tip})
-      if (of_soil && angles[s] > *of_soil &&
-          (s == Surface::tip || !is_block()) &&
-          (s != Surface::inner_wall || shape.left() > 0.))
-        rougher.push_back(s);
-    if (rougher.empty())
+      {
+        const SoilMaterial &soil = scene.soil.material(i);
+        if (!soil.friction_angle() || soil.top_depth > depth)
+          continue;
+        if (weakest == nullptr || margin(soil) < margin(*weakest))
+          weakest = &soil;
+        if (strongest == nullptr ||
+            *soil.friction_angle() > *strongest->friction_angle())
+          strongest = &soil;
+      }
+    if (weakest == nullptr)
       return;
-    std::string others;
-    for (std::size_t i = 1; i < rougher.size(); ++i)
-      others +=
-        (i == 1 ? ", and so do those of the " : ", the ") + name_of(rougher[i]);
-    const SoilMaterial &weak   = scene.soil.material(weakest);
-    const bool          is_own = weak.wall_friction_angle && rougher[0] != tip;
-    doubt(is_own ? weak.section() + "/Friction angle of the walls" :
-                   "Rigid body/Friction angle of the " + name_of(rougher[0]),
-          angles[rougher[0]],
+    if (!is_block() && margin(*weakest) < 0.)
+      friction_of_walls(*weakest, angles[outer_wall], inner);
+    if (angles[tip] > *strongest->friction_angle())
+      doubt("Rigid body/Friction angle of the tip",
+            angles[tip],
+            "degrees",
+            "exceeds the friction angle of all soil that the tip meets, at "
+            "most " +
+              to_text(*strongest->friction_angle(), 4) + " degrees" +
+              on_rough_surface);
+  }
+
+  void
+  SceneReview::friction_of_walls(const SoilMaterial &soil,
+                                 const double        outer,
+                                 const double        inner)
+  {
+    const auto  own     = soil.wall_friction_angle;
+    const bool  is_both = std::min(outer, inner) > *soil.friction_angle();
+    const auto &name    = name_of(outer >= inner ? outer_wall : inner_wall);
+    doubt(own ? soil.section() + "/Friction angle of the walls" :
+                "Rigid body/Friction angle of the " + name,
+          own.value_or(std::max(outer, inner)),
           "degrees",
-          "exceeds the friction angle of layer " + to_text(weak.layer + 1) +
-            ", " + to_text(*of_soil, 4) + " degrees" + others +
-            ": the soil beside such a wall fails before it slides on the wall. "
-            "Set at most that angle; in clay, set 0 and an adhesion.");
+          "exceeds the friction angle of layer " + to_text(soil.layer + 1) +
+            ", " + to_text(*soil.friction_angle(), 4) + " degrees" +
+            (!own && is_both ? ", and so does that of the other wall" : "") +
+            on_rough_surface);
   }
 
   void

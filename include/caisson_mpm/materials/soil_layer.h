@@ -86,6 +86,10 @@ namespace CaissonMPM
     void
     declare_walls();
 
+    /** Whether the law has a friction angle that is not 0 everywhere. */
+    bool
+    has_friction() const;
+
     /** The profiles in use. */
     std::vector<const Profile *>
     profiles() const;

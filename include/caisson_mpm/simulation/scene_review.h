@@ -65,7 +65,13 @@ namespace CaissonMPM
     void
     motion_of_body();
     void
-    wall_friction();
+    friction();
+    /** Warn of walls that are rougher than a soil beside them. Outer and inner
+     * friction angle of the body, in degrees; 0 where there is no wall. */
+    void
+    friction_of_walls(const SoilMaterial &soil,
+                      const double        outer,
+                      const double        inner);
     void
     boundaries();
     /** Whether the body is a box: a plate, a block or a piston. */

@@ -118,6 +118,11 @@ def check(file: Path, test: Test, options: argparse.Namespace) -> None:
             f"--unit-weight {weight:g}: give the unit weight of the wet soil in kN/m3,"
             f" between {WATER / 1e3:g} and 25"
         )
+    if options.tops and options.tops[-1] >= test.depth[-1]:
+        raise ResultsError(
+            f"--tops {options.tops[-1]:g}: the test ends at {test.depth[-1]:g} m; give"
+            " tops above it"
+        )
     if not 0 < options.area_ratio <= 1:
         raise ResultsError(f"--area-ratio {options.area_ratio:g} is not from 0 to 1")
 
@@ -128,13 +133,14 @@ def interpret(
     """Return what a test says. deepest: below it (m) it does not count. Raises
     ResultsError."""
     test = cone_file.read(file)
+    check(file, test, options)
     if deepest is not None:
         test = test.down_to(deepest)
-    check(file, test, options)
     weight = options.unit_weight
     ground = ground_of(test, options.area_ratio, weight and 1e3 * weight)
     names = correlations.chosen(options.correlation)
-    tops = options.tops or layers.tops_of(ground, options.thinnest)
+    tops = [top for top in options.tops or () if top < test.depth[-1]]
+    tops = tops or layers.tops_of(ground, options.thinnest)
     try:
         found = layers.layers_of(ground, tops, options.soil or "")
     except ValueError as error:

@@ -132,7 +132,7 @@ def draw_panel(
         axes.set_xlim(*correlations.ANGLES)
     else:
         shown = panel.profile[np.isfinite(panel.profile)]
-        top = float(shown.max()) * 1.05 if len(shown) else 1.0
+        top = 1.05 * float(max(shown, default=0.0)) or 1.0
         if largest:
             top = max(1.05 * largest, min(top, WIDEST * largest))
         axes.set_xlim(0, top)

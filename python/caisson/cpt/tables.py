@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from caisson.cpt.correlations import (
     ANGLE,
     DENSITY,
@@ -22,7 +24,7 @@ from caisson.cpt.estimates import (
     Estimate,
     Estimates,
 )
-from caisson.cpt.ground import SAND
+from caisson.cpt.ground import SAND, kind_of
 from caisson.cpt.interpretation import Interpretation
 from caisson.cpt.layers import BAND
 from caisson.table import markdown, write_csv
@@ -105,6 +107,12 @@ def remarks(test: Interpretation) -> list[str]:
                 f"layer {number} has {', '.join(bands)}: more than a factor of {BAND:g}"
                 " from its usual resistance, and not in a scene; --tops makes other"
                 " layers"
+            )
+        index = float(np.median(test.ground.index[e.layer.rows]))
+        if np.isfinite(index) and kind_of(index) != e.layer.kind:
+            found.append(
+                f"layer {number} is taken as {e.layer.kind} by --soil; its I_c of"
+                f" {index:.2f} is that of {kind_of(index)}"
             )
         if e.layer.kind != SAND:
             found.append(f"layer {number} is {e.layer.kind}: {CAN[e.layer.kind]}")
