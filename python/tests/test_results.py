@@ -6,12 +6,14 @@ import shutil
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
 from caisson import curve, plot, table
 from caisson.plot.cells import CellMeans, cell_of
-from caisson.plot.fields import chosen
+from caisson.plot.fields import chosen, window_of
 from caisson.plot.vtu import without_unit
 from caisson.results import Results, ResultsError, read_table
 
@@ -137,6 +139,23 @@ class Pictures(Directory):
         self.assertEqual(depths([]), [0, 3, 7, 10])
         self.assertEqual(depths([0, 2, 17]), [0, 3, 7, 10], "not reached")
         self.assertEqual(depths([0, 1, 2, 3, 4]), [0, 3, 7, 10], "too many")
+
+    def test_window_about_a_slender_body(self) -> None:
+        """A cone stands in soil as wide as the picture needs; a caisson has its
+        diameter to each side."""
+
+        def frame(radius: float, tip: float) -> SimpleNamespace:
+            cells = np.array([[[0, -20], [9, -20], [9, 0], [0, 0]]], dtype=float)
+            body = np.array([[[0, tip], [radius, tip], [radius, 1], [0, 1]]])
+            return SimpleNamespace(means=SimpleNamespace(polygons=cells), body=body)
+
+        def window(radius: float, tip: float) -> list[float]:
+            made: Any = frame(radius, tip)
+            return np.round(window_of(made, made, {}), 2).tolist()
+
+        self.assertEqual(window(0.1, -5), [2.4, -8, 0.64])
+        self.assertEqual(window(2, -5), [4, -8, 0.64])
+        self.assertEqual(window(6, -5), [9, -12, 0.96], "to the end of the mesh")
 
     def test_halved_cells(self) -> None:
         """A cell lies beside four, beneath two, and above two smaller ones."""

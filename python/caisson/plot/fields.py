@@ -20,6 +20,7 @@ Box = tuple[float, float, float, float]  # left, right, bottom, top (m)
 Style = dict[str, Any]
 
 MOST_FRAMES = 4  # of a picture
+SLENDEREST = 0.3  # width over height of a picture on one side of the axis, at least
 RIGID = "#8c8c8c"
 NEEDED = {"whole_volume", "stress_zz", "displacement"}  # of the fields of a point
 
@@ -83,8 +84,8 @@ def window_of(first: Frame, last: Frame, scene: dict[str, Any]) -> Window:
     if len(last.body):
         diameter = scene.get("diameter_m") or 2 * last.body[..., 0].max()
         depth = surface - last.body[..., 1].min()
-        radius = min(radius, diameter)
         bottom = max(bottom, surface - max(1.6 * depth, diameter))
+        radius = min(radius, max(diameter, SLENDEREST * (surface - bottom)))
     top = surface + 0.08 * (surface - bottom)
     return radius, bottom, top
 
@@ -147,7 +148,7 @@ def draw_about(axes: Axes, frame: Frame, window: Window) -> None:
     axes.set_aspect("equal")
     axes.set_xlim(-radius, radius)
     axes.set_ylim(bottom, top)
-    if 3 * radius < top - bottom:  # no room for more labels
+    if 4 * radius < top - bottom:  # no room for more labels
         axes.set_xticks([0, radius])
     axes.set_xlabel("r (m)")
     axes.set_title(frame.label, fontsize=10)
