@@ -73,6 +73,11 @@ def integral(position: np.ndarray, values: np.ndarray, to: np.ndarray) -> np.nda
     return at_rows[row] + (to - position[row]) * (values[row] + ends) / 2
 
 
+def final_mean(position: np.ndarray, values: np.ndarray, length: float) -> float:
+    """Return the mean of values [n] over the last length of the positions [n]."""
+    return float(values[position > position[-1] - length].mean())
+
+
 def means_to_the_ends(
     position: np.ndarray, values: np.ndarray, at: np.ndarray, width: float
 ) -> np.ndarray:

@@ -20,6 +20,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
+from caisson.curves import final_mean
 from caisson.study import Study, StudyRun
 from caisson.validation.verdict import Row
 
@@ -113,9 +114,7 @@ def factor_of(run: StudyRun) -> float:
     """Return N = (q_c - vertical stress) / s_u at the end of a run, the mean over two
     radii; the vertical stress is none."""
     history = run.results.history
-    depth = history["penetration_m"]
-    last = depth > depth[-1] - 2 * RADIUS
-    force = float(history["tip_force_N"][last].mean())
+    force = final_mean(history["penetration_m"], history["tip_force_N"], 2 * RADIUS)
     return force / (pi * RADIUS**2 * STRENGTH)
 
 

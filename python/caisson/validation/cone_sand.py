@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from caisson.curves import final_mean
 from caisson.study import Study, StudyRun
 from caisson.validation.verdict import Row
 
@@ -68,9 +69,7 @@ def runs_of(_: Path) -> list[dict[str, Any]]:
 def resistance(run: StudyRun, vertical: float) -> float:
     """Return q_c (MPa), the mean over the last 0.1 m."""
     history = run.results.history
-    depth = history["penetration_m"]
-    last = depth > depth[-1] - 0.1
-    force = float(history["tip_force_N"][last].mean())
+    force = final_mean(history["penetration_m"], history["tip_force_N"], 0.1)
     # forces are those beyond the surrounding pressure
     return force / (pi * DIAMETER**2 / 4) / 1e6 + vertical / 1e3
 
