@@ -83,6 +83,8 @@ class Names(unittest.TestCase):
         for word in "Sumberged jakc.prm MaterialDots colour characters".split():
             self.assertIn(word, found)
         self.assertEqual(len(self.faults(BAD)), 5)
+        [comment] = self.faults("The error is 3\n% of the force.\n")
+        self.assertIn("percent sign: % of the force", comment)
 
 
 if __name__ == "__main__":

@@ -99,6 +99,8 @@ def faults_of(page: Path, entries: set[str], names: set[str]) -> list[str]:
     for line in outside.splitlines():
         if len(line) > 100 and "|" not in line and "http" not in line:
             faults.append(f"a line of {len(line)} characters: {line[:40]}...")
+        if line.startswith("%"):
+            faults.append(f"a line that is a comment for its percent sign: {line[:40]}")
     return faults
 
 
