@@ -63,6 +63,20 @@ class Suggest(ProgramTest):
                 self.assertRegex(text, r"duration +about \d")
                 self.run_program(SUCCESS, path, "--validate", "--strict")
 
+    def test_layers_that_change_with_depth(self) -> None:
+        """Expressions are kept whole, with the commas between their parentheses."""
+        path = self.made_directory() / "layered.prm"
+        layers = (
+            SAND + ", Overconsolidation ratio = min(5, 1 + 1e5/max(s, 1))",
+            "2: Friction angle = 0, Cohesion = max(5e3, 2e3*d), Youngs modulus = 6e6,"
+            " Poisson ratio = 0.45, K0 = 1, Friction angle of the walls = 0,"
+            " Adhesion factor of the walls = 1, Sensitivity = 3",
+        )
+        self.suggest(path, layers=layers)
+        said = self.run_program(SUCCESS, path, "--print-parameters", "--strict")
+        self.assertIn("Overconsolidation ratio = min(5, 1 + 1e5/max(s, 1))", said)
+        self.assertIn("Cohesion = max(5e3, 2e3*d)", said)
+
     def test_study_of_the_friction_angle(self) -> None:
         """It is read, and has five runs with angles of walls that follow."""
         path = self.made_directory()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Forces on the caisson against its penetration, depth downward."""
+import textwrap
 from pathlib import Path
 
 import numpy as np
@@ -194,7 +195,7 @@ def caption(depth: np.ndarray, site: theory.Site, answers: list[theory.Answer]) 
     reasons = [f"{names}: {why}" for names, why in theory.reasons(answers)]
     silent = f"no answer from {'; '.join(reasons)}" if reasons else ""
     end = theory.end_of_cone(site, float(depth.max()))
-    return "\n".join(filter(None, [text, silent, end]))
+    return "\n".join(textwrap.fill(line, 150) for line in (text, silent, end) if line)
 
 
 def panels_of(figure: Figure, n: int) -> list[Axes]:

@@ -60,6 +60,19 @@ def name_of(word: str, known: Sequence[str]) -> str:
     )
 
 
+def parts_of(text: str) -> list[str]:
+    """Return the parts of a text between commas; those within parentheses, as in
+    min(5, d), divide nothing."""
+    parts, depth = [""], 0
+    for letter in text:
+        depth += (letter == "(") - (letter == ")")
+        if letter == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += letter
+    return [part.strip() for part in parts if part.strip()]
+
+
 def layer_of(text: str, known: Sequence[str]) -> Layer:
     """Return a layer. known: the names of all entries of a layer. Raises
     SuggestError."""
@@ -74,7 +87,7 @@ def layer_of(text: str, known: Sequence[str]) -> Layer:
             ' colon, as in "0: Friction angle = 33, Youngs modulus = 20e6"'
         )
     given = {}
-    for part in filter(None, map(str.strip, rest.split(","))):
+    for part in parts_of(rest):
         word, equals, value = map(str.strip, part.partition("="))
         if not equals or not value:
             raise SuggestError(f"--layer: {part!r} is not of the form ENTRY = VALUE")
