@@ -144,7 +144,6 @@ namespace CaissonMPM
                      settings_.local_damping(),
                      momentum,
                      mass_floor,
-                     transfer.fields(momentum).strain,
                      forces,
                      constraints,
                      reactions_);
