@@ -37,4 +37,10 @@ namespace CaissonMPM
     const double unit = std::pow(10., std::floor(std::log10(value)) - 1.);
     return to_text(static_cast<unsigned long>(std::round(value / unit) * unit));
   }
+
+  std::string
+  percent(const double share, const int significant_digits)
+  {
+    return to_text(100. * share, significant_digits) + " %";
+  }
 } // namespace CaissonMPM

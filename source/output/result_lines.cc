@@ -103,7 +103,7 @@ namespace CaissonMPM
     std::string
     error_in_words(const std::optional<double> error)
     {
-      return error ? " +- " + to_text(100. * *error, 2) + " %" : "";
+      return error ? " +- " + percent(*error, 2) : "";
     }
   } // namespace
 

@@ -5,6 +5,7 @@
 #include <caisson_mpm/domain/all_points.h>
 #include <caisson_mpm/output/result_lines.h>
 #include <caisson_mpm/simulation/recorder.h>
+#include <caisson_mpm/simulation/run_review.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/revision.h>
@@ -371,6 +372,14 @@ namespace CaissonMPM
   {
     print_run_report(*console, parts, facts(""));
     warn_of_no_rest();
+  }
+
+  void
+  Recorder::review_run()
+  {
+    if (parts.grid.is_first_rank())
+      for (const std::string &warning : RunReview(parts, *records).warnings())
+        console->warning(warning);
   }
 
   void

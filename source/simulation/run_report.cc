@@ -206,12 +206,6 @@ namespace CaissonMPM
 
     // ---------------------------------------------------------- terminal
 
-    std::string
-    percent(const double part)
-    {
-      return to_text(100. * part, 3) + " %";
-    }
-
     void
     print_counts(Console             &console,
                  const RecordedParts &parts,
@@ -251,9 +245,10 @@ namespace CaissonMPM
                       {"lost in the transfer", joule(energy.dissipation)},
                       {"energy residual",
                        joule(energy.residual) + ", " +
-                         percent(energy.relative) + " of the work"}});
+                         percent(energy.relative, 3) + " of the work"}});
       if (std::abs(energy.relative) > .01)
-        console.warning("the energy residual is " + percent(energy.relative) +
+        console.warning("the energy residual is " +
+                        percent(energy.relative, 3) +
                         " of the work: see doc/limitations.md, Energy");
     }
 

@@ -419,6 +419,7 @@ namespace CaissonMPM
   Simulation::stop(const std::string &reason)
   {
     save_checkpoint();
+    recorder.review_run();
     recorder.write_summary("stopped");
     recorder.message("stopped: " + reason + "; go on with --restart");
     return ExitStatus::stopped;
@@ -442,6 +443,7 @@ namespace CaissonMPM
     save_checkpoint();
     const bool passed = recorder.verify();
     recorder.print_report();
+    recorder.review_run();
     recorder.write_summary(passed ? "finished" : "verification failed");
     recorder.print_result();
     return passed ? ExitStatus::success : ExitStatus::failure;

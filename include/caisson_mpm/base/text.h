@@ -27,6 +27,10 @@ namespace CaissonMPM
   std::string
   rough(const double value);
 
+  /** Write a share as a percentage: 0.0123 becomes "1.2 %". */
+  std::string
+  percent(const double share, const int significant_digits);
+
   /** Write a whole number with all its digits. */
   template <typename Integer>
   std::enable_if_t<std::is_integral<Integer>::value, std::string>

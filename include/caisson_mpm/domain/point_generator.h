@@ -65,6 +65,12 @@ namespace CaissonMPM
       return adaptive;
     }
 
+    unsigned int
+    points_per_direction_in_path() const
+    {
+      return per_direction[static_cast<unsigned int>(Place::path)];
+    }
+
   private:
     /** Where a cell is, in the order of per_direction. */
     enum class Place : unsigned int

@@ -7,6 +7,7 @@
 #include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/bodies/rigid_body.h>
 #include <caisson_mpm/domain/grid_lines.h>
+#include <caisson_mpm/domain/point_generator.h>
 #include <caisson_mpm/materials/soil.h>
 #include <caisson_mpm/simulation/run_cost.h>
 #include <caisson_mpm/simulation/schedule.h>
@@ -19,14 +20,15 @@ namespace CaissonMPM
   /** What a review looks at. */
   struct ReviewedScene
   {
-    const GridLines   &lines;
-    const Soil        &soil;
-    const RigidBody   &body;
-    const GroundWater &water;
-    const Schedule    &schedule;
-    double             body_mass;  // of its cells, kg
-    double             wave_speed; // least one of the layers, m/s
-    double             n_steps;    // infinite where the end is not known
+    const GridLines      &lines;
+    const PointGenerator &generator;
+    const Soil           &soil;
+    const RigidBody      &body;
+    const GroundWater    &water;
+    const Schedule       &schedule;
+    double                body_mass;  // of its cells, kg
+    double                wave_speed; // least one of the layers, m/s
+    double                n_steps;    // infinite where the end is not known
   };
 
   /**
@@ -64,6 +66,10 @@ namespace CaissonMPM
     size_of_body();
     void
     motion_of_body();
+    void
+    cells_at_tip();
+    void
+    points_at_tip();
     void
     friction();
     /** Warn of walls that are rougher than a soil beside them. Outer and inner

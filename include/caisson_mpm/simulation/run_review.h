@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the results of a run say against it.
+#ifndef caisson_mpm_simulation_run_review_h
+#define caisson_mpm_simulation_run_review_h
+
+#include <caisson_mpm/output/records.h>
+#include <caisson_mpm/simulation/recorded_parts.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /**
+   * Looks at the records of a run for signs of a numerical fault: a tip force
+   * that falls suddenly, a pore pressure that rises by more than the load, and
+   * work that the transfer between points and nodes loses. On the rank that has
+   * the records; not collective.
+   */
+  class RunReview
+  {
+  public:
+    RunReview(const RecordedParts &parts, const Records &records);
+
+    /** Return a warning for each fault that is seen. */
+    std::vector<std::string>
+    warnings() const;
+
+    /** What a stretch of the way into the soil shows, as means. */
+    struct Stretch
+    {
+      double penetration   = 0.; // m
+      double tip           = 0.; // N
+      double water_on_tip  = 0.; // N
+      double pore_pressure = 0.; // largest in the soil, Pa
+    };
+
+  private:
+    /** A change over a short way, relative to what was there before. */
+    struct Change
+    {
+      double share       = 0.;
+      double penetration = 0.; // m
+    };
+
+    /** Return the largest change from one stretch to a later one, where no
+     * layer begins or ends. */
+    Change
+    largest(const std::function<double(const Stretch &before,
+                                       const Stretch &after)> &change) const;
+
+    /** Whether the soil at the tip changes near a penetration. */
+    bool
+    is_at_interface(const double penetration) const;
+
+    std::optional<std::string>
+    fall_of_tip() const;
+    std::optional<std::string>
+    jump_of_pore_pressure() const;
+    std::optional<std::string>
+    lost_work() const;
+
+    const RecordedParts  parts;
+    const double         width; // of the tip, m
+    std::vector<Stretch> way;   // of the way down, in its order
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/simulation/run_review.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace CaissonMPM
+{
+  namespace
+  {
+    // A change counts if it takes less than this way, in widths of the tip, and
+    // each stretch is this part of that way: single records scatter.
+    constexpr double short_way = .5, parts_of_short_way = 8.;
+
+    // Within so many widths of the start, or of an interface between layers,
+    // forces change for a reason.
+    constexpr double start_takes = 2., interface_takes = 4.;
+
+    // Without a fault, falls are below 2 % of the tip force and jumps below 1 %
+    // of the stress on the tip (doc/limitations.md).
+    constexpr double largest_fall = .05, largest_jump = .05;
+
+    // More work than this is lost only where the results suffer.
+    constexpr double largest_lost_share = .1;
+
+    std::vector<double>
+    column(const Records &records, const std::string &name)
+    {
+      const auto names = records.names();
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        return {};
+      return records.series(name, 0., std::numeric_limits<double>::max()).value;
+    }
+
+    double
+    width_of_tip(const BodyShape &shape)
+    {
+      return shape.exists() && !shape.expands() ? shape.right() - shape.left() :
+                                                  0.;
+    }
+
+    /** Adds up what becomes the mean of a stretch. */
+    class Mean
+    {
+    public:
+      void
+      add(const RunReview::Stretch &s)
+      {
+        sum.penetration += s.penetration;
+        sum.tip += s.tip;
+        sum.water_on_tip += s.water_on_tip;
+        sum.pore_pressure += s.pore_pressure;
+        ++n;
+      }
+
+      RunReview::Stretch
+      value() const
+      {
+        return {sum.penetration / n,
+                sum.tip / n,
+                sum.water_on_tip / n,
+                sum.pore_pressure / n};
+      }
+
+    private:
+      RunReview::Stretch sum;
+      double             n = 0.;
+    };
+
+    /** Return the way down in stretches of this length, or of the distance of
+     * the records, if that is larger. */
+    std::vector<RunReview::Stretch>
+    find_way(const Records &records, const double length)
+    {
+      const auto penetration = column(records, "penetration_m"),
+                 tip         = column(records, "tip_force_N"),
+                 water       = column(records, "tip_water_force_N"),
+                 pressure    = column(records, "pore_pressure_largest_Pa");
+      std::vector<RunReview::Stretch> way;
+      Mean                            mean;
+      double                          deepest = 0., begin = 0.;
+      // A record holds the mean since the one before.
+      for (std::size_t i = 1; i < penetration.size(); ++i)
+        {
+          const double middle = .5 * (penetration[i - 1] + penetration[i]);
+          if (penetration[i] <= penetration[i - 1] || middle <= deepest)
+            continue;
+          if (deepest == 0.)
+            begin = middle;
+          else if (middle >= begin + length)
+            {
+              way.push_back(mean.value());
+              mean  = Mean();
+              begin = middle;
+            }
+          deepest = middle;
+          mean.add({middle,
+                    tip[i],
+                    water.empty() ? 0. : water[i],
+                    pressure.empty() ? 0. : pressure[i]});
+        }
+      if (deepest > 0.)
+        way.push_back(mean.value());
+      return way;
+    }
+  } // namespace
+
+  RunReview::RunReview(const RecordedParts &parts, const Records &records)
+    : parts(parts)
+    , width(width_of_tip(parts.body.shape()))
+  {
+    if (width > 0.)
+      way = find_way(records, short_way * width / parts_of_short_way);
+  }
+
+  std::vector<std::string>
+  RunReview::warnings() const
+  {
+    std::vector<std::string> result;
+    for (const auto &warning :
+         {fall_of_tip(), jump_of_pore_pressure(), lost_work()})
+      if (warning)
+        result.push_back(*warning);
+    return result;
+  }
+
+  bool
+  RunReview::is_at_interface(const double penetration) const
+  {
+    const auto heights = parts.soil.interfaces();
+    return std::any_of(heights.begin(), heights.end(), [&](const double z) {
+      return std::abs(penetration + z) <= interface_takes * width;
+    });
+  }
+
+  RunReview::Change
+  RunReview::largest(
+    const std::function<double(const Stretch &, const Stretch &)> &change) const
+  {
+    Change       result;
+    const double start =
+      parts.body.shape().initial_depth() + start_takes * width;
+    for (auto after = way.begin(); after != way.end(); ++after)
+      if (after->penetration >= start && !is_at_interface(after->penetration))
+        for (auto before = after; before != way.begin();)
+          {
+            --before;
+            if (before->penetration <
+                after->penetration - (1. + 1e-6) * short_way * width)
+              break;
+            const double share = change(*before, *after);
+            if (share > result.share)
+              result = {share, after->penetration};
+          }
+    return result;
+  }
+
+  std::optional<std::string>
+  RunReview::fall_of_tip() const
+  {
+    const Change fall =
+      largest([](const Stretch &before, const Stretch &after) {
+        return before.tip > 0. ? 1. - after.tip / before.tip : 0.;
+      });
+    if (fall.share <= largest_fall)
+      return {};
+    return "the tip force falls by " + percent(fall.share, 2) +
+           " within half of the width of the tip at a penetration of " +
+           to_text(fall.penetration, 4) +
+           " m, where no layer begins. Soil that is pushed aside steadily does "
+           "not do that: the mesh or the points are too coarse there, and the "
+           "curve is uncertain by as much. Set more Rigid body/Cells across "
+           "the wall, or Material points/Split and merge = true, and compare: "
+           "see doc/limitations.md, Snaps at the tip";
+  }
+
+  std::optional<std::string>
+  RunReview::jump_of_pore_pressure() const
+  {
+    if (!parts.water.is_coupled() || width == 0.)
+      return {};
+    const BodyShape &shape = parts.body.shape();
+    const double     area =
+      parts.grid.lines().axisymmetric() ?
+            pi * (shape.right() * shape.right() - shape.left() * shape.left()) :
+            width;
+    const auto stress = [&](const Stretch &s) {
+      return (s.tip + s.water_on_tip) / area;
+    };
+    const Change jump =
+      largest([&](const Stretch &before, const Stretch &after) {
+        const double rise = after.pore_pressure - before.pore_pressure,
+                     load = std::max(0., stress(after) - stress(before));
+        return stress(before) > 0. ? (rise - load) / stress(before) : 0.;
+      });
+    if (jump.share <= largest_jump)
+      return {};
+    return "the largest pore pressure rises by " + percent(jump.share, 2) +
+           " of the stress on the tip more than this stress does, within half "
+           "of the width of the tip at a penetration of " +
+           to_text(jump.penetration, 4) +
+           " m. No load explains that: cells beneath the tip have run out of "
+           "points, and the water bears what the soil should. From there on "
+           "the effective tip force is too small, by up to a half. Set Material "
+           "points/Split and merge = true, or more points Per direction in "
+           "path: see doc/limitations.md, Coupled pore water";
+  }
+
+  std::optional<std::string>
+  RunReview::lost_work() const
+  {
+    const EnergyBalance &energy = parts.energy;
+    const double         share  = energy.dissipation / energy.work_of_body;
+    if (width == 0. || energy.work_of_body <= 0. || share <= largest_lost_share)
+      return {};
+    return "the transfer between points and nodes has lost " +
+           percent(share, 2) +
+           " of the work of the body, which the force contains: it is too "
+           "large by up to as much. Reduce Time/Mass scaling or Rigid "
+           "body/Velocity, set finer cells where the stiffness changes, or a "
+           "larger Method/FLIP fraction, and compare: see doc/limitations.md, "
+           "Energy";
+  }
+} // namespace CaissonMPM
