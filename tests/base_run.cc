@@ -202,7 +202,7 @@ test_timing()
     }
   std::cout << stress << transfer << timer.section("stress") << '\n';
   for (const auto &[name, seconds] : timer.seconds())
-    std::cout << name << ' ' << (seconds >= 0.012) << (seconds < 10.) << '\n';
+    std::cout << name << ' ' << (seconds >= 0.012) << (seconds < 1e4) << '\n';
   std::cout << (peak_memory_bytes() > 1e6) << (peak_memory_bytes() < 1e12)
             << '\n';
 }

@@ -18,7 +18,11 @@
 
 #include "scene.h"
 
-const std::string box = R"(
+/** A square box with this size of cells, with 25 points each. */
+std::string
+box(const std::string &size)
+{
+  return R"(
   subsection Rigid body
     set Kind = none
   end
@@ -26,8 +30,10 @@ const std::string box = R"(
     set Outer radius = 3
     set Bottom       = -3
     set Top          = 0.5
-    set Cell width   = 0.1
-    set Cell height  = 0.1
+    set Cell width   = )" +
+         size + R"(
+    set Cell height  = )" +
+         size + R"(
   end
   subsection Soil
     set Number of layers = 2
@@ -38,6 +44,7 @@ const std::string box = R"(
   subsection Material points
     set Per direction far = 5
   end)";
+}
 
 const std::string directory  = "checkpoint_files";
 const std::string parameters = "a = 1\nb = 2\n";
@@ -171,17 +178,20 @@ flip(const std::string &file, const std::size_t place)
   stream.put(byte ^ 1);
 }
 
-/** One bit is changed, at many places. Before the rows there are bytes without
- * a meaning. */
+/** One bit is changed, at many places: every so many bytes of the rows, and of
+ * what is before them, where there are bytes without a meaning. */
 void
-check_damage(Scene &s)
+check_damage(Scene            &s,
+             const std::size_t step_before,
+             const std::size_t step_in_rows)
 {
   const auto        before = numbers_of(s);
   const std::string file   = path(valid_file());
   const std::size_t size   = std::filesystem::file_size(file),
                     begin  = size - before.size() * before[0].size() * 8;
   unsigned int n_noticed = 0, n_without_effect = 0, n_wrong = 0;
-  for (std::size_t place = 0; place < size; place += place < begin ? 7 : 99991)
+  for (std::size_t place = 0; place < size;
+       place += place < begin ? step_before : step_in_rows)
     {
       flip(file, place);
       const std::string result = read(s);
@@ -194,7 +204,7 @@ check_damage(Scene &s)
         ++n_wrong;
     }
   std::printf("damage noticed: %s, without effect: %s, neither: %u\n",
-              n_noticed > 40 ? "often" : "not often",
+              n_noticed > 10 ? "often" : "not often",
               n_without_effect > 0 ? "some" : "none",
               n_wrong);
   std::filesystem::resize_file(file, size - 8);
@@ -299,21 +309,33 @@ check_point_file(const Scene &s)
               write("none/points.h5", 10, 0).first ? "written" : "refused");
 }
 
+void
+generate(Scene &s)
+{
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+  auto all = s.points.take_all();
+  for (TravelingPoint &p : all)
+    fill(p.point);
+  s.points.redistribute(all);
+}
+
 int
 main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::filesystem::remove_all(directory);
   std::filesystem::create_directory(directory);
-  Scene s(box);
-  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
-  auto all = s.points.take_all();
-  for (TravelingPoint &p : all)
-    fill(p.point);
-  s.points.redistribute(all);
-  check_point_file(s);
-  check_contents(s);
+  {
+    Scene s(box("0.1"));
+    generate(s);
+    check_point_file(s);
+    check_contents(s);
+    check_damage(s, 499, 499979);
+    check_full_disk(s);
+  }
+  Scene s(box("1"));
+  generate(s);
+  write(s, .1);
   check_damaged_text(s);
-  check_damage(s);
-  check_full_disk(s);
+  check_damage(s, 7, 997);
 }

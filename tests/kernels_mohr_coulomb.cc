@@ -115,6 +115,7 @@ update(const Tensor                   &old_stress,
                                    increment.rz};
   LawState<Scalar>              state;
   state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
+  state.void_ratio                                    = Scalar(0.);
   Law::update(sigma, de, state, parameters);
   return {{sigma.rr[0], sigma.zz[0], sigma.tt[0], sigma.rz[0]},
           state.plastic_deviatoric[0],

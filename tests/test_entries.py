@@ -3,7 +3,7 @@
 """What the program says of the entries of a scene: unused ones, places, words."""
 import unittest
 
-from program import BAD_INPUT, SUCCESS, ProgramTest, scene, user_scene
+from program import BAD_INPUT, SUCCESS, ProgramTest, scene
 
 BODY = "Rigid body"
 LAYER = "Soil/Layer 1"
@@ -77,12 +77,6 @@ class Unused(ProgramTest):
             BAD_INPUT, scene("jack"), "--validate", entries={f"{BODY}/Kind": "none"}
         )
         self.assert_words(["Kind is none", "no body", "has no end"], text)
-
-    def test_user_scenes_use_all_their_entries(self) -> None:
-        for name in ("jack", "jack_coarse", "jack_dense_sand", "column"):
-            with self.subTest(name):
-                text = self.run_program(SUCCESS, user_scene(name), "--validate")
-                self.assertNotIn("warning", text)
 
 
 class Places(ProgramTest):

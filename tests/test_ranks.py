@@ -88,6 +88,10 @@ class Ranks(ProgramTest):
         one = self.compare_ranks((2, 3), 1, {**HALVED, "Time/End penetration": 0.8})
         self.assertGreater(one["points_split"], 100)
 
+
+class Restart(ProgramTest):
+    """Checkpoints are for any number of ranks."""
+
     def test_restart(self) -> None:
         self.check_restart({"Time/End penetration": 1})
 
@@ -114,6 +118,10 @@ class Ranks(ProgramTest):
             "jack", stopped, BAD_INPUT, "--restart", entries=entries, ranks=2
         )
         self.assertEqual(text.count("is damaged"), 1, text)
+
+
+class OtherScenes(ProgramTest):
+    """Scenes without a body."""
 
     def test_verification(self) -> None:
         paths = [self.directory(f"verify_{n}") for n in (1, 2)]

@@ -97,7 +97,9 @@ class Run(ProgramTest):
     def test_ctrl_c_leaves_a_checkpoint(self) -> None:
         """The terminal sends it to all; nothing may kill the program meanwhile."""
         path = self.directory()
-        process = self.start_run(scene("jack"), "--output-directory", path)
+        words = [scene("jack"), "--output-directory", path]
+        # many minutes
+        process = self.start_run(*words, "--set", "Time/Courant number=1e-3")
         while not (path / "history.csv").exists() and process.poll() is None:
             time.sleep(0.05)
         os.killpg(process.pid, signal.SIGINT)

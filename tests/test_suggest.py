@@ -16,7 +16,7 @@ EXAMPLE = HERE.parent / "prm/cpt_example.csv"
 SAND = "0: Friction angle = 33, Youngs modulus = 20e6"
 
 
-class Suggest(ProgramTest):
+class SuggestTest(ProgramTest):
     """Calls the command as a user does."""
 
     def suggest(
@@ -44,6 +44,10 @@ class Suggest(ProgramTest):
         self.assertEqual(done.returncode, status, done.stdout)
         return done.stdout
 
+
+class Sizes(SuggestTest):
+    """Caissons of all sizes."""
+
     def test_scenes_are_accepted(self) -> None:
         """By the program, without a likely mistake; the cost is told."""
         cases = [
@@ -62,6 +66,10 @@ class Suggest(ProgramTest):
                 text = self.suggest(path, *sizes, "--error", error)
                 self.assertRegex(text, r"duration +about \d")
                 self.run_program(SUCCESS, path, "--validate", "--strict")
+
+
+class Layers(SuggestTest):
+    """Layers, and the study of their angles."""
 
     def test_layers_that_change_with_depth(self) -> None:
         """Expressions are kept whole, with the commas between their parentheses."""
@@ -149,6 +157,10 @@ class Suggest(ProgramTest):
         self.assertIn("Permeability", assumed)
         self.assertNotIn("Friction angle", assumed)
 
+
+class ConeTests(SuggestTest):
+    """Layers that come from a cone test."""
+
     def test_layers_of_a_cone_test(self) -> None:
         """The scene is accepted, with the best estimates and where they are from; the
         study has low, best and high."""
@@ -192,6 +204,10 @@ class Suggest(ProgramTest):
         self.assertIn("total_force_N [best]", head)
         for method in ("houlsby_byrne", "dnv", "senders_randolph", "andersen"):
             self.assertIn(f"{method}_", head)
+
+
+class Files(SuggestTest):
+    """What is written and said."""
 
     def test_it_runs(self) -> None:
         path = self.made_directory()

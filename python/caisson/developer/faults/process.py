@@ -15,7 +15,7 @@ from pathlib import Path
 from caisson.run import Status, environment
 
 # s; of processor time, since the machine may do other things, and of wall time
-PROCESSOR_LIMIT, WALL_LIMIT = 20.0, 90.0
+PROCESSOR_LIMIT, WALL_LIMIT = 20.0, 600.0
 # bytes of address space; what the libraries map is about 1 GB of it
 MEMORY_LIMIT = 6 * 2**30
 # what a user cannot make anything of: other programs' words, and C++'s
@@ -68,6 +68,7 @@ def quick_environment(scratch: str) -> dict[str, str]:
         "OMPI_MCA_orte_tmpdir_base": scratch,
         "OMPI_MCA_pml": "ob1",
         "OMPI_MCA_btl": "self",
+        "OMPI_MCA_sharedfp": "^sm",  # which would have files of one name for all
     }
     return {**environment(), **alone}
 
