@@ -278,7 +278,7 @@ class Report(unittest.TestCase):
         (self.path / "cone.csv").write_text("depth_m,qc_kPa\n0,0\n0.3,700\n")
         figures = content.figures_of(Results(self.path))
         labels = [[c["label"] for c in figure["curves"]] for figure in figures]
-        self.assertIn("total, DNV", labels[0])
+        self.assertIn("total, DNV, jacked", labels[0])
         self.assertFalse([name for name in labels[1] if "by cone" in name])
         self.assertEqual(len(labels[1]), 7)
 

@@ -345,7 +345,7 @@ class MadeUpRun(unittest.TestCase):
         self.assertAlmostEqual(answers.suctions[methods.PIPING][0], piping)
         words = suction.caption(answers, site)
         self.assertIn("0.5 to 0.6 inside and 0.7 outside, no stress", words)
-        self.assertIn("is 3 times as permeable", words)
+        self.assertIn("outside k_f\N{NO-BREAK SPACE}= 3", words)
         words = suction.caption(answers, SITE)
         self.assertIn("0.45 to 0.8 on both walls, stress enhancement", words)
 

@@ -55,7 +55,15 @@ def draw_curve(axes: Axes, depth: np.ndarray, force: np.ndarray, name: str) -> N
     axes.plot(smooth(depth, force), depth, color=color, linewidth=MEAN, label=name)
 
 
-def draw_bands(axes: Axes, answer: theory.Answer, names: tuple[str, ...]) -> None:
+def remark_on(history: Table) -> str:
+    """Return what a run with suction must add to the name of a method, whose forces
+    are those of jacking."""
+    return ", jacked" if "required_suction_Pa" in history else ""
+
+
+def draw_bands(
+    axes: Axes, answer: theory.Answer, names: tuple[str, ...], remark: str
+) -> None:
     """Draw the range of Houlsby and Byrne, and the bound below it."""
     for name in names if answer.forces else ():
         low, high = [force / 1e3 for force in answer.band(name)]
@@ -69,7 +77,7 @@ def draw_bands(axes: Axes, answer: theory.Answer, names: tuple[str, ...]) -> Non
             hatch=hatch,
             alpha=0.3 if hatch else 0.15,
             linewidth=0,
-            label=f"{name}, {answer.method.name}",
+            label=f"{name}, {answer.method.name}{remark}",
         )
         axes.plot(low, answer.depth, color=color, linewidth=0.8, linestyle="--")
         axes.plot(high, answer.depth, color=color, linewidth=0.8, linestyle=":")
@@ -156,7 +164,9 @@ def draw_panel(
         if column_of(name) in history:
             draw_curve(axes, depth, history[column_of(name)], name)
     friction_only = names == FRICTION
-    draw_bands(axes, answer, names if friction_only else ("total", "tip"))
+    draw_bands(
+        axes, answer, names if friction_only else ("total", "tip"), remark_on(history)
+    )
     if not friction_only:
         draw_error_bars(axes, run.error_bounds)
     set_limits(axes, depth)

@@ -220,8 +220,8 @@ def caption(answers: methods.Answers, site: theory.Site) -> str:
         words = theory.assumptions_in_words(site.scene)
         ratio = theory.assumptions_of(site.scene).plug_permeability_ratio
         lines.append(
-            f"{words}: dashed low, dotted high; the plug is {ratio:g} times as"
-            " permeable as the soil outside"
+            f"{words}: dashed low, dotted high; permeability of the plug over that"
+            f" outside k_f\N{NO-BREAK SPACE}= {ratio:g}"
         )
     if has_line(answers.suctions[methods.CONE_LOW]):
         required += [methods.CONE_LOW, methods.CONE_HIGH]

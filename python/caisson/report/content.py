@@ -8,7 +8,14 @@ import numpy as np
 
 from caisson import curves
 from caisson.plot import design, suction_methods, theory
-from caisson.plot.forces import COLORS, column_of, error_band, penetration, smooth
+from caisson.plot.forces import (
+    COLORS,
+    column_of,
+    error_band,
+    penetration,
+    remark_on,
+    smooth,
+)
 from caisson.plot.suction import (
     BLUE,
     CRITICAL,
@@ -60,20 +67,23 @@ def band(
 
 def method_curves(run: Results, deepest: float) -> list[Curve]:
     """Return the ranges of the design methods (kN) over depth (m). Only tip and total
-    by Houlsby & Byrne are shown at first."""
-    found = []
+    by Houlsby & Byrne are shown at first, and nothing where there is suction."""
+    found, remark = [], remark_on(run.history)
     for answer in theory.answers_to(theory.site_of(run), deepest):
         first = answer.method is theory.METHODS[0]
         for part in (theory.PARTS if first else SHOWN) if answer.forces else ():
             low, high = [force / 1e3 for force in answer.band(part)]
-            label = f"{part}, {answer.method.name}"
+            label = f"{part}, {answer.method.name}{remark}"
             color = COLORS[part] if first else answer.method.color
             curve = band(label, color, low, high, answer.depth)
-            found.append(curve | {"hidden": not first or part not in SHOWN})
+            found.append(
+                curve | {"hidden": bool(remark) or not first or part not in SHOWN}
+            )
             for bound in answer.method.bound if part == "total" else ():
                 force = answer.forces[bound][part] / 1e3
-                label = f"{part}, {theory.LOWER_BOUND}"
-                found.append(line(label, color, force, answer.depth))
+                label = f"{part}, {theory.LOWER_BOUND}{remark}"
+                curve = line(label, color, force, answer.depth)
+                found.append(curve | {"hidden": bool(remark)})
     return found
 
 

@@ -85,9 +85,17 @@ def forces_beside(
     return table(title, columns)
 
 
+def required_at(run: Results, at: np.ndarray) -> np.ndarray:
+    """Return the required suction of a run (Pa), means over 0.2 m as all numbers of a
+    report, [n]."""
+    depth = run.history["penetration_m"]
+    rows = curves.way_down(depth)
+    return curves.smoothed_at(depth[rows], run.history[design.SUCTION][rows], at)
+
+
 def suctions_beside(run: Results, at: np.ndarray, site: theory.Site) -> dict[str, Any]:
     """Return the table of required and critical suctions (kPa)."""
-    computed = np.maximum(design.suction_at(run.history, at), 0) / 1e3
+    computed = np.maximum(required_at(run, at), 0) / 1e3
     found = suction_methods.answers_of(site, at).suctions
     columns: dict[str, Any] = {"depth (m)": at, "computed": computed}
     byrne, senders = "Houlsby & Byrne (2005)", "Senders & Randolph (2009)"
@@ -148,7 +156,7 @@ def compared(run: Results, h: float) -> Compared | None:
     ends = [byrne.forces(h, case).total for case in byrne.cases]
     caisson, _ = byrne.by_name[UNDISTURBED]
     if design.SUCTION in run.history:
-        suction = mine = float(design.suction_at(run.history, at)[0])
+        suction = mine = float(required_at(run, at)[0])
         found = suction_methods.answers_of(site, at).suctions
         ends = [float(found[name][0]) for name in suction_methods.RANGE if found]
         flow = installation.seepage(
@@ -178,7 +186,10 @@ def cause_of_tip(found: Compared) -> str:
         cause = "the stress enhancement of the method grows exponentially with depth"
         return f", because {cause}," if found.enhanced else ""
     if found.suction > 0:
-        return ", because the flow of the run takes less from it than the method does,"
+        return (
+            ", because the method counts only the stress of the plug, which the flow"
+            " takes away, and no strength of the sand beside the wall,"
+        )
     return (
         ", because a footing at the surface leaves out the strength of the sand beside"
         " the wall,"
