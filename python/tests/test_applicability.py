@@ -113,9 +113,34 @@ class Applicability(unittest.TestCase):
     def test_layers_of_sand(self) -> None:
         """The tip of Houlsby and Byrne is in the stronger layer from 1 m on."""
         strong = {**LAYER, "top_depth_m": 1, "friction_angle_deg": 40}
-        plain, enhanced = theory.answers_to(self.site(LAYER, strong), 2)[0].band("tip")
-        self.assertTrue((plain <= enhanced).all())
-        self.assertGreater(plain[-1], 3 * plain[45])
+        answer = theory.answers_to(self.site(LAYER, strong), 2)[0]
+        low, high = answer.band("tip")
+        bound = answer.forces["undisturbed"]["tip"]
+        self.assertTrue((bound <= low).all() and (low <= high).all())
+        self.assertGreater(low[-1], 3 * low[45])
+
+    def test_range_is_not_that_of_undisturbed_ground(self) -> None:
+        """Houlsby & Byrne back-figured K tan(delta) = 0.45 to 0.8; undisturbed ground
+        has 0.5 tan(20) = 0.182. Without enhancement at 1 m: 8829 / 2 pi 6 N each."""
+        plain = {"design_methods": {"load_spread": None}}
+        site = self.site(LAYER)
+        site = site._replace(scene={**site.scene, **plain})
+        answer = theory.answers_of(site, np.array([1.0]))[0]
+        low, high = answer.band("outer friction")
+        bound = answer.forces["undisturbed"]["outer friction"]
+        per_k = 8829 / 2 * np.pi * 6
+        for found, k in ((low, 0.45), (high, 0.8), (bound, 0.1819851)):
+            self.assertAlmostEqual(float(found[0]) / per_k, k, places=6)
+        enhanced = theory.answers_of(self.site(LAYER), np.array([1.0]))[0]
+        self.assertGreater(enhanced.band("total")[0][0], answer.band("total")[0][0])
+
+    def test_entries_of_a_newer_program(self) -> None:
+        """What is not known is left out, and what is missing is the default."""
+        assumed = theory.assumptions_of(
+            {"design_methods": {"load_spread": 2, "unknown": 1}}
+        )
+        self.assertEqual(assumed, theory.Assumptions(load_spread=2))
+        self.assertEqual(theory.assumptions_of({}), theory.Assumptions())
 
     def test_file_without_layers(self) -> None:
         old = theory.Site({**SCENE, **LAYER, "wall_friction_angle_deg": 20})

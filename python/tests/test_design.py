@@ -8,7 +8,15 @@ import numpy as np
 
 from caisson.design.bearing_capacity import Footing, converged, factors, pressure
 from caisson.design.cavity_expansion import MohrCoulomb, Tresca, comparison
-from caisson.design.houlsby_byrne import Caisson, Layer, bearing_factor_weight
+from caisson.design.houlsby_byrne import (
+    UNDISTURBED,
+    Assumptions,
+    Caisson,
+    Layer,
+    Seepage,
+    bearing_factor_weight,
+    method,
+)
 
 SAND = Layer(top=0, unit_weight=8829, friction_angle=30, lateral_stress_ratio=0.5)
 # kN, D = 6 m: {h: (tip of walls of 0.05, 0.1, 0.2 m, outer friction)}, each without
@@ -129,6 +137,55 @@ class HoulsbyByrne(unittest.TestCase):
         # the tip is in the second layer: its angle counts, under 30 kPa
         self.assertGreater(body.tip(2, False), strong.tip(2, False))
         self.assertLess(body.tip(1, False), 0.5 * strong.tip(1, False))
+
+    def test_range_by_integration(self) -> None:
+        """The stress and the friction of each K tan(delta), by small steps in depth;
+        two layers, whose K0 and friction angles of the wall do not count."""
+        layers = [Layer(0, 8e3, 30, 0.5), Layer(1.5, 10e3, 35, 0.4, 25)]
+        byrne = method(6, 0.1, layers, (20, 20), Assumptions())
+        n, h = 20000, 4.0
+        for case, k in (("low", 0.45), ("high", 0.8)):
+            found, ends = byrne.forces(h, case), []
+            for wall, reach in ((5.8, 5.8 / 4), (6.0, 6 * (1.5**2 - 1) / 4)):
+                stress = friction = 0.0
+                for z in (np.arange(n) + 0.5) * h / n:
+                    slope = (8e3 if z < 1.5 else 10e3) + stress * k / reach
+                    middle = stress + slope * h / n / 2
+                    friction += k * middle * np.pi * wall * h / n
+                    stress += slope * h / n + (slope * h / n) * k / reach * h / n / 2
+                ends.append((stress, friction))
+            (inner, friction_in), (outer, friction_out) = ends
+            np.testing.assert_allclose(found.inner_friction, friction_in, rtol=1e-3)
+            np.testing.assert_allclose(found.outer_friction, friction_out, rtol=1e-3)
+            # the lower stress bears all: N_q of 35 degrees is 33.296
+            self.assertGreater(abs(outer - inner) * 33.296, 2 * 0.1 * 10e3 * 34.476)
+            tip = min(inner, outer) * 33.296 + 0.1 * 10e3 * 34.476
+            np.testing.assert_allclose(found.tip, tip * np.pi * 5.9 * 0.1, rtol=1e-3)
+
+    def test_range_by_hand(self) -> None:
+        """Without enhancement at 2 m: 0.45 and 0.8 8829 2^2 / 2 pi 6 N on the outer
+        wall; 0.5 tan(20) in undisturbed ground, where a smooth wall has nothing."""
+        plain = Assumptions(load_spread=None, k_tan_delta_inside=(0.3, 0.3))
+        byrne = method(6, 0.1, [SAND], (20, 20), plain)
+        stress = 8829 * 2**2 / 2 * np.pi
+        for case, k in (("low", 0.45), ("high", 0.8), (UNDISTURBED, 0.1819851)):
+            found = byrne.forces(2, case)
+            self.assertAlmostEqual(found.outer_friction / (k * stress * 6), 1, 6)
+            k_in = k if case == UNDISTURBED else 0.3
+            self.assertAlmostEqual(found.inner_friction / (k_in * stress * 5.8), 1, 6)
+            self.assertAlmostEqual(found.tip / 614e3, 1, delta=2e-3)
+        smooth = method(6, 0.1, [SAND], (0, 20), Assumptions())
+        for case in (*smooth.cases, UNDISTURBED):
+            self.assertEqual(smooth.forces(2, case).inner_friction, 0)
+
+    def test_friction_as_k_tan_delta(self) -> None:
+        """The inverse of the plain friction, also under flow and in layers."""
+        layers = [Layer(0, 8e3, 30, 0.5), Layer(1.5, 10e3, 35, 0.5)]
+        body = Caisson(6, 0.1, layers, 20, 20, k_tan_delta=(0.6, 0.7))
+        for flow in (Seepage(), Seepage(3e3, -2e3)):
+            friction = body.outer_friction(4, False, flow)
+            self.assertAlmostEqual(body.k_tan_delta_of(friction, 4, flow), 0.7)
+        self.assertTrue(np.isnan(body.k_tan_delta_of(0, 0, Seepage())))
 
     def test_each_wall_has_its_friction(self) -> None:
         body = caisson(0.2, angles=(0, 20))

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from caisson.design import andersen, cone, dnv, senders_randolph
-from caisson.design.houlsby_byrne import Caisson, HoulsbyByrne, Layer
+from caisson.design import houlsby_byrne
+from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, Layer
 from caisson.design.method import Forces
 from caisson.results import ResultsError
 
@@ -68,11 +69,14 @@ class ByHand(unittest.TestCase):
         assert_forces(method.forces(4, "high"), (8155.574, 437.3097, 452.3893))
 
     def test_houlsby_byrne(self) -> None:
-        """The same caisson has 1518 kN on the tip plain, 1962 kN enhanced, and 378.6
-        and 448 kN on the outer wall at 5 m (VALUES of test_design)."""
-        body = Caisson(6, 0.1, [Layer(0, 8829, 30, 0.5)], 20, 20)
-        method = HoulsbyByrne(body)
-        for case, tip, outer in (("plain", 1518, 378.6), ("enhanced", 1962, 448)):
+        """The same caisson has 1518 kN on the tip and 378.6 kN on the outer wall at 5 m
+        in undisturbed ground, and 1962 and 448 kN with stress enhancement (TABLE of
+        test_design): K tan(delta) is 0.5 tan(20)."""
+        same = (0.1819851, 0.1819851)
+        method = houlsby_byrne.method(
+            6, 0.1, [Layer(0, 8829, 30, 0.5)], (20, 20), Assumptions(same, same)
+        )
+        for case, tip, outer in ((UNDISTURBED, 1518, 378.6), ("low", 1962, 448)):
             found = method.forces(5, case)
             np.testing.assert_allclose(found.tip / 1e3, tip, rtol=2e-3)
             np.testing.assert_allclose(found.outer_friction / 1e3, outer, rtol=2e-3)

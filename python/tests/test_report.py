@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """report.html of made-up runs, as text and in a browser."""
 import fcntl
+import html
 import re
 import subprocess
 import tempfile
@@ -12,7 +13,7 @@ import numpy as np
 from made_up import write_columns, write_run
 
 from caisson import report
-from caisson.report import content
+from caisson.report import content, methods
 from caisson.results import Results, ResultsError
 
 BROWSER = report.find_browser()
@@ -167,28 +168,108 @@ class Report(unittest.TestCase):
         self.assertIn(f"Failed: {reason}", page)
         self.assertIn("5000, not known", page)
 
+    def rows(self, found: dict[str, Any], title: str) -> list[dict[str, str]]:
+        """Return the rows of a table of the design methods by heads."""
+        (table,) = [t for t in found["tables"] if t["title"].startswith(title)]
+        return [dict(zip(table["heads"], row)) for row in table["rows"]]
+
     def test_design_methods(self) -> None:
-        """The computed 3000 kN at 3 m; DNV with 2 MPa per meter and a tip of 1.2516 m2:
-        0.3 6 MPa 1.2516 m2 = 2252.9 kN, and 0.001 9 MN/m on pi 19.92 m of wall =
-        563.2 kN; without a cone test, why there is nothing."""
+        """DNV with 2 MPa per meter and a tip of 1.2516 m2 at 3 m: 0.3 6 MPa 1.2516 m2 =
+        2252.9 kN, and 0.001 9 MN/m on pi 19.92 m of wall = 563.2 kN; without a cone
+        test, why there is nothing."""
         leave_run(self.path, SUMMARY)
-        found = content.methods_of(Results(self.path))
-        self.assertEqual(len(found["heads"]), 4)
+        found = methods.methods_of(Results(self.path))
         reason, of_clay = found["reasons"]
         self.assertIn("the method is for clay", of_clay[1])
         self.assertEqual(reason[0].count(","), 2)
         self.assertIn("a cone test is needed", reason[1])
+        self.assertFalse([n for n in self.rows(found, "Req")[0] if "/ Senders" in n])
         page = report.write(self.path).read_text(encoding="utf-8")
         self.assertIn("a cone test is needed (--cpt FILE).", page)
+        self.assertIn("K tan \N{GREEK SMALL LETTER DELTA} = 0.45 to 0.8", page)
         (self.path / "cone.csv").write_text("depth_m,qc_kPa\n0,0\n3.5,7000\n")
-        found = content.methods_of(Results(self.path))
+        found = methods.methods_of(Results(self.path))
         self.assertEqual(found["reasons"], [of_clay])
-        rows = [dict(zip(found["heads"], row)) for row in found["rows"]]
-        self.assertEqual(rows[2]["computed"], "3000")
+        rows = self.rows(found, "Force of jacking")
+        self.assertNotIn("computed", rows[2])
         self.assertEqual(rows[2]["DNV, most probable"], "2816")
         self.assertEqual(rows[3]["DNV, most probable"], "")
-        self.assertGreater(float(rows[3]["Houlsby & Byrne (2005), plain"]), 0)
+        self.assertGreater(float(rows[3]["Houlsby & Byrne (2005), low"]), 0)
+        self.assertIn(
+            "computed / Senders & Randolph (2009)", self.rows(found, "Req")[2]
+        )
         self.assertIn("ends at 3.5 m", report.write(self.path).read_text())
+
+    def test_computed_over_method(self) -> None:
+        """3000 kN at 3 m over 2816 and 7195 kN; 15 kPa required at 3 m."""
+        leave_run(self.path, SUMMARY)
+        history = dict(Results(self.path).history)
+        for name in [n for n in history if "suction" in n]:
+            del history[name]
+        write_run(self.path / "jacked", history, SUMMARY)
+        for path in (self.path, self.path / "jacked"):
+            (path / "cone.csv").write_text("depth_m,qc_kPa\n0,0\n3.5,7000\n")
+        found = methods.methods_of(Results(self.path / "jacked"))
+        row = self.rows(found, "Total force")[2]
+        self.assertEqual(row["computed"], "3000")
+        self.assertEqual(row["computed / DNV"], "0.48 to 1.07")
+        row = self.rows(methods.methods_of(Results(self.path)), "Required")[2]
+        self.assertEqual(row["computed"], "15")
+        name = "Houlsby & Byrne (2005)"
+        ends = [float(row[f"required, {name}, {case}"]) for case in ("high", "low")]
+        for text, end in zip(row[f"computed / {name}"].split(" to "), ends):
+            self.assertAlmostEqual(float(text), 15 / end, delta=0.02)
+        self.assertGreater(float(row["critical, Houlsby & Byrne (2005)"]), 0)
+
+    def test_ratio_in_words(self) -> None:
+        """Open where the method needs no suction, or none suffices."""
+        cases: list[tuple[tuple[float, float], str]] = [
+            ((1, 4), "0.50 to 2.00"),
+            ((2, 2), "1.00"),
+            ((0, 4), "at least 0.50"),
+            ((1, float("nan")), "at most 2.00"),
+            ((0.1, 0.1), "20"),
+            ((0, float("nan")), ""),
+        ]
+        for ends, words in cases:
+            self.assertEqual(methods.ratio_in_words(2, *ends), words)
+        self.assertEqual(methods.ratio_in_words(0, 1, 2), "")
+
+    def why(self, tip: float, outer: float, change: dict[str, Any]) -> str:
+        """Return why a jacked run with these forces (N) at 4 m is where it is."""
+        depth = np.linspace(0.5, 4.5, 401)
+        table = {"time_s": depth, "penetration_m": depth}
+        parts = {"tip_force": tip, "inner_friction": 1.0e6, "outer_friction": outer}
+        for name, force in parts.items():
+            table[f"{name}_N"] = force * depth / 4
+        table["total_force_N"] = sum(parts.values()) * depth / 4
+        write_run(self.path, table, {**SUMMARY, "scene": {**SCENE, **change}})
+        return methods.why_of(Results(self.path), np.array([1.0, 4.0]))
+
+    def test_why(self) -> None:
+        """The tip of 0.04 m has 1085 kN at 4 m without enhancement. On the outer wall
+        of 10 m, 9000 4^2 / 2 pi 10 N are K tan(delta) = 1, and 0.182 is undisturbed."""
+        plain = {"design_methods": {"load_spread": None}}
+        outer = 9000 * 4**2 / 2 * np.pi * 10
+        raised = self.why(1.5e6, 0.6 * outer, plain)
+        self.assertIn("At 4 m the run has", raised)
+        self.assertIn("leaves out the strength of the sand beside", raised)
+        self.assertIn("from 0.18 in undisturbed ground to 0.60", raised)
+        self.assertIn(f"{0.6 * outer / 1e3:.0f} kN (1018 to 1810) outside", raised)
+        weak = self.why(1.0e6, 0.2 * outer, plain)
+        self.assertNotIn("because", weak)
+        self.assertIn("do not grip yet, and", weak)
+        self.assertIn("is 0.20, where undisturbed ground has 0.18", weak)
+        self.assertIn("grows exponentially", self.why(1.0e6, 0.6 * outer, {}))
+        layers = [{**SCENE["layers"][0], "cohesion_Pa": 5e3}]
+        self.assertEqual(self.why(1e6, outer, {"layers": layers}), "")
+
+    def test_why_under_suction(self) -> None:
+        """The method's forces are those under the suction of the run."""
+        leave_run(self.path, SUMMARY)
+        found = methods.why_of(Results(self.path), np.array([1.0, 4.0, 4.5]))
+        self.assertRegex(found, r"At 4\.5 m .* times the suction of .* of 30 kPa")
+        self.assertEqual(methods.why_of(Results(self.path), np.array([1.0])), "")
 
     def test_curves_without_a_point(self) -> None:
         """The run begins at 0.5 m, and the cone test ends at 0.3 m: no suction follows
@@ -197,9 +278,9 @@ class Report(unittest.TestCase):
         (self.path / "cone.csv").write_text("depth_m,qc_kPa\n0,0\n0.3,700\n")
         figures = content.figures_of(Results(self.path))
         labels = [[c["label"] for c in figure["curves"]] for figure in figures]
-        self.assertIn("total, DNV", labels[0])
+        self.assertIn("total, DNV, jacked", labels[0])
         self.assertFalse([name for name in labels[1] if "by cone" in name])
-        self.assertEqual(len(labels[1]), 6)
+        self.assertEqual(len(labels[1]), 7)
 
     def test_error_bar_of_the_suction(self) -> None:
         """A band of means in kPa, which does not go below zero."""
@@ -250,8 +331,8 @@ class Report(unittest.TestCase):
         """No error on the console; curves are drawn, read, shown and saved; a cone test
         brings one more."""
         visited = self.path / "visited.html"
-        for width, curves in ((400, 6), (1200, 7)):
-            if curves == 7:
+        for width, curves in ((400, 7), (1200, 8)):
+            if curves == 8:
                 (self.path / "cone.csv").write_text("depth_m,qc_MPa\n0,0\n9,18\n")
             page = self.page(SUMMARY).replace("</body>", VISIT + "</body>")
             visited.write_text(page, encoding="utf-8")
@@ -277,12 +358,12 @@ class Report(unittest.TestCase):
                 found = re.search("<title>(.*)</title>", result.stdout)
                 assert found is not None
                 name = self.path.name
-                downloads, value = found[1].rsplit("; ", 1)
+                downloads, value = html.unescape(found[1]).rsplit("; ", 1)
                 self.assertEqual(
                     sorted(downloads.split("; ")),
                     [f"curves {curves}", f"{name}_history.csv", f"{name}_suction.png"],
                 )
-                self.assertRegex(value, r"required, .*: [\d.]+ at [\d.]+ m")
+                self.assertRegex(value, r"(required|critical), .*: [\d.]+ at [\d.]+ m")
 
 
 if __name__ == "__main__":

@@ -3,17 +3,18 @@
 import unittest
 from collections.abc import Sequence
 from itertools import pairwise
-from math import exp, isnan, nan, pi, radians, tan
+from math import exp, isnan, pi, radians, tan
 
 import numpy as np
 
 from caisson.design.houlsby_byrne import Caisson, Layer, Seepage
+from caisson.design.method import Forces
 from caisson.design.seepage import CRITICAL_SUCTIONS, houlsby_byrne, pressure_factor
 from caisson.design.suction_installation import (
     critical_suction,
     piping_suction,
+    relieved_suction,
     required_suction,
-    required_suction_senders_randolph,
     self_weight_penetration,
 )
 
@@ -223,30 +224,22 @@ class SendersRandolph(unittest.TestCase):
     """Required suction with inner friction and tip in proportion to 1 - s / s_cr."""
 
     def test_equilibrium(self) -> None:
-        for h in (2.5, 4, 6):
-            s = required_suction_senders_randolph(caisson(), WEIGHT, h)
-            critical = CRITICAL_SUCTIONS["Senders & Randolph (2009)"](GAMMA, h, DO)
-            _, friction_i = stress_and_friction(GAMMA, h, DI, 0)
-            _, friction_o = stress_and_friction(GAMMA, h, DO, 0)
-            tip = GAMMA * (h * N_Q + T / 2 * N_GAMMA) * RIM
-            left = (friction_i + tip) * (1 - s / critical) + friction_o
-            self.assertLess(s, critical)
-            np.testing.assert_allclose(left, WEIGHT + s * AREA, rtol=1e-5)
+        """2 MN on the tip, 1 MN and 1.5 MN on inner and outer wall."""
+        jacking = Forces(2e6, 1e6, 1.5e6)
+        s = relieved_suction(jacking, WEIGHT, AREA, 90e3)
+        self.assertTrue(0 < s < 90e3)
+        left = 3e6 * (1 - s / 90e3) + 1.5e6
+        np.testing.assert_allclose(left, WEIGHT + s * AREA)
 
     def test_limits(self) -> None:
-        """0 above the self-weight penetration; nan where F_o exceeds V' + s_cr A_i."""
-        h = self_weight_penetration(caisson(), WEIGHT, False, 6)
-        for factor, expected in ((0.99, True), (1.01, False)):
-            s = required_suction_senders_randolph(caisson(), WEIGHT, factor * h)
-            self.assertEqual(s == 0, expected)
-        _, friction = stress_and_friction(GAMMA, 12, DO, 0)
-        weight = friction - critical_suction(caisson(), 12) * AREA
-        self.assertGreater(weight, 0)
+        """0 where the weight suffices; nan where F_o exceeds V' + s_cr A_i."""
+        jacking = Forces(2e6, 1e6, 1.5e6)
+        self.assertEqual(relieved_suction(jacking, 4.5e6, AREA, 90e3), 0)
         for factor, expected in ((1.01, False), (0.99, True)):
-            s = required_suction_senders_randolph(caisson(), factor * weight, 12)
+            critical = factor * (1.5e6 - WEIGHT) / AREA
+            s = relieved_suction(jacking, WEIGHT, AREA, critical)
             self.assertEqual(isnan(s), expected)
-        nothing = required_suction_senders_randolph(caisson(), 0, 0)
-        np.testing.assert_equal(nothing, nan)
+        self.assertTrue(isnan(relieved_suction(jacking, 0, AREA, 0)))
 
     def test_mean_unit_weight(self) -> None:
         """10 kN/m3 over 2 m and 7 over 1 m are 9 over 3 m."""

@@ -39,8 +39,25 @@ SCENE: dict[str, Any] = {
     "submerged_weight_N": WEIGHT,
 }
 SITE = theory.Site(SCENE)
-CAISSON = Caisson(D, 0.1, [Layer(0, GAMMA, 30, 0.5)], 20, 20)
+GEOMETRY = (D, 0.1, [Layer(0, GAMMA, 30, 0.5)], 20, 20)
+UNDISTURBED = Caisson(*GEOMETRY)
+# case of the columns: the caisson, and whether friction enhances the stress
+CASES = {
+    "low": (Caisson(*GEOMETRY, k_tan_delta=(0.45, 0.45)), True),
+    "high": (Caisson(*GEOMETRY, k_tan_delta=(0.8, 0.8)), True),
+    "undisturbed": (UNDISTURBED, False),
+}
 REST = 2.0  # m, of the made-up run
+# no suction draws it in: it has no weight, and its outer wall much friction
+LIGHT: dict[str, Any] = {
+    "submerged_weight_N": 0,
+    "design_methods": {
+        "k_tan_delta_inside": [2, 2],
+        "k_tan_delta_outside": [2, 2],
+    },
+    "outer_wall_friction_angle_deg": 45,
+    "layers": [{**SAND, "K0": 2}],
+}
 
 
 def made_up() -> dict[str, np.ndarray]:
@@ -123,20 +140,18 @@ class MadeUpRun(unittest.TestCase):
         rows = self.design()
         depths = [float(row["penetration_m"]) for row in rows]
         np.testing.assert_allclose(depths, np.arange(5, 46) / 10)
-        h, row = 4.0, rows[35]
+        h, row = 3.0, rows[25]
         fits = seepage.CRITICAL_SUCTIONS
+        byrne = {
+            f"houlsby_byrne_{case}_Pa": installation.required_suction(
+                caisson, WEIGHT, h, enhanced
+            )
+            for case, (caisson, enhanced) in CASES.items()
+        }
         expected = {
             "penetration_m": h,
             "required_suction_Pa": 1e4 * (h - REST),
-            "houlsby_byrne_plain_Pa": installation.required_suction(
-                CAISSON, WEIGHT, h, False
-            ),
-            "houlsby_byrne_enhanced_Pa": installation.required_suction(
-                CAISSON, WEIGHT, h, True
-            ),
-            "senders_randolph_Pa": installation.required_suction_senders_randolph(
-                CAISSON, WEIGHT, h
-            ),
+            **byrne,
             "critical_feld_Pa": fits["Feld (2001)"](GAMMA, h, D),
             "critical_senders_randolph_Pa": fits["Senders & Randolph (2009)"](
                 GAMMA, h, D
@@ -154,16 +169,9 @@ class MadeUpRun(unittest.TestCase):
 
     def test_cells_without_an_answer_are_empty(self) -> None:
         """Without weight, and with much friction outside, no suction suffices."""
-        change: dict[str, Any] = {
-            "submerged_weight_N": 0,
-            "outer_wall_friction_angle_deg": 45,
-        }
-        layer = {**SAND, "K0": 2}
-        design.write(
-            self.path / "design.csv", self.write(made_up(), layers=[layer], **change)
-        )
+        design.write(self.path / "design.csv", self.write(made_up(), **LIGHT))
         last = self.design()[-1]
-        self.assertEqual(last["houlsby_byrne_plain_Pa"], "")
+        self.assertEqual(last["houlsby_byrne_low_Pa"], "")
         self.assertGreater(float(last["critical_feld_Pa"]), 0)
 
     def test_layers_have_a_mean_weight(self) -> None:
@@ -187,8 +195,9 @@ class MadeUpRun(unittest.TestCase):
         history["suction_Pa"][:] = 0.0
         self.assertIsNone(suction.rest_of_run(history))
         answers = methods.answers_of(SITE, np.array([1.0, 6.0]))
-        for name, enhanced in ((methods.PLAIN, False), (methods.ENHANCED, True)):
-            force = CAISSON.resistance(answers.rest[name], enhanced)
+        for name in methods.RANGE:
+            caisson, enhanced = CASES[methods.CASES[name]]
+            force = caisson.resistance(answers.rest[name], enhanced)
             self.assertAlmostEqual(force / WEIGHT, 1)
 
     def test_water_boils_later_as_the_lid_comes_down(self) -> None:
@@ -204,11 +213,10 @@ class MadeUpRun(unittest.TestCase):
                 np.testing.assert_allclose(np.diff(kilopascals), 9.81 * np.diff(depth))
 
     def test_heavy_caisson(self) -> None:
-        answers = methods.answers_of(
-            theory.Site({**SCENE, "submerged_weight_N": 1e9}), np.array([1.0, 6.0])
-        )
+        site = theory.Site({**SCENE, "submerged_weight_N": 1e9})
+        answers = methods.answers_of(site, np.array([1.0, 6.0]))
         self.assertEqual(answers.rest, {})
-        self.assertIn("suffices down to 6 m", suction.caption(answers))
+        self.assertIn("suffices down to 6 m", suction.caption(answers, site))
 
     def test_drained_run(self) -> None:
         """It has forces in design.csv, and no suction. The only record within 0.1 m of
@@ -227,12 +235,12 @@ class MadeUpRun(unittest.TestCase):
         self.assertAlmostEqual(float(row["tip_force_N"]), 4.01e5, delta=1)
         first = float(self.design()[0]["tip_force_N"])
         self.assertAlmostEqual(first, history["tip_force_N"][1])
-        for case, enhanced in (("plain", False), ("enhanced", True)):
-            tip = CAISSON.tip(4, enhanced)
+        for case, (caisson, enhanced) in CASES.items():
+            tip = caisson.tip(4, enhanced)
             known = float(row[f"houlsby_byrne_{case}_tip_N"])
             self.assertAlmostEqual(known / tip, 1, 9)
             known = float(row[f"houlsby_byrne_{case}_total_N"])
-            self.assertAlmostEqual(known / CAISSON.resistance(4, enhanced), 1, 9)
+            self.assertAlmostEqual(known / caisson.resistance(4, enhanced), 1, 9)
         self.assertEqual(row["dnv_most_probable_total_N"], "")
 
     def test_cone_test(self) -> None:
@@ -266,13 +274,8 @@ class MadeUpRun(unittest.TestCase):
     def test_legend_has_no_method_without_a_line(self) -> None:
         """No suction is required of a heavy caisson, and none suffices for a light one
         with much friction outside; the critical suctions are drawn in both."""
-        light: dict[str, Any] = {
-            "submerged_weight_N": 0,
-            "outer_wall_friction_angle_deg": 45,
-            "layers": [{**SAND, "K0": 2}],
-        }
         heavy: dict[str, Any] = {"submerged_weight_N": 1e9}
-        for change in (heavy, light):
+        for change in (heavy, LIGHT):
             site = theory.Site({**SCENE, **change})
             run = self.write(made_up(), **change)
             (axes,) = Figure().subplots(1, 1, squeeze=False)[0]
@@ -281,7 +284,70 @@ class MadeUpRun(unittest.TestCase):
             labels = axes.get_legend_handles_labels()[1]
             self.assertFalse([n for n in labels if n.startswith("required, H")], change)
             self.assertFalse([n for n in labels if n.startswith("required, S")], change)
-            self.assertEqual(len([n for n in labels if "critical" in n]), 3)
+            self.assertEqual(len([n for n in labels if "critical" in n]), 4)
+
+    def drawn(self, site: theory.Site) -> dict[str, Any]:
+        """Return the lines and bands of the suctions down to 4.5 m, by label."""
+        (axes,) = Figure().subplots(1, 1, squeeze=False)[0]
+        answers = methods.answers_of(site, np.linspace(0, 4.5, 91))
+        suction.draw_suction(axes, self.write(made_up()), answers)
+        handles, labels = axes.get_legend_handles_labels()
+        return dict(zip(labels, handles))
+
+    def test_no_method_under_the_name_of_another(self) -> None:
+        """Senders and Randolph take their forces from a cone: without one, they
+        require no suction that anybody can know."""
+        name = "required, Senders & Randolph (2009)"
+        self.assertNotIn(name, self.drawn(SITE))
+        cone = Profile([0, 10], [0, 10e6])
+        self.assertIn(name, self.drawn(SITE._replace(cone=cone)))
+        design.write(self.path / "design.csv", self.write(made_up()))
+        self.assertNotIn("senders_randolph_Pa", self.design()[0])
+
+    def test_required_and_critical_look_different(self) -> None:
+        """Bands in the color of the method, and thin lines of one other color."""
+        drawn = self.drawn(SITE._replace(cone=Profile([0, 10], [0, 10e6])))
+        critical = {
+            line.get_color() for name, line in drawn.items() if "critical" in name
+        }
+        self.assertEqual(critical, {suction.CRITICAL_COLOR})
+        self.assertNotIn(suction.CRITICAL_COLOR, (suction.BLUE, suction.GREEN))
+        for name in ("Houlsby & Byrne (2005)", "Senders & Randolph (2009)"):
+            self.assertTrue(hasattr(drawn[f"required, {name}"], "get_facecolor"))
+            self.assertIn(f"critical, {name}", drawn)
+        self.assertIn(f"required, {theory.LOWER_BOUND}", drawn)
+
+    def test_band_ends_at_the_critical_suction(self) -> None:
+        """At 4.5 m K tan(delta) = 0.8 has no suction, and 0.45 still has one."""
+        answers = methods.answers_of(SITE, np.array([3.0, 4.5]))
+        high = answers.suctions[methods.HIGH]
+        upper = suction.upper_end(answers, *methods.RANGE)
+        self.assertTrue(np.isnan(high[1]) and np.isfinite(high[0]))
+        self.assertEqual(upper[0], high[0])
+        self.assertEqual(upper[1], answers.suctions[methods.PIPING][1])
+        self.assertIn("goes on to the critical", suction.caption(answers, SITE))
+
+    def test_entries_of_the_scene(self) -> None:
+        """Those of the section Design methods, in pictures and words."""
+        given = {
+            "k_tan_delta_inside": [0.5, 0.6],
+            "k_tan_delta_outside": [0.7, 0.7],
+            "plug_permeability_ratio": 3,
+            "load_spread": None,
+        }
+        site, h = theory.Site({**SCENE, "design_methods": given}), 3.0
+        answers = methods.answers_of(site, np.array([h]))
+        for name, k_in in zip(methods.RANGE, (0.5, 0.6)):
+            caisson = Caisson(*GEOMETRY, k_tan_delta=(k_in, 0.7))
+            s = installation.required_suction(caisson, WEIGHT, h, False, 3)
+            self.assertAlmostEqual(answers.suctions[name][0], s)
+        piping = seepage.houlsby_byrne(GAMMA, h, D, 3)
+        self.assertAlmostEqual(answers.suctions[methods.PIPING][0], piping)
+        words = suction.caption(answers, site)
+        self.assertIn("0.5 to 0.6 inside and 0.7 outside, no stress", words)
+        self.assertIn("outside k_f\N{NO-BREAK SPACE}= 3", words)
+        words = suction.caption(answers, SITE)
+        self.assertIn("0.45 to 0.8 on both walls, stress enhancement", words)
 
     def test_cone_test_of_the_command_line(self) -> None:
         """It is kept where it is good; a wrong one is named with its row."""
@@ -326,7 +392,7 @@ class MadeUpRun(unittest.TestCase):
         self.assertEqual({row[name] for name in methods.METHODS}, {""})
         self.assertAlmostEqual(float(row["required_suction_Pa"]), -5e3)
         answers = methods.answers_of(theory.site_of(run), np.array([1.0]))
-        text = suction.caption(answers)
+        text = suction.caption(answers, theory.site_of(run))
         self.assertEqual(text, "no design methods: layer 1 has cohesion")
 
     def test_file_without_weight_says_why(self) -> None:

@@ -74,6 +74,16 @@ namespace CaissonMPM
     verification.check_parameters(Records::names(counts, observations.names()));
   }
 
+  void
+  Recorder::name_unused_entries(ParameterOrigins &origins) const
+  {
+    const auto sizes = parts.body.shape().dimensions();
+    design_methods.name_unused(
+      origins,
+      number_named("wall_thickness_m", sizes).has_value(),
+      parts.water.has_suction());
+  }
+
   std::vector<std::string>
   Recorder::count_names() const
   {
@@ -340,6 +350,7 @@ namespace CaissonMPM
     result.n_steps        = parts.clock.step - first_step;
     result.wall_time      = seconds_running();
     result.warnings       = console->warnings();
+    result.design_methods = design_methods.members();
     return result;
   }
 

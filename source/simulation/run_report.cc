@@ -169,7 +169,7 @@ namespace CaissonMPM
 
     /** The lengths and angles that pictures show. */
     Json::Members
-    about_scene(const RecordedParts &parts)
+    about_scene(const RecordedParts &parts, const RunFacts &facts)
     {
       Json::Members members = Json::numbers(parts.body.shape().dimensions());
       if (members.empty())
@@ -191,7 +191,8 @@ namespace CaissonMPM
         frames += (frames.empty() ? "" : ", ") + Json::number(depth);
       append(members,
              {{"layers", "[" + layers + "]"},
-              {"frame_penetrations_m", "[" + frames + "]"}});
+              {"frame_penetrations_m", "[" + frames + "]"},
+              {"design_methods", Json::flat_object(facts.design_methods)}});
       if (parts.water.flows())
         append(members, Json::numbers(parts.water.limits()));
       if (const std::string reason = parts.water.reason_to_end();
@@ -288,7 +289,7 @@ namespace CaissonMPM
            {{"energies",
              Json::object(Json::numbers(energies(parts.energy)), 2)},
             {"sections", Json::object(Json::numbers(parts.timer.seconds()), 2)},
-            {"scene", Json::object(about_scene(parts), 2)}});
+            {"scene", Json::object(about_scene(parts, facts), 2)}});
     if (parts.grid.is_first_rank())
       write_atomically(path, Json::object(members) + "\n");
   }
@@ -310,7 +311,7 @@ namespace CaissonMPM
             {"steps", Json::integer(facts.n_steps)},
             {"wall_time_s", Json::number(facts.wall_time)}});
     append(members, about_step(parts));
-    append(members, {{"scene", Json::object(about_scene(parts), 2)}});
+    append(members, {{"scene", Json::object(about_scene(parts, facts), 2)}});
     // several ranks may fail at once: each writes a file of its own first
     const std::string own =
       path + "." +

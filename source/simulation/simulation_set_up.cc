@@ -214,6 +214,7 @@ namespace CaissonMPM
     water.name_unused_entries(origins);
     nodal_motion.settings().name_unused_entries(origins);
     schedule.name_unused_entries(origins);
+    recorder.name_unused_entries(origins);
   }
 
   void

@@ -7,6 +7,7 @@
 #include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/checks/verification.h>
+#include <caisson_mpm/output/design_methods.h>
 #include <caisson_mpm/output/error_bar.h>
 #include <caisson_mpm/output/observations.h>
 #include <caisson_mpm/output/records.h>
@@ -37,6 +38,10 @@ namespace CaissonMPM
     /** Throw BadInput for observations and checks that cannot be understood. */
     void
     check_parameters();
+
+    /** Name the entries of the design methods that have no effect. */
+    void
+    name_unused_entries(ParameterOrigins &origins) const;
 
     /** Let a directory that is not empty replace the parameter. */
     void
@@ -194,9 +199,10 @@ namespace CaissonMPM
 
     const RecordedParts parts;
 
-    Observations observations;
-    Verification verification;
-    ErrorBar     error_bar;
+    Observations  observations;
+    Verification  verification;
+    ErrorBar      error_bar;
+    DesignMethods design_methods;
 
     enum class Terminal
     {

@@ -5,6 +5,7 @@
 #define caisson_mpm_simulation_run_report_h
 
 #include <caisson_mpm/base/console.h>
+#include <caisson_mpm/output/json.h>
 #include <caisson_mpm/simulation/recorded_parts.h>
 
 #include <string>
@@ -22,11 +23,12 @@ namespace CaissonMPM
     std::string   installation; // directory of the run before, or empty
     std::string   kernels;
     unsigned int  n_repartitions = 0;
-    unsigned int  max_in_body    = 0;  // points at any record
-    unsigned long n_steps        = 0;  // of this process
-    double        point_steps    = 0.; // of all ranks
-    double        wall_time      = 0.; // s
-    std::vector<std::string> warnings; // of the input and of the run
+    unsigned int  max_in_body    = 0;        // points at any record
+    unsigned long n_steps        = 0;        // of this process
+    double        point_steps    = 0.;       // of all ranks
+    double        wall_time      = 0.;       // s
+    std::vector<std::string> warnings;       // of the input and of the run
+    Json::Members            design_methods; // what they assume
   };
 
   /** Write run.json: what was run, how large it was and how long it took. The

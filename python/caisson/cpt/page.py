@@ -15,7 +15,7 @@ from caisson.parameters import methods
 from caisson.parameters.methods import TOTAL, Answers
 from caisson.parameters.outcome import Outcomes, words_of
 from caisson.plot import theory
-from caisson.report import content
+from caisson.report.methods import text_of
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
 
@@ -45,9 +45,9 @@ def forces_of(found: Answers) -> tuple[list[str], list[list[str]]]:
     meters = np.arange(1, int(found.depth[-1] + 1e-6) + 1)
     at = np.searchsorted(found.depth, meters - 1e-6)
     heads = ["depth (m)", *(f"computed, {name}" for name in found.names)]
-    columns = [[content.text_of(depth) for depth in found.depth[at]]]
+    columns = [[text_of(depth) for depth in found.depth[at]]]
     for force in found.computed:
-        columns.append([content.text_of(value / 1e3) for value in force[at]])
+        columns.append([text_of(value / 1e3) for value in force[at]])
     for i, method in enumerate(theory.METHODS):
         band = found.band(i)
         if band is None:
@@ -62,7 +62,7 @@ def range_of(low: float, high: float) -> str:
     """Return two ends, nothing where there are none."""
     if not np.isfinite(low + high):
         return ""
-    return f"{content.text_of(low)} to {content.text_of(high)}"
+    return f"{text_of(low)} to {text_of(high)}"
 
 
 def picture_of(path: Path) -> str:

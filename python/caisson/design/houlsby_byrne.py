@@ -10,6 +10,11 @@ the radius:
     d sigma'_v / dz = gamma' + sigma'_v / Z,   Z_i = D_i / (4 K tan(delta_i)),
                                                Z_o = D_o (m^2 - 1) / (4 K tan(delta_o)).
 
+K tan(delta) is a number of its own. The authors fitted it to installations in dense
+sand and found 0.45 to 0.8, because a wall pushes sand aside and so raises the stress on
+it. K0 tan(delta), of ground that no wall has disturbed, is a lower bound. A smooth wall
+has no friction.
+
 The paper has one layer. With several, gamma' and K are those of the layer at the
 depth, and the stress goes on from layer to layer without a jump. The tip is a
 strip footing, in the layer in which it is, under the (unequal) stress of both
@@ -22,9 +27,10 @@ weight falls below 0. At the tip the unit weight is that of the inside.
 
 SI units, angles in degrees.
 """
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import exp, inf, pi, radians, tan
+from math import exp, inf, nan, pi, radians, tan
+from typing import NamedTuple
 
 from caisson.design.method import Forces
 
@@ -78,7 +84,7 @@ class Layer:
     top: float  # m below the surface
     unit_weight: float  # effective, N/m3
     friction_angle: float
-    lateral_stress_ratio: float  # K
+    lateral_stress_ratio: float  # K of undisturbed ground
     wall_friction_angle: float | None = None  # None: that of the wall
 
     def weight_under(self, added: float) -> float:
@@ -100,10 +106,26 @@ STILL = Seepage()
 class Wall:
     """One side of the wall: the vertical stress beside it, and its friction."""
 
-    def __init__(self, diameter: float, reach: float, friction_angle: float) -> None:
-        """reach: Z K tan(delta), m: D/4 inside, D (m^2 - 1)/4 outside."""
+    def __init__(
+        self,
+        diameter: float,
+        reach: float,
+        friction_angle: float,
+        k_tan_delta: float | None,
+    ) -> None:
+        """reach: Z K tan(delta), m: D/4 inside, D (m^2 - 1)/4 outside. k_tan_delta:
+        of all layers, or None for that of undisturbed ground."""
         self.diameter, self.reach = diameter, reach
         self.tan_delta = tan(radians(friction_angle))
+        self.k_tan_delta = k_tan_delta
+
+    def k_tan_delta_in(self, layer: Layer) -> float:
+        """Return K tan(delta) in a layer, 0 where the wall is smooth."""
+        own = layer.wall_friction_angle
+        tan_delta = self.tan_delta if own is None else tan(radians(own))
+        if self.k_tan_delta is None or tan_delta == 0:
+            return layer.lateral_stress_ratio * tan_delta
+        return self.k_tan_delta
 
     def step(
         self,
@@ -116,9 +138,7 @@ class Wall:
         """Return the vertical stress below a piece of a layer, from that above
         it, and the friction on the piece. added: to the unit weight, by flow."""
         weight = layer.weight_under(added)
-        own = layer.wall_friction_angle
-        tan_delta = self.tan_delta if own is None else tan(radians(own))
-        k_tan = layer.lateral_stress_ratio * tan_delta
+        k_tan = self.k_tan_delta_in(layer)
         d, z = thickness, self.reach / k_tan if k_tan > 0 else inf
         if enhanced and z < inf:
             growth = exp(d / z) - 1
@@ -142,15 +162,17 @@ class Caisson:
         inner_friction_angle: float,
         outer_friction_angle: float,
         spread: float = 1.5,
+        k_tan_delta: tuple[float, float] | None = None,
     ) -> None:
-        """diameter: outer one; layers: from the surface down; spread: m."""
+        """diameter: outer one; layers: from the surface down; spread: m; k_tan_delta:
+        K tan(delta) of the inner and the outer wall, None for undisturbed ground."""
         self.outer_diameter, self.t = diameter, wall_thickness
         self.layers = sorted(layers, key=lambda layer: layer.top)
         inner = diameter - 2 * wall_thickness
-        self.inner = Wall(inner, inner / 4, inner_friction_angle)
-        self.outer = Wall(
-            diameter, diameter * (spread**2 - 1) / 4, outer_friction_angle
-        )
+        reach = diameter * (spread**2 - 1) / 4
+        k_inner, k_outer = k_tan_delta or (None, None)
+        self.inner = Wall(inner, inner / 4, inner_friction_angle, k_inner)
+        self.outer = Wall(diameter, reach, outer_friction_angle, k_outer)
 
     def pieces(self, h: float) -> list[tuple[Layer, float]]:
         """Return the layers down to h, with the thickness that counts."""
@@ -171,6 +193,17 @@ class Caisson:
             stress, part = wall.step(layer, stress, thickness, enhanced, added)
             friction += part
         return stress, friction
+
+    def k_tan_delta_of(self, friction: float, h: float, seepage: Seepage) -> float:
+        """Return the K tan(delta) of a friction (N) on the outer wall: over the stress
+        beside it without enhancement; nan at the mudline."""
+        stress = integral = 0.0
+        for layer, d in self.pieces(h):
+            weight = layer.weight_under(seepage.outer)
+            integral += stress * d + weight * d**2 / 2
+            stress += weight * d
+        whole = pi * self.outer.diameter * integral
+        return friction / whole if whole > 0 else nan
 
     def inner_friction(
         self, h: float, enhanced: bool, seepage: Seepage = STILL
@@ -212,19 +245,60 @@ class Caisson:
         return sum(part(h, enhanced, seepage) for part in parts)
 
 
+class Assumptions(NamedTuple):
+    """What the method assumes, which no ground investigation tells. K tan(delta) is
+    (low, high)."""
+
+    k_tan_delta_inside: tuple[float, float] = (0.45, 0.8)
+    k_tan_delta_outside: tuple[float, float] = (0.45, 0.8)
+    plug_permeability_ratio: float = 1.0  # of the plug to the soil outside
+    load_spread: float | None = 1.5  # m; None: no stress enhancement
+
+
+class Case(NamedTuple):
+    """A caisson whose walls have one K tan(delta), with or without enhancement."""
+
+    caisson: Caisson
+    enhanced: bool
+
+
+UNDISTURBED = "undisturbed"
+
+
 class HoulsbyByrne:
-    """The forces of jacking as a method: plain, and with stress enhancement."""
+    """The forces of jacking as a method: a range of K tan(delta), and below it
+    undisturbed ground without stress enhancement."""
 
-    cases = ("plain", "enhanced")
+    cases = ("low", "high")
 
-    def __init__(self, caisson: Caisson) -> None:
-        self.caisson = caisson
+    def __init__(self, by_name: Mapping[str, Case], permeability_ratio: float) -> None:
+        self.by_name, self.permeability_ratio = by_name, permeability_ratio
 
     def forces(self, h: float, case: str) -> Forces:
-        """Return the forces at an embedment."""
-        parts = (
-            self.caisson.tip,
-            self.caisson.inner_friction,
-            self.caisson.outer_friction,
-        )
-        return Forces(*(part(h, case == "enhanced") for part in parts))
+        """Return the forces at an embedment, of jacking."""
+        return self.forces_under(STILL, h, case)
+
+    def forces_under(self, flow: Seepage, h: float, case: str) -> Forces:
+        """Return the forces at an embedment under flow."""
+        caisson, enhanced = self.by_name[case]
+        parts = (caisson.tip, caisson.inner_friction, caisson.outer_friction)
+        return Forces(*(part(h, enhanced, flow) for part in parts))
+
+
+def method(
+    diameter: float,
+    wall_thickness: float,
+    layers: Sequence[Layer],
+    friction_angles: tuple[float, float],
+    assumed: Assumptions,
+) -> HoulsbyByrne:
+    """Return the method for sand. friction_angles: of the inner and outer wall."""
+    spread = assumed.load_spread
+    geometry = (diameter, wall_thickness, layers, *friction_angles, spread or 1.5)
+    ranges = zip(assumed.k_tan_delta_inside, assumed.k_tan_delta_outside)
+    by_name = {
+        name: Case(Caisson(*geometry, k_tan_delta=pair), spread is not None)
+        for name, pair in zip(HoulsbyByrne.cases, ranges)
+    }
+    by_name[UNDISTURBED] = Case(Caisson(*geometry), False)
+    return HoulsbyByrne(by_name, assumed.plug_permeability_ratio)

@@ -14,8 +14,7 @@ suction changes these forces:
     -(1 - a) s / h inside and at the tip.
     Senders and Randolph (2009), J. Geotech. Geoenviron. Eng. 135(1): F_o is that of
     jacking, and F_i and Q decrease in proportion to 1 - s / s_cr. They take the
-    forces of jacking from a cone test (senders_randolph); without one, these are here
-    the plain ones of Houlsby and Byrne.
+    forces of jacking from a cone test (senders_randolph).
 
 The formulas are those of one unit weight. With several layers the gradient is the
 same in all of them, and s_cr follows from the mean unit weight down to the tip.
@@ -28,7 +27,7 @@ SI units; h is the embedment of the tip (m), forces are N, suctions are Pa.
 from collections.abc import Callable
 from math import inf, nan, pi
 
-from caisson.design.houlsby_byrne import Caisson, HoulsbyByrne, Seepage
+from caisson.design.houlsby_byrne import Caisson, Seepage
 from caisson.design.method import Forces
 from caisson.design.seepage import houlsby_byrne, pressure_factor, senders_randolph
 
@@ -149,16 +148,3 @@ def relieved_suction(
     loss = relieved / critical if critical > 0 else inf
     suction = missing / (area + loss)
     return suction if 0 < suction <= critical else nan
-
-
-def required_suction_senders_randolph(
-    caisson: Caisson, weight: float, h: float
-) -> float:
-    """Return the suction by Senders and Randolph that moves the tip on at h, with the
-    plain forces of Houlsby and Byrne."""
-    return relieved_suction(
-        HoulsbyByrne(caisson).forces(h, "plain"),
-        weight,
-        plug_area(caisson),
-        critical_suction(caisson, h),
-    )

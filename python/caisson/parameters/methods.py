@@ -155,7 +155,10 @@ def draw(path: Path, found: Answers, outcomes: Outcomes) -> Path:
     axes.legend(fontsize=8, framealpha=0.9, loc="upper right")
     figure.suptitle(outcomes.study.title, fontsize=11)
     note = "bands: both cases of a method with the soil of all runs"
-    note = "\n".join(filter(None, [note, reasons_of(found)]))
+    byrne = theory.assumptions_in_words(found.runs[0].run.results.scene)
+    if found.band(0) is None:
+        byrne = ""
+    note = "\n".join(filter(None, [note, byrne, reasons_of(found)]))
     figure.text(0.5, 0.01, note, ha="center", fontsize=8, color="0.3", wrap=True)
     figure.tight_layout(rect=(0, 0.03 + 0.02 * note.count("\n"), 1, 1))
     figure.savefig(path, dpi=150)

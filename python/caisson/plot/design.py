@@ -50,7 +50,7 @@ def suction_at(history: Table, depth: np.ndarray) -> np.ndarray:
 
 def column_of(method: theory.Description, case: str, part: str) -> str:
     """Return the column with a part of the resistance by a method, such as
-    houlsby_byrne_plain_tip_N."""
+    houlsby_byrne_low_tip_N."""
     return "_".join([method.key, *case.split(), *part.split(), "N"])
 
 
@@ -61,7 +61,7 @@ def columns_of(run: Results) -> Table:
     nothing = np.full(len(depth), np.nan)
     columns = {"penetration_m": depth, **forces_at(history, depth)}
     for answer in theory.answers_of(site, depth):
-        for case in answer.method.cases:
+        for case in answer.method.all_cases:
             for part in theory.PARTS:
                 values = answer.forces[case][part] if answer.forces else nothing
                 columns[column_of(answer.method, case, part)] = values

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Forces on the caisson against its penetration, depth downward."""
 import textwrap
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ COLORS = {
     "outer friction": "#2e8b57",
 }
 FRICTION = ("inner friction", "outer friction")
+MEAN = 1.8  # width of the line of a running mean, and of no other
 
 
 def column_of(force: str) -> str:
@@ -50,27 +52,44 @@ def draw_curve(axes: Axes, depth: np.ndarray, force: np.ndarray, name: str) -> N
     """Draw a thin raw line and its running mean, in kN."""
     color = COLORS[name]
     axes.plot(force / 1e3, depth, color=color, linewidth=0.5, alpha=0.35)
-    axes.plot(smooth(depth, force), depth, color=color, linewidth=1.8, label=name)
+    axes.plot(smooth(depth, force), depth, color=color, linewidth=MEAN, label=name)
 
 
-def draw_bands(axes: Axes, answer: theory.Answer, names: tuple[str, ...]) -> None:
-    """Draw the range between plain and enhanced stress of Houlsby and Byrne."""
+def remark_on(history: Table) -> str:
+    """Return what a run with suction must add to the name of a method, whose forces
+    are those of jacking."""
+    return ", jacked" if "required_suction_Pa" in history else ""
+
+
+def draw_bands(
+    axes: Axes, answer: theory.Answer, names: tuple[str, ...], remark: str
+) -> None:
+    """Draw the range of Houlsby and Byrne, and the bound below it."""
     for name in names if answer.forces else ():
-        plain, enhanced = [force / 1e3 for force in answer.band(name)]
+        low, high = [force / 1e3 for force in answer.band(name)]
         color, hatch = COLORS[name], "////" if name == "outer friction" else None
         axes.fill_betweenx(
             answer.depth,
-            plain,
-            enhanced,
+            low,
+            high,
             facecolor="none" if hatch else color,
             edgecolor=color if hatch else "none",
             hatch=hatch,
             alpha=0.3 if hatch else 0.15,
             linewidth=0,
-            label=f"{name}, {answer.method.name}",
+            label=f"{name}, {answer.method.name}{remark}",
         )
-        axes.plot(plain, answer.depth, color=color, linewidth=0.8, linestyle="--")
-        axes.plot(enhanced, answer.depth, color=color, linewidth=0.8, linestyle=":")
+        axes.plot(low, answer.depth, color=color, linewidth=0.8, linestyle="--")
+        axes.plot(high, answer.depth, color=color, linewidth=0.8, linestyle=":")
+        (bound,) = answer.method.bound
+        axes.plot(
+            answer.forces[bound][name] / 1e3,
+            answer.depth,
+            color=color,
+            linewidth=0.6,
+            linestyle="-.",
+            label=theory.LOWER_BOUND if name == names[-1] else None,
+        )
 
 
 def error_band(
@@ -111,13 +130,19 @@ def draw_error_bars(axes: Axes, bounds: Table) -> None:
 
 
 def set_limits(axes: Axes, depth: np.ndarray) -> None:
-    """Set limits from the running means and the theory, so that no spike of a raw
-    line hides them."""
-    lines = [line for line in axes.lines if line.get_linewidth() > 0.5]
-    values = np.concatenate([line.get_xdata() for line in lines] + [np.zeros(1)])
-    values = values[np.isfinite(values)]
-    span = max(np.ptp(values), 1e-3)
-    axes.set_xlim(values.min() - 0.02 * span, values.max() + 0.08 * span)
+    """Set limits from the running means, so that no spike of a raw line hides them,
+    and from the methods up to half as much again."""
+
+    def values(is_mean: Callable[[float], bool]) -> np.ndarray:
+        lines = [x.get_xdata() for x in axes.lines if is_mean(x.get_linewidth())]
+        found = np.concatenate([*lines, np.zeros(1)])
+        return found[np.isfinite(found)]
+
+    means, others = values(lambda w: w >= MEAN), values(lambda w: 0.5 < w < MEAN)
+    most = max(means.max(), min(others.max(), 1.5 * means.max()))
+    least = min(means.min(), others.min())
+    span = max(most - least, 1e-3)
+    axes.set_xlim(least - 0.02 * span, most + 0.08 * span)
     axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
 
 
@@ -139,7 +164,9 @@ def draw_panel(
         if column_of(name) in history:
             draw_curve(axes, depth, history[column_of(name)], name)
     friction_only = names == FRICTION
-    draw_bands(axes, answer, names if friction_only else ("tip",))
+    draw_bands(
+        axes, answer, names if friction_only else ("total", "tip"), remark_on(history)
+    )
     if not friction_only:
         draw_error_bars(axes, run.error_bounds)
     set_limits(axes, depth)
@@ -190,8 +217,7 @@ def caption(depth: np.ndarray, site: theory.Site, answers: list[theory.Answer]) 
         " before the ends of the curve"
     )
     if answers[0].forces:
-        text += "; Houlsby & Byrne: dashed without, dotted with stress enhancement"
-        text += " (m = 1.5)"
+        text += f"; {theory.assumptions_in_words(site.scene)}: dashed low, dotted high"
     reasons = [f"{names}: {why}" for names, why in theory.reasons(answers)]
     silent = f"no answer from {'; '.join(reasons)}" if reasons else ""
     end = theory.end_of_cone(site, float(depth.max()))

@@ -14,11 +14,13 @@ from caisson.results import Results, Table
 BLUE, GREEN, RED = (
     COLORS[name] for name in ("inner friction", "outer friction", "tip")
 )
-# column of design.csv: label, color and line
+# column of design.csv: label and line of a critical suction; a required one is a band
+CRITICAL_COLOR = "#b35806"
 CRITICAL = {
-    methods.CRITICAL_FELD: ("Feld (2001)", "#8c510a", ":"),
-    methods.CRITICAL_SENDERS_RANDOLPH: ("Senders & Randolph (2009)", GREEN, "-"),
-    methods.CRITICAL_IBSEN_THILSTED: ("Ibsen & Thilsted (2011)", RED, (0, (6, 6))),
+    methods.PIPING: ("Houlsby & Byrne (2005)", "-"),
+    methods.CRITICAL_SENDERS_RANDOLPH: ("Senders & Randolph (2009)", "--"),
+    methods.CRITICAL_IBSEN_THILSTED: ("Ibsen & Thilsted (2011)", (0, (6, 6))),
+    methods.CRITICAL_FELD: ("Feld (2001)", ":"),
 }
 ERROR_BAR = "error bar"  # its name in the legends
 WHITE = {"facecolor": "white", "edgecolor": "0.8"}  # behind a text
@@ -45,6 +47,14 @@ def has_line(*suctions: np.ndarray) -> bool:
     return any(np.isfinite(values).any() for values in suctions)
 
 
+def upper_end(answers: methods.Answers, low: str, high: str) -> np.ndarray:
+    """Return the upper end of a range of required suctions; where none suffices there
+    but one at the lower end, the suction at which the method expects piping."""
+    lower, upper = answers.suctions[low], answers.suctions[high]
+    only_lower = np.isfinite(lower) & ~np.isfinite(upper)
+    return np.where(only_lower, answers.suctions[methods.LIMITS[high]], upper)
+
+
 def draw_band(
     axes: Axes, answers: methods.Answers, low: str, high: str, color: str, name: str
 ) -> None:
@@ -55,7 +65,8 @@ def draw_band(
         return
     axes.fill_betweenx(
         answers.depth,
-        *[answers.suctions[column] / 1e3 for column in (low, high)],
+        answers.suctions[low] / 1e3,
+        upper_end(answers, low, high) / 1e3,
         facecolor=color,
         alpha=0.18,
         linewidth=0,
@@ -66,36 +77,26 @@ def draw_band(
 
 
 def draw_required(axes: Axes, answers: methods.Answers) -> None:
-    """Draw the required suction of the methods, in kPa. Senders and Randolph stand
-    on a cone test where there is one."""
+    """Draw the required suction of the methods, in kPa."""
     name = "Houlsby & Byrne (2005)"
-    draw_band(axes, answers, methods.PLAIN, methods.ENHANCED, BLUE, name)
-    name = "Senders & Randolph (2009)"
-    if has_line(answers.suctions[methods.CONE_LOW]):
-        name += ", by cone"
-        draw_band(axes, answers, methods.CONE_LOW, methods.CONE_HIGH, GREEN, name)
-        return
-    line = from_rest_on(answers.suctions[methods.SENDERS_RANDOLPH])
+    draw_band(axes, answers, methods.LOW, methods.HIGH, BLUE, name)
+    line = from_rest_on(answers.suctions[methods.LOWER_BOUND])
     if has_line(line):
-        axes.plot(
-            line,
-            answers.depth,
-            color=GREEN,
-            linewidth=1.5,
-            linestyle="-.",
-            label=f"required, {name}",
-        )
+        label = f"required, {theory.LOWER_BOUND}"
+        axes.plot(line, answers.depth, "-.", color=BLUE, linewidth=0.6, label=label)
+    name = "Senders & Randolph (2009)"
+    draw_band(axes, answers, methods.CONE_LOW, methods.CONE_HIGH, GREEN, name)
 
 
 def draw_critical(axes: Axes, answers: methods.Answers) -> None:
-    """Draw the critical suctions as thin lines, in kPa."""
-    for column, (name, color, line) in CRITICAL.items():
+    """Draw the critical suctions as thin lines of one color, in kPa."""
+    for column, (name, line) in CRITICAL.items():
         if not has_line(answers.suctions[column]):
             continue
         axes.plot(
             answers.suctions[column] / 1e3,
             answers.depth,
-            color=color,
+            color=CRITICAL_COLOR,
             linewidth=0.9,
             linestyle=line,
             label=f"critical, {name}",
@@ -200,9 +201,9 @@ def draw_heave(axes: Axes, run: Results) -> None:
     axes.set_xlabel("heave of the plug (m)")
 
 
-def ends_early(answers: methods.Answers, names: list[str], cone_end: float) -> bool:
+def ends_early(answers: methods.Answers, names: list[str], site: theory.Site) -> bool:
     """Return whether a method has no suction at a depth where it has forces."""
-    known = answers.depth <= cone_end
+    known = answers.depth <= (site.cone.depth[-1] if site.cone else np.inf)
     lines = [answers.suctions[name] for name in names]
     return any(
         np.isnan(line[known] if "cone" in name else line).any()
@@ -210,29 +211,31 @@ def ends_early(answers: methods.Answers, names: list[str], cone_end: float) -> b
     )
 
 
-def caption(answers: methods.Answers, cone_end: float = np.inf) -> str:
-    """Return what the lines of the methods mean, or why there are none. cone_end: the
-    depth at which a cone test ends (m)."""
+def caption(answers: methods.Answers, site: theory.Site) -> str:
+    """Return what the lines of the methods mean, or why there are none."""
     if not answers.suctions:
         return f"no design methods: {answers.why_not}"
-    required = [methods.PLAIN, methods.ENHANCED, methods.SENDERS_RANDOLPH]
-    lines = []
-    if has_line(*[from_rest_on(answers.suctions[name]) for name in required[:2]]):
+    required, lines = list(methods.CASES), []
+    if has_line(*[from_rest_on(answers.suctions[name]) for name in required]):
+        words = theory.assumptions_in_words(site.scene)
+        ratio = theory.assumptions_of(site.scene).plug_permeability_ratio
         lines.append(
-            "band: Houlsby & Byrne (2005), dashed without, dotted with stress"
-            " enhancement (m = 1.5); both methods with equal permeability inside and"
-            " outside"
+            f"{words}: dashed low, dotted high; permeability of the plug over that"
+            f" outside k_f\N{NO-BREAK SPACE}= {ratio:g}"
         )
     if has_line(answers.suctions[methods.CONE_LOW]):
-        required[2:] = [methods.CONE_LOW, methods.CONE_HIGH]
-        lines.append("by cone: dashed C = 0.012, dotted C = 0.021")
+        required += [methods.CONE_LOW, methods.CONE_HIGH]
+        lines.append("Senders & Randolph, by cone: dashed C = 0.012, dotted C = 0.021")
     if not answers.rest:
         deepest = answers.depth.max()
         lines.append(
             f"By Houlsby & Byrne (2005) the weight suffices down to {deepest:.3g} m."
         )
-    elif ends_early(answers, required, cone_end):
-        lines.append("A line ends where no suction suffices.")
+    elif ends_early(answers, required, site):
+        lines.append(
+            "A line ends where no suction suffices; the band then goes on to the"
+            " critical suction of the same method."
+        )
     return "\n".join(lines)
 
 
@@ -268,7 +271,7 @@ def draw(directory: Path, run: Results) -> list[Path]:
         set_depth_axis(axes, depth, place)
     panels[0].set_ylabel("penetration of the skirt tip (m)")
     text = "\n".join(
-        filter(None, [caption(answers), theory.end_of_cone(site, deepest)])
+        filter(None, [caption(answers, site), theory.end_of_cone(site, deepest)])
     )
     figure.text(0.5, 0.008, text, ha="center", fontsize=8, color="0.3")
     figure.tight_layout(rect=(0, 0.015 + 0.02 * len(text.splitlines()), 1, 1))

@@ -1,45 +1,44 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the design methods say about the suction of a run, over depth.
 
-The ratio of the permeabilities inside and outside is 1. In layers, fits of a
-critical suction take the mean unit weight down to the tip.
+In layers, fits of a critical suction take the mean unit weight down to the tip.
 """
 from dataclasses import dataclass, field
-from functools import partial
 from math import nan
 
 import numpy as np
 
 from caisson.design import suction_installation as installation
-from caisson.design.houlsby_byrne import Caisson
+from caisson.design.houlsby_byrne import UNDISTURBED, Caisson, HoulsbyByrne
 from caisson.design.method import Method
 from caisson.design.seepage import feld, ibsen_thilsted
 from caisson.plot.theory import (
     NotApplicable,
     Scene,
     Site,
-    caisson_of,
+    houlsby_byrne_of,
     senders_randolph_of,
 )
 
-PLAIN, ENHANCED = "houlsby_byrne_plain_Pa", "houlsby_byrne_enhanced_Pa"
-SENDERS_RANDOLPH = "senders_randolph_Pa"
+LOW, HIGH = "houlsby_byrne_low_Pa", "houlsby_byrne_high_Pa"
+LOWER_BOUND = "houlsby_byrne_undisturbed_Pa"
+RANGE = (LOW, HIGH)
+CASES = dict(zip((*RANGE, LOWER_BOUND), (*HoulsbyByrne.cases, UNDISTURBED)))
 CONE_LOW, CONE_HIGH = "senders_randolph_cone_low_Pa", "senders_randolph_cone_high_Pa"
 CRITICAL_FELD = "critical_feld_Pa"
 CRITICAL_SENDERS_RANDOLPH = "critical_senders_randolph_Pa"
 CRITICAL_IBSEN_THILSTED = "critical_ibsen_thilsted_Pa"
 PIPING = "critical_houlsby_byrne_Pa"
+REQUIRED = (*CASES, CONE_LOW, CONE_HIGH)
 METHODS = (
-    PLAIN,
-    ENHANCED,
-    SENDERS_RANDOLPH,
-    CONE_LOW,
-    CONE_HIGH,
+    *REQUIRED,
     CRITICAL_FELD,
     CRITICAL_SENDERS_RANDOLPH,
     CRITICAL_IBSEN_THILSTED,
     PIPING,
 )
+# the suction beyond which the equations of a required one do not hold
+LIMITS = {HIGH: PIPING, CONE_HIGH: CRITICAL_SENDERS_RANDOLPH}
 
 
 @dataclass(frozen=True)
@@ -79,32 +78,35 @@ def by_cone(
 
 
 def suctions_at(
-    caisson: Caisson, cone: Method | None, weight: float, h: float
+    byrne: HoulsbyByrne, cone: Method | None, weight: float, h: float
 ) -> dict[str, float]:
     """Return the suctions of all methods at an embedment, in Pa."""
-    required = partial(installation.required_suction, caisson, weight, h)
+    ratio = byrne.permeability_ratio
+    caisson, _ = byrne.by_name[UNDISTURBED]
     mean, diameter = installation.mean_unit_weight(caisson, h), caisson.outer_diameter
-    return {
-        PLAIN: required(False),
-        ENHANCED: required(True),
-        SENDERS_RANDOLPH: installation.required_suction_senders_randolph(
-            caisson, weight, h
-        ),
+    required = {
+        column: installation.required_suction(
+            byrne.by_name[case].caisson, weight, h, byrne.by_name[case].enhanced, ratio
+        )
+        for column, case in CASES.items()
+    }
+    return required | {
         CONE_LOW: by_cone(cone, "low", caisson, weight, h),
         CONE_HIGH: by_cone(cone, "high", caisson, weight, h),
         CRITICAL_FELD: feld(mean, h, diameter),
         CRITICAL_SENDERS_RANDOLPH: installation.critical_suction(caisson, h),
         CRITICAL_IBSEN_THILSTED: ibsen_thilsted(mean, h, diameter),
-        PIPING: installation.piping_suction(caisson, h),
+        PIPING: installation.piping_suction(caisson, h, ratio),
     }
 
 
-def rest_of(caisson: Caisson, weight: float, deepest: float) -> dict[str, float]:
+def rest_of(byrne: HoulsbyByrne, weight: float, deepest: float) -> dict[str, float]:
     """Return the penetrations by weight that are not deeper than deepest."""
     found = {}
-    for name, enhanced in ((PLAIN, False), (ENHANCED, True)):
+    for column in RANGE:
+        caisson, enhanced = byrne.by_name[CASES[column]]
         try:
-            found[name] = installation.self_weight_penetration(
+            found[column] = installation.self_weight_penetration(
                 caisson, weight, enhanced, deepest
             )
         except ValueError:  # it sinks in deeper
@@ -124,10 +126,10 @@ def answers_of(site: Site, depth: np.ndarray) -> Answers:
     """Return what the methods say at embedments [n]."""
     deepest = float(depth.max())
     try:
-        caisson, weight = caisson_of(site, deepest), weight_of(site.scene)
+        byrne, weight = houlsby_byrne_of(site, deepest), weight_of(site.scene)
     except NotApplicable as reason:
         return Answers(depth, why_not=str(reason))
     cone = cone_method_of(site, deepest)
-    rows = [suctions_at(caisson, cone, weight, float(h)) for h in depth]
+    rows = [suctions_at(byrne, cone, weight, float(h)) for h in depth]
     suctions = {name: np.array([row[name] for row in rows]) for name in METHODS}
-    return Answers(depth, suctions, rest_of(caisson, weight, deepest))
+    return Answers(depth, suctions, rest_of(byrne, weight, deepest))

@@ -10,9 +10,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from caisson.design import andersen, clay, dnv, senders_randolph
+from caisson.design import andersen, clay, dnv, houlsby_byrne, senders_randolph
 from caisson.design.cone import Profile, Skirt, of_run
-from caisson.design.houlsby_byrne import Caisson, HoulsbyByrne, Layer
+from caisson.design.houlsby_byrne import (
+    UNDISTURBED,
+    Assumptions,
+    HoulsbyByrne,
+    Layer,
+)
 from caisson.design.method import Forces, Method
 from caisson.results import Results
 
@@ -23,6 +28,8 @@ SOFTENING = "Mohr-Coulomb with softening"
 SAND = "hypoplastic sand"
 SIZES = ("diameter_m", "wall_thickness_m")
 PARTS = ("tip", "inner friction", "outer friction", "total")
+# in pictures, of Houlsby & Byrne with K0 tan(delta) and without enhancement
+LOWER_BOUND = "undisturbed ground (K0), a lower bound"
 
 
 class NotApplicable(Exception):
@@ -103,20 +110,13 @@ def skirt_of(site: Site) -> Skirt:
     )
 
 
-def caisson_of(site: Site, deepest: float) -> Caisson:
-    """Return the caisson of a scene, with the layers down to deepest (m). Raises
-    NotApplicable."""
-    skirt = skirt_of(site)
-    try:
-        layers = [layer_of(entry, i) for i, entry in site.layers(deepest)]
-    except KeyError as error:
-        raise NotApplicable(f"run.json does not tell {error.args[0]}") from error
-    return Caisson(
-        skirt.outer_diameter,
-        skirt.wall_thickness,
-        layers,
-        skirt.inner_friction_angle,
-        skirt.outer_friction_angle,
+def assumptions_of(scene: Scene) -> Assumptions:
+    """Return what Houlsby and Byrne assume, by the section Design methods of the
+    scene; older files, which lack it, have the defaults."""
+    given = scene.get("design_methods") or {}
+    known = {name: given[name] for name in Assumptions._fields if name in given}
+    return Assumptions(
+        **{k: tuple(v) if isinstance(v, list) else v for k, v in known.items()}
     )
 
 
@@ -176,11 +176,22 @@ def cone_of(site: Site) -> Profile:
     return site.cone
 
 
-def houlsby_byrne_of(site: Site, deepest: float) -> Method:
-    """Return Houlsby and Byrne for a site. Raises NotApplicable."""
-    caisson = caisson_of(site, deepest)
+def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
+    """Return Houlsby and Byrne for a site, with the layers down to deepest (m). Raises
+    NotApplicable."""
+    skirt = skirt_of(site)
+    try:
+        layers = [layer_of(entry, i) for i, entry in site.layers(deepest)]
+    except KeyError as error:
+        raise NotApplicable(f"run.json does not tell {error.args[0]}") from error
     refuse_undrained(site)
-    return HoulsbyByrne(caisson)
+    return houlsby_byrne.method(
+        skirt.outer_diameter,
+        skirt.wall_thickness,
+        layers,
+        (skirt.inner_friction_angle, skirt.outer_friction_angle),
+        assumptions_of(site.scene),
+    )
 
 
 def dnv_of(site: Site, deepest: float) -> Method:
@@ -233,6 +244,12 @@ class Description(NamedTuple):
     color: str
     cases: tuple[str, str]
     of_site: Callable[[Site, float], Method]
+    bound: tuple[str, ...] = ()  # a case below the range of the others
+
+    @property
+    def all_cases(self) -> tuple[str, ...]:
+        """The cases of the range, and the bound below it."""
+        return (*self.cases, *self.bound)
 
 
 METHODS = (
@@ -242,6 +259,7 @@ METHODS = (
         "#2166ac",
         HoulsbyByrne.cases,
         houlsby_byrne_of,
+        (UNDISTURBED,),
     ),
     Description("DNV", "dnv", "#8c510a", dnv.CASES, dnv_of),
     Description(
@@ -274,6 +292,27 @@ class Answer:
         return low, high
 
 
+def assumptions_in_words(scene: Scene) -> str:
+    """Return what the cases of Houlsby and Byrne are."""
+    assumed = assumptions_of(scene)
+    ranges = [text_of_range(k) for k in (assumed[0], assumed[1])]
+    if ranges[0] == ranges[1]:
+        walls = f"{ranges[0]} on both walls"
+    else:
+        walls = f"{ranges[0]} inside and {ranges[1]} outside"
+    spread = assumed.load_spread
+    enhancement = f" with m\N{NO-BREAK SPACE}= {spread:g}" if spread else ""
+    return (
+        f"Houlsby & Byrne: K tan \N{GREEK SMALL LETTER DELTA} = {walls},"
+        f" {'stress' if spread else 'no stress'} enhancement{enhancement}"
+    )
+
+
+def text_of_range(ends: tuple[float, float]) -> str:
+    """Return both ends, or the only number."""
+    return " to ".join(dict.fromkeys(f"{end:g}" for end in ends))
+
+
 def by_part(rows: list[Forces]) -> dict[str, np.ndarray]:
     """Return the parts of forces, [n] each."""
     columns = [*zip(*rows), [row.total for row in rows]]
@@ -291,7 +330,7 @@ def answers_of(site: Site, depth: np.ndarray) -> list[Answer]:
             continue
         forces = {
             case: by_part([known.forces(float(h), case) for h in depth])
-            for case in method.cases
+            for case in method.all_cases
         }
         found.append(Answer(method, depth, forces))
     return found

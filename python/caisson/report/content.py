@@ -8,17 +8,27 @@ import numpy as np
 
 from caisson import curves
 from caisson.plot import design, suction_methods, theory
-from caisson.plot.forces import COLORS, column_of, error_band, penetration, smooth
-from caisson.plot.suction import CRITICAL, rest_of_run
-from caisson.plot.suction_methods import (
-    CONE_HIGH,
-    CONE_LOW,
-    ENHANCED,
-    PLAIN,
-    SENDERS_RANDOLPH,
+from caisson.plot.forces import (
+    COLORS,
+    column_of,
+    error_band,
+    penetration,
+    remark_on,
+    smooth,
 )
+from caisson.plot.suction import (
+    BLUE,
+    CRITICAL,
+    CRITICAL_COLOR,
+    GREEN,
+    rest_of_run,
+    upper_end,
+)
+from caisson.plot.suction_methods import CONE_HIGH, CONE_LOW, HIGH, LOW
+from caisson.report.methods import text_of
 from caisson.results import Results, Table
 
+SHOWN = ("tip", "total")  # parts of the methods in the interactive picture
 MANY = 1500  # points of a curve that a screen can show
 
 Curve = dict[str, Any]  # label, color, kind, x, y; see page.js
@@ -56,18 +66,24 @@ def band(
 
 
 def method_curves(run: Results, deepest: float) -> list[Curve]:
-    """Return the ranges of the design methods (kN) over depth (m). Only the tip by
-    Houlsby & Byrne is shown at first."""
-    found = []
+    """Return the ranges of the design methods (kN) over depth (m). Only tip and total
+    by Houlsby & Byrne are shown at first, and nothing where there is suction."""
+    found, remark = [], remark_on(run.history)
     for answer in theory.answers_to(theory.site_of(run), deepest):
         first = answer.method is theory.METHODS[0]
-        parts = ("tip", "inner friction", "outer friction", "total")
-        for part in (parts if first else ("tip", "total")) if answer.forces else ():
+        for part in (theory.PARTS if first else SHOWN) if answer.forces else ():
             low, high = [force / 1e3 for force in answer.band(part)]
-            label = f"{part}, {answer.method.name}"
+            label = f"{part}, {answer.method.name}{remark}"
             color = COLORS[part] if first else answer.method.color
             curve = band(label, color, low, high, answer.depth)
-            found.append(curve | {"hidden": not first or part != "tip"})
+            found.append(
+                curve | {"hidden": bool(remark) or not first or part not in SHOWN}
+            )
+            for bound in answer.method.bound if part == "total" else ():
+                force = answer.forces[bound][part] / 1e3
+                label = f"{part}, {theory.LOWER_BOUND}{remark}"
+                curve = line(label, color, force, answer.depth)
+                found.append(curve | {"hidden": bool(remark)})
     return found
 
 
@@ -99,18 +115,17 @@ def method_suctions(run: Results) -> list[Curve]:
     kilopascals = {name: s / 1e3 for name, s in answers.suctions.items()}
     found = []
     for name, color, low, high in (
-        ("Houlsby & Byrne (2005)", "#2166ac", PLAIN, ENHANCED),
-        ("Senders & Randolph (2009), by cone", "#2e8b57", CONE_LOW, CONE_HIGH),
+        ("Houlsby & Byrne (2005)", BLUE, LOW, HIGH),
+        ("Senders & Randolph (2009)", GREEN, CONE_LOW, CONE_HIGH),
     ):
-        ends = kilopascals[low], kilopascals[high]
-        found.append(band(f"required, {name}", color, *ends, depth))
-    senders, by_cone = kilopascals[SENDERS_RANDOLPH], kilopascals[CONE_LOW]
-    label = "required, Senders & Randolph (2009)"
-    hidden = bool(np.isfinite(by_cone).any())
-    found.append(line(label, "#2e8b57", senders, depth, hidden=hidden))
-    for column, (name, color, _) in CRITICAL.items():
-        label = f"critical, {name}"
-        found.append(line(label, color, kilopascals[column], depth, hidden=True))
+        upper = upper_end(answers, low, high) / 1e3
+        found.append(band(f"required, {name}", color, kilopascals[low], upper, depth))
+    bound = kilopascals[suction_methods.LOWER_BOUND]
+    found.append(line(f"required, {theory.LOWER_BOUND}", BLUE, bound, depth))
+    for column, (name, _) in CRITICAL.items():
+        label, first = f"critical, {name}", column == suction_methods.PIPING
+        curve = line(label, CRITICAL_COLOR, kilopascals[column], depth)
+        found.append(curve | {"hidden": not first})
     return found
 
 
@@ -199,44 +214,6 @@ def table_of(run: Results) -> dict[str, Any]:
         columns["plug heave (m)"] = mean("plug_heave_m")
     texts = [[text_of(value) for value in values] for values in columns.values()]
     return {"heads": list(columns), "rows": [list(row) for row in zip(*texts)]}
-
-
-def methods_of(run: Results) -> dict[str, Any]:
-    """Return the total force by all design methods at each meter, beside that of the
-    run: heads and rows of text; and (methods, why they say nothing).
-
-    There is nothing for a run without a way down.
-    """
-    history = run.history
-    if penetration(history) is None or not design.goes_down(history):
-        return {"heads": [], "rows": [], "reasons": [], "end": ""}
-    rows_down = curves.way_down(history["penetration_m"])
-    site = theory.site_of(run)
-    at = curves.round_depths(history["penetration_m"][rows_down])
-    answers = theory.answers_of(site, at)
-    columns = {"depth (m)": at}
-    total = column_of("total")
-    if total in history:
-        columns["computed"] = design.forces_at(history, at)[total] / 1e3
-    for answer in answers:
-        for case, forces in answer.forces.items():
-            columns[f"{answer.method.name}, {case}"] = forces["total"] / 1e3
-    texts = [[text_of(value) for value in values] for values in columns.values()]
-    return {
-        "heads": list(columns),
-        "rows": [list(row) for row in zip(*texts)],
-        "reasons": theory.reasons(answers),
-        "end": theory.end_of_cone(site, float(at.max())),
-    }
-
-
-def text_of(value: float) -> str:
-    """Return three digits, more before the point."""
-    if not math.isfinite(value):
-        return ""
-    if abs(value) >= 100:
-        return f"{value:.0f}"
-    return f"{value:.3g}"
 
 
 def key_values(run: Results) -> list[tuple[str, str, str]]:

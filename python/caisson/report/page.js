@@ -58,17 +58,20 @@
     context.restore();
   }
 
+  // The methods widen the axis by at most half of what the run has.
   function limits(curves) {
-    let low = 0, high = 0, top = 0, bottom = 0;
+    let low = 0, high = 0, top = 0, bottom = 0, own = 0;
     for (const curve of curves)
       for (const list of [curve.x, curve.to || []])
         list.forEach((x, i) => {
           if (x === null) return;
           low = Math.min(low, x);
           high = Math.max(high, x);
+          if (curve.thick) own = Math.max(own, x);
           top = Math.min(top, curve.y[i]);
           bottom = Math.max(bottom, curve.y[i]);
         });
+    if (own > 0) high = Math.min(high, 1.5 * own);
     const wide = (high - low || 1) * 0.03, deep = (bottom - top || 1) * 0.02;
     return { low: low - wide, high: high + wide, top: top, bottom: bottom + deep };
   }

@@ -10,7 +10,7 @@ import jinja2
 
 from caisson import plot
 from caisson.paths import INSTALL_PICTURES
-from caisson.report import content
+from caisson.report import content, methods
 from caisson.results import Results, ResultsError
 
 HERE = Path(__file__).parent
@@ -115,7 +115,7 @@ def html(run: Results) -> str:
         error=content.error_remark(run),
         figures=data["figures"],
         table=content.table_of(run),
-        methods=content.methods_of(run),
+        methods=methods.methods_of(run),
         pictures=pictures_of(run),
         remarks=content.remarks_on_numbers(run),
         warnings=summary.get("warnings", []),

@@ -116,8 +116,8 @@ def draw(
     force: np.ndarray,
     limit: np.ndarray,
 ) -> None:
-    """Draw force over depth, with Houlsby & Byrne for each friction of the wall;
-    limit: the extrapolated force."""
+    """Draw force over depth, with Houlsby & Byrne, whose range does not depend on the
+    friction of the wall; limit: the extrapolated force."""
     figure.set_size_inches(6, 5)
     axes = figure.subplots()
     for i, angle in enumerate(ANGLES):
@@ -130,11 +130,11 @@ def draw(
             color=f"C{i}",
             label=label,
         )
-        answer = theory.answers_to(theory.site_of(run.results), 0.24)[0]
-        low, high = answer.band("total")
-        for values, style, case in ((low, ":", "plain"), (high, "--", "enhanced")):
-            label = f"Houlsby & Byrne, {case}, wall {angle} degrees"
-            axes.plot(values, answer.depth, style, color=f"C{i}", lw=1, label=label)
+    site = theory.site_of(study.run(name_of(ANGLES[0])).results)
+    answer = theory.answers_to(site, 0.24)[0]
+    for values, style, case in zip(answer.band("total"), ("--", ":"), ("low", "high")):
+        label = f"Houlsby & Byrne, {case}"
+        axes.plot(values, answer.depth, style, color="0.4", lw=1, label=label)
     axes.plot(
         limit, depth, "C0o", mfc="none", label="computed, wall 25 degrees, extrapolated"
     )
