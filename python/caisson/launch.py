@@ -12,7 +12,8 @@ import sys
 import time
 from pathlib import Path
 
-from caisson.paths import INSTALLED, PROGRAM, ROOT, SCENES, scene_or_study, short
+from caisson import needed
+from caisson.paths import INSTALLED, PROGRAM, SCENES, scene_or_study, short
 from caisson.run import (
     RunError,
     Status,
@@ -45,8 +46,6 @@ def directory_of(arguments: list[str]) -> Path | None:
 
 def draw(directory: Path) -> None:
     """Draw the pictures and write the report; the results do not need them."""
-    if not INSTALLED:
-        subprocess.run([str(ROOT / "scripts/setup"), "pictures"], check=True)
     from caisson import plot, report
 
     for picture in plot.draw(directory):

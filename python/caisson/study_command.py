@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 
+from caisson import needed
 from caisson.paths import INSTALLED, PROGRAM, RESULTS, SCENES, scene_or_study, short
 from caisson.run import Status
 from caisson.study import (
@@ -105,7 +106,7 @@ def module_of(file: Path) -> ModuleType:
     try:
         return importlib.import_module(KINDS[kind])
     except ModuleNotFoundError as error:
-        raise StudyError(f"{error}; scripts/setup pictures installs it") from error
+        raise StudyError(needed.complaint() or str(error)) from error
 
 
 def reader_of(file: Path, options: Options, module: ModuleType) -> Reader:
