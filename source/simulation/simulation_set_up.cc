@@ -401,7 +401,10 @@ namespace CaissonMPM
       .all();
     if (!recorder.wrong_error_bar().empty())
       origins.add_warning(recorder.wrong_error_bar());
-    for (const auto &limits : {soil.known_limits(),
+    const double reach = body.shape().exists() && !body.shape().expands() ?
+                           lines.total_travel() - body.shape().bottom() :
+                           lines.depth();
+    for (const auto &limits : {soil.known_limits(reach),
                                nodal_motion.settings().known_limits(),
                                water.known_limits(materials)})
       for (const std::string &limit : limits)
