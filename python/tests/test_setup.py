@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """scripts/setup never removes a package, repeats what apt said, and is the only script
-that calls apt; what counts are the modules that can be imported, whoever brings them."""
+that calls apt; modules that can be imported count, whichever package brings them."""
 import ast
 import os
 import re

@@ -36,11 +36,12 @@ from caisson.paths import ROOT
 RELEASES = ("trixie", "bookworm")
 COMMANDS = ["scripts/run prm/jack.prm", "scripts/test"]
 DAY = [
+    "scripts/setup build pictures",
     "scripts/caisson suggest --diameter 10 --skirt 8 --wall 40mm --error 20"
     " --layer '0: Friction angle = 33, Youngs modulus = 20e6'"
     " --layer '3: Friction angle = 37, Youngs modulus = 40e6'"
     " own.prm --study own_study.toml",
-    "scripts/run --ranks 2 own.prm",
+    "scripts/run own.prm",
     "scripts/caisson study own_study.toml",
     "scripts/caisson compare own.png results/own results/parameters/own_study/*/",
 ]
