@@ -7,7 +7,8 @@ import os
 import sys
 from typing import NoReturn
 
-from caisson.paths import INSTALL_PICTURES, INSTALLED
+from caisson import needed
+from caisson.paths import INSTALLED
 
 STUDY = "caisson.study_command"
 # command: module with declare(parser) and main(options), and what it does
@@ -85,6 +86,8 @@ SOURCE_COMMANDS = {
 }
 if not INSTALLED:
     COMMANDS |= SOURCE_COMMANDS
+# those that load what they need only when they have computed or read something
+LATE = {"cpt", "plot", "report"}
 
 
 def main(words: list[str]) -> int:
@@ -101,9 +104,11 @@ def main(words: list[str]) -> int:
         return 1
     name = parser.parse_args(words[:1]).command
     try:
+        if name in LATE and (complaint := needed.complaint()):
+            raise ModuleNotFoundError(complaint)
         module = importlib.import_module(COMMANDS[name][0])
     except ModuleNotFoundError as error:
-        print(f"caisson: {error}; {INSTALL_PICTURES} installs it", file=sys.stderr)
+        print(f"caisson {name}: {needed.complaint() or error}", file=sys.stderr)
         return 1
     own = argparse.ArgumentParser(
         prog=f"caisson {name}",

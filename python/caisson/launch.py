@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs a scene on one or more ranks and draws its pictures.
+"""Runs a scene on as many ranks as pay, or on those of --ranks, and draws its pictures.
 
 The exit status is the program's: 0 success, 1 bad input, 2 failure, 3 stopped on
 request. Options of caisson_mpm follow the file. A scene that is not a file here is
@@ -12,41 +12,62 @@ import sys
 import time
 from pathlib import Path
 
-from caisson.paths import INSTALLED, PROGRAM, ROOT, SCENES, scene_or_study, short
+from caisson import needed, ranks
+from caisson.paths import INSTALLED, PROGRAM, SCENES, scene_or_study, short
 from caisson.run import (
     RunError,
     Status,
+    ask,
     environment,
     mpi_command,
     read_parameters,
+    size_in,
 )
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson run`."""
     parser.usage = "%(prog)s [--ranks N] FILE.prm [option of caisson_mpm]..."
-    parser.add_argument("--ranks", type=int, default=1, metavar="N")
+    text = "MPI ranks, default: as many as pay on this machine"
+    parser.add_argument("--ranks", type=int, metavar="N", help=text)
     parser.add_argument("arguments", nargs=argparse.REMAINDER, metavar="FILE.prm ...")
 
 
-def directory_of(arguments: list[str]) -> Path | None:
-    """Return where the program will write, None where it will not: of bad input,
-    which it explains itself, or of options that only print."""
+def places_of(arguments: list[str]) -> tuple[Path | None, Path | None]:
+    """Return where the program will write, and the file that stops it. None where there
+    is none: of bad input, which it explains itself, or of options that only print."""
     parser = argparse.ArgumentParser(add_help=False)
     parser.add_argument("--output-directory", type=Path)
     chosen: Path | None = parser.parse_known_args(arguments)[0].output_directory
-    if chosen is not None:  # counts before the entry
-        return chosen
     try:
-        return Path(read_parameters(arguments)["Output/Directory"])
+        entries = read_parameters(arguments)
+        directory = chosen or Path(entries["Output/Directory"])
+        name = entries["Run control/Stop file"]
     except (RunError, KeyError):
-        return None
+        return chosen, None
+    return directory, directory / name if name else None
+
+
+def choose_ranks(arguments: list[str]) -> int:
+    """Return the number of ranks that pays for a run, and say why. It is one where
+    there will be no run: the program itself says what is wrong with the input."""
+    if "--validate" in arguments:
+        return 1
+    try:
+        points = size_in(ask([*arguments, "--validate"])).points
+    except RunError:
+        points = 0
+    if not points:
+        return 1
+    chosen, why = ranks.choose(points)
+    plural = "" if chosen == 1 else "s"
+    words = f"run: {chosen} rank{plural} ({why}); --ranks N overrules"
+    print(words, file=sys.stderr, flush=True)
+    return chosen
 
 
 def draw(directory: Path) -> None:
     """Draw the pictures and write the report; the results do not need them."""
-    if not INSTALLED:
-        subprocess.run([str(ROOT / "scripts/setup"), "pictures"], check=True)
     from caisson import plot, report
 
     for picture in plot.draw(directory):
@@ -55,13 +76,8 @@ def draw(directory: Path) -> None:
 
 
 def wait_for(process: "subprocess.Popen[bytes]") -> int:
-    """Return the exit status of the program, as a shell would.
-
-    The program ends with a checkpoint when it is asked to stop, so it is waited
-    for. Ctrl-C reaches it without our help; other signals are handed on.
-    """
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, lambda caught, _: process.send_signal(caught))
+    """Return the exit status of the program, as a shell would. It ends with a
+    checkpoint when it is asked to stop, so it is waited for."""
     while True:
         try:
             status = process.wait()
@@ -70,9 +86,44 @@ def wait_for(process: "subprocess.Popen[bytes]") -> int:
             continue
 
 
+def run_alone(words: list[str]) -> int:
+    """Run the program on one rank; return its exit status. Ctrl-C reaches it without
+    our help; other signals are handed on."""
+    process = subprocess.Popen(words, env=environment())
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, lambda caught, _: process.send_signal(caught))
+    return wait_for(process)
+
+
+def run_on_ranks(words: list[str], stop_file: Path | None) -> int:
+    """Run the program on several ranks; return its exit status.
+
+    mpirun ends ranks a few seconds after a signal, whether or not they have written
+    their checkpoint. So no signal of the terminal reaches it: the first one makes the
+    file that stops a run in order, and the second one is handed on.
+    """
+    process = subprocess.Popen(
+        words, env=environment(), stdin=subprocess.DEVNULL, start_new_session=True
+    )
+    is_asked = False
+
+    def stop(*_: object) -> None:
+        nonlocal is_asked
+        if is_asked or stop_file is None or not stop_file.parent.is_dir():
+            process.send_signal(signal.SIGTERM)
+        else:
+            stop_file.touch()
+            print("run: stopping; once more ends it at once", file=sys.stderr)
+        is_asked = True
+
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
+        signal.signal(number, stop)
+    return wait_for(process)
+
+
 def main(options: argparse.Namespace) -> int:
     """Run the program, then draw what it wrote; return its status."""
-    if options.ranks < 1 or not options.arguments:
+    if options.ranks is not None and options.ranks < 1 or not options.arguments:
         scenes = SCENES if INSTALLED else f"{short(SCENES)}/"
         print(
             f"run: give a parameter file; the scenes are in {scenes}", file=sys.stderr
@@ -82,9 +133,16 @@ def main(options: argparse.Namespace) -> int:
         str(scene_or_study(word)) if word.endswith(".prm") else word
         for word in options.arguments
     ]
-    directory, begin = directory_of(arguments), time.time()
-    words = [*mpi_command(options.ranks), str(PROGRAM), *arguments]
-    status = wait_for(subprocess.Popen(words, env=environment()))
+    directory, stop_file = places_of(arguments)
+    if complaint := needed.complaint():
+        print(f"run: {complaint}, for pictures and report", file=sys.stderr)
+    n_ranks = options.ranks or choose_ranks(arguments)
+    begin = time.time()
+    words = [*mpi_command(n_ranks), str(PROGRAM), *arguments]
+    if n_ranks == 1:
+        status = run_alone(words)
+    else:
+        status = run_on_ranks(words, stop_file)
     if status not in list(Status):
         print(
             f"run: the program did not end in order (exit status {status}; above 128,"

@@ -18,13 +18,6 @@ PROGRAM = Path(
     os.environ.get("CAISSON_MPM_PROGRAM")
     or (ROOT.parent.parent / "bin" if INSTALLED else BUILD) / "caisson_mpm"
 )
-# what brings the libraries of pictures and reports
-INSTALL_PICTURES = (
-    "apt-get install python3-numpy python3-matplotlib python3-vtk9 python3-jinja2"
-    " libjs-jquery libjs-jquery-mousewheel libjs-jquery-flot"
-    if INSTALLED
-    else "scripts/setup pictures"
-)
 
 
 def short(path: Path) -> str:

@@ -5,7 +5,6 @@ import fcntl
 import functools
 import hashlib
 import json
-import math
 import os
 import re
 import shutil
@@ -17,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from caisson.paths import PROGRAM, WORK
+from caisson.ranks import Size
 
 Entries = Mapping[str, Any]
 # what growing stiffness makes of the duration that the first steps tell: a caisson of
@@ -51,14 +51,16 @@ def set_options(entries: Entries) -> list[str]:
 
 
 def mpi_command(ranks: int, binding: str = "none") -> list[str]:
-    """Return what stands before the program to run it on several ranks."""
+    """Return what stands before the program to run it on several ranks.
+
+    Ranks that wait let others compute. That costs nothing that could be measured, and
+    where other work takes the cores, ranks that do not are five times as slow.
+    """
     if ranks == 1:
         return []
     start = ["mpirun", "-np", str(ranks), "--bind-to", binding]
     if binding == "none":
-        start.append("--oversubscribe")
-    if ranks > (os.cpu_count() or 1):  # waiting ranks must let others compute
-        start += ["--mca", "mpi_yield_when_idle", "1"]
+        start += ["--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
     return start
 
 
@@ -92,6 +94,18 @@ def ask(arguments: Sequence[str], program: Path = PROGRAM) -> str:
     if done.returncode != Status.SUCCESS:
         raise RunError(done.stdout.strip())
     return done.stdout.strip()
+
+
+def size_in(words: str) -> Size:
+    """Return the size of a run of which --validate has said this: its time is that at
+    the speed of the first steps, STIFFENING times as long where soil grows stiffer."""
+    points = re.search(r"^ *points +(\d+)$", words, re.M)
+    found = re.search(r"^ *duration +about ([\d.]+) (s|min|h)\b", words, re.M)
+    seconds = 0.0
+    if found is not None:
+        seconds = float(found[1]) * {"s": 1, "min": 60, "h": 3600}[found[2]]
+        seconds *= STIFFENING if "grows stiffer under a tip" in words else 1
+    return Size(int(points[1]) if points else 0, seconds)
 
 
 def read_parameters(
@@ -128,7 +142,8 @@ class Run:
     its own.
 
     A finished run leaves run_key.json there: a hash of all that its result
-    depends on (the program's file, all entries in effect, the ranks), the entries
+    depends on (the program's file, all entries in effect, the ranks that it asks for,
+    but not those that execute() lends it: they change the last digits), the entries
     that it set, the exit status and the times. is_complete() compares the hash, so
     that a study repeats only what has changed. The class owns its directory and
     empties it before it runs, unless another process computes there.
@@ -159,10 +174,10 @@ class Run:
             name
         ]
 
-    def command(self) -> list[str]:
-        """Return the words of the call."""
+    def command(self, ranks: int | None = None) -> list[str]:
+        """Return the words of the call; ranks: others than those of the run."""
         return [
-            *mpi_command(self.ranks, self.binding),
+            *mpi_command(ranks or self.ranks, self.binding),
             str(self.program),
             *self.arguments(),
         ]
@@ -172,17 +187,10 @@ class Run:
         options = ["--output-directory", str(self.directory)]
         return [str(self.scene), *options, *set_options(self.entries)]
 
-    def validate(self) -> float:
-        """Let the program check the input without running it; return how long the
-        run takes at the speed of its first steps, in s, nan where that is not known,
-        and STIFFENING times that where the soil grows stiffer. Raises RunError with
-        what it says where it refuses the input."""
-        words = ask([*self.arguments(), "--validate"], self.program)
-        found = re.search(r"^ *duration +about ([\d.]+) (s|min|h)\b", words, re.M)
-        if found is None:
-            return math.nan
-        seconds = float(found[1]) * {"s": 1, "min": 60, "h": 3600}[found[2]]
-        return seconds * (STIFFENING if "grows stiffer under a tip" in words else 1)
+    def validate(self) -> Size:
+        """Let the program check the input without running it; return the size of the
+        run. Raises RunError with what it says where it refuses the input."""
+        return size_in(ask([*self.arguments(), "--validate"], self.program))
 
     @functools.cached_property
     def key(self) -> str:
@@ -224,8 +232,11 @@ class Run:
             return False
         return False
 
-    def execute(self, time_limit: float | None = None) -> Status | None:
-        """Run the program into an emptied directory, its words in the file log.
+    def execute(
+        self, time_limit: float | None = None, ranks: int | None = None
+    ) -> Status | None:
+        """Run the program into an emptied directory, its words in the file log; ranks:
+        lent to it, others than those of the run.
 
         Returns the exit status, None if it took longer than time_limit (s) and
         was ended, or was ended by a signal. Raises RunError where another process
@@ -238,7 +249,7 @@ class Run:
         begin = time.monotonic()
         with open(self.directory / "log", "w", encoding="utf-8") as log:
             process = subprocess.Popen(
-                self.command(), stdout=log, stderr=log, cwd=WORK, env=environment()
+                self.command(ranks), stdout=log, stderr=log, cwd=WORK, env=environment()
             )
             clock = threading.Timer(time_limit or 0, process.kill)
             if time_limit is not None:

@@ -13,7 +13,8 @@ and holds studies, or is one itself if it holds none (its id is then its name):
     title = "text"          # for tables and pictures
     scene = "wave.prm"      # relative to the file
     set = {"Section/Entry" = value}   # entries of all its runs
-    seconds = 2             # about how long a run takes; the longest start first
+    seconds = 2             # about how long a run takes; the longest start first.
+                            # Without it the program is asked
     quick = true            # taken with --quick; or a table of the keys that
                             # replace those of the study then
     runs = [{...}]          # one run of the scene as it is, if left out
@@ -28,7 +29,8 @@ A run has the keys
     name        default: its number, from 0
     scene, set, seconds     as above, for this run
     h           size of a cell, for orders of convergence
-    ranks       default 1; binding = "core" or "none" (default)
+    ranks       default: what is fastest for all runs; binding = "core" or "none"
+                            # (default)
     until       stops the run at this time of the scene (s), and
     stop_after  after these seconds of stepping (kind "speed"); all four also for
                 all runs of a study
@@ -58,6 +60,7 @@ from pathlib import Path
 from typing import Any
 
 from caisson.paths import PROGRAM
+from caisson.ranks import Size
 from caisson.results import Results
 from caisson.run import Entries, Run, RunError, Status
 
@@ -82,8 +85,9 @@ class StudyError(Exception):
 class StudyRun:
     """One run of a study, with what the study says of it.
 
-    variant and mesh are "" where the study has none; more has the keys of the
-    kind. trouble says why there is no result to evaluate, None if there is one.
+    variant and mesh are "" where the study has none; seconds is 0 where the file does
+    not say them, and size has what the program says. trouble says why there is no
+    result to evaluate, None if there is one.
     """
 
     study: str  # its id
@@ -94,17 +98,28 @@ class StudyRun:
     settings: dict[str, Any]
     run: Run
     trouble: str | None = None
+    size: Size = Size()
 
     @property
     def results(self) -> Results:
         """What the run has left."""
         return Results(self.run.directory)
 
-    def execute(self, again: bool = False, time_limit: float | None = None) -> None:
+    @property
+    def duration(self) -> float:
+        """About how long it takes on one core (s), 0 if not known."""
+        return self.seconds or self.size.seconds
+
+    def execute(
+        self,
+        again: bool = False,
+        time_limit: float | None = None,
+        ranks: int | None = None,
+    ) -> None:
         """Run it unless it is complete; says what it cost."""
         if not again and self.run.is_complete():
             return
-        status = self.run.execute(time_limit)
+        status = self.run.execute(time_limit, ranks)
         mark = self.run.mark()
         if mark is None:
             how = "ended early" if status is None else f"exit status {status}"
@@ -276,7 +291,7 @@ class Reader:
             name,
             variant,
             mesh,
-            run.get("seconds", study.get("seconds", 1)),
+            run.get("seconds", study.get("seconds", 0)),
             settings,
             Run(
                 (self.file.parent / scene).resolve(),
@@ -305,20 +320,26 @@ def file_name(text: str) -> str:
     return re.sub(r"[^\w.-]+", "_", text)
 
 
+def longest_first(runs: Sequence[StudyRun]) -> list[StudyRun]:
+    """Return the runs in the order in which they begin."""
+    return sorted(runs, key=lambda run: -run.duration)
+
+
 def execute(
     runs: Sequence[StudyRun],
     jobs: int,
     again: bool = False,
     time_limit: float | None = None,
+    ranks: int | None = None,
 ) -> None:
-    """Run all that are not complete, some at a time, the longest first. A run
-    that cannot be made says why in its trouble."""
+    """Run all that are not complete, some at a time, the longest first; ranks: others
+    than those of the runs. A run that cannot be made says why in its trouble."""
 
     def one(run: StudyRun) -> None:
         try:
-            run.execute(again, time_limit)
+            run.execute(again, time_limit, ranks)
         except (RunError, OSError) as error:
             run.trouble = f"{type(error).__name__}: {error}"
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        list(pool.map(one, sorted(runs, key=lambda run: -run.seconds)))
+        list(pool.map(one, longest_first(runs)))

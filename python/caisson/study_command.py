@@ -6,16 +6,18 @@ go to results/KIND. Runs that are complete there are not repeated while program,
 entries and ranks are the same.
 """
 import argparse
+import concurrent.futures
 import importlib
-import os
 import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 
+from caisson import needed
 from caisson.paths import INSTALLED, PROGRAM, RESULTS, SCENES, scene_or_study, short
-from caisson.run import Status
+from caisson.ranks import Size, cores, plan
+from caisson.run import RunError, Status
 from caisson.study import (
     Options,
     Reader,
@@ -23,6 +25,7 @@ from caisson.study import (
     StudyError,
     StudyRun,
     execute,
+    longest_first,
     read_toml,
 )
 
@@ -49,6 +52,12 @@ KINDS = {
     "drainage": "caisson.drainage",
     "speed": "caisson.speed",
 }
+# runs for each core above which several ranks gain nothing that matters, and the
+# duration of a run (s) below which it is not worth to ask for its size
+FEW, LONG = 4, 20
+# runs, how many of them at a time, and their ranks, None for their own
+Share = tuple[Sequence[StudyRun], int, int | None]
+
 if INSTALLED:  # speed is measured on what a build directory has
     del OWN["speed"], KINDS["speed"]
 
@@ -68,10 +77,16 @@ def part_of(text: str) -> tuple[int, int]:
     return number, of
 
 
-def jobs_at_hand(studies: Sequence[Study]) -> int:
-    """Return how many runs at a time the cores of this process bear."""
-    ranks = max(run.run.ranks for study in studies for run in study.runs)
-    return max(1, len(os.sched_getaffinity(0)) // ranks)
+def jobs_at_hand(runs: Sequence[StudyRun]) -> int:
+    """Return how many runs with ranks of their own the cores bear at a time."""
+    return max(1, cores() // max(run.run.ranks for run in runs))
+
+
+def duration(seconds: float) -> str:
+    """Return a time as an estimate, with two digits."""
+    if seconds < 90:
+        return f"{seconds:.2g} s"
+    return f"{seconds / 60:.2g} min" if seconds < 5400 else f"{seconds / 3600:.2g} h"
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -88,7 +103,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--list", action="store_true", help="say what there is, and run nothing")
     add("--evaluate", action="store_true", help="evaluate what is there, run nothing")
     add("--again", action="store_true", help="repeat also runs that are complete")
-    text = "runs at a time, default one for each core, or its ranks"
+    text = "runs at a time, default: what is fastest for all of them"
     add("--jobs", type=whole_number, metavar="N", help=text)
     text = "run only the K-th of N parts, and evaluate nothing: for an array of jobs"
     add("--part", type=part_of, metavar="K/N", help=text)
@@ -105,7 +120,7 @@ def module_of(file: Path) -> ModuleType:
     try:
         return importlib.import_module(KINDS[kind])
     except ModuleNotFoundError as error:
-        raise StudyError(f"{error}; scripts/setup pictures installs it") from error
+        raise StudyError(needed.complaint() or str(error)) from error
 
 
 def reader_of(file: Path, options: Options, module: ModuleType) -> Reader:
@@ -114,11 +129,36 @@ def reader_of(file: Path, options: Options, module: ModuleType) -> Reader:
     return Reader(file, options, module.STUDY_KEYS, module.RUN_KEYS, make_runs)
 
 
+def ask_size(run: StudyRun) -> None:
+    """Ask the program for the size of a run that it accepts."""
+    try:
+        run.size = run.run.validate()
+    except (RunError, OSError):
+        pass  # the run itself will say why
+
+
+def cost_of(study: Study) -> str:
+    """Return how long the runs of a study take on one core. Where the file does not
+    say it, the program is asked for the first, the middle and the last of them."""
+    silent = [run for run in study.runs if not run.seconds]
+    asked = silent[:: max(1, (len(silent) - 1) // 2)][:3]
+    for run in asked:
+        ask_size(run)
+    found = [run.duration for run in asked]
+    if not all(found):
+        return "duration not known"
+    said = sum(run.seconds for run in study.runs)
+    least, most = (said + len(silent) * end(found or [0]) for end in (min, max))
+    first, last = duration(least), duration(most)
+    text = f"about {last if first == last else f'{first} to {last}'} on one core"
+    return text + (", at the speed of the first steps" if asked else "")
+
+
 def print_list(studies: list[Study]) -> None:
     """Print what there is."""
     for study in studies:
-        seconds = sum(run.seconds for run in study.runs)
-        print(f"{study.id}: {study.title}, {len(study.runs)} runs, {seconds:.0f} s")
+        n = len(study.runs)
+        print(f"{study.id}: {study.title}, {n} runs, {cost_of(study)}", flush=True)
 
 
 def main(words: argparse.Namespace) -> int:
@@ -156,20 +196,56 @@ def run_and_evaluate(
         if words.part:
             raise StudyError(f"studies of kind {module.NAME!r} have no parts")
         return int(module.measure(studies, options, words.evaluate))
-    jobs = words.jobs or getattr(module, "JOBS", None) or jobs_at_hand(studies)
     if not words.evaluate:
+        jobs = words.jobs or getattr(module, "JOBS", None)
         if hasattr(module, "check"):
-            to_do = module.check(studies, jobs)
-            if not words.part:
-                print(to_do, flush=True)
+            module.check(studies, jobs or cores())
         runs = [run for study in studies for run in study.runs]
         if words.part:
             runs = runs[words.part[0] - 1 :: words.part[1]]
-        execute(runs, jobs, words.again, getattr(module, "TIME_LIMIT", None))
+        limit = getattr(module, "TIME_LIMIT", None)
+        for some, at_a_time, ranks in shares_of(to_do_of(runs, words.again), jobs):
+            execute(some, at_a_time, words.again, limit, ranks)
         if words.part:
             return tell_part(runs, words)
     minutes = (time.monotonic() - begin) / 60
     return int(module.evaluate(studies, options, minutes))
+
+
+def to_do_of(runs: Sequence[StudyRun], again: bool) -> list[StudyRun]:
+    """Return the runs that are not complete, the longest first. Of a few long ones,
+    which several ranks may make faster, the sizes are asked for."""
+
+    def is_to_do(run: StudyRun) -> bool:
+        return again or not run.run.is_complete()
+
+    with concurrent.futures.ThreadPoolExecutor(cores()) as pool:
+        chosen = list(pool.map(is_to_do, runs))
+        found = [run for run, is_chosen in zip(runs, chosen) if is_chosen]
+        if len(found) <= FEW * cores():
+            long = [run for run in found if run.seconds >= LONG]
+            list(pool.map(ask_size, [run for run in long if not run.size.points]))
+    return longest_first(found)
+
+
+def shares_of(runs: Sequence[StudyRun], jobs: int | None) -> list[Share]:
+    """Return how runs, the longest first, share the cores, and say it; jobs: at a time,
+    None for what is fastest. Runs whose study names their ranks have those."""
+    times = [run.duration for run in runs]
+    shares: list[Share]
+    if jobs or any("ranks" in run.settings for run in runs):
+        jobs = jobs or jobs_at_hand(runs)
+        how, seconds = f"{jobs} at a time", sum(times) / jobs
+        shares = [(runs, jobs, None)]
+    else:
+        chosen = plan([Size(r.size.points, r.duration) for r in runs], cores())
+        how, seconds, n = str(chosen), chosen.seconds, chosen.alone
+        at_a_time = chosen.cores // chosen.ranks
+        shares = [(runs[:n], cores(), None), (runs[n:], at_a_time, chosen.ranks)]
+    about = f", about {duration(seconds)}" if all(times) else ""
+    print(f"runs to do: {len(runs)}{about}, {how}" if runs else "runs to do: 0")
+    sys.stdout.flush()
+    return shares
 
 
 def tell_part(runs: Sequence[StudyRun], words: argparse.Namespace) -> int:

@@ -92,11 +92,12 @@ class Command(unittest.TestCase):
             ).stdout.splitlines()
 
     def test_what_is_missing_is_made(self) -> None:
-        """No program is built where another one is named."""
-        pictures = ["setup pictures"]
-        self.assertEqual(self.called("study", ""), [*pictures, "build", "package"])
-        self.assertEqual(self.called("study", "/bin/true"), [*pictures, "package"])
-        self.assertEqual(self.called("report", ""), [*pictures, "package"])
+        """No program is built where another one is named, nor before it is known that
+        nothing else is missing."""
+        made = ["setup --check build pictures", "build", "package"]
+        self.assertEqual(self.called("study", ""), made)
+        self.assertEqual(self.called("study", "/bin/true"), ["package"])
+        self.assertEqual(self.called("report", ""), ["package"])
         self.assertEqual(self.called("scenes", ""), ["package"])
 
 

@@ -11,6 +11,7 @@ import os
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 from made_up import write_run
@@ -18,12 +19,20 @@ from made_up import write_run
 from caisson import parameters, study_command
 from caisson.parameters import effects
 from caisson.parameters.outcome import Outcomes
+from caisson.ranks import cores
 from caisson.results import read_table
 from caisson.study import Options, Study, StudyError
 
 STAND_IN = Path(__file__).resolve().parent / "stand_in.py"
 HEAD = 'kind = "parameters"\nscene = "a.prm"\n'
 PHI = '[parameters."Soil/Friction angle"]\n'
+# starts one process only, and keeps the words of the call
+MPIRUN = """#!/bin/sh
+echo "$*" >>{}
+while [ "$1" != -np ]; do shift; done
+shift 8
+exec "$@"
+"""
 PUSHED = np.linspace(0.5, 4.5, 401)
 
 
@@ -175,12 +184,43 @@ class Commands(WithFiles):
         options = Options(program=STAND_IN)
         file = self.path / "s.toml"
         module = study_command.module_of(file)
-        studies = study_command.reader_of(file, options, module).studies()
-        self.assertEqual(study_command.jobs_at_hand(studies), 1)
+        (study,) = study_command.reader_of(file, options, module).studies()
+        self.assertEqual(study_command.jobs_at_hand(study.runs), 1)
         self.write(PHI + "values = [30]")
-        studies = study_command.reader_of(file, options, module).studies()
-        cores = len(os.sched_getaffinity(0))
-        self.assertEqual(study_command.jobs_at_hand(studies), cores)
+        (study,) = study_command.reader_of(file, options, module).studies()
+        self.assertEqual(study_command.jobs_at_hand(study.runs), cores())
+
+    def test_last_runs_get_more_ranks(self) -> None:
+        """Of three long runs on two cores, the last one is lent the core that is free;
+        that is no reason to run it again."""
+        tools = self.path / "bin"
+        tools.mkdir()
+        mpirun = tools / "mpirun"
+        mpirun.write_text(MPIRUN.format(self.path / "started"), encoding="utf-8")
+        mpirun.chmod(0o755)
+        path = f"{tools}:{os.environ['PATH']}"
+        self.write(PHI + "values = [30, 32, 34]")
+        with mock.patch.object(study_command, "cores", return_value=2), mock.patch.dict(
+            os.environ, {"PATH": path, "STAND_IN_POINTS": "40000"}
+        ):
+            status, said = self.study()
+            self.assertEqual(status, 0, said)
+            how = "2 of them 2 at a time on one rank each, then 1 at a time on 2 ranks"
+            self.assertIn("runs to do: 3, about 2.4 min, " + how, said)
+            started = (self.path / "started").read_text(encoding="utf-8")
+            self.assertEqual(started.count("-np 2"), 1, started)
+            self.assertEqual(len(started.splitlines()), 1, started)
+            self.assertIn("runs to do: 0\n", self.study()[1])
+
+    def test_list(self) -> None:
+        """Where the file does not say how long runs take, the program does."""
+        self.write(PHI + "values = [30, 32, 34, 36, 38]")
+        words = "5 runs, about 7.5 min on one core, at the speed of the first steps\n"
+        self.assertEqual(self.study("--list")[1], f"s: s, {words}")
+        self.write("seconds = 30\n" + PHI + "values = [30, 32]")
+        self.assertIn("2 runs, about 60 s on one core\n", self.study("--list")[1])
+        self.write(PHI + "values = [-1]")
+        self.assertIn("1 runs, duration not known", self.study("--list")[1])
 
 
 class Evaluation(WithFiles):

@@ -424,18 +424,31 @@ namespace CaissonMPM
     return parse_vector(velocity_text, "Soil/Initial velocity");
   }
 
+  double
+  Soil::usual_mass_scaling(const double depth) const
+  {
+    // soil that grows stiffer with its stress is far stiffer under the tip than
+    // elsewhere, and is strained the slower for it
+    const bool stiffens =
+      std::all_of(materials.begin(), materials.end(), [depth](const auto &m) {
+        return m.top_depth >= depth ||
+               (m.stiffness_varies() && m.law_value("Youngs modulus"));
+      });
+    return stiffens ? 400. : 100.;
+  }
+
   std::vector<std::string>
-  Soil::known_limits() const
+  Soil::known_limits(const double depth) const
   {
     std::vector<std::string> limits;
     for (const SoilMaterial &m : materials)
       if (const std::string limit = m.known_limit();
           !limit.empty() && (limits.empty() || limits.back() != limit))
         limits.push_back(limit);
-    if (mass_scaling() > 100.)
-      limits.push_back(
-        "Time/Mass scaling above 100 has been seen to change the tip force "
-        "by more than 5 %");
+    if (const double usual = usual_mass_scaling(depth); mass_scaling() > usual)
+      limits.push_back("Time/Mass scaling above " + to_text(usual) +
+                       " has been seen to change the tip force by more than "
+                       "5 %");
     return limits;
   }
 

@@ -54,6 +54,9 @@ namespace CaissonMPM
     if (std::isfinite(n_steps) && cost.seconds_per_step > 0.)
       text +=
         "\n  duration   about " + duration(n_steps * cost.seconds_per_step) +
+        " on " +
+        (cost.n_ranks > 1 ? to_text(cost.n_ranks) + " cores" :
+                            std::string("one core")) +
         " at the speed of the first steps" +
         (cost.stiffens ?
            ", several times as long where soil grows stiffer under a tip" :

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 namespace CaissonMPM
 {
@@ -161,8 +160,10 @@ namespace CaissonMPM
       {
         n = 0; // run() will say why
       }
+    // of the processor: others who work beside do not count
     if (n > 0)
-      cost.seconds_per_step = seconds() / n;
+      cost.seconds_per_step = timer.cpu_time() / grid.n_ranks() / n;
+    cost.n_ranks = grid.n_ranks();
     cost.peak_bytes =
       Utilities::MPI::sum(peak_memory_bytes(), grid.communicator());
     constexpr double long_run = 120.; // s
@@ -174,11 +175,10 @@ namespace CaissonMPM
   std::vector<std::string>
   Simulation::ways_to_save() const
   {
-    constexpr double         usual_scaling = 100., points_per_rank = 10000.;
+    constexpr double         usual_scaling = 100.;
     std::vector<std::string> result;
-    const double             scaling      = soil.mass_scaling();
-    const auto               cells        = body.shape().cells_across_wall();
-    const unsigned int       n_processors = std::thread::hardware_concurrency();
+    const double             scaling = soil.mass_scaling();
+    const auto               cells   = body.shape().cells_across_wall();
     if (body.shape().exists() && !body.motion().follows_loads() &&
         !water.is_coupled() && scaling < usual_scaling)
       result.push_back("Time/Mass scaling = " + to_text(usual_scaling) +
@@ -195,11 +195,6 @@ namespace CaissonMPM
       result.push_back("Rigid body/Cells across the wall = 2 instead of " +
                        to_text(cells) +
                        " makes the steps longer; the error grows");
-    if (grid.n_ranks() == 1 && n_processors > 1 &&
-        points.n_points() > points_per_rank)
-      result.push_back("--ranks " + to_text(n_processors) +
-                       " of scripts/run uses all " + to_text(n_processors) +
-                       " cores");
     return result;
   }
 
@@ -408,7 +403,10 @@ namespace CaissonMPM
       .all();
     if (!recorder.wrong_error_bar().empty())
       origins.add_warning(recorder.wrong_error_bar());
-    for (const auto &limits : {soil.known_limits(),
+    const double reach = body.shape().exists() && !body.shape().expands() ?
+                           lines.total_travel() - body.shape().bottom() :
+                           lines.depth();
+    for (const auto &limits : {soil.known_limits(reach),
                                nodal_motion.settings().known_limits(),
                                water.known_limits(materials)})
       for (const std::string &limit : limits)

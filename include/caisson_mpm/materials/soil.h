@@ -136,13 +136,19 @@ namespace CaissonMPM
     kernel_materials() const;
 
     /** Warnings of what the layers' laws are known not to describe, and of mass
-     * scaling that is known to change the answer. */
+     * scaling that is known to change the answer of a body that reaches down to
+     * a depth. */
     std::vector<std::string>
-    known_limits() const;
+    known_limits(double depth) const;
 
     std::array<double, 2> gravity = {{0., -9.81}};
 
   private:
+    /** The largest mass scaling that has been seen to change forces by little,
+     * where a body reaches down to a depth: see doc/limitations.md. */
+    double
+    usual_mass_scaling(double depth) const;
+
     /** The entry is in section Time, because it lengthens the time step. */
     struct MassScaling : dealii::ParameterAcceptor
     {

@@ -19,7 +19,9 @@ namespace CaissonMPM
     std::string   end;             // when, and by which entry
     double        n_steps    = 0.; // infinite where it is not known
     double        peak_bytes = 0.; // memory so far
-    /** Measured in the first steps; 0 where there is no measurement. */
+    unsigned int  n_ranks    = 1;
+    /** Time of the processor, measured in the first steps; 0 where there is no
+     * measurement. */
     double seconds_per_step = 0.;
     /** Whether the soil grows stiffer with its stress, and the step shorter. */
     bool stiffens = false;

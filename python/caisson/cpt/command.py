@@ -35,7 +35,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--out", type=Path, metavar="DIR", help="of the results")
     add("--list", action="store_true", help="list the correlations, and do no more")
     add("--run", action="store_true", help="run the study of a caisson")
-    add("--jobs", type=int, metavar="N", help="runs at a time, default one a core")
+    add("--jobs", type=int, metavar="N", help="runs at a time, default: the fastest")
     suggest.declare_caisson(parser, required=False)
     interpretation.declare(parser)
 

@@ -15,6 +15,9 @@ has, as Windows makes it (WSL). With --install, packages that scripts/package ha
 built for this release are installed instead of the clone, and an ordinary user runs
 two scenes with them.
 
+With --with, these packages are there before the first command, as on the machine of a
+user who has them. A command that removes a package, whichever, is a failure.
+
 Needs root, debootstrap, git and unshare (util-linux). All mounts are made in a
 mount namespace of their own, and so end with the command, however it ends.
 """
@@ -33,11 +36,12 @@ from caisson.paths import ROOT
 RELEASES = ("trixie", "bookworm")
 COMMANDS = ["scripts/run prm/jack.prm", "scripts/test"]
 DAY = [
+    "scripts/setup build pictures",
     "scripts/caisson suggest --diameter 10 --skirt 8 --wall 40mm --error 20"
     " --layer '0: Friction angle = 33, Youngs modulus = 20e6'"
     " --layer '3: Friction angle = 37, Youngs modulus = 40e6'"
     " own.prm --study own_study.toml",
-    "scripts/run --ranks 2 own.prm",
+    "scripts/run own.prm",
     "scripts/caisson study own_study.toml",
     "scripts/caisson compare own.png results/own results/parameters/own_study/*/",
 ]
@@ -54,6 +58,10 @@ NEEDED = ("debootstrap", "git", "unshare", "chroot", "mount")
 # git: to clone the project; ca-certificates: for mirrors with https
 INCLUDED = "git,ca-certificates"
 NAME = "caisson_mpm"
+INSTALL = (
+    "apt-get update && DEBIAN_FRONTEND=noninteractive"
+    " apt-get install --yes --no-remove --no-install-recommends"
+)
 MOUNT = """
 set -e
 mount -t proc proc "$1/proc"
@@ -103,7 +111,7 @@ def make_user(tree: Path, with_sudo: bool) -> None:
     commands = f"id {USER} || useradd --create-home --shell /bin/bash {USER}"
     if with_sudo:
         commands += (
-            " && { which sudo || { apt-get update && apt-get install --yes sudo; }; }"
+            f" && {{ which sudo || {{ {INSTALL} sudo; }}; }}"
             f" && echo '{USER} ALL=(ALL) NOPASSWD: ALL' > /etc/sudoers.d/{USER}"
         )
     commands += f" && chown -R {USER}: /home/{USER}"
@@ -137,11 +145,26 @@ def prepare_packages(options: argparse.Namespace, tree: Path) -> list[str]:
     for package in options.install:
         shutil.copy(package, tree / "root")
     names = " ".join(f"/root/{package.name}" for package in options.install)
-    install = "DEBIAN_FRONTEND=noninteractive apt-get install --yes --reinstall"
     return [
-        f"apt-get update && {install} --no-install-recommends {names}",
+        f"{INSTALL} --reinstall {names}",
         *map(as_user, options.command or INSTALLED_COMMANDS),
     ]
+
+
+def prepare(options: argparse.Namespace, tree: Path) -> list[str]:
+    """Put into the tree what is to be tried; return the commands."""
+    if options.packages:
+        log = tree / "root/with.log"
+        if run_inside(tree, f"{INSTALL} {' '.join(options.packages)}", log) != 0:
+            raise OSError(f"could not install what was given by --with, see {log}")
+    return (prepare_packages if options.install else prepare_clone)(options, tree)
+
+
+def packages_of(tree: Path) -> set[str]:
+    """Return the names of the packages that are installed in the tree."""
+    text = (tree / "var/lib/dpkg/status").read_text(encoding="utf-8")
+    pattern = r"^Package: (.*)\nStatus: \S+ \S+ installed$"
+    return set(re.findall(pattern, text, re.MULTILINE))
 
 
 def environment() -> dict[str, str]:
@@ -168,6 +191,8 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--day", action="store_true", help="an engineer's first day")
     add("--user", action="store_true", help="as an ordinary user with sudo")
     add("--install", nargs="+", type=Path, metavar="FILE.deb", help="try packages")
+    text = "have these beforehand, and let no command remove a package"
+    add("--with", nargs="+", dest="packages", metavar="PACKAGE", help=text)
     parser.add_argument(
         "--command",
         action="append",
@@ -192,7 +217,6 @@ def main(options: argparse.Namespace) -> int:
     try:
         make_tree(options.release, tree, options.mirror)
         shutil.copy("/etc/resolv.conf", tree / "etc/resolv.conf")
-        prepare = prepare_packages if options.install else prepare_clone
         commands = prepare(options, tree)
     except (OSError, subprocess.CalledProcessError) as error:
         print(f"bare_debian: {error}", file=sys.stderr)
@@ -200,7 +224,11 @@ def main(options: argparse.Namespace) -> int:
     worst = 0
     for number, command in enumerate(commands, 1):
         begin, log = time.monotonic(), tree / f"root/{number}.log"
+        before = packages_of(tree)
         status = run_inside(tree, command, log)
+        if removed := before - packages_of(tree):
+            print(f"bare_debian: removed: {' '.join(sorted(removed))}")
+            status = status or 1
         worst = max(worst, abs(status))
         minutes = (time.monotonic() - begin) / 60
         print(

@@ -42,7 +42,6 @@ runs, go to the directory of the study: table.csv, fan.csv, fan.png, tornado.png
 A cone test is read before the first run, and kept with each of them.
 """
 import concurrent.futures
-import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -64,21 +63,16 @@ RUN_KEYS = {"sample"}
 make_runs = runs_of
 
 
-def duration(seconds: float) -> str:
-    """Return a time as an estimate, with two digits."""
-    if seconds < 90:
-        return f"{seconds:.2g} s"
-    return f"{seconds / 60:.2g} min" if seconds < 5400 else f"{seconds / 3600:.2g} h"
-
-
-def check(studies: Sequence[Study], jobs: int) -> str:
-    """Let the program check all runs that are not complete, without computing them;
-    return what is to do. Raises StudyError with what it says of the first run that it
+def check(studies: Sequence[Study], jobs: int) -> None:
+    """Let the program check all runs that are not complete, without computing them, and
+    keep their sizes. Raises StudyError with what it says of the first run that it
     refuses."""
 
-    def refusal_or_time(run: StudyRun) -> str | float:
+    def refusal_of(run: StudyRun) -> str:
         try:
-            return 0.0 if run.run.is_complete() else run.run.validate()
+            if not run.run.is_complete():
+                run.size = run.run.validate()
+            return ""
         except (RunError, OSError) as error:
             return f"{run.study}: the run {run.name!r} is refused: {error}"
 
@@ -86,8 +80,7 @@ def check(studies: Sequence[Study], jobs: int) -> str:
         cone_of(study)
     runs = [run for study in studies for run in study.runs]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        found = list(pool.map(refusal_or_time, runs))
-    refused = [text for text in found if isinstance(text, str)]
+        refused = [text for text in pool.map(refusal_of, runs) if text]
     if refused:
         others = len(refused) - 1
         more = f"\n(so {'is' if others == 1 else 'are'} {others} of the other runs)"
@@ -97,11 +90,6 @@ def check(studies: Sequence[Study], jobs: int) -> str:
         ) < len(runs)
         text = refused[0] + (more if others else "") + (hint if some_are_valid else "")
         raise StudyError(text)
-    times = [time for time in found if isinstance(time, float) and time != 0]
-    text = f"runs to do: {len(times)}"
-    if times and math.isfinite(sum(times)):
-        text += f", about {duration(sum(times) / jobs)}, {jobs} at a time"
-    return text
 
 
 def cone_of(study: Study) -> Path | None:

@@ -9,17 +9,17 @@ from typing import Any
 import jinja2
 
 from caisson import plot
+<<<<<<< HEAD
 from caisson.paths import INSTALL_PICTURES
 from caisson.report import content, methods
 from caisson.results import Results, ResultsError
+=======
+from caisson.needed import JAVASCRIPT, SCRIPTS
+from caisson.report import content
+from caisson.results import Results
+>>>>>>> tools
 
 HERE = Path(__file__).parent
-JAVASCRIPT = Path("/usr/share/javascript")
-SCRIPTS = (
-    "jquery/jquery.min.js",
-    "jquery-mousewheel/jquery.mousewheel.min.js",
-    "jquery-flot/jquery.flot.min.js",
-)
 REFRESH = 30  # s, of the page of a run that goes on
 # name of a picture without its suffix: what it shows
 PICTURES = {
@@ -33,14 +33,8 @@ PICTURES = {
 
 
 def script(name: str) -> str:
-    """Return a script of Debian's for the page. Raises ResultsError."""
-    path = JAVASCRIPT / name
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ResultsError(
-            f"no {path}: `{INSTALL_PICTURES}` installs what a report needs"
-        ) from error
+    """Return a script of Debian's for the page."""
+    text = (JAVASCRIPT / name).read_text(encoding="utf-8")
     return text.replace("</script", "<\\/script")
 
 
@@ -96,7 +90,7 @@ def status_of(run: Results) -> str:
 
 
 def html(run: Results) -> str:
-    """Return the page. Raises ResultsError."""
+    """Return the page. Raises ResultsError or OSError."""
     loader = jinja2.FileSystemLoader(HERE)
     environment = jinja2.Environment(
         loader=loader, autoescape=True, undefined=jinja2.StrictUndefined

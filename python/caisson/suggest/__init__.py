@@ -16,6 +16,7 @@ import argparse
 import os
 import re
 import sys
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -264,13 +265,17 @@ def entries_of_layers() -> list[str]:
     return [name.removeprefix(head) for name in every if name.startswith(head)]
 
 
-def cost_of(file: Path) -> str:
-    """Return what the program says of the scene and its cost. Raises SuggestError
-    where it refuses it."""
-    try:
-        return ask([str(file), "--validate"])
-    except RunError as error:
-        raise SuggestError(f"the program refuses {file}:\n{error}") from error
+def cost_of(file: Path, text: str) -> str:
+    """Return what the program says of a scene, which is going to be this file, and of
+    its cost. Raises SuggestError where it refuses it."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder, file.name)
+        copy.write_text(text, encoding="utf-8")
+        try:
+            return ask([str(copy), "--validate"]).replace(str(copy), str(file))
+        except RunError as error:
+            said = str(error).replace(str(copy), str(file))
+            raise SuggestError(f"the program refuses the scene:\n{said}") from error
 
 
 def write(options: argparse.Namespace) -> None:
@@ -292,9 +297,10 @@ def write(options: argparse.Namespace) -> None:
         texts[options.study] = (
             soil_study_of(options, found) if found else study_of(options, layers)
         )
+    cost = cost_of(options.file, texts[options.file])
     for file, text in texts.items():  # all or none
         file.write_text(text, encoding="utf-8")
-    print(cost_of(options.file))
+    print(cost)
 
 
 def main(options: argparse.Namespace) -> int:

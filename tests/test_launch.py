@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""caisson run chooses the ranks, and caisson suggest writes what is accepted."""
+import re
+import signal
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+from program import HERE, ProgramTest, history, summary, user_scene
+
+from caisson import ranks
+from caisson.paths import PROGRAM
+from caisson.run import ask, environment, size_in
+
+BY_STRESS = "0: Law = Mohr-Coulomb with stiffness by stress, Friction angle = 33"
+SCALING = "Time/Mass scaling"
+NO_FRAMES = {"Output/Frame interval": "never", "Output/Frame penetrations": ""}
+
+
+class CommandTest(ProgramTest):
+    """Calls the command line as a user does."""
+
+    def words(self, *words: str) -> list[str]:
+        """Return the words of a call."""
+        return [sys.executable, "-B", "-m", "caisson", *words]
+
+    def environment(self) -> dict[str, str]:
+        """Return that of a call."""
+        return {
+            **environment(),
+            "CAISSON_MPM_PROGRAM": str(self.program),
+            "PYTHONPATH": str(HERE.parent / "python"),
+        }
+
+    def caisson(self, *words: str, status: int = 0) -> tuple[str, str]:
+        """Run a command; return what it says, and what it complains of."""
+        done = subprocess.run(
+            self.words(*words), text=True, capture_output=True, env=self.environment()
+        )
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done.stdout, done.stderr
+
+
+class Launch(CommandTest):
+    """caisson run."""
+
+    def run_to(self, depth: float, path: Path) -> list[str]:
+        """Return the words that run prm/jack_coarse.prm to a depth."""
+        entries = {**NO_FRAMES, "Time/End penetration": str(depth)}
+        sets = [w for k, v in entries.items() for w in ("--set", f"{k}={v}")]
+        return [
+            "run",
+            user_scene("jack_coarse"),
+            "--output-directory",
+            str(path),
+            *sets,
+        ]
+
+    def test_ranks(self) -> None:
+        """Those that the points and this machine are good for, said in one line, also
+        for a restart; the result is that of one rank. What only prints says nothing."""
+        path, one = self.directory(), self.directory("one_rank")
+        points = size_in(ask([user_scene("jack_coarse"), "--validate"])).points
+        expected = ranks.choose(points)[0]
+        text = rf"^run: {expected} ranks? \("
+        self.assertRegex(self.caisson(*self.run_to(0.502, path))[1], text)
+        self.assertEqual(summary(path)["ranks"], expected)
+        again = [*self.run_to(0.505, path), "--restart"]
+        self.assertRegex(self.caisson(*again)[1], text)
+        options = self.run_to(0.505, one)[1:]
+        self.assertNotIn("run:", self.caisson("run", "--ranks", "1", *options)[1])
+        a, b = history(path)[-1], history(one)[-1]
+        self.assertAlmostEqual(a["tip_force_N"] / b["tip_force_N"], 1, delta=1e-3)
+        for option in ("--validate", "--print-parameters"):
+            said, complaints = self.caisson(*again, option)
+            self.assertNotIn("run:", said + complaints)
+
+    def test_ctrl_c_on_two_ranks(self) -> None:
+        """The run stops in order: with a checkpoint, and the status that says so."""
+        path = self.directory()
+        words = self.words(*self.run_to(3.0, path))
+        words[words.index("run") + 1 : words.index("run") + 1] = ["--ranks", "2"]
+        process = subprocess.Popen(
+            words,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            env=self.environment(),
+        )
+        assert process.stdout is not None
+        for line in process.stdout:
+            if line.startswith("pen"):
+                break
+        process.send_signal(signal.SIGINT)
+        rest = process.stdout.read()
+        process.stdout.close()
+        self.assertEqual(process.wait(), 3, rest)
+        self.assertEqual(summary(path)["status"], "stopped")
+        self.assertTrue((path / "checkpoint.info").is_file())
+
+
+class Suggest(CommandTest):
+    """Scenes of caisson suggest."""
+
+    def suggest(self, path: Path, layer: str, status: int = 0) -> tuple[str, str]:
+        """Write a scene for a caisson of 10 m."""
+        sizes = ["--diameter", "10", "--skirt", "8", "--wall", "40mm", "--error", "20"]
+        return self.caisson(
+            "suggest", str(path), *sizes, "--layer", layer, status=status
+        )
+
+    def test_refused_scene(self) -> None:
+        """It leaves no file, so that the next try is not in its way."""
+        path = self.made_directory() / "own.prm"
+        sand = "0: Friction angle = 33, Youngs modulus = "
+        said = self.suggest(path, sand + "45 MPa", status=1)[1]
+        self.assertIn('cannot be "45 MPa"', said)
+        self.assertIn(f"{path}:", said)
+        self.assertEqual(list(path.parent.iterdir()), [])
+        self.suggest(path, sand + "45e6")
+        before = path.read_text(encoding="utf-8")
+        self.assertTrue(before)
+
+    def test_mass_scaling(self) -> None:
+        """No warning of the one that suggest has chosen; another one is warned of, and
+        so is the same in soil of constant stiffness."""
+        path = self.made_directory()
+        soft = f"{BY_STRESS}, Youngs modulus = 20e6"
+        stiff = soft.replace(" with stiffness by stress", "")
+        self.assertNotIn("warning", "".join(self.suggest(path / "soft.prm", soft)))
+        text = (path / "soft.prm").read_text(encoding="utf-8")
+        self.assertRegex(text, r"Mass scaling *= 400\b")
+        self.assertIn("above 400", self.said(path / "soft.prm", 401))
+        self.suggest(path / "stiff.prm", stiff)
+        self.assertIn("above 100", self.said(path / "stiff.prm", 400))
+        # a layer below the end of the run does not count, one above it does
+        for top, warns in (20, False), (4, True):
+            below = path / f"below_{top}.prm"
+            layer = re.search(r"(?s)  subsection Layer 1\n(.*?)\n  end\n", text)
+            assert layer is not None
+            other = layer[1].replace(" with stiffness by stress", "")
+            other = f"  subsection Layer 2\n    set Top depth = {top}\n{other}\n  end\n"
+            more = text.replace(layer[0], layer[0] + other)
+            below.write_text(
+                re.sub(r"(Number of layers *=) 1", r"\1 2", more), encoding="utf-8"
+            )
+            self.assertEqual("Mass scaling above" in self.said(below, 400), warns)
+
+    def said(self, path: Path, scaling: int) -> str:
+        """Return what the program says of a scene with this mass scaling."""
+        return ask([str(path), "--validate", "--set", f"{SCALING}={scaling}"], PROGRAM)
+
+
+if __name__ == "__main__":
+    unittest.main()
