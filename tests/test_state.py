@@ -83,8 +83,8 @@ class Limits(ProgramTest):
         self.assertGreater(history(path)[-1]["limiter_count"], 100)
 
     def test_mass_floor(self) -> None:
-        """A block slides into empty cells, where its nodes have little mass.
-        That is unstable, unless the mass floor is on."""
+        """A block slides into empty cells, where its nodes have little mass. With
+        USL that is unstable, unless the mass floor is on."""
         text = self.run_scene(
             "block_mass_floor",
             self.directory(),

@@ -19,6 +19,8 @@ namespace CaissonMPM
       {"PIC", VelocityTransfer::pic},
       {"FLIP", VelocityTransfer::flip},
       {"blend", VelocityTransfer::blend}};
+    const Choices<StressUpdate> stress_updates = {{"MUSL", StressUpdate::musl},
+                                                  {"USL", StressUpdate::usl}};
     const Choices<ForceIntegration> integrations = {
       {"Gauss in full cells", ForceIntegration::gauss_in_full_cells},
       {"material points", ForceIntegration::material_points}};
@@ -58,6 +60,13 @@ namespace CaissonMPM
                   "less, in proportion. Units: none.",
                   prm,
                   Patterns::Double(0., 1.));
+    add_choice(*this,
+               "Stress update",
+               stress_update,
+               stress_updates,
+               "MUSL strains the points with the velocities that the updated "
+               "points bring back to the nodes, and USL with the new nodal "
+               "velocities. Units: none.");
   }
 
   void
@@ -141,10 +150,11 @@ namespace CaissonMPM
         "Method/Full cell fraction inside = " + to_text(full_fraction_inside) +
         " exceeds Method/Full cell fraction = " + to_text(full_fraction) +
         ". Reduce it.");
-    if (transfer == VelocityTransfer::flip && damping == 0. && !mass_floor)
-      throw BadInput("Method/Velocity transfer = FLIP needs Mass floor = true "
-                     "or Local damping: it is unstable at nodes with little "
-                     "mass.");
+    if (!uses_musl() && transfer == VelocityTransfer::flip && damping == 0. &&
+        !mass_floor)
+      throw BadInput("Method/Stress update = USL with Velocity transfer = FLIP "
+                     "needs Mass floor = true or Local damping: it is unstable "
+                     "at nodes with little mass.");
   }
 
   void
@@ -213,7 +223,8 @@ namespace CaissonMPM
   MethodSettings::description() const
   {
     const std::string xpic = "XPIC(" + to_text(xpic_order) + ")";
-    return (transfer == VelocityTransfer::xpic ? xpic :
+    return name_of(stress_updates, stress_update) + ", " +
+           (transfer == VelocityTransfer::xpic ? xpic :
             transfer == VelocityTransfer::blend ?
                                                  "FLIP and " + xpic :
                                                  name_of(transfers, transfer)) +

@@ -144,6 +144,7 @@ namespace CaissonMPM
                      settings_.local_damping(),
                      momentum,
                      mass_floor,
+                     transfer.fields(momentum).strain,
                      forces,
                      constraints,
                      reactions_);

@@ -16,22 +16,23 @@ namespace CaissonMPM
   double
   WorkOfStep::missing_work(const double                dt,
                            const NodalConstraints     &constraints,
-                           const Kernels::NodalVector *velocity) const
+                           const Kernels::NodalVector *strain) const
   {
     const ContactCorners &corners = constraints.contact.corners();
     return .5 * dt *
            (corners.missing_power(nodal_vectors(held)) +
-            corners.missing_power(velocity));
+            corners.missing_power(strain));
   }
 
   NodalWork
-  WorkOfStep::find(const double            dt,
-                   const double            damping,
-                   const NodalMomentum    &momentum,
-                   const MassFloor        &mass_floor,
-                   const NodalForces      &forces,
-                   const NodalConstraints &constraints,
-                   const NodalReactions   &reactions)
+  WorkOfStep::find(const double                dt,
+                   const double                damping,
+                   const NodalMomentum        &momentum,
+                   const MassFloor            &mass_floor,
+                   const Kernels::NodalVector *strain,
+                   const NodalForces          &forces,
+                   const NodalConstraints     &constraints,
+                   const NodalReactions       &reactions)
   {
     const std::size_t n = 2 * momentum.inertia().size();
     constraints.hold_old(momentum.old_velocity(), held);
@@ -39,23 +40,22 @@ namespace CaissonMPM
     NodalWork                 result;
     const Kernels::NodalSums *node = momentum.sums();
     const double *const       v0   = momentum.old_velocity().begin(),
-                        *v         = momentum.new_velocity().begin();
+                        *v         = momentum.new_velocity().begin(),
+                        *s         = strain->value;
     double *const h                = held.begin();
     for (unsigned int i = 0; i < momentum.n_owned_nodes(); ++i, ++node)
       for (unsigned int d = 0; d < 2; ++d)
         {
           const unsigned int k = 2 * i + d;
           const double       f = dt * node->force[d];
-          result.forces += f * .5 * (h[k] + v[k]);
+          result.forces += f * .5 * (h[k] + s[k]);
           if (damping > 0. && !constraints.contact.is_contact_node(i))
             result.damping +=
               damping_force(damping, f, v0[k]) * .5 * (h[k] + v[k]);
         }
-    const Kernels::NodalVector *const now =
-      nodal_vectors(momentum.new_velocity());
-    result.forces += missing_work(dt, constraints, now);
+    result.forces += missing_work(dt, constraints, strain);
     // of what this rank's points bring, to all of their nodes
-    result.load       = forces.work(dt, nodal_vectors(held), now);
+    result.load       = forces.work(dt, nodal_vectors(held), strain);
     result.body       = reactions.contact.work;
     result.prescribed = reactions.prescribed.work;
     for (std::size_t k = 0; k < n; ++k)

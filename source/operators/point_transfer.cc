@@ -11,7 +11,11 @@ namespace CaissonMPM
   void
   PointTransfer::initialize(const BackgroundGrid &grid)
   {
-    for (NodalData *v : {&transfer_velocity, &filtered, &after_round_trip})
+    for (NodalData *v : {&transfer_velocity,
+                         &strain_velocity,
+                         &filtered,
+                         &after_round_trip,
+                         &held_old})
       grid.reinit(*v, 2);
   }
 
@@ -37,6 +41,9 @@ namespace CaissonMPM
       transfer[i] = v[i] - keep * old[i];
     if (settings.filter_order() > 1)
       add_filter(context, settings.filter_order(), 1. - keep);
+    strains_with_new = !settings.uses_musl();
+    if (!strains_with_new)
+      find_strain_velocity(context, keep);
   }
 
   void
@@ -94,11 +101,26 @@ namespace CaissonMPM
       }
   }
 
+  void
+  PointTransfer::find_strain_velocity(const Context &context, const double keep)
+  {
+    // S+ (keep V_p + S transfer) = keep v + A transfer
+    round_trip(context, transfer_velocity, 1. - keep, strain_velocity);
+    context.constraints.hold_old(context.momentum.old_velocity(), held_old);
+    const double *const old    = held_old.begin();
+    double *const       strain = strain_velocity.begin();
+    for (std::size_t i = 0; i < 2 * context.momentum.inertia().size(); ++i)
+      strain[i] += keep * old[i];
+    context.constraints.hold(strain_velocity);
+  }
+
   Kernels::NodalFields
   PointTransfer::fields(const NodalMomentum &momentum) const
   {
-    return {nodal_vectors(momentum.new_velocity()),
+    const NodalData &v = momentum.new_velocity();
+    return {nodal_vectors(v),
             nodal_vectors(transfer_velocity),
+            nodal_vectors(strains_with_new ? v : strain_velocity),
             transfer_of_body};
   }
 } // namespace CaissonMPM

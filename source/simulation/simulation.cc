@@ -315,7 +315,7 @@ namespace CaissonMPM
       text +
       ". Likely causes: a time step too large for the deformed mesh (reduce "
       "Time/Courant number), an unstable choice in section Method (the "
-      "defaults are blend and Mass floor = true), or a parameter of "
+      "defaults are MUSL, blend and Mass floor = true), or a parameter of "
       "the soil that is out of any range. The files written so far are "
       "kept.");
   }

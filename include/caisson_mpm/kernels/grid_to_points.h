@@ -275,6 +275,7 @@ namespace CaissonMPM
               const unsigned int node =
                 step.grid.nodes[cell].node[corner.corner];
               see_corner(corner, fields.advection[node], 1., update.advection);
+              see_corner(corner, fields.strain[node], 1., update.strain);
               see_corner(corner,
                          fields.transfer[node],
                          fields.transfer_of_body,
@@ -298,6 +299,7 @@ namespace CaissonMPM
         update.moved                   = CellMap<>(how.moved.geometry[cell]);
         update.advection               = CellField<>(fields.advection, nodes);
         update.transfer                = CellField<>(fields.transfer, nodes);
+        update.strain                  = CellField<>(fields.strain, nodes);
         if (grid.flags[cell] & next_to_body)
           see_corners(step, fields, cell, update);
         update.axisymmetric = grid.axisymmetric;

@@ -253,8 +253,9 @@ namespace CaissonMPM
     /** The nodal velocities that update the points, each [n_nodes]. */
     struct NodalFields
     {
-      const NodalVector *advection; // moves and strains the MPs
+      const NodalVector *advection; // moves the MPs
       const NodalVector *transfer;  // added to keep_velocity * velocity
+      const NodalVector *strain;    // its gradient strains the MPs
       double transfer_of_body = 1.; // share of the body's velocity in it
     };
 

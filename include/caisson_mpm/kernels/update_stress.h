@@ -98,7 +98,7 @@ namespace CaissonMPM
       struct CellUpdate
       {
         CellMap<>     map, moved;
-        CellField<>   advection, transfer;
+        CellField<>   advection, transfer, strain;
         double        axisymmetric;
         double        mean_divergence; // used where B-bar is on
         double        bubble[2];       // a, b of find_bubbles()
@@ -127,7 +127,7 @@ namespace CaissonMPM
       {
         const Number dt(settings.time_step);
         const Number inverse_r = Number(cell.axisymmetric) / r;
-        const VelocityGradient<Number> L(cell.advection,
+        const VelocityGradient<Number> L(cell.strain,
                                          p,
                                          cell.map.inverse_width,
                                          inverse_r);

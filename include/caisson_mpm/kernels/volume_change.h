@@ -14,14 +14,16 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** The velocity in @p update [group.n], one cell in each lane. */
+      /** One of the fields in @p update [group.n], one cell in each lane. */
       template <typename Number>
       CAISSON_INLINE CellField<Number>
-      field_of_group(const CellGroup<Number> &group, const CellUpdate *update)
+                     field_of_group(const CellGroup<Number> &group,
+                                    const CellUpdate        *update,
+                                    CellField<> CellUpdate::*field)
       {
         const double *rows[Number::width];
         for (int i = 0; i < Number::width; ++i)
-          rows[i] = update[i < group.n ? i : 0].advection.r; // and then z
+          rows[i] = (update[i < group.n ? i : 0].*field).r; // and then z
         LaneSums<Number, 8> values;
         values.load_lanes(rows);
         CellField<Number> result;
@@ -33,16 +35,19 @@ namespace CaissonMPM
         return result;
       }
 
-      /** The mean divergence of each cell of a group with the velocity @p v. */
+      /** The mean divergence of each cell of a group, from the strain fields of
+       * @p update [group.n]. */
       template <typename Number>
       CAISSON_INLINE void
       find_mean_divergence(const CellGroup<Number> &group,
                            const CellMap<Number>   &map,
                            const double             axisymmetric,
-                           const CellField<Number> &v,
                            CellUpdate              *update)
       {
-        const Number mean = mean_divergence(map, axisymmetric, v);
+        const Number mean =
+          mean_divergence(map,
+                          axisymmetric,
+                          field_of_group(group, update, &CellUpdate::strain));
         for (int i = 0; i < group.n; ++i)
           update[i].mean_divergence = mean[i];
       }
@@ -62,9 +67,10 @@ namespace CaissonMPM
       find_bubbles(const CellGroup<Number> &group,
                    const CellMap<Number>   &map,
                    const double             axisymmetric,
-                   const CellField<Number> &v,
                    CellUpdate              *update)
       {
+        const CellField<Number> v =
+          field_of_group(group, update, &CellUpdate::advection);
         // div v and 1, times r dz/deta, in the middle of the sides
         constexpr double xi[4] = {0., 1., .5, .5}, eta[4] = {.5, .5, 0., 1.};
         Number           flow[4], weight[4], sum_of_flow(0.), total(0.);
@@ -105,9 +111,8 @@ namespace CaissonMPM
                                  const double             axisymmetric,
                                  CellUpdate              *update)
       {
-        const CellField<Number> v = field_of_group(group, update);
-        find_mean_divergence(group, map, axisymmetric, v, update);
-        find_bubbles(group, map, axisymmetric, v, update);
+        find_mean_divergence(group, map, axisymmetric, update);
+        find_bubbles(group, map, axisymmetric, update);
       }
 
       /** Take the mean divergence of cells from the list @p rates [n_cells],

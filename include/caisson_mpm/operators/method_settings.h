@@ -42,6 +42,13 @@ namespace CaissonMPM
     blend
   };
 
+  /** Which nodal velocities strain the points. */
+  enum class StressUpdate
+  {
+    musl, // those that the updated points bring back
+    usl   // the new nodal velocities
+  };
+
   /** Where the internal force is integrated. */
   enum class ForceIntegration
   {
@@ -72,6 +79,12 @@ namespace CaissonMPM
     /** Order of XPIC in what it does not keep; 1: PIC. */
     unsigned int
     filter_order() const;
+
+    bool
+    uses_musl() const
+    {
+      return stress_update == StressUpdate::musl;
+    }
 
     bool
     uses_mean_volume() const
@@ -110,6 +123,7 @@ namespace CaissonMPM
     declare_stability();
 
     VelocityTransfer transfer           = VelocityTransfer::blend;
+    StressUpdate     stress_update      = StressUpdate::musl;
     ForceIntegration force_integration  = ForceIntegration::gauss_in_full_cells;
     Kernels::PressureSlope pressure_fit = Kernels::PressureSlope::by_dilation;
     unsigned int           xpic_order   = 2;

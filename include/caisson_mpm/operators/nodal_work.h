@@ -40,16 +40,17 @@ namespace CaissonMPM
     void
     initialize(const BackgroundGrid &grid);
 
-    /** Return the works of a step, but for those of @p reactions, which are
-     * given. */
+    /** Return the works of a step with the velocities @p strain [n_nodes] that
+     * strain the points, but for those of @p reactions, which are given. */
     NodalWork
-    find(const double            dt,
-         const double            damping,
-         const NodalMomentum    &momentum,
-         const MassFloor        &mass_floor,
-         const NodalForces      &forces,
-         const NodalConstraints &constraints,
-         const NodalReactions   &reactions);
+    find(const double                dt,
+         const double                damping,
+         const NodalMomentum        &momentum,
+         const MassFloor            &mass_floor,
+         const Kernels::NodalVector *strain,
+         const NodalForces          &forces,
+         const NodalConstraints     &constraints,
+         const NodalReactions       &reactions);
 
   private:
     /** The work of the forces at corners of the body that cells see with a
@@ -57,7 +58,7 @@ namespace CaissonMPM
     double
     missing_work(const double                dt,
                  const NodalConstraints     &constraints,
-                 const Kernels::NodalVector *velocity) const;
+                 const Kernels::NodalVector *strain) const;
 
     double    circumference = 0.;
     NodalData held; // the old velocity with the constraints of the new one

@@ -10,11 +10,12 @@
 //   XPIC(n)    V_p <- S (v+ + sum_{k=1}^{n-1} (I - A)^k v)
 //   blend      V_p <- a FLIP + (1 - a) XPIC(n)
 // (Sulsky et al. 1994; Hammerquist & Nairn 2017, doi:10.1016/j.cma.2017.01.035).
-// v+ also moves and strains the points, so that volume and place of the soil
-// stay together (doc/theory.md, section 8).
+// MUSL strains the points with the velocity that they bring back to the nodes,
+// S+ V_p; as A is known per cell, no second pass over the points is needed.
+// USL strains them with v+.
 //
-// The velocities of the sums of XPIC are held to the boundary conditions and to
-// the contact found for v+: the transfer must not undo them.
+// The velocities of the sums of XPIC and MUSL are held to the boundary
+// conditions and to the contact found for v+: the transfer must not undo them.
 #ifndef caisson_mpm_operators_point_transfer_h
 #define caisson_mpm_operators_point_transfer_h
 
@@ -25,7 +26,7 @@ namespace CaissonMPM
 {
   /**
    * Owns the fields of the transfer and the memory to find them. prepare() is
-   * collective over MPI if XPIC needs the round trip.
+   * collective over MPI if XPIC or MUSL needs the round trip.
    */
   class PointTransfer
   {
@@ -75,9 +76,15 @@ namespace CaissonMPM
                const unsigned int order,
                const double       share);
 
-    NodalData transfer_velocity;
+    /** S+ V_p of the points after the update. */
+    void
+    find_strain_velocity(const Context &context, const double keep);
+
+    NodalData transfer_velocity, strain_velocity;
     NodalData filtered, after_round_trip; // memory of add_filter()
-    double    transfer_of_body = 1.;      // see NodalFields
+    NodalData held_old;
+    bool      strains_with_new = false; // USL
+    double    transfer_of_body = 1.;    // see NodalFields
   };
 } // namespace CaissonMPM
 

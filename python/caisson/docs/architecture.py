@@ -68,7 +68,7 @@ STEP = [
     ("operators", "add the nodal forces", "NodalForces"),
     ("operators", "equation of motion", "v = p / m,   v+ = v + dt f / m"),
     ("operators", "contact, boundary conditions", "constrain v+"),
-    ("operators", "prepare the transfer", "fields of FLIP and XPIC; works"),
+    ("operators", "prepare the transfer", "fields of FLIP, XPIC and MUSL; works"),
     ("domain", "move the mesh", "BackgroundGrid::prepare_motion"),
     (
         "kernels",
