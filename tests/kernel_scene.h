@@ -363,7 +363,7 @@ update(Scene                                                      &s,
   kernels.grid_to_points(s.step(gauss, moments),
                          {s.grid(),
                           settings,
-                          {field.data(), field.data()}},
+                          {field.data(), field.data(), field.data()}},
                          result);
   if (kept != nullptr)
     *kept = moments;

@@ -452,6 +452,19 @@ namespace CaissonMPM
     return limits;
   }
 
+  namespace
+  {
+    /** Return the damping of vibrations of the volume for a Poisson ratio. The
+     * noise that they make in the pressure grows with the bulk modulus over the
+     * shear modulus: it is harmless at 0.3, and not at 0.45. */
+    double
+    volume_damping(const double nu)
+    {
+      constexpr double harmless = .3, harmful = .4;
+      return std::clamp((nu - harmless) / (harmful - harmless), 0., 1.);
+    }
+  } // namespace
+
   std::vector<Kernels::Material>
   Soil::kernel_materials() const
   {
@@ -463,6 +476,8 @@ namespace CaissonMPM
         result[i].p_wave_modulus =
           p_wave_modulus(result[i], Stress(), m.void_ratio());
         result[i].initial_density = inertial_density(i);
+        if (const auto nu = m.law_value("Poisson ratio"))
+          result[i].volume_damping = volume_damping(*nu);
         // weight and mass ratio: buoyancy and mass scaling leave the force
         const double buoyancy =
           (1. - m.porosity) *

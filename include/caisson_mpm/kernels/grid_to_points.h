@@ -283,6 +283,26 @@ namespace CaissonMPM
             }
       }
 
+      /**
+       * Choose the field from which a cell takes its change of volume. In soil
+       * with a large bulk modulus vibrations of the volume decay only with the
+       * new velocities: those that the points bring back (MUSL) are smoother,
+       * and keep them.
+       */
+      CAISSON_INLINE void
+      choose_volume_field(const StepContext &step,
+                          const unsigned int cell,
+                          CellUpdate        &update)
+      {
+        update.volume            = update.strain;
+        const PointsView &points = step.points;
+        const int material = points.headers[points.first_block[cell]].material;
+        const double share =
+          step.moments[cell].full * step.materials[material].volume_damping;
+        if (share > 0.)
+          update.volume.approach(update.advection, share);
+      }
+
       /** Prepare the update of a cell, all but the mean divergence. */
       CAISSON_INLINE void
       prepare_cell(const StepContext &step,
@@ -302,6 +322,7 @@ namespace CaissonMPM
         update.strain                  = CellField<>(fields.strain, nodes);
         if (grid.flags[cell] & next_to_body)
           see_corners(step, fields, cell, update);
+        choose_volume_field(step, cell, update);
         update.axisymmetric = grid.axisymmetric;
         update.bubble[0] = update.bubble[1] = 0.;
         update.speed_limit                  = 0.;

@@ -114,7 +114,8 @@ namespace CaissonMPM
       double body_force[2]; // acceleration of the scaled mass (m/s2)
       // lambda + 2 mu, the largest of all points, and water_modulus (Pa)
       double        p_wave_modulus;
-      double        water_modulus = 0.; // of the water in undrained soil (Pa)
+      double        water_modulus  = 0.; // of the water in undrained soil (Pa)
+      double        volume_damping = 0.; // 0 to 1: see choose_volume_field()
       VolumeInShear volume_in_shear;
       StressMeasure stress_measure = StressMeasure::cauchy;
       double        initial_void_ratio;

@@ -46,6 +46,17 @@ namespace CaissonMPM
               component[1].store(z + i);
             }
         }
+
+        /** Go a share of the way to another field. */
+        CAISSON_INLINE void
+        approach(const CellField &other, const double share)
+        {
+          for (int i = 0; i < 4; ++i)
+            {
+              r[i] += share * (other.r[i] - r[i]);
+              z[i] += share * (other.z[i] - z[i]);
+            }
+        }
       };
 
       /** The velocity gradient at a point, L_tt included. */
@@ -98,7 +109,7 @@ namespace CaissonMPM
       struct CellUpdate
       {
         CellMap<>     map, moved;
-        CellField<>   advection, transfer, strain;
+        CellField<>   advection, transfer, strain, volume;
         double        axisymmetric;
         double        mean_divergence; // used where B-bar is on
         double        bubble[2];       // a, b of find_bubbles()

@@ -35,7 +35,7 @@ namespace CaissonMPM
         return result;
       }
 
-      /** The mean divergence of each cell of a group, from the strain fields of
+      /** The mean divergence of each cell of a group, from the volume fields of
        * @p update [group.n]. */
       template <typename Number>
       CAISSON_INLINE void
@@ -47,7 +47,7 @@ namespace CaissonMPM
         const Number mean =
           mean_divergence(map,
                           axisymmetric,
-                          field_of_group(group, update, &CellUpdate::strain));
+                          field_of_group(group, update, &CellUpdate::volume));
         for (int i = 0; i < group.n; ++i)
           update[i].mean_divergence = mean[i];
       }
