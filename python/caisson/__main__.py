@@ -73,6 +73,10 @@ SOURCE_COMMANDS = {
         "try the commands of the README on a bare Debian",
     ),
     "faults": ("caisson.developer.faults", "try to break the program"),
+    "test-parts": (
+        "caisson.developer.parts",
+        "run all parts of the test, as scripts/test does",
+    ),
     "two-hosts": (
         "caisson.developer.two_hosts",
         "run on two hosts and count their messages",
