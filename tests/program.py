@@ -39,7 +39,7 @@ Rows = list[dict[str, float]]
 Entries = dict[str, Any]
 SCRATCH = tempfile.TemporaryDirectory()
 ALONE = quick_environment(SCRATCH.name)  # of a program on one rank
-# program_server.cc, which ctest names; it is of use where it is not older than the
+# server/program_server.cc, which ctest names; of use where it is not older than the
 # program
 SERVER = os.environ.get("CAISSON_MPM_TEST_SERVER")
 

@@ -8,7 +8,7 @@
 // and the arguments, with a zero byte after each. The answer is a line with the
 // exit status, or with the negative number of the signal.
 #define main program_main
-#include "../source/main.cc"
+#include "../../source/main.cc"
 #undef main
 
 #include <fcntl.h>
