@@ -30,7 +30,7 @@ namespace CaissonMPM
     const std::string format_name = "caisson_mpm-checkpoint-10";
 
     // what a rank has in memory at a time besides its own
-    constexpr unsigned long points_per_piece = 20000;
+    constexpr unsigned long points_at_once = 20000;
 
     std::string
     info_file(const std::string &directory)
@@ -231,7 +231,7 @@ namespace CaissonMPM
                      std::accumulate(n.begin(), n.end(), 0ul),
                      communicator);
       std::vector<TravelingPoint> piece;
-      piece.reserve(std::min(*own, points_per_piece));
+      piece.reserve(std::min(*own, points_at_once));
       const auto write_piece = [&]() {
         file.write(row, piece);
         row += piece.size();
@@ -239,7 +239,7 @@ namespace CaissonMPM
       };
       points.for_each([&](const MaterialPoint &point, const unsigned int cell) {
         piece.push_back({grid.global_number(cell), point});
-        if (piece.size() == points_per_piece)
+        if (piece.size() == points_at_once)
           write_piece();
       });
       write_piece();
@@ -262,12 +262,11 @@ namespace CaissonMPM
       const auto n_ranks = Utilities::MPI::n_mpi_processes(communicator),
                  rank    = Utilities::MPI::this_mpi_process(communicator);
       for (unsigned long row = 0; row < n_points;
-           row += n_ranks * points_per_piece)
+           row += n_ranks * points_at_once)
         {
-          const unsigned long begin = std::min(n_points,
-                                               row + rank * points_per_piece),
-                              end =
-                                std::min(n_points, begin + points_per_piece);
+          const unsigned long begin =
+                                std::min(n_points, row + rank * points_at_once),
+                              end = std::min(n_points, begin + points_at_once);
           action(file.read(begin, end - begin));
         }
       return finish(file, communicator);
