@@ -5,6 +5,7 @@
 #include <caisson_mpm/materials/soil_material.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace CaissonMPM
 {
@@ -64,6 +65,25 @@ namespace CaissonMPM
       if (entry == description(law).entries[i].name)
         return law_values[i];
     return {};
+  }
+
+  double
+  SoilMaterial::cohesion_after(const double plastic_deviatoric) const
+  {
+    const double peak     = law_value("Cohesion").value_or(0.),
+                 residual = law_value("Residual cohesion").value_or(peak),
+                 rate     = law_value("Softening shape factor").value_or(0.);
+    return residual + (peak - residual) * std::exp(-rate * plastic_deviatoric);
+  }
+
+  double
+  SoilMaterial::tension_of(const double cohesion) const
+  {
+    // at most that of the apex of the cone, c cot phi
+    const double slope =
+      std::tan(friction_angle().value_or(0.) * Kernels::radians_per_degree);
+    const double cutoff = law_value("Tension cut-off").value_or(0.);
+    return cutoff * slope < cohesion ? cutoff : cohesion / slope;
   }
 
   double

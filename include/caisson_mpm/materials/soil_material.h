@@ -79,6 +79,15 @@ namespace CaissonMPM
     std::optional<double>
     law_value(const std::string &entry) const;
 
+    /** Return the cohesion after some plastic shear, see LawState; 0 where the
+     * law has none. Units: Pa. */
+    double
+    cohesion_after(const double plastic_deviatoric) const;
+
+    /** Return the tension that the soil bears with a cohesion. Units: Pa. */
+    double
+    tension_of(const double cohesion) const;
+
     /** The ratio of horizontal to vertical stress of the law itself. */
     double
     earth_pressure_of_law() const;
