@@ -25,12 +25,13 @@ namespace CaissonMPM
   }
 
   void
-  SoilMaterial::check() const
+  SoilMaterial::check(const double mean_stress) const
   {
     Kernels::LawMessage message;
-    if (!description(law).check(law_values.data(),
-                                {earth_pressure_at_rest, void_ratio()},
-                                message))
+    if (!description(law).check(
+          law_values.data(),
+          {earth_pressure_at_rest, void_ratio(), mean_stress},
+          message))
       throw BadInput(section() + "/" + message.text);
     if (stress_measure == Kernels::StressMeasure::kirchhoff &&
         !law_value("Youngs modulus"))
@@ -150,5 +151,14 @@ namespace CaissonMPM
            Kernels::law_table.law[material.law].p_wave_modulus(material,
                                                                stress.data(),
                                                                void_ratio);
+  }
+
+  double
+  void_ratio_of_soil(const Kernels::Material &material,
+                     const Stress            &stress,
+                     const double             void_ratio)
+  {
+    return Kernels::law_table.law[material.law].void_ratio_of_soil(
+      material, stress.data(), void_ratio);
   }
 } // namespace CaissonMPM

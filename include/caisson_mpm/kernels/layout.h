@@ -116,7 +116,8 @@ namespace CaissonMPM
       double        p_wave_modulus;
       double        water_modulus = 0.; // of the water in undrained soil (Pa)
       VolumeInShear volume_in_shear;
-      StressMeasure stress_measure = StressMeasure::cauchy;
+      bool          has_loosest_state = false; // kernels/loosest_state.h
+      StressMeasure stress_measure    = StressMeasure::cauchy;
       double        initial_void_ratio;
       double        initial_density; // of the scaled mass, kg/m3
       double        overstress_time; // kernels/overstress.h; 0: none (s)

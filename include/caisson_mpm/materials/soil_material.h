@@ -48,9 +48,10 @@ namespace CaissonMPM
     std::string
     section() const;
 
-    /** Throws BadInput where the numbers contradict each other. */
+    /** Throws BadInput where the numbers contradict each other, or the largest
+     * mean stress at the start. Units: Pa. */
     void
-    check() const;
+    check(const double mean_stress = 0.) const;
 
     /** Mass of solids per volume of soil. Units: kg/m3. */
     double
@@ -119,6 +120,13 @@ namespace CaissonMPM
   p_wave_modulus(const Kernels::Material &material,
                  const Stress            &stress,
                  const double             void_ratio);
+
+  /** The void ratio of the soil itself, if that of a point may include a gap.
+   */
+  double
+  void_ratio_of_soil(const Kernels::Material &material,
+                     const Stress            &stress,
+                     const double             void_ratio);
 } // namespace CaissonMPM
 
 #endif
