@@ -125,7 +125,6 @@ struct Scene
   PointsView
   view()
   {
-    histories.resize(blocks.size());
     return {blocks.data(),
             histories.data(),
             headers.data(),
@@ -238,18 +237,22 @@ make_scene(const double axisymmetric, const bool affine)
           s.points.push_back(p);
         }
     }
-  s.material.body_force[0]  = .3;
-  s.material.body_force[1]  = -9.;
-  s.material.p_wave_modulus = E * (1. - nu) / ((1. + nu) * (1. - 2. * nu));
+  s.material.initial_void_ratio = .6;
+  s.material.overstress_time    = 0.;
+  s.material.body_force[0]      = .3;
+  s.material.body_force[1]      = -9.;
+  s.material.p_wave_modulus     = E * (1. - nu) / ((1. + nu) * (1. - 2. * nu));
   set_law<LinearElastic>(s.material, LinearElastic::Parameters::make(E, nu));
   return s;
 }
 
-/** Bring the points into blocks, padded as the class MaterialPoints does. */
+/** Bring the points into blocks, padded as the class MaterialPoints does. Every
+ * third has grown by a ninth: from the void ratio 0.6 to 0.78. */
 inline void
 fill_blocks(Scene &s)
 {
   s.blocks.clear();
+  s.histories.clear();
   s.headers.clear();
   s.first.assign(n_cells, -1);
   s.filled.assign(n_cells, 0.);
@@ -273,6 +276,7 @@ fill_blocks(Scene &s)
           (k == 0 ? s.first[c] : s.headers.back().next) = b;
           s.headers.push_back({-1, static_cast<short>(count), 0});
           s.blocks.push_back(PointBlock());
+          s.histories.push_back(PointHistory());
           PointBlock &block = s.blocks.back();
           for (int lane = 0; lane < 8; ++lane)
             {
@@ -285,6 +289,8 @@ fill_blocks(Scene &s)
                 block.stress[i][lane] = p.s[i];
               block.mass[lane]   = lane < count ? p.mass : 0.;
               block.volume[lane] = lane < count ? p.volume : 0.;
+              s.histories.back().initial_volume[lane] =
+                (k + lane) % 3 == 0 ? .9 * p.volume : p.volume;
             }
         }
     }

@@ -191,6 +191,30 @@ check_given_stress()
           1e-12);
 }
 
+/** What shearing leaves of the cohesion, and the tension that goes with it. */
+void
+check_cohesion_and_tension()
+{
+  const Ground softening("subsection Layer 1\n"
+                         "set Law = Mohr-Coulomb with softening\n"
+                         "set Cohesion = 5e3\nset Residual cohesion = 1e3\n"
+                         "set Softening shape factor = 10\n"
+                         "set Tension cut-off = 2e3\nend\n"),
+    sand("subsection Layer 1\nset Law = hypoplastic sand\nend\n"),
+    clay("subsection Layer 1\nset Friction angle = 0\nset Cohesion = 5e3\n"
+         "set Tension cut-off = 2e4\nend\n");
+  const auto &m = softening.soil.material(0);
+  std::printf("cohesion %g, %g and %g Pa\n",
+              m.cohesion_after(0.),
+              m.cohesion_after(std::log(2.) / 10.),
+              m.cohesion_after(10.));
+  std::printf("tension %g and %g Pa\n", m.tension_of(5e3), m.tension_of(1e3));
+  std::printf("of sand %g and %g, of clay %g Pa\n",
+              sand.soil.material(0).cohesion_after(0.),
+              sand.soil.material(0).tension_of(0.),
+              clay.soil.material(0).tension_of(5e3));
+}
+
 void
 check_refusals()
 {
@@ -227,5 +251,6 @@ main()
   check_stiffness_by_stress();
   check_relative_density();
   check_given_stress();
+  check_cohesion_and_tension();
   check_refusals();
 }

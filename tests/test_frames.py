@@ -150,6 +150,24 @@ class Fields(FramesTest):
                 self.assertEqual(np.isnan(means["void_ratio"]).all(), not some)
                 self.assertFalse(np.isnan(means["stress_zz_Pa"]).all())
 
+    def test_loosest_state(self) -> None:
+        """Sand that dilates beside a wall: where it bears it is nowhere looser than
+        Largest void ratio, and a gap is no part of the void ratio."""
+        layer, largest = "Soil/Layer 1", 0.75
+        entries: Entries = {
+            f"{layer}/Friction angle": 40,
+            f"{layer}/Dilatancy angle": 15,
+            f"{layer}/Largest void ratio": largest,
+        }
+        points = files(self.frames_of("jack", entries), "points")
+        first, last = (read_points([points[i]]) for i in (0, -1))
+        volume = [f["whole_volume"][np.argsort(f["id"])] for f in (first, last)]
+        with_gaps = volume[1].astype(float) / volume[0] / (1 - 0.4) - 1
+        pressure = -last["mean_stress"][np.argsort(last["id"])]
+        self.assertLess(with_gaps[pressure > 1].max(), largest + 1e-5)
+        self.assertLess(np.nanmax(last["void_ratio"]), largest + 1e-5)
+        self.assertGreater((last["void_ratio"] > 0.99 * largest).sum(), 100)
+
     def test_no_void_ratio_without_pores(self) -> None:
         path = self.frames_of("compaction", {"Soil/Layer 1/Porosity": 0})
         self.assertTrue(

@@ -60,6 +60,14 @@ CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
         ["Youngs modulus", "5 MPa", "expression in d"],
         {f"{LAYER}/Youngs modulus": "5 MPa"},
     ),
+    (
+        ["Cohesion = 1e3*rand() calls rand()", "at each call and on each rank"],
+        {f"{LAYER}/Cohesion": "1e3*rand()"},
+    ),
+    (
+        ["Loads/Body force", "calls rand_seed()"],
+        {"Loads/Body force": "rand_seed(1)*r ; 0"},
+    ),
     (["Number of layers = 3", "no Soil/Layer 2"], {"Soil/Number of layers": 3}),
     (["Surcharge", "K0"], {"Soil/Surcharge": 1e4, "Soil/Initial stress": "none"}),
     (

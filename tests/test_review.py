@@ -145,6 +145,11 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
         },
     ),
     (
+        ["Fine cell size = 0.12 m", "of the body, 0.2 m", "are 0.1 m wide"],
+        {"Grid/Fine cell size": 0.12},
+        {"Grid/Fine cell size": 0.1},
+    ),
+    (
         ["Frame penetrations", "50 m"],
         {"Output/Frame penetrations": "3, 50"},
         {"Output/Frame penetrations": "3, 6.5"},

@@ -4,7 +4,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from caisson.docs.names import entries_of, faults_of
+from caisson.docs.names import defaults_of, entries_of, faults_of, wrong_defaults
 from caisson.docs.parameters import parsed
 
 PRINTED = """
@@ -85,6 +85,33 @@ class Names(unittest.TestCase):
         self.assertEqual(len(self.faults(BAD)), 5)
         [comment] = self.faults("The error is 3\n% of the force.\n")
         self.assertIn("percent sign: % of the force", comment)
+
+
+class Defaults(unittest.TestCase):
+    """Numbers of a page that the program decides."""
+
+    def faults(self, text: str, name: str = "page.md") -> list[str]:
+        """What is wrong with the defaults that a page states."""
+        with tempfile.TemporaryDirectory() as folder:
+            page = Path(folder) / name
+            page.write_text(text)
+            return wrong_defaults(page, defaults_of(parsed(PRINTED)))
+
+    def test_stated_default(self) -> None:
+        text = "`Soil/Submerged` is `true` by default, `Soil/Layer 1/Top depth` is\n"
+        self.assertEqual(self.faults(text + "0 by default."), [])
+        [fault] = self.faults(text + "0.5 by default.")
+        self.assertIn("Top depth is 0 by default, not 0.5", fault)
+        [fault] = self.faults("`Soil/Depth` is 2 by default.")
+        self.assertIn("no entry", fault)
+
+    def test_glossary(self) -> None:
+        """A number without its entry cannot be checked, and is not let through."""
+        for text in ("A cell is full from 50 % on.", "Dry soil is the default."):
+            self.assertEqual(self.faults(text), [])
+            self.assertEqual(len(self.faults(text, "glossary.md")), 1)
+        text = "`Soil/Submerged` is `true` by default."
+        self.assertEqual(self.faults(text, "glossary.md"), [])
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <regex>
 #include <sstream>
 
 namespace CaissonMPM
@@ -71,6 +72,20 @@ namespace CaissonMPM
         message += " at column " + to_text(at + 1);
       return message;
     }
+
+    /** Throw BadInput where an expression asks for random numbers. */
+    void
+    refuse_random_numbers(const std::string &text, const std::string &where)
+    {
+      static const std::regex random("\\brand(_seed)?\\b");
+      std::smatch             found;
+      if (std::regex_search(text, found, random))
+        throw BadInput(
+          where + " calls " + found.str() +
+          "(): an expression must have the same value at each "
+          "call and on each rank, and a random number does not. "
+          "Write a function of the place, for instance sin(100*z).");
+    }
   } // namespace
 
   template <int dim>
@@ -80,6 +95,7 @@ namespace CaissonMPM
                  const Point<dim>  &place,
                  const std::string &where)
   {
+    refuse_random_numbers(text, where);
     auto                 names    = Utilities::split_string_list(variables);
     auto                 function = std::make_unique<FunctionParser<dim>>(1);
     const CapturedErrors errors;

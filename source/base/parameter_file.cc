@@ -462,11 +462,17 @@ namespace CaissonMPM
 
       // deal.II's pattern for an unsigned integer lets -1 through and makes
       // 4294967295 of it.
-      bool is_allowed = entry.pattern != "[Integer]" || value[0] != '-';
+      bool        is_allowed = entry.pattern != "[Integer]" || value[0] != '-';
+      std::string reason;
       try
         {
           if (is_allowed)
             prm.set(entry.name, value);
+        }
+      catch (const BadInput &error) // of an expression
+        {
+          is_allowed = false;
+          reason     = error.what();
         }
       catch (const std::exception &)
         {
@@ -477,9 +483,12 @@ namespace CaissonMPM
         prm.leave_subsection();
       if (!is_allowed)
         throw BadInput(
-          place + ": " + quote(entry.path) + " cannot be " +
-          (value.empty() ? "empty" : quote(value)) + "." +
-          did_you_mean(nearest_names(value, choices_of(entry.pattern))) +
+          place + ": " +
+          (!reason.empty() ?
+             reason :
+             quote(entry.path) + " cannot be " +
+               (value.empty() ? "empty" : quote(value)) + "." +
+               did_you_mean(nearest_names(value, choices_of(entry.pattern)))) +
           "\n  Allowed: " + allowed_values(entry.pattern) + "." +
           (entry.documentation.empty() ?
              "" :

@@ -120,10 +120,11 @@ namespace CaissonMPM
                        fine_size,
                        "auto",
                        0.,
-                       "The finest cells have this width and height; auto "
-                       "takes what Rigid body/Cells across the wall gives for "
-                       "a caisson, cone or cylinder, and Cell width and Cell "
-                       "height for a box. Units: m.",
+                       "The finest cells have this width and height, and "
+                       "those of a body less width if its own is no multiple "
+                       "of it; auto takes what Rigid body/Cells across the "
+                       "wall gives for a caisson, cone or cylinder, and Cell "
+                       "width and Cell height for a box. Units: m.",
                        positive);
   }
 

@@ -340,6 +340,24 @@ namespace CaissonMPM
       body.has_lid() ? line_at(rows, body.lower_face_of_lid()) : body_row_end;
   }
 
+  std::string
+  GridLines::known_limit() const
+  {
+    constexpr double   tolerance = .01; // of the size
+    const unsigned int n         = body_column_end - body_column_begin;
+    if (!fine_size || n == 0 || expanding_radius > 0.)
+      return "";
+    const double width  = columns[body_column_end] - columns[body_column_begin],
+                 actual = refinement * width / n;
+    if (std::abs(actual - *fine_size) <= tolerance * *fine_size)
+      return "";
+    return "Grid/Fine cell size = " + meters(*fine_size) +
+           " does not divide the width of the body, " + meters(width) +
+           ": the cells there are " + meters(actual) + " wide" +
+           (refinement > 1 ? ", before Grid/Refinement" : "") + ". Set " +
+           meters(actual) + ", or the width over another whole number.";
+  }
+
   // ------------------------------------------------------------ distortion
 
   namespace

@@ -252,6 +252,8 @@ namespace CaissonMPM
                      to_text(fluid_density) +
                      " kg/m3: the soil would float. Correct one of them, "
                      "or set Soil/Submerged = false.");
+    m.check(vertical_stress(bottom, below) *
+            (1. + 2. * m.earth_pressure_at_rest) / 3.);
     m.top_depth = top;
     if (top == 0.)
       m.added_weight = surcharge / (bottom - top);

@@ -5,6 +5,7 @@
 #include <caisson_mpm/materials/soil_material.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace CaissonMPM
 {
@@ -24,12 +25,13 @@ namespace CaissonMPM
   }
 
   void
-  SoilMaterial::check() const
+  SoilMaterial::check(const double mean_stress) const
   {
     Kernels::LawMessage message;
-    if (!description(law).check(law_values.data(),
-                                {earth_pressure_at_rest, void_ratio()},
-                                message))
+    if (!description(law).check(
+          law_values.data(),
+          {earth_pressure_at_rest, void_ratio(), mean_stress},
+          message))
       throw BadInput(section() + "/" + message.text);
     if (stress_measure == Kernels::StressMeasure::kirchhoff &&
         !law_value("Youngs modulus"))
@@ -64,6 +66,25 @@ namespace CaissonMPM
       if (entry == description(law).entries[i].name)
         return law_values[i];
     return {};
+  }
+
+  double
+  SoilMaterial::cohesion_after(const double plastic_deviatoric) const
+  {
+    const double peak     = law_value("Cohesion").value_or(0.),
+                 residual = law_value("Residual cohesion").value_or(peak),
+                 rate     = law_value("Softening shape factor").value_or(0.);
+    return residual + (peak - residual) * std::exp(-rate * plastic_deviatoric);
+  }
+
+  double
+  SoilMaterial::tension_of(const double cohesion) const
+  {
+    // at most that of the apex of the cone, c cot phi
+    const double slope =
+      std::tan(friction_angle().value_or(0.) * Kernels::radians_per_degree);
+    const double cutoff = law_value("Tension cut-off").value_or(0.);
+    return cutoff * slope < cohesion ? cutoff : cohesion / slope;
   }
 
   double
@@ -130,5 +151,14 @@ namespace CaissonMPM
            Kernels::law_table.law[material.law].p_wave_modulus(material,
                                                                stress.data(),
                                                                void_ratio);
+  }
+
+  double
+  void_ratio_of_soil(const Kernels::Material &material,
+                     const Stress            &stress,
+                     const double             void_ratio)
+  {
+    return Kernels::law_table.law[material.law].void_ratio_of_soil(
+      material, stress.data(), void_ratio);
   }
 } // namespace CaissonMPM

@@ -21,21 +21,35 @@ namespace CaissonMPM
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
     /**
-     * The void ratio of a point, or unknown. Points that the wall and the tip
+     * The void ratio of points, or unknown; of the soil itself, without the gap
+     * of a point that has been torn apart. Points that the wall and the tip
      * drag along have volumes that mean nothing, though they are a negligible
      * part of the soil: e would be below 0, or so high that the grains could
      * not touch. Soil without pores at the start has no void ratio.
      */
-    double
-    void_ratio_of(const MaterialPoint &p, const Soil &soil)
+    class VoidRatio
     {
-      constexpr double largest_volume_ratio = 2.;
-      const double     initial = soil.material(p.material).void_ratio(),
-                   now         = p.void_ratio(initial);
-      const bool is_known      = initial > 0. && now >= 0. &&
-                            p.volume <= largest_volume_ratio * p.initial_volume;
-      return is_known ? now : unknown;
-    }
+    public:
+      VoidRatio(const Soil &soil)
+        : materials(soil.kernel_materials())
+      {}
+
+      double
+      operator()(const MaterialPoint &p) const
+      {
+        constexpr double         largest_volume_ratio = 2.;
+        const Kernels::Material &material             = materials[p.material];
+        const double             initial = material.initial_void_ratio,
+                     now                 = p.void_ratio(initial);
+        const bool is_known =
+          initial > 0. && now >= 0. &&
+          p.volume <= largest_volume_ratio * p.initial_volume;
+        return is_known ? void_ratio_of_soil(material, p.stress, now) : unknown;
+      }
+
+    private:
+      std::vector<Kernels::Material> materials;
+    };
 
     bool
     is_pore_pressure(const PointField &field)
@@ -51,7 +65,7 @@ namespace CaissonMPM
       WrittenFields(const Soil  &soil,
                     const double circumference,
                     const bool   with_pore_pressure)
-        : soil(soil)
+        : void_ratio(soil)
         , circumference(circumference)
       {
         for (const NamedQuantity &quantity : all_point_quantities())
@@ -72,7 +86,7 @@ namespace CaissonMPM
         std::vector<double> values;
         for (const PointQuantity &quantity : quantities)
           values.push_back(quantity(p));
-        values.push_back(void_ratio_of(p, soil));
+        values.push_back(void_ratio(p));
         values.push_back(circumference * p.volume);
         return values;
       }
@@ -96,7 +110,7 @@ namespace CaissonMPM
                                    Interpretation::component_is_scalar);
       }
 
-      const Soil                &soil;
+      const VoidRatio            void_ratio;
       const double               circumference;
       std::vector<PointQuantity> quantities;
     };
@@ -222,10 +236,7 @@ namespace CaissonMPM
                                          quantity.about.unit),
                                quantity.value,
                                n_cells);
-        means.emplace_back(
-          "void_ratio",
-          [&soil](const MaterialPoint &p) { return void_ratio_of(p, soil); },
-          n_cells);
+        means.emplace_back("void_ratio", VoidRatio(soil), n_cells);
       }
 
       void

@@ -39,6 +39,7 @@ namespace CaissonMPM
     , soil(soil)
     , body(body)
     , plug_balance(grid, points, body)
+    , plug_strength(grid, points, soil, body)
   {
     add_choice(
       *this,

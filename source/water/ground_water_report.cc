@@ -137,7 +137,7 @@ namespace CaissonMPM
          tip_integral / tip_area},
       {"exit_gradient_wall", scale * exit.wall},
       {"exit_gradient_axis", scale * exit.axis},
-      {"critical_gradient", critical_gradient()},
+      {"critical_gradient", withstood.surface},
       {"seepage_flow_m3_s", scale * flow_out},
       {"seepage_inflow_m3_s", scale * flow_in},
       {"seepage_volume_m3", seepage_volume},
@@ -221,6 +221,8 @@ namespace CaissonMPM
       find_exit_gradient();
     Mudline now = mudline;
     now.find(grid, points);
+    if (has_lid())
+      withstood = plug_strength.find(now);
     return values(now);
   }
 
@@ -267,36 +269,35 @@ namespace CaissonMPM
   bool
   GroundWater::carries_soil() const
   {
-    // Cohesion holds soil together. The gradient of soil that gives off hardly
-    // any water is noise, and less suction than this lifts no soil by its flow.
+    // The gradient of soil that gives off hardly any water is noise, and less
+    // suction than this lifts no soil by its flow.
     const double least = least_lifted_share * body.penetration() *
-                         critical_gradient() * soil.unit_weight_of_water();
+                         withstood.of_block() * soil.unit_weight_of_water();
     return suction.value() > least &&
-           soil.material(0).law_value("Cohesion").value_or(0.) == 0. &&
            flow_scale() * std::max(exit.wall, exit.axis) >
-             near_critical * critical_gradient();
+             near_critical * withstood.of_block();
   }
 
   void
   GroundWater::warn_of_plug(const std::string        &where,
                             std::vector<std::string> &warnings)
   {
+    const std::string bound =
+      withstood.strength == 0. ?
+        "the critical one" :
+        "what weight and cohesion of the plug withstand, gradients of " +
+          to_text(withstood.weight, 3) + " and " +
+          to_text(withstood.strength, 3) + ",";
     if (is_first(has_warned_of_piping, carries_soil()))
       warnings.push_back(
         "the exit gradient exceeds " + to_text(100. * near_critical) +
-        " % of the critical one" + where +
+        " % of " + bound + where +
         ": the flow carries nearly all of the soil. Piping may begin, which "
         "the program does not follow");
     if (is_first(has_warned_of_lift,
                  heave(mudline) > heave_by_wall() + .02 * body.shape().right()))
       warnings.push_back("the suction lifts the plug" + where +
                          ": it rises by more than the wall displaces");
-  }
-
-  double
-  GroundWater::critical_gradient() const
-  {
-    return soil.unit_weight(soil.material(0)) / soil.unit_weight_of_water();
   }
 
   std::vector<GroundWater::Drainage>

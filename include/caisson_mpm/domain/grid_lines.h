@@ -233,6 +233,11 @@ namespace CaissonMPM
       return uplift_to_hold;
     }
 
+    /** Return a warning if the body has smaller cells than Fine cell size, or
+     * an empty text. */
+    std::string
+    known_limit() const;
+
     /** Return a line for the header of the terminal output. */
     std::string
     description() const;

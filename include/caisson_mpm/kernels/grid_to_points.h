@@ -10,6 +10,7 @@
 
 #include <caisson_mpm/kernels/cell_pressure.h>
 #include <caisson_mpm/kernels/cell_sums.h>
+#include <caisson_mpm/kernels/loosest_state.h>
 #include <caisson_mpm/kernels/volume_change.h>
 #include <caisson_mpm/kernels/waiting_blocks.h>
 
@@ -153,15 +154,21 @@ namespace CaissonMPM
                              const int                 lane,
                              const int                 in_group,
                              const LocalPoint<Number> &p,
-                             const StressStep<Number> &s,
+                             const CellUpdate         &cell,
+                             const UpdateSettings     &settings,
                              const Material           &material,
-                             const double              time_step,
                              UpdateSums<Number>       &sums,
                              WaitingBlocks<Number>    &waiting)
       {
         const auto &parameters =
           reinterpret_cast<const typename Law::Parameters &>(
             material.parameters);
+        StressStep<Number> s = begin_stress_step(b, lane, p, cell, settings);
+        bool               is_loose = false;
+        if constexpr (knows_loosest_state<Law>(0))
+          if (cell.has_loose_points && material.has_loosest_state)
+            is_loose = hold_loose_points<Law, Number>(
+              b, history, lane, material, parameters, cell, settings, s.step);
         const Number mass   = Number::load(b.mass + lane),
                      volume = Number::load(b.volume + lane),
                      after  = volume * (Number(1.) + s.step.volume_change);
@@ -170,7 +177,8 @@ namespace CaissonMPM
           if (material.stress_measure == StressMeasure::cauchy)
             {
               StressState<Number> stress = s.old;
-              if (Law::update_elastic(stress, s.step.strain, parameters))
+              if (!is_loose &&
+                  Law::update_elastic(stress, s.step.strain, parameters))
                 {
                   store_stress(s.half_turn(stress), b, lane);
                   after.store(b.volume + lane);
@@ -192,7 +200,8 @@ namespace CaissonMPM
                                          lane,
                                          s,
                                          {material.initial_void_ratio,
-                                          material.overstress_time / time_step,
+                                          material.overstress_time /
+                                            settings.time_step,
                                           material.stress_measure,
                                           parameters}));
       }
@@ -216,17 +225,16 @@ namespace CaissonMPM
           {
             Number r = Number::load(b.r + lane), z = Number::load(b.z + lane);
             const LocalPoint<Number> p = cell.map.at_position(r, z);
-            update_stress_of_lanes<Law>(
-              b,
-              history,
-              lane,
-              in_group,
-              p,
-              begin_stress_step(b, lane, p, cell, settings),
-              material,
-              settings.time_step,
-              sums,
-              waiting);
+            update_stress_of_lanes<Law>(b,
+                                        history,
+                                        lane,
+                                        in_group,
+                                        p,
+                                        cell,
+                                        settings,
+                                        material,
+                                        sums,
+                                        waiting);
             limited |= move_points(b, lane, p, cell, settings, r, z) << lane;
             outside |= to_integer(!cell.moved.contains(r, z)) << lane;
           }
@@ -416,7 +424,7 @@ namespace CaissonMPM
       update_group(const StepContext        &step,
                    const PointUpdate        &how,
                    const CellGroup<Number>  &group,
-                   const CellUpdate         *update,
+                   CellUpdate               *update,
                    UpdateInProgress<Number> &progress)
       {
         for (auto &sums : progress.of_group)
@@ -424,8 +432,15 @@ namespace CaissonMPM
             of_cell = Number(0.);
         unsigned int n_leaving[Number::width];
         for (int i = 0; i < group.n; ++i)
-          n_leaving[i] = update_points(
-            step, group.cell[i], i, update[i], how.settings, progress);
+          {
+            // just before the points are in the cache
+            share_out_growth<Number>(step,
+                                     group.cell[i],
+                                     how.settings,
+                                     update[i]);
+            n_leaving[i] = update_points(
+              step, group.cell[i], i, update[i], how.settings, progress);
+          }
         progress.waiting.update(progress.of_group);
         // The sums for the next step, while the points are in the cache. A
         // cell that points leave is summed by points_to_grid instead.

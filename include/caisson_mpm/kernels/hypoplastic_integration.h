@@ -134,6 +134,7 @@ namespace CaissonMPM
         hold_in_bounds(State<Number> &state, const Parameters &p)
         {
           Hypoplasticity::hold_in_bounds(state.stress, p);
+          Hypoplasticity::hold_below_loosest(state.stress, state.void_ratio, p);
           if constexpr (remembers)
             {
               const Number length = sqrt(product(state.memory, state.memory));

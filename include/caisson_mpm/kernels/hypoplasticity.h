@@ -21,7 +21,11 @@
 //   cohesion p_t tan(phi), with which soil at a free surface keeps a stiffness.
 //   Where p falls below p_t the soil has parted, and sigma is set to 0 there.
 // - No principal value of S is less than 1/50; the deviator is reduced to that.
-// - e below e_d has f_d = 0, and e above e_i counts as e_i.
+// - e below e_d has f_d = 0.
+// - e above e_i(p) has no state: grains in so loose a packing do not bear p.
+// The
+//   stress is reduced to that with e_i(p) = e, and is 0 from e_i(p_t) on, where
+//   the soil has a gap.
 //
 // References:
 //   P.-A. von Wolffersdorff (1996), A hypoplastic relation for granular
@@ -141,6 +145,11 @@ namespace CaissonMPM
 
           /** |h| / R at the start. */
           double start = 0.;
+
+          /** Up to the pressure dense_pressure, e_i is at least dense. Most
+           * soil has less of both, and needs no closer look. Units: Pa. */
+          static constexpr double dense_pressure = 1e6;
+          double                  dense          = 0.;
         };
 
         static Parameters
@@ -160,6 +169,7 @@ namespace CaissonMPM
           p.shift     = values[8];
           p.stiffness = p.hardness / p.n *
                         __builtin_pow(p.e_i0 / p.e_c0, p.beta) / denominator(p);
+          p.dense = loosest_void_ratio(Lanes<1>(p.dense_pressure), p)[0];
           return p;
         }
 
@@ -167,6 +177,59 @@ namespace CaissonMPM
         check(const double     *values,
               const LawContext &context,
               LawMessage       &message);
+
+        /** e_i at the pressure -tr T / 3. */
+        template <typename Number>
+        static CAISSON_INLINE Number
+        loosest_void_ratio(const Number pressure, const Parameters &p)
+        {
+          return p.e_i0 * exp(-pow(pressure * (3. / p.hardness), p.n));
+        }
+
+        template <typename Number>
+        static CAISSON_INLINE Number
+        loosest_void_ratio(const StressState<Number> &sigma,
+                           const Parameters          &p)
+        {
+          return loosest_void_ratio(shifted_pressure(sigma, p), p);
+        }
+
+        template <typename Number>
+        static CAISSON_INLINE typename Number::Mask
+        is_loosest(const StressState<Number> &sigma,
+                   const Number               volume,
+                   const Number               volume_of_solids,
+                   const Parameters          &p)
+        {
+          const Number pressure = shifted_pressure(sigma, p),
+                       room     = Number(at_loosest) * volume_of_solids;
+          const auto may_be =
+            may_be_loosest(pressure, volume, Number(1. + p.dense) * room, p);
+          if (!any(may_be))
+            return may_be;
+          return volume > room * (1. + loosest_void_ratio(pressure, p));
+        }
+
+        /** The pressure of a shifted stress, at least p_t. */
+        template <typename Number>
+        static CAISSON_INLINE Number
+        shifted_pressure(const StressState<Number> &sigma, const Parameters &p)
+        {
+          return p.shift +
+                 max((-1. / 3.) * (sigma.rr + sigma.zz + sigma.tt), Number(0.));
+        }
+
+        /** Where soil may be in its loosest state, which is not below @p dense up
+         * to dense_pressure. */
+        template <typename Number>
+        static CAISSON_INLINE typename Number::Mask
+        may_be_loosest(const Number      pressure,
+                       const Number      looseness,
+                       const Number      dense,
+                       const Parameters &p)
+        {
+          return (looseness > dense) | (pressure > Number(p.dense_pressure));
+        }
 
         /** 1 - sin phi_c (Jaky). */
         static double
@@ -235,6 +298,33 @@ namespace CaissonMPM
         static CAISSON_INLINE void
         hold_in_bounds(StressState<Number> &T, const Parameters &parameters);
 
+        /** Reduce a shifted stress in bounds to what soil of a void ratio can
+         * bear. */
+        template <typename Number>
+        static CAISSON_INLINE void
+        hold_below_loosest(StressState<Number> &T,
+                           const Number         void_ratio,
+                           const Parameters    &p)
+        {
+          const Number pressure = (-1. / 3.) * (T.rr + T.zz + T.tt);
+          if (!any(may_be_loosest(pressure, void_ratio, Number(p.dense), p)))
+            return;
+          const Number largest =
+            (p.hardness / 3.) *
+            pow(max(log(p.e_i0 / max(void_ratio, Number(.5 * p.e_d0))),
+                    Number(1e-30)),
+                1. / p.n);
+          const auto   parted = !(largest > Number(p.shift));
+          const Number share  = min(largest / pressure, Number(1.));
+          const auto   held   = [&](const Number component) {
+            return select(parted, Number(-p.shift), share * component);
+          };
+          T.rr = held(T.rr);
+          T.zz = held(T.zz);
+          T.tt = held(T.tt);
+          T.rz = select(parted, Number(0.), share * T.rz);
+        }
+
         /** The increment of a shifted stress in bounds for all of @p D. */
         template <typename Number>
         static CAISSON_INLINE StressState<Number>
@@ -294,7 +384,23 @@ namespace CaissonMPM
               e_i / (1. + e_i));
             return false;
           }
-        if (!(denominator(make(values)) > 0.))
+        const Parameters p = make(values);
+        const double     loosest =
+          loosest_void_ratio(Lanes<1>(context.mean_stress + p.shift), p)[0];
+        if (context.void_ratio > loosest)
+          {
+            __builtin_snprintf(message.text,
+                               sizeof(message.text),
+                               "Porosity = %g, a void ratio of %g, is looser "
+                               "than the loosest state, %g, at the mean stress "
+                               "%g Pa of the start. Lower it.",
+                               context.void_ratio / (1. + context.void_ratio),
+                               context.void_ratio,
+                               loosest,
+                               context.mean_stress);
+            return false;
+          }
+        if (!(denominator(p) > 0.))
           {
             __builtin_snprintf(message.text,
                                sizeof(message.text),

@@ -102,6 +102,41 @@ namespace CaissonMPM
         return VolumeInShear::by_state;
       }
 
+      /** Whether the law reads the void ratio with these parameters; from
+       * Law::needs_void_ratio(), if the law has one, for the argument 0. */
+      template <typename Law>
+      CAISSON_INLINE auto
+      needs_void_ratio(const typename Law::Parameters &p, int)
+        -> decltype(Law::needs_void_ratio(p))
+      {
+        return Law::needs_void_ratio(p);
+      }
+
+      template <typename Law>
+      CAISSON_INLINE bool
+      needs_void_ratio(const typename Law::Parameters &, long)
+      {
+        return Law::uses_void_ratio;
+      }
+
+      /** Whether the law has a loosest state; chosen for the argument 0. */
+      template <typename Law>
+      constexpr auto
+      knows_loosest_state(int)
+        -> decltype(Law::loosest_void_ratio(StressState<Lanes<1>>(),
+                                            typename Law::Parameters()),
+                    true)
+      {
+        return true;
+      }
+
+      template <typename Law>
+      constexpr bool
+      knows_loosest_state(long)
+      {
+        return false;
+      }
+
       /** Write a law and its parameters into a material. */
       template <typename Law>
       inline void
@@ -111,6 +146,8 @@ namespace CaissonMPM
                       "enlarge Material::parameters (layout.h)");
         material.law             = law_id<Law>;
         material.volume_in_shear = volume_in_shear<Law>(parameters, 0);
+        material.has_loosest_state =
+          knows_loosest_state<Law>(0) && needs_void_ratio<Law>(parameters, 0);
         material.overstress_time = 0.;
         __builtin_memcpy(material.parameters, &parameters, sizeof(parameters));
       }
@@ -142,6 +179,11 @@ namespace CaissonMPM
         double (*p_wave_modulus)(const Material &,
                                  const double *stress,
                                  const double  void_ratio);
+
+        /** The void ratio of the soil itself: what is more is a gap. */
+        double (*void_ratio_of_soil)(const Material &,
+                                     const double *stress,
+                                     const double  void_ratio);
 
         /** The variables of a point at the start [n_state_variables]. */
         void (*start)(const Material &, double *variable);
@@ -207,6 +249,27 @@ namespace CaissonMPM
             parameters(material));
         }
 
+        static double
+        void_ratio_of_soil(const Material &material,
+                           const double   *stress,
+                           const double    void_ratio)
+        {
+          if constexpr (knows_loosest_state<Law>(0))
+            if (material.has_loosest_state)
+              {
+                const double loosest =
+                  Law::loosest_void_ratio(StressState<Lanes<1>>{stress[0],
+                                                                stress[1],
+                                                                stress[2],
+                                                                stress[3]},
+                                          parameters(material))[0];
+                return void_ratio < loosest ? void_ratio : loosest;
+              }
+          (void)material;
+          (void)stress;
+          return void_ratio;
+        }
+
         static void
         start(const Material &material, double *variable)
         {
@@ -237,6 +300,7 @@ namespace CaissonMPM
                     &F::set,
                     &F::earth_pressure_at_rest,
                     &F::p_wave_modulus,
+                    &F::void_ratio_of_soil,
                     &F::start};
           }
         else

@@ -117,7 +117,8 @@ namespace CaissonMPM
       double        water_modulus  = 0.; // of the water in undrained soil (Pa)
       double        volume_damping = 0.; // 0 to 1: see choose_volume_field()
       VolumeInShear volume_in_shear;
-      StressMeasure stress_measure = StressMeasure::cauchy;
+      bool          has_loosest_state = false; // kernels/loosest_state.h
+      StressMeasure stress_measure    = StressMeasure::cauchy;
       double        initial_void_ratio;
       double        initial_density; // of the scaled mass, kg/m3
       double        overstress_time; // kernels/overstress.h; 0: none (s)

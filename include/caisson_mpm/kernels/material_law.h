@@ -17,6 +17,14 @@
 //
 //   static Parameters make(const double *values);
 //   static bool check(const double *values, const LawContext &, LawMessage &);
+//   template <typename Number> // optional, with the next: loosest_state.h
+//   static Number loosest_void_ratio(const StressState<Number> &,
+//                                    const Parameters &);
+//   template <typename Number> // the same without a division, for each step
+//   static typename Number::Mask is_loosest(const StressState<Number> &,
+//                                           const Number volume,
+//                                           const Number volume_of_solids,
+//                                           const Parameters &);
 //   static const char *warning(const double *values); // optional; null: none
 //   static double earth_pressure_at_rest(const Parameters &);
 //   static double p_wave_modulus(const StressState<Lanes<1>> &,
@@ -81,6 +89,7 @@ namespace CaissonMPM
       {
         double earth_pressure_at_rest; // horizontal over vertical stress
         double void_ratio;             // at the start
+        double mean_stress = 0.;       // the largest at the start, Pa
       };
 
       /** Room for the answer of check() to what the user gave. */
@@ -103,6 +112,10 @@ namespace CaissonMPM
         // the first Law::n_state are the law's own
         Number variable[n_state_variables];
       };
+
+      /** Soil is in its loosest state if the ratio of its volume to that of its
+       * solids has this share of the largest one: but for round-off. */
+      constexpr double at_loosest = 1. - 1e-7;
 
       /** Entries that several laws share. */
       namespace Entries
@@ -142,8 +155,9 @@ namespace CaissonMPM
           no_limit};
         constexpr LawEntry largest_void_ratio = {
           "Largest void ratio",
-          "Soil that has dilated to this void ratio shears at constant volume "
-          "from then on. Units: none.",
+          "Dilatant soil is nowhere looser than this, unloaded: it shears at "
+          "constant volume from then on, and a gap must close before it bears. "
+          "Units: none.",
           2.,
           0.,
           no_limit};

@@ -101,8 +101,41 @@ namespace CaissonMPM
           return dilates(p);
         }
 
+        /**
+         * e_max is that of unloaded soil. Under the pressure p it is denser by
+         * the elastic strain: (1 + e) (1 + p / K) = 1 + e_max. Elastic steps
+         * lead neither to this line nor away from it, and the soil that has
+         * come to it dilates no more.
+         */
+        template <typename Number>
+        static CAISSON_INLINE Number
+        loosest_void_ratio(const StressState<Number> &sigma,
+                           const Parameters          &p)
+        {
+          return Number(1. + p.largest_void_ratio) /
+                   (Number(1.) + compression(sigma, p)) -
+                 Number(1.);
+        }
+
+        template <typename Number>
+        static CAISSON_INLINE typename Number::Mask
+        is_loosest(const StressState<Number> &sigma,
+                   const Number               volume,
+                   const Number               volume_of_solids,
+                   const Parameters          &p)
+        {
+          return is_loosest(compression(sigma, p), volume, volume_of_solids, p);
+        }
+
         static bool
         check(const double *values, const LawContext &, LawMessage &);
+
+        /** Whether the loosest state is looser than that at the start. */
+        static bool
+        check_loosest_state(const double     *values,
+                            const double      compression,
+                            const LawContext &context,
+                            LawMessage       &message);
 
         static const char *
         warning(const double *values)
@@ -152,9 +185,19 @@ namespace CaissonMPM
           if (needs_void_ratio(p))
             {
               const auto loose =
-                state.void_ratio > Number(p.largest_void_ratio);
+                is_loosest(sigma, Number(1.) + state.void_ratio, Number(1.), p);
               if (any(loose))
-                return update_loose(sigma, de, state, p, loose);
+                {
+                  update_loose(sigma, de, state, p, loose);
+                  const Number K(p.elastic.bulk);
+                  return close_gap(sigma,
+                                   loose,
+                                   compression(sigma, p),
+                                   K,
+                                   grown(state.void_ratio, de),
+                                   state,
+                                   p);
+                }
             }
           update_at_any_void_ratio(sigma, de, state, p);
         }
@@ -171,7 +214,75 @@ namespace CaissonMPM
             sigma, de, state, p.elastic, p.strength);
         }
 
-      private:
+        template <typename Number>
+        static CAISSON_INLINE Number
+        pressure(const StressState<Number> &s)
+        {
+          return Number(-1. / 3.) * (s.rr + s.zz + s.tt);
+        }
+
+        /** The elastic compression, 0 in tension. */
+        template <typename Number>
+        static CAISSON_INLINE Number
+        compression(const StressState<Number> &s, const Parameters &p)
+        {
+          return max(pressure(s) * Number(1. / p.elastic.bulk), Number(0.));
+        }
+
+        template <typename Number>
+        static CAISSON_INLINE typename Number::Mask
+        is_loosest(const Number      compression,
+                   const Number      volume,
+                   const Number      volume_of_solids,
+                   const Parameters &p)
+        {
+          return volume * (Number(1.) + compression) >
+                 Number(at_loosest * (1. + p.largest_void_ratio)) *
+                   volume_of_solids;
+        }
+
+        /** The void ratio after a strain. */
+        template <typename Number>
+        static CAISSON_INLINE Number
+        grown(const Number void_ratio, const StrainIncrement<Number> &de)
+        {
+          return (Number(1.) + void_ratio) *
+                   (Number(1.) + (de.rr + de.zz + de.tt)) -
+                 Number(1.);
+        }
+
+        /** Take the pressure in the lanes @p loose that the soil cannot have at
+         * this void ratio: all of it where there is a gap, whose closing is
+         * plastic. @p compression: the elastic one of @p sigma. */
+        template <typename Number>
+        static CAISSON_INLINE void
+        close_gap(StressState<Number>         &sigma,
+                  const typename Number::Mask &loose,
+                  const Number                 compression,
+                  const Number                 bulk_modulus,
+                  const Number                 void_ratio,
+                  LawState<Number>            &state,
+                  const Parameters            &p)
+        {
+          const Number excess = (Number(1.) + void_ratio) *
+                                  Number(1. / (1. + p.largest_void_ratio)) *
+                                  (Number(1.) + compression) -
+                                Number(1.);
+          const Number before = pressure(sigma),
+                       after =
+                         max(before - bulk_modulus * max(excess, Number(0.)),
+                             Number(0.));
+          const Number share = select(loose & (before > Number(0.)),
+                                      after / max(before, Number(1e-30)),
+                                      Number(1.));
+          state.plastic_volumetric -=
+            (Number(1.) - share) * before * Number(1. / p.elastic.bulk);
+          sigma = {share * sigma.rr,
+                   share * sigma.zz,
+                   share * sigma.tt,
+                   share * sigma.rz};
+        }
+
         /** The update where soil in the lanes @p loose dilates no more. */
         template <typename Number>
         static CAISSON_INLINE void
@@ -262,8 +373,34 @@ namespace CaissonMPM
               values[3]);
             return false;
           }
-        return check_strength(
-          values[2], values[3], values[4], context, message);
+        const double compression =
+          context.mean_stress / make(values).elastic.bulk;
+        return check_loosest_state(values, compression, context, message) &&
+               check_strength(
+                 values[2], values[3], values[4], context, message);
+      }
+
+      inline bool
+      MohrCoulomb::check_loosest_state(const double     *values,
+                                       const double      compression,
+                                       const LawContext &context,
+                                       LawMessage       &message)
+      {
+        const double unloaded =
+          (1. + context.void_ratio) * (1. + compression) - 1.;
+        if (values[3] == 0. || values[6] > unloaded)
+          return true;
+        __builtin_snprintf(
+          message.text,
+          sizeof(message.text),
+          "Largest void ratio = %g: soil with the void ratio %g below a mean "
+          "stress of %g Pa at the start would have %g, unloaded. Raise it, or "
+          "set the dilatancy angle to 0.",
+          values[6],
+          context.void_ratio,
+          context.mean_stress,
+          unloaded);
+        return false;
       }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

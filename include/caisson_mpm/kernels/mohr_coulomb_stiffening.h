@@ -71,6 +71,10 @@ namespace CaissonMPM
           MohrCoulomb::Parameters reference; // at the reference stress
           double                  exponent;
           double                  inverse_stress, smallest_stress; // 1/Pa, Pa
+
+          /** Of the elastic compression by the pressure p: that strain over p
+           * over the bulk modulus at p, 1 / (1 - m). */
+          double compression;
         };
 
         static Parameters
@@ -79,7 +83,8 @@ namespace CaissonMPM
           return {MohrCoulomb::make(values),
                   values[8],
                   1. / values[7],
-                  values[9]};
+                  values[9],
+                  1. / (1. - (values[8] < .9 ? values[8] : .9))};
         }
 
         static bool
@@ -94,12 +99,51 @@ namespace CaissonMPM
           return MohrCoulomb::needs_void_ratio(p.reference);
         }
 
+        /** That of MohrCoulomb with the integral of dp / K. */
+        template <typename Number>
+        static CAISSON_INLINE Number
+        loosest_void_ratio(const StressState<Number> &sigma,
+                           const Parameters          &p)
+        {
+          return Number(1. + p.reference.largest_void_ratio) /
+                   (Number(1.) +
+                    compression(sigma, bulk_modulus(sigma, p), p)) -
+                 Number(1.);
+        }
+
+        template <typename Number>
+        static CAISSON_INLINE typename Number::Mask
+        is_loosest(const StressState<Number> &sigma,
+                   const Number               volume,
+                   const Number               volume_of_solids,
+                   const Parameters          &p)
+        {
+          return MohrCoulomb::is_loosest(compression(sigma,
+                                                     bulk_modulus(sigma, p),
+                                                     p),
+                                         volume,
+                                         volume_of_solids,
+                                         p.reference);
+        }
+
         static bool
         check(const double     *values,
               const LawContext &context,
               LawMessage       &message)
         {
-          return MohrCoulomb::check(values, context, message);
+          const Parameters            p = make(values);
+          const StressState<Lanes<1>> s{-context.mean_stress,
+                                        -context.mean_stress,
+                                        -context.mean_stress,
+                                        0.};
+          const LawContext unstressed = {context.earth_pressure_at_rest,
+                                         context.void_ratio};
+          return MohrCoulomb::check(values, unstressed, message) &&
+                 MohrCoulomb::check_loosest_state(
+                   values,
+                   compression(s, bulk_modulus(s, p), p)[0],
+                   context,
+                   message);
         }
 
         static const char *
@@ -130,6 +174,24 @@ namespace CaissonMPM
           return pow(Number(p.inverse_stress) * pressure, p.exponent);
         }
 
+        template <typename Number>
+        static CAISSON_INLINE Number
+        bulk_modulus(const StressState<Number> &s, const Parameters &p)
+        {
+          return Number(p.reference.elastic.bulk) * stiffening(s, p);
+        }
+
+        /** The elastic compression by a stress that has this bulk modulus. */
+        template <typename Number>
+        static CAISSON_INLINE Number
+        compression(const StressState<Number> &s,
+                    const Number               bulk_modulus,
+                    const Parameters          &p)
+        {
+          return Number(p.compression) *
+                 max(MohrCoulomb::pressure(s), Number(0.)) / bulk_modulus;
+        }
+
         static double
         p_wave_modulus(const StressState<Lanes<1>> &stress,
                        const double                 void_ratio,
@@ -149,18 +211,51 @@ namespace CaissonMPM
           const Number factor     = stiffening(sigma, p);
           const Number deviatoric = state.plastic_deviatoric,
                        volumetric = state.plastic_volumetric;
-          MohrCoulomb::update(sigma,
-                              StrainIncrement<Number>{factor * de.rr,
-                                                      factor * de.zz,
-                                                      factor * de.tt,
-                                                      factor * de.rz},
-                              state,
-                              p.reference);
+          const StrainIncrement<Number> stiffer{factor * de.rr,
+                                                factor * de.zz,
+                                                factor * de.tt,
+                                                factor * de.rz};
+          if (needs_void_ratio(p))
+            update_dilatant(sigma, stiffer, de, state, p);
+          else
+            MohrCoulomb::update_at_any_void_ratio(sigma,
+                                                  stiffer,
+                                                  state,
+                                                  p.reference);
           const Number inverse = Number(1.) / factor;
           state.plastic_deviatoric =
             deviatoric + inverse * (state.plastic_deviatoric - deviatoric);
           state.plastic_volumetric =
             volumetric + inverse * (state.plastic_volumetric - volumetric);
+        }
+
+      private:
+        /** The update with the strain increment @p de, which is @p stiffer
+         * where it multiplies the elasticity at the reference stress. */
+        template <typename Number>
+        static CAISSON_INLINE void
+        update_dilatant(StressState<Number>           &sigma,
+                        const StrainIncrement<Number> &stiffer,
+                        const StrainIncrement<Number> &de,
+                        LawState<Number>              &state,
+                        const Parameters              &p)
+        {
+          const auto loose =
+            is_loosest(sigma, Number(1.) + state.void_ratio, Number(1.), p);
+          if (!any(loose))
+            return MohrCoulomb::update_at_any_void_ratio(sigma,
+                                                         stiffer,
+                                                         state,
+                                                         p.reference);
+          MohrCoulomb::update_loose(sigma, stiffer, state, p.reference, loose);
+          const Number K = bulk_modulus(sigma, p);
+          MohrCoulomb::close_gap(sigma,
+                                 loose,
+                                 compression(sigma, K, p),
+                                 K,
+                                 MohrCoulomb::grown(state.void_ratio, de),
+                                 state,
+                                 p.reference);
         }
       };
 

@@ -111,11 +111,13 @@ namespace CaissonMPM
         CellMap<>     map, moved;
         CellField<>   advection, transfer, strain, volume;
         double        axisymmetric;
-        double        mean_divergence; // used where B-bar is on
-        double        bubble[2];       // a, b of find_bubbles()
-        double        speed_limit;     // 0: none
-        const double *fit;             // of the stress filter; null: no filter
-        double        filtered_share;  // of the misfit, with a fit
+        double        mean_divergence;  // used where B-bar is on
+        double        loose_divergence; // the same, kernels/loosest_state.h
+        bool          has_loose_points;
+        double        bubble[2];      // a, b of find_bubbles()
+        double        speed_limit;    // 0: none
+        const double *fit;            // of the stress filter; null: no filter
+        double        filtered_share; // of the misfit, with a fit
         double        inverse_mean_height;
       };
 
@@ -127,6 +129,22 @@ namespace CaissonMPM
         Number                  volume_change; // of the volume, relative
         Number                  spin;          // in the plane, times dt
       };
+
+      /** Give a strain another volume change. In plane strain the hoop
+       * direction stays unstrained. */
+      template <typename Number>
+      CAISSON_INLINE void
+      take_volume_change(const Number          change,
+                         const CellUpdate     &cell,
+                         StepOfStrain<Number> &step)
+      {
+        const Number third =
+          (change - step.volume_change) * Number(1. / (2. + cell.axisymmetric));
+        step.strain.rr += third;
+        step.strain.zz += third;
+        step.strain.tt += third * Number(cell.axisymmetric);
+        step.volume_change = change;
+      }
 
       /** The strain of points at @p p with the radius @p r. */
       template <typename Number>
@@ -150,17 +168,11 @@ namespace CaissonMPM
         step.volume_change = dt * L.trace();
         // B-bar: the points of a cell take its mean volume change, so that a
         // cell has one condition of incompressibility instead of four and does
-        // not lock. In plane strain the hoop direction stays unstrained.
+        // not lock.
         if (settings.mean_volume_change)
-          {
-            const Number mean(settings.time_step * cell.mean_divergence);
-            const Number third = (mean - step.volume_change) *
-                                 Number(1. / (2. + cell.axisymmetric));
-            step.strain.rr += third;
-            step.strain.zz += third;
-            step.strain.tt += third * Number(cell.axisymmetric);
-            step.volume_change = mean;
-          }
+          take_volume_change(Number(settings.time_step * cell.mean_divergence),
+                             cell,
+                             step);
         step.spin = dt * Number(.5) * (L.rz - L.zr);
         return step;
       }
@@ -259,20 +271,18 @@ namespace CaissonMPM
         const typename Law::Parameters &parameters;
       };
 
-      /** Whether the law reads the void ratio with these parameters. */
-      template <typename Law>
-      CAISSON_INLINE auto
-      needs_void_ratio(const typename Law::Parameters &p, int)
-        -> decltype(Law::needs_void_ratio(p))
+      /** Grains keep their volume: (1 + e) / (1 + e_0) = V / V_0. Empty lanes
+       * have no number. */
+      template <typename Number>
+      CAISSON_INLINE Number
+      void_ratio_of(const Number        volume,
+                    const PointHistory &history,
+                    const int           lane,
+                    const double        initial_void_ratio)
       {
-        return Law::needs_void_ratio(p);
-      }
-
-      template <typename Law>
-      CAISSON_INLINE bool
-      needs_void_ratio(const typename Law::Parameters &, long)
-      {
-        return Law::uses_void_ratio;
+        return Number(1. + initial_void_ratio) *
+                 (volume / Number::load(history.initial_volume + lane)) -
+               Number(1.);
       }
 
       /** What the law knows of the points besides stress and strain. */
@@ -288,12 +298,9 @@ namespace CaissonMPM
         LawState<Number> state;
         state.plastic_deviatoric = Number::load(b.plastic_deviatoric + lane);
         state.plastic_volumetric = Number::load(b.plastic_volumetric + lane);
-        // grains keep their volume: (1 + e) / (1 + e_0) = V / V_0
         if (uses_void_ratio)
           state.void_ratio =
-            Number(1. + initial_void_ratio) *
-              (volume / Number::load(history.initial_volume + lane)) -
-            Number(1.);
+            void_ratio_of(volume, history, lane, initial_void_ratio);
         for (int i = 0; i < Law::n_state; ++i)
           state.variable[i] = Number::load(history.state[i] + lane);
         return state;

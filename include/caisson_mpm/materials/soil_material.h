@@ -48,9 +48,10 @@ namespace CaissonMPM
     std::string
     section() const;
 
-    /** Throws BadInput where the numbers contradict each other. */
+    /** Throws BadInput where the numbers contradict each other, or the largest
+     * mean stress at the start. Units: Pa. */
     void
-    check() const;
+    check(const double mean_stress = 0.) const;
 
     /** Mass of solids per volume of soil. Units: kg/m3. */
     double
@@ -78,6 +79,15 @@ namespace CaissonMPM
     /** Return the value of an entry if the law has it. */
     std::optional<double>
     law_value(const std::string &entry) const;
+
+    /** Return the cohesion after some plastic shear, see LawState; 0 where the
+     * law has none. Units: Pa. */
+    double
+    cohesion_after(const double plastic_deviatoric) const;
+
+    /** Return the tension that the soil bears with a cohesion. Units: Pa. */
+    double
+    tension_of(const double cohesion) const;
 
     /** The ratio of horizontal to vertical stress of the law itself. */
     double
@@ -110,6 +120,13 @@ namespace CaissonMPM
   p_wave_modulus(const Kernels::Material &material,
                  const Stress            &stress,
                  const double             void_ratio);
+
+  /** The void ratio of the soil itself, if that of a point may include a gap.
+   */
+  double
+  void_ratio_of_soil(const Kernels::Material &material,
+                     const Stress            &stress,
+                     const double             void_ratio);
 } // namespace CaissonMPM
 
 #endif

@@ -12,6 +12,7 @@
 #include <caisson_mpm/materials/soil.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/water/plug_balance.h>
+#include <caisson_mpm/water/plug_strength.h>
 #include <caisson_mpm/water/pressure_projection.h>
 #include <caisson_mpm/water/seepage.h>
 #include <caisson_mpm/water/suction.h>
@@ -364,15 +365,12 @@ namespace CaissonMPM
     find_flow();
     void
     find_exit_gradient();
-    /** Whether the flow out of the plug nearly carries soil without cohesion.
-     */
+    /** Whether the flow out of the plug nearly lifts its soil. */
     bool
     carries_soil() const;
     /** Append warnings of the plug. @p where: at which penetration. */
     void
     warn_of_plug(const std::string &where, std::vector<std::string> &warnings);
-    double
-    critical_gradient() const;
     SuctionLoad
     load_of_suction(const double force_on_body) const;
     /** The smallest and the largest pressure, 0 among them. Collective. */
@@ -420,6 +418,7 @@ namespace CaissonMPM
     PressureProjection               projection;
     Mudline                          mudline;
     PlugBalance                      plug_balance;
+    PlugStrength                     plug_strength;
     std::vector<Conductance>         permeability;        // [n_cells], m/s
     std::vector<WaterProperties>     properties;          // [n_cells]
     std::vector<double>              pressure_;           // [n_nodes]
@@ -428,14 +427,16 @@ namespace CaissonMPM
     std::vector<unsigned int>        cells_at_tip;        // of this rank
     // the integral over the tip of phi (m2) in seepage, else of the pressure
     // (N)
-    double        tip_integral     = 0.;
-    double        tip_area         = 0.; // looking down, m2
-    double        touched_lid      = 0.; // share of its area
-    double        travel_at_solve  = 0.;
-    bool          is_solved        = false; // since the last initialize()
-    unsigned int  steps_since_look = 0;
-    ExitGradient  exit;
-    BoilingMargin boiling_margin; // of the last record
+    double       tip_integral     = 0.;
+    double       tip_area         = 0.; // looking down, m2
+    double       touched_lid      = 0.; // share of its area
+    double       travel_at_solve  = 0.;
+    bool         is_solved        = false; // since the last initialize()
+    unsigned int steps_since_look = 0;
+    ExitGradient exit;
+    // of the last record
+    WithstoodGradients withstood;
+    BoilingMargin      boiling_margin; // of the last record
     // of plug, open and unknown nodes, see outflow()
     double flow_out = 0., flow_in = 0., flow_remaining = 0.;
     // of the equations at unknown nodes, and the flow, all steps; m3

@@ -4,7 +4,9 @@
 A word in backticks that looks like a path of the source tree must exist. One
 that begins with the name of a section, such as `Grid/Top`, must be an entry.
 One that looks like the name of a class or a function must occur in the sources.
-A line outside tables and code may have at most 100 characters.
+"`Grid/Top` is 8 by default" must be true, and the glossary, which readers take
+numbers from, states a default in this form only. A line outside tables and code may
+have at most 100 characters.
 """
 import argparse
 import re
@@ -22,6 +24,8 @@ GENERATED_OR_PAST = {"parameters.md", "CHANGELOG.md"}
 SUFFIXES = {".h", ".cc", ".py", ".prm", ".toml", ".txt", ""}
 # Code, formulas, and the part of the benchmarks that scripts/speed writes.
 NOT_WRAPPED = r"```.*?```|\$\$.*?\$\$|<!-- speed: begin.*speed: end -->"
+STATED_DEFAULT = re.compile(r"`([^`/]+/[^`]+)`\s+is\s+`?([^`\s]+)`?\s+by\s+default")
+GLOSSARY = "glossary.md"
 BRITISH = re.compile(
     r"\b(metres?|neighbours?\w*|centres?|centred|colour\w*|behaviour|modell(?:ed|ing)"
     r"|licence|regularis\w*|normalis\w*|localis\w*|grey|fulfil|programme)\b",
@@ -36,6 +40,32 @@ def entries_of(section: Section, path: str = "") -> set[str]:
         found.add(path + inner.name)
         found |= entries_of(inner, f"{path}{inner.name}/")
     return found
+
+
+def defaults_of(section: Section, path: str = "") -> dict[str, str]:
+    """The defaults of all entries in a section by their paths."""
+    found = {path + entry.name: entry.default for entry in section.entries}
+    for inner in section.sections:
+        found |= defaults_of(inner, f"{path}{inner.name}/")
+    return found
+
+
+def wrong_defaults(page: Path, defaults: dict[str, str]) -> list[str]:
+    """What a page says wrongly, or without the entry, of defaults."""
+    text = page.read_text()
+    faults = [
+        f"{entry} is {defaults.get(entry, 'no entry')} by default, not {value}"
+        for entry, value in STATED_DEFAULT.findall(text)
+        if defaults.get(entry) != value
+    ]
+    if page.name == GLOSSARY:
+        rest = STATED_DEFAULT.sub("", text)
+        faults += [
+            f"a default or a share without its entry: {line.strip()}"
+            for line in rest.splitlines()
+            if re.search(r"\bdefault|\d %", line)
+        ]
+    return faults
 
 
 def exists(name: str) -> bool:
@@ -112,14 +142,15 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 def main(options: argparse.Namespace) -> int:
     """Print what is wrong in all pages; return 1 where something is."""
-    entries = entries_of(parsed(options.printed.read_text()))
+    root = parsed(options.printed.read_text())
+    entries, defaults = entries_of(root), defaults_of(root)
     names = words_of_sources()
     pages = [*sorted(ROOT.glob("*.md")), *sorted(ROOT.glob("doc/**/*.md"))]
     faults = [
         f"{page.relative_to(ROOT)}: {fault}"
         for page in pages
         if page.name not in GENERATED_OR_PAST
-        for fault in faults_of(page, entries, names)
+        for fault in faults_of(page, entries, names) + wrong_defaults(page, defaults)
     ]
     print("\n".join(faults), end="\n" if faults else "")
     return 1 if faults else 0
