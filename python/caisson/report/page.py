@@ -9,15 +9,9 @@ from typing import Any
 import jinja2
 
 from caisson import plot
-<<<<<<< HEAD
-from caisson.paths import INSTALL_PICTURES
-from caisson.report import content, methods
-from caisson.results import Results, ResultsError
-=======
 from caisson.needed import JAVASCRIPT, SCRIPTS
-from caisson.report import content
+from caisson.report import content, methods
 from caisson.results import Results
->>>>>>> tools
 
 HERE = Path(__file__).parent
 REFRESH = 30  # s, of the page of a run that goes on
