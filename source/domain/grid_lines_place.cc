@@ -341,11 +341,11 @@ namespace CaissonMPM
   }
 
   std::string
-  GridLines::known_limit() const
+  GridLines::known_limit(const BodyShape &body) const
   {
     constexpr double   tolerance = .01; // of the size
     const unsigned int n         = body_column_end - body_column_begin;
-    if (!fine_size || n == 0 || expanding_radius > 0.)
+    if (!fine_size || n == 0 || body.expands() || body.inset_of_sides() > 0.)
       return "";
     const double width  = columns[body_column_end] - columns[body_column_begin],
                  actual = refinement * width / n;

@@ -57,7 +57,8 @@ namespace CaissonMPM
   SceneReview::all()
   {
     thin_layers();
-    if (const std::string limit = scene.lines.known_limit(); !limit.empty())
+    const std::string limit = scene.lines.known_limit(scene.body.shape());
+    if (!limit.empty())
       origins.add_warning(limit);
     gravity();
     if (scene.body.shape().exists() && !is_block())

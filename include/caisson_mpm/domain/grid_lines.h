@@ -234,9 +234,9 @@ namespace CaissonMPM
     }
 
     /** Return a warning if the body has smaller cells than Fine cell size, or
-     * an empty text. */
+     * an empty text; edges that are inset by half a cell leave half a cell. */
     std::string
-    known_limit() const;
+    known_limit(const BodyShape &body) const;
 
     /** Return a line for the header of the terminal output. */
     std::string
