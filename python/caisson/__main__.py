@@ -69,6 +69,10 @@ SOURCE_COMMANDS = {
     ),
     "draw-zones": ("caisson.docs.zones", "draw doc/pictures/zones.svg"),
     "draw-blocks": ("caisson.plot.blocks", "draw doc/pictures/blocks.png"),
+    "scene-results": (
+        "caisson.scene_results",
+        "run the scenes of the README, and compare them with the manual",
+    ),
     "bare-debian": (
         "caisson.developer.bare_debian",
         "try the commands of the README on a bare Debian",
