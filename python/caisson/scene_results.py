@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs the scenes of the README and compares them with what the manual says of them.
 
-doc/scene_results.csv has the key numbers of each scene: the whole run, and a short way
-of it. Its rows say with which commit, processor and number of ranks they were made, and
-how long that took. A number that differs by more than 3 % is a failure. --write takes
-new numbers into the file, and into the table of doc/results.md.
+doc/scene_results.csv has the key numbers of each scene: of the whole run, and of a short
+way. Its rows say with which commit and on which processor they were made, and how much
+time of one core that took. Runs that are complete are not repeated. A number that
+differs by more than 3 % is a failure. --write takes new numbers into the file, and into
+the table of doc/results.md.
 """
 import argparse
 import csv
 import re
-import time
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
 import numpy as np
 
-from caisson import curves, machine, ranks, table
+from caisson import curves, machine, table
 from caisson.paths import PROGRAM, RESULTS, ROOT, SCENES
 from caisson.results import Results, Table
 from caisson.run import Entries, Run, Status
@@ -48,8 +48,7 @@ class Number:
     value: float
     commit: str = ""
     processor: str = ""
-    ranks: int = 1
-    wall_s: float = 0.0
+    processor_s: float = 0.0
 
     @property
     def key(self) -> tuple[str, str, str, float]:
@@ -136,11 +135,10 @@ def numbers_of(
     run = run_of(scene, way, results, program)
     if run is None:
         return []
-    n_ranks, _ = ranks.choose(run.validate().points) if way == WHOLE else (1, "")
-    begin = time.monotonic()
-    status = run.execute(ranks=n_ranks)
-    wall = time.monotonic() - begin
-    if status is not Status.SUCCESS:
+    if not run.is_complete():
+        run.execute()
+    mark = run.mark()
+    if mark is None or mark["status"] != Status.SUCCESS:
         raise RuntimeError(f"{run.directory / 'log'} says why {scene} failed")
     results_of_run = Results(run.directory)
     if "total_force_N" in results_of_run.history and (
@@ -162,8 +160,7 @@ def numbers_of(
             value,
             commit,
             machine.processor(),
-            n_ranks,
-            wall,
+            mark["cpu_s"],
         )
         for (quantity, depth), value in found.items()
     ]
@@ -183,8 +180,7 @@ def read(path: Path = FILE) -> list[Number]:
                 float(row["value"]),
                 row["commit"],
                 row["processor"],
-                int(row["ranks"]),
-                float(row["wall_s"]),
+                float(row["processor_s"]),
             )
             for row in csv.DictReader(file)
         ]
@@ -195,7 +191,8 @@ def write(numbers: list[Number], path: Path = FILE) -> None:
     rows = []
     for number in numbers:
         row = asdict(number)
-        row["value"], row["wall_s"] = f"{number.value:.5g}", f"{number.wall_s:.1f}"
+        row["value"] = f"{number.value:.5g}"
+        row["processor_s"] = f"{number.processor_s:.1f}"
         row["penetration_m"] = f"{number.penetration_m:.5g}"
         rows.append(list(row.values()))
     table.write_csv(path, [field.name for field in fields(Number)], rows)
@@ -238,9 +235,9 @@ def page(numbers: list[Number]) -> str:
     for (scene, quantity), values in rows.items():
         name = QUANTITIES.get(quantity, quantity.replace("_N", "").replace("_", " "))
         n = made[scene]
-        how = f"{n.wall_s:.0f} s on {n.ranks}"
-        lines.append([f"`prm/{scene}.prm`", name, "; ".join(values), how, n.commit])
-    columns = ["scene", "quantity (kN, kPa)", "value", "time and ranks", "commit"]
+        took = f"{n.processor_s / 60:.1f} min"
+        lines.append([f"`prm/{scene}.prm`", name, "; ".join(values), took, n.commit])
+    columns = ["scene", "quantity (kN, kPa)", "value", "one core", "commit"]
     processors = ", ".join(sorted({number.processor for number in whole}))
     return f"{table.markdown(columns, lines)}\n\nProcessor: {processors}.\n"
 
@@ -292,7 +289,7 @@ def main(options: argparse.Namespace) -> int:
             continue
         old = read()
         complaints += [] if options.write else differences(new, old)
-        took = f"{new[0].wall_s:.0f} s on {new[0].ranks} ranks" if new else "left out"
+        took = f"{new[0].processor_s:.0f} s" if new else "left out"
         print(f"{scene}: {took}", flush=True)
         if options.write:
             write(merged(old, new))
