@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs the scenes of the README and compares them with what the manual says of them.
 
-doc/scene_results.csv has the key numbers of each scene: of the whole run, and of a short
-way. Its rows say with which commit and on which processor they were made, and how much
-time of one core that took. Runs that are complete are not repeated. A number that
+doc/scene_results.csv has the key numbers of each scene: of the whole run, and of a
+short way. Its rows say with which commit and on which processor they were made, and how
+much time of one core that took. Runs that are complete are not repeated. A number that
 differs by more than 3 % is a failure. --write takes new numbers into the file, and into
 the table of doc/results.md.
 """
