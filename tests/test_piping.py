@@ -56,6 +56,11 @@ class Piping(ProgramTest):
         self.assert_words(["exit gradient", "90 % of the critical one"], text)
         self.assertGreater(last["exit_gradient_wall"], last["critical_gradient"])
 
+    def test_elastic_soil(self) -> None:
+        """A law without strength holds nothing but its weight."""
+        text, _ = self.raised(3e4, {f"{LAYER}/Law": "linear elastic"})
+        self.assert_words(["exit gradient exceeds"], text)
+
     def test_cohesion(self) -> None:
         """A little cohesion holds a little: 4 c / (gamma_w w) with the width w / 2 of
         the block that is lifted. Clay of 10 kPa holds what no suction reaches."""

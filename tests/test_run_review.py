@@ -85,6 +85,41 @@ class RunReview(ProgramTest):
         text = self.words_of_run({**SMALL, **soft, "Time/Mass scaling": 100})
         self.assertNotIn(FALL, text)
 
+    def test_fall_for_a_reason(self) -> None:
+        """A body that slows down, is pulled up and pushed again, or is sucked in
+        has less at its tip."""
+        velocity = "Rigid body/Velocity table"
+        suction: Entries = {
+            "Soil/Layer 1/Permeability": 1e-4,
+            "Water/Level": "seepage",
+            "Water/Suction control": "table",
+            "Water/Suction table": "0:0,5:0,6:12000",
+            "Rigid body/Submerged weight": 1e5,
+        }
+        cases: tuple[Entries, ...] = (
+            {velocity: "0:0.1,5:0.1,5.01:0.02"},
+            {velocity: "0:0.1,6:0.1,6.1:-0.1,8:-0.1,8.1:0.1"},
+            suction,
+        )
+        for entries in cases:
+            with self.subTest(entries=entries):
+                text = self.words_of_run({**SMALL, "Time/Mass scaling": 100, **entries})
+                self.assertNotIn(FALL, text)
+
+    def test_volume_of_points(self) -> None:
+        """Without a mean volume change, stiff volume is warned of."""
+        for nu, told in ((0.3, False), (0.45, True)):
+            text = self.run_program(
+                SUCCESS,
+                user_scene("jack_coarse"),
+                "--validate",
+                entries={
+                    "Soil/Layer 1/Poisson ratio": nu,
+                    "Method/Mean volume change": False,
+                },
+            )
+            self.assertEqual("Set Mean volume change = true" in text, told, nu)
+
     def test_lost_work(self) -> None:
         """A viscous transfer takes more than a tenth of the work."""
         text = self.words_of_run(

@@ -123,7 +123,10 @@ def run_on_ranks(words: list[str], stop_file: Path | None) -> int:
 
 def main(options: argparse.Namespace) -> int:
     """Run the program, then draw what it wrote; return its status."""
-    if options.ranks is not None and options.ranks < 1 or not options.arguments:
+    if options.ranks is not None and options.ranks < 1:
+        print("run: --ranks must be 1 or more", file=sys.stderr)
+        return 1
+    if not options.arguments:
         scenes = SCENES if INSTALLED else f"{short(SCENES)}/"
         print(
             f"run: give a parameter file; the scenes are in {scenes}", file=sys.stderr

@@ -80,6 +80,8 @@ namespace CaissonMPM
   double
   SoilMaterial::tension_of(const double cohesion) const
   {
+    if (cohesion <= 0.)
+      return 0.;
     // at most that of the apex of the cone, c cot phi
     const double slope =
       std::tan(friction_angle().value_or(0.) * Kernels::radians_per_degree);

@@ -25,13 +25,24 @@ namespace CaissonMPM
     // More work than this is lost only where the results suffer.
     constexpr double largest_lost_share = .1;
 
-    std::vector<double>
+    /** Return a column, zeros where there is none. [n_records] */
+    Series
     column(const Records &records, const std::string &name)
     {
-      const auto names = records.names();
-      if (std::find(names.begin(), names.end(), name) == names.end())
-        return {};
-      return records.series(name, 0., std::numeric_limits<double>::max()).value;
+      constexpr double end   = std::numeric_limits<double>::max();
+      const auto       names = records.names();
+      if (std::find(names.begin(), names.end(), name) != names.end())
+        return records.series(name, 0., end);
+      Series none = records.series("penetration_m", 0., end);
+      std::fill(none.value.begin(), none.value.end(), 0.);
+      return none;
+    }
+
+    bool
+    have_same_speed(const RunReview::Stretch &a, const RunReview::Stretch &b)
+    {
+      constexpr double tolerance = .1;
+      return std::abs(a.speed - b.speed) <= tolerance * a.speed;
     }
 
     double
@@ -52,6 +63,8 @@ namespace CaissonMPM
         sum.tip += s.tip;
         sum.water_on_tip += s.water_on_tip;
         sum.pore_pressure += s.pore_pressure;
+        sum.suction += s.suction;
+        sum.speed += s.speed;
         ++n;
       }
 
@@ -61,7 +74,9 @@ namespace CaissonMPM
         return {sum.penetration / n,
                 sum.tip / n,
                 sum.water_on_tip / n,
-                sum.pore_pressure / n};
+                sum.pore_pressure / n,
+                sum.suction / n,
+                sum.speed / n};
       }
 
     private:
@@ -69,23 +84,28 @@ namespace CaissonMPM
       double             n = 0.;
     };
 
-    /** Return the way down in stretches of this length, or of the distance of
-     * the records, if that is larger. */
+    /** Return the way down, until the body is first pulled up, in stretches of
+     * this length, or of the distance of the records, if that is larger. */
     std::vector<RunReview::Stretch>
     find_way(const Records &records, const double length)
     {
-      const auto penetration = column(records, "penetration_m"),
-                 tip         = column(records, "tip_force_N"),
-                 water       = column(records, "tip_water_force_N"),
-                 pressure    = column(records, "pore_pressure_largest_Pa");
+      const Series penetration = column(records, "penetration_m"),
+                   tip         = column(records, "tip_force_N"),
+                   water       = column(records, "tip_water_force_N"),
+                   pressure    = column(records, "pore_pressure_largest_Pa"),
+                   suction     = column(records, "suction_Pa");
       std::vector<RunReview::Stretch> way;
       Mean                            mean;
       double                          deepest = 0., begin = 0.;
       // A record holds the mean since the one before.
-      for (std::size_t i = 1; i < penetration.size(); ++i)
+      for (std::size_t i = 1; i < penetration.value.size(); ++i)
         {
-          const double middle = .5 * (penetration[i - 1] + penetration[i]);
-          if (penetration[i] <= penetration[i - 1] || middle <= deepest)
+          const double moved  = penetration.value[i] - penetration.value[i - 1],
+                       passed = penetration.time[i] - penetration.time[i - 1],
+                       middle = penetration.value[i] - .5 * moved;
+          if (moved < 0.)
+            break;
+          if (moved == 0. || passed <= 0.)
             continue;
           if (deepest == 0.)
             begin = middle;
@@ -97,9 +117,11 @@ namespace CaissonMPM
             }
           deepest = middle;
           mean.add({middle,
-                    tip[i],
-                    water.empty() ? 0. : water[i],
-                    pressure.empty() ? 0. : pressure[i]});
+                    tip.value[i],
+                    water.value[i],
+                    pressure.value[i],
+                    suction.value[i],
+                    moved / passed});
         }
       if (deepest > 0.)
         way.push_back(mean.value());
@@ -151,7 +173,7 @@ namespace CaissonMPM
                 after->penetration - (1. + 1e-6) * short_way * width)
               break;
             const double share = change(*before, *after);
-            if (share > result.share)
+            if (share > result.share && have_same_speed(*before, *after))
               result = {share, after->penetration};
           }
     return result;
@@ -162,7 +184,9 @@ namespace CaissonMPM
   {
     const Change fall =
       largest([](const Stretch &before, const Stretch &after) {
-        return before.tip > 0. ? 1. - after.tip / before.tip : 0.;
+        // suction unloads the tip
+        const bool pumps = before.suction > 0. || after.suction > 0.;
+        return before.tip > 0. && !pumps ? 1. - after.tip / before.tip : 0.;
       });
     if (fall.share <= largest_fall)
       return {};

@@ -119,6 +119,14 @@ namespace CaissonMPM
                 "Pa",
                 "is not the stiffness of a soil. Check the unit, Pa: 1 MPa is "
                 "1e6 Pa.");
+    constexpr double stiff_volume = .4;
+    if (const auto nu = soil.law_value("Poisson ratio"))
+      if (*nu > stiff_volume && !scene.method.uses_mean_volume())
+        doubt(soil.section() + "/Poisson ratio",
+              *nu,
+              "",
+              "with Method/Mean volume change = false locks, or loses strength "
+              "to vibrations of the volume. Set Mean volume change = true.");
     for (const std::string name : {"Cohesion", "Residual cohesion"})
       if (const auto value = soil.law_value(name))
         if (*value > largest_strength)

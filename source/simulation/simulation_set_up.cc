@@ -391,6 +391,7 @@ namespace CaissonMPM
     for (unsigned int i = 0; i < soil.n_materials(); ++i)
       slowest_wave = std::min(slowest_wave, wave_speed(i));
     SceneReview({lines,
+                 nodal_motion.settings(),
                  generator,
                  soil,
                  body,

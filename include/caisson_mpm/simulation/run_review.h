@@ -36,6 +36,8 @@ namespace CaissonMPM
       double tip           = 0.; // N
       double water_on_tip  = 0.; // N
       double pore_pressure = 0.; // largest in the soil, Pa
+      double suction       = 0.; // beneath the lid, Pa
+      double speed         = 0.; // m/s
     };
 
   private:
@@ -65,7 +67,7 @@ namespace CaissonMPM
 
     const RecordedParts  parts;
     const double         width; // of the tip, m
-    std::vector<Stretch> way;   // of the way down, in its order
+    std::vector<Stretch> way;   // down, until the body is first pulled up
   };
 } // namespace CaissonMPM
 

@@ -9,6 +9,7 @@
 #include <caisson_mpm/domain/grid_lines.h>
 #include <caisson_mpm/domain/point_generator.h>
 #include <caisson_mpm/materials/soil.h>
+#include <caisson_mpm/operators/method_settings.h>
 #include <caisson_mpm/simulation/run_cost.h>
 #include <caisson_mpm/simulation/schedule.h>
 #include <caisson_mpm/water/ground_water.h>
@@ -21,6 +22,7 @@ namespace CaissonMPM
   struct ReviewedScene
   {
     const GridLines      &lines;
+    const MethodSettings &method;
     const PointGenerator &generator;
     const Soil           &soil;
     const RigidBody      &body;
