@@ -18,7 +18,7 @@ import numpy as np
 from caisson import curves, machine, table
 from caisson.paths import PROGRAM, RESULTS, ROOT, SCENES
 from caisson.results import Results, Table
-from caisson.run import Entries, Run, Status
+from caisson.run import Entries, Run, RunError, Status
 
 FILE = ROOT / "doc/scene_results.csv"
 PAGE = ROOT / "doc/results.md"
@@ -284,7 +284,7 @@ def main(options: argparse.Namespace) -> int:
             continue
         try:
             new = numbers_of(scene, way, options.results, options.program, commit)
-        except RuntimeError as error:
+        except (RuntimeError, RunError) as error:
             complaints.append(str(error))
             continue
         old = read()
