@@ -6,6 +6,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace CaissonMPM
 {
@@ -129,5 +130,11 @@ namespace CaissonMPM
           result.value.push_back(row[column]);
         }
     return result;
+  }
+
+  Series
+  Records::series(const std::string &name) const
+  {
+    return series(name, 0., std::numeric_limits<double>::max());
   }
 } // namespace CaissonMPM

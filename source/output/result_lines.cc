@@ -5,19 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace CaissonMPM
 {
   namespace
   {
-    std::vector<double>
-    column(const Records &records, const std::string &name)
-    {
-      return records.series(name, 0., std::numeric_limits<double>::max()).value;
-    }
-
     /** Return the spacing of the depths, so that there are at most ten. */
     double
     spacing_for(const double range)
@@ -38,7 +31,7 @@ namespace CaissonMPM
 
       explicit Curves(const Records &records)
       {
-        const auto at = column(records, "penetration_m");
+        const auto at = records.series("penetration_m").value;
         for (std::size_t i = 1; i < at.size(); ++i)
           depth.push_back(.5 * (at[i - 1] + at[i]));
         const char *const names[] = {"tip_force_N",
@@ -47,7 +40,7 @@ namespace CaissonMPM
                                      "total_force_N"};
         for (unsigned int k = 0; k < force.size(); ++k)
           {
-            const auto values = column(records, names[k]);
+            const auto values = records.series(names[k]).value;
             force[k].assign(values.begin() + 1, values.end());
           }
         if (depth.empty())

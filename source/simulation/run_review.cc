@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace CaissonMPM
 {
@@ -29,11 +28,10 @@ namespace CaissonMPM
     Series
     column(const Records &records, const std::string &name)
     {
-      constexpr double end   = std::numeric_limits<double>::max();
-      const auto       names = records.names();
+      const auto names = records.names();
       if (std::find(names.begin(), names.end(), name) != names.end())
-        return records.series(name, 0., end);
-      Series none = records.series("penetration_m", 0., end);
+        return records.series(name);
+      Series none = records.series("penetration_m");
       std::fill(none.value.begin(), none.value.end(), 0.);
       return none;
     }

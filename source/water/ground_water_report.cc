@@ -290,8 +290,8 @@ namespace CaissonMPM
           to_text(withstood.strength, 3) + ",";
     if (is_first(has_warned_of_piping, carries_soil()))
       warnings.push_back(
-        "the exit gradient exceeds " + to_text(100. * near_critical) +
-        " % of " + bound + where +
+        "the exit gradient exceeds " + percent(near_critical, 2) + " of " +
+        bound + where +
         ": the flow carries nearly all of the soil. Piping may begin, which "
         "the program does not follow");
     if (is_first(has_warned_of_lift,
@@ -408,7 +408,7 @@ namespace CaissonMPM
       return "the caisson has left the soil, and water flows in below its skirt";
     if (touched_lid >= full_lid)
       return "the plug fills the caisson: soil bears on " +
-             to_text(100. * full_lid) + " % of the lid (refusal)";
+             percent(full_lid, 2) + " of the lid (refusal)";
     if (is_solved &&
         mudline.mean_height(Mudline::Side::plug) >= height_of_lid())
       return "the plug fills the caisson: it has reached the lid, or the top of "

@@ -302,11 +302,10 @@ namespace CaissonMPM
                           const unsigned int cell,
                           CellUpdate        &update)
       {
-        update.volume            = update.strain;
-        const PointsView &points = step.points;
-        const int material = points.headers[points.first_block[cell]].material;
-        const double share =
-          step.moments[cell].full * step.materials[material].volume_damping;
+        const CellMoments &moments = step.moments[cell];
+        const double       share =
+          moments.full * step.materials[moments.material].volume_damping;
+        update.volume = update.strain;
         if (share > 0.)
           update.volume.approach(update.advection, share);
       }

@@ -215,8 +215,7 @@ namespace CaissonMPM
         static CAISSON_INLINE Number
         shifted_pressure(const StressState<Number> &sigma, const Parameters &p)
         {
-          return p.shift +
-                 max((-1. / 3.) * (sigma.rr + sigma.zz + sigma.tt), Number(0.));
+          return p.shift + max(Kernels::pressure(sigma), Number(0.));
         }
 
         /** Where soil may be in its loosest state, which is not below @p dense up
@@ -306,7 +305,7 @@ namespace CaissonMPM
                            const Number         void_ratio,
                            const Parameters    &p)
         {
-          const Number pressure = (-1. / 3.) * (T.rr + T.zz + T.tt);
+          const Number pressure = Kernels::pressure(T);
           if (!any(may_be_loosest(pressure, void_ratio, Number(p.dense), p)))
             return;
           const Number largest =

@@ -79,19 +79,6 @@ namespace CaissonMPM
         return sum(volume);
       }
 
-      /** The volume of all points of a cell. */
-      template <typename Number>
-      CAISSON_INLINE double
-      volume_of_points(const PointsView &points, const unsigned int cell)
-      {
-        Number volume(0.);
-        for (int block = points.first_block[cell]; block >= 0;
-             block     = points.headers[block].next)
-          for (int lane = 0; lane < block_size; lane += Number::width)
-            volume += Number::load(points.blocks[block].volume + lane);
-        return sum(volume);
-      }
-
       /** Share out the growth of a cell among the points that can take it. */
       template <typename Number>
       CAISSON_INLINE void
@@ -110,8 +97,7 @@ namespace CaissonMPM
         if (loose == 0.)
           return;
         update.has_loose_points = true;
-        const double all        = volume_of_points<Number>(step.points, cell),
-                     firm       = all - loose;
+        const double all = step.points.filled_volume[cell], firm = all - loose;
         if (!settings.mean_volume_change || !(update.mean_divergence > 0.) ||
             firm < least_firm_share * all)
           return;

@@ -214,13 +214,6 @@ namespace CaissonMPM
             sigma, de, state, p.elastic, p.strength);
         }
 
-        template <typename Number>
-        static CAISSON_INLINE Number
-        pressure(const StressState<Number> &s)
-        {
-          return Number(-1. / 3.) * (s.rr + s.zz + s.tt);
-        }
-
         /** The elastic compression, 0 in tension. */
         template <typename Number>
         static CAISSON_INLINE Number

@@ -169,9 +169,9 @@ namespace CaissonMPM
         static CAISSON_INLINE Number
         stiffening(const StressState<Number> &s, const Parameters &p)
         {
-          const Number pressure = max(Number(-1. / 3.) * (s.rr + s.zz + s.tt),
-                                      Number(p.smallest_stress));
-          return pow(Number(p.inverse_stress) * pressure, p.exponent);
+          return pow(Number(p.inverse_stress) *
+                       max(pressure(s), Number(p.smallest_stress)),
+                     p.exponent);
         }
 
         template <typename Number>
@@ -188,8 +188,8 @@ namespace CaissonMPM
                     const Number               bulk_modulus,
                     const Parameters          &p)
         {
-          return Number(p.compression) *
-                 max(MohrCoulomb::pressure(s), Number(0.)) / bulk_modulus;
+          return Number(p.compression) * max(pressure(s), Number(0.)) /
+                 bulk_modulus;
         }
 
         static double

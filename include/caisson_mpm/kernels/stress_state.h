@@ -34,6 +34,14 @@ namespace CaissonMPM
         Number rr, zz, tt, rz;
       };
 
+      /** The mean pressure, compression positive. */
+      template <typename Number>
+      CAISSON_INLINE Number
+      pressure(const StressState<Number> &s)
+      {
+        return Number(-1. / 3.) * (s.rr + s.zz + s.tt);
+      }
+
       template <typename Number>
       CAISSON_INLINE StressState<Number>
                      scaled(const Number factor, const StressState<Number> &a)

@@ -81,6 +81,10 @@ namespace CaissonMPM
     Series
     series(const std::string &name, const double begin, const double end) const;
 
+    /** A whole column by its name. */
+    Series
+    series(const std::string &name) const;
+
   private:
     const Observations              &observations;
     const std::vector<std::string>   counts;
