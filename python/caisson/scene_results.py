@@ -67,15 +67,15 @@ def key_numbers(history: Table) -> dict[tuple[str, float], float]:
     meter on the way down, and the largest tension of a run that pulls."""
     rows = curves.way_down(history["penetration_m"])
     depth = history["penetration_m"][rows]
+    meters = np.arange(np.ceil(depth[0]), depth[-1] + 1e-9)
     numbers = {}
-    for quantity in QUANTITIES:
-        if quantity in history and depth[-1] > depth[0]:
-            for x in np.arange(np.ceil(depth[0]), depth[-1] + 1e-9):
-                mean = curves.window_mean(
-                    depth, history[quantity][rows], x, curves.FORCE_WINDOW
-                )
-                if np.isfinite(mean):
-                    numbers[quantity, float(x)] = mean
+    for quantity in filter(history.__contains__, QUANTITIES):
+        means = curves.window_means(
+            depth, history[quantity][rows], meters, curves.FORCE_WINDOW
+        )
+        for x, mean in zip(meters, means):
+            if np.isfinite(mean):
+                numbers[quantity, float(x)] = float(mean)
     total = history["total_force_N"]
     if total.min() < -0.1 * abs(total.max()):
         deepest = float(history["penetration_m"].max())
@@ -150,6 +150,7 @@ def numbers_of(
         found = {
             (check["check"], 0.0): float(check["computed"])
             for check in results_of_run.check_list
+            if check["exact"] != 0  # else it is noise
         }
     return [
         Number(
@@ -237,7 +238,7 @@ def page(numbers: list[Number]) -> str:
         n = made[scene]
         took = f"{n.processor_s / 60:.1f} min"
         lines.append([f"`prm/{scene}.prm`", name, "; ".join(values), took, n.commit])
-    columns = ["scene", "quantity (kN, kPa)", "value", "one core", "commit"]
+    columns = ["scene", "quantity", "value", "one core", "commit"]
     processors = ", ".join(sorted({number.processor for number in whole}))
     return f"{table.markdown(columns, lines)}\n\nProcessor: {processors}.\n"
 

@@ -28,9 +28,9 @@ class Part:
     name: str
     command: Sequence[str]
     needs: str = ""  # the part that makes what it needs
-    is_beside: bool = False  # it needs one core, and runs beside the next part
-    # regular expressions with groups "all", "failed", "skipped" or "wrong", for each
-    # match; otherwise the part is one check
+    is_beside: bool = False  # of the next part that is not, mostly on one core
+    # regular expressions with groups "all", "failed" or "skipped", for each match;
+    # otherwise the part is one check
     counts: Sequence[str] = ()
 
 
