@@ -7,7 +7,7 @@ above those that it uses:
     paths, table, machine   where things are, how tables look, what a number
                             was measured on
     scenes                  the scenes that come with the program
-    run                     Run: one call of the program with entries set
+    runner                  Run: one call of the program with entries set
     results                 Results: what a run has left in its directory
     curves                  means over windows and other numbers of a curve
     design                  solutions to compare with (no program needed)

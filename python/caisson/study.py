@@ -49,7 +49,7 @@ its own. A key that nobody knows is an error, so that no misspelt one is left ou
 silence.
 
 A run that is complete is not repeated while the program, all entries in effect
-and the ranks are the same (caisson.run.Run).
+and the ranks are the same (caisson.runner.Run).
 """
 import concurrent.futures
 import re
@@ -62,7 +62,7 @@ from typing import Any
 from caisson.paths import PROGRAM
 from caisson.ranks import Size
 from caisson.results import Results
-from caisson.run import Entries, Run, RunError, Status
+from caisson.runner import Entries, Run, RunError, Status
 
 FILE_KEYS = {"kind", "set", "variants", "study"}
 STUDY_KEYS = set(

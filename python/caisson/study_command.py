@@ -17,7 +17,7 @@ from types import ModuleType
 from caisson import needed
 from caisson.paths import INSTALLED, PROGRAM, RESULTS, SCENES, scene_or_study, short
 from caisson.ranks import Size, cores, plan
-from caisson.run import RunError, Status
+from caisson.runner import RunError, Status
 from caisson.study import (
     Options,
     Reader,
