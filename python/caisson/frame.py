@@ -34,8 +34,8 @@ class Frame:
     effective and positive in tension, pore pressures excess and positive in
     compression. Names of fields carry their units: "stress_zz_Pa".
 
-    time: of the scene (s); penetration: of the body at that time (m), nan where no
-    body moves; index: the number of the frame, from 0 on.
+    time: of the scene (s); penetration: of the body at that time (m), as history.csv
+    has it; index: the number of the frame, from 0 on.
 
     The meshes need VTK (python3-vtk9): without it they raise ModuleNotFoundError.
     """

@@ -10,6 +10,7 @@ from pathlib import Path
 from caisson.paths import ROOT, version
 
 FILES = ["CMakeLists.txt", "README.md", "pyproject.toml", "prm/column.prm"]
+FILES.append("packaging/build_backend.py")
 
 
 class Install(unittest.TestCase):

@@ -210,7 +210,7 @@ class Frames(Directory):
             frame.mesh
 
     def test_without_vtk(self) -> None:
-        broken = mock.patch("importlib.import_module", side_effect=ModuleNotFoundError)
+        broken = mock.patch.dict("sys.modules", {"caisson.plot.vtu": None})
         with broken, mock.patch("caisson.needed.complaint", return_value="VTK missing"):
             with self.assertRaisesRegex(ModuleNotFoundError, "VTK missing"):
                 self.run_there.frame(index=1).mesh
