@@ -87,7 +87,7 @@ class Runs(ProgramTest):
         said = io.StringIO()
         with contextlib.redirect_stdout(said):
             self.run_short(self.directory(), ranks=1, echo=True)
-        self.assertIn("pen  0.6", said.getvalue())
+        self.assertIn("pen 0.6 m", said.getvalue())
 
     def test_refusal(self) -> None:
         """The message is the program's own."""

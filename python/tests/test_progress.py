@@ -22,12 +22,13 @@ class Bars(unittest.TestCase):
     """What is written where."""
 
     def setUp(self) -> None:
-        for patch in (
-            mock.patch("caisson.progress.INTERVAL", 0.01),
-            mock.patch.dict("os.environ", {"TERM": "xterm", "COLUMNS": "70"}),
-        ):
-            patch.start()
-            self.addCleanup(patch.stop)
+        interval = mock.patch("caisson.progress.INTERVAL", 0.01)
+        interval.start()
+        self.addCleanup(interval.stop)
+        names = {"TERM": "xterm", "COLUMNS": "70"}
+        environment = mock.patch.dict("os.environ", names)
+        environment.start()
+        self.addCleanup(environment.stop)
 
     def run_two(self, stream: io.StringIO) -> str:
         """Return the lines about two runs, whose bar goes to a stream."""
