@@ -29,7 +29,7 @@ sys.path.insert(0, str(HERE.parent / "python"))
 from caisson.developer.faults.process import quick_environment  # noqa: E402
 from caisson.paths import BUILD, PROGRAM, SCENES  # noqa: E402
 from caisson.results import Results  # noqa: E402
-from caisson.run import Status, environment, mpi_command, set_options  # noqa: E402
+from caisson.runner import Status, environment, mpi_command, set_options  # noqa: E402
 
 SUCCESS = Status.SUCCESS
 BAD_INPUT = Status.BAD_INPUT

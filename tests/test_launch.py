@@ -12,7 +12,7 @@ from program import HERE, ProgramTest, history, summary, user_scene
 
 from caisson import ranks
 from caisson.paths import PROGRAM
-from caisson.run import ask, environment, size_in
+from caisson.runner import ask, environment, size_in
 
 BY_STRESS = "0: Law = Mohr-Coulomb with stiffness by stress, Friction angle = 33"
 SCALING = "Time/Mass scaling"

@@ -10,7 +10,7 @@ from pathlib import Path
 from program import HERE, ProgramTest, scene, user_scene
 
 from caisson.paths import SCENES
-from caisson.run import read_parameters
+from caisson.runner import read_parameters
 from caisson.study import Options
 from caisson.study_command import module_of, reader_of
 

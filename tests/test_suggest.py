@@ -10,7 +10,7 @@ from pathlib import Path
 
 from program import SUCCESS, HERE, ProgramTest, history
 
-from caisson.run import environment, read_parameters
+from caisson.runner import environment, read_parameters
 
 EXAMPLE = HERE.parent / "prm/cpt_example.csv"
 SAND = "0: Friction angle = 33, Youngs modulus = 20e6"

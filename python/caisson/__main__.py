@@ -7,7 +7,7 @@ import os
 import sys
 from typing import NoReturn
 
-from caisson import needed
+from caisson import completion, needed
 from caisson.paths import INSTALLED
 
 STUDY = "caisson.study_command"
@@ -103,6 +103,8 @@ def main(words: list[str]) -> int:
         epilog="\n".join(f"  {name:18}{text}" for name, (_, text) in COMMANDS.items()),
     )
     parser.add_argument("command", choices=COMMANDS, metavar="COMMAND ...")
+    if words and words[0] in ("--complete", "--completion"):
+        return completion.main(words, COMMANDS)
     if not words:
         parser.print_help()
         return 1

@@ -182,6 +182,11 @@ def forces_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
     return window_means(history["penetration_m"], history[column], depths, FORCE_WINDOW)
 
 
+def depth_at(time: float, history: Table) -> float:
+    """Return the penetration at a time (m)."""
+    return float(np.interp(time, history["time_s"], history["penetration_m"]))
+
+
 def relative_error(values: np.ndarray, reference: np.ndarray) -> float:
     """Return the root of the mean square of values / reference - 1."""
     return float(np.sqrt(np.mean((values / reference - 1) ** 2)))

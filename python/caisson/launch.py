@@ -14,7 +14,7 @@ from pathlib import Path
 
 from caisson import needed, ranks
 from caisson.paths import INSTALLED, PROGRAM, SCENES, scene_or_study, short
-from caisson.run import (
+from caisson.runner import (
     RunError,
     Status,
     ask,

@@ -18,7 +18,7 @@ import numpy as np
 from caisson import curves, machine, table
 from caisson.paths import PROGRAM, RESULTS, ROOT, SCENES
 from caisson.results import Results, Table
-from caisson.run import Entries, Run, RunError, Status
+from caisson.runner import Entries, Run, RunError, Status
 
 FILE = ROOT / "doc/scene_results.csv"
 PAGE = ROOT / "doc/results.md"

@@ -20,7 +20,7 @@ import numpy as np
 
 from caisson import table
 from caisson.results import Results, ResultsError, Table
-from caisson.run import Status
+from caisson.runner import Status
 from caisson.study import Options, Study, StudyRun
 
 NAME = "stability"

@@ -14,7 +14,7 @@ from unittest import mock
 from caisson import launch, ranks
 from caisson.paths import ROOT
 from caisson.ranks import Size
-from caisson.run import mpi_command, size_in
+from caisson.runner import mpi_command, size_in
 
 VALID = """jack.prm is valid
   grid       57 x 97 cells, axisymmetric

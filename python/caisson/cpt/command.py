@@ -19,7 +19,7 @@ from caisson.cpt.correlations import EVERY
 from caisson.cpt.interpretation import Interpretation
 from caisson.paths import RESULTS, scene_or_study, short
 from caisson.results import ResultsError
-from caisson.run import RunError
+from caisson.runner import RunError
 from caisson.suggest.cone import REACH
 from caisson.suggest.soil import SuggestError
 from caisson.study import StudyError

@@ -16,7 +16,7 @@ import math
 from collections.abc import Callable, Sequence
 
 from caisson.paths import SCENES
-from caisson.run import read_parameters
+from caisson.runner import read_parameters
 
 Pair = tuple[float, float]
 Vector = list[float]

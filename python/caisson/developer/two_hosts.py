@@ -31,7 +31,7 @@ from pathlib import Path
 
 from caisson.paths import PROGRAM, RESULTS, SCENES
 from caisson.results import Results
-from caisson.run import Status, environment, mpi_command, set_options
+from caisson.runner import Status, environment, mpi_command, set_options
 
 NEEDED = ("ip", "mpirun", "unshare", "mount", "hostname")
 ADDRESSES = ("10.97.83.1", "10.97.83.2")

@@ -51,7 +51,7 @@ from caisson.parameters.outcome import Outcomes
 from caisson.parameters.sampling import runs_of
 from caisson.paths import short
 from caisson.results import ResultsError
-from caisson.run import RunError
+from caisson.runner import RunError
 from caisson.study import Options, Study, StudyError, StudyRun, file_name
 
 NAME = "parameters"

@@ -14,7 +14,7 @@ from caisson.parameters.distributions import (
     require,
 )
 from caisson.parameters.formula import Formula, FormulaError
-from caisson.run import Entries
+from caisson.runner import Entries
 from caisson.study import StudyError
 
 Value = float | str | bool

@@ -13,7 +13,7 @@ from caisson.parameters.entry import Parameter, Sample, read_all
 from caisson.parameters.sampling import numbers_of, sampling_of
 from caisson.plot.suction import rest_of_run
 from caisson.results import ResultsError, Table, read_table
-from caisson.run import Status
+from caisson.runner import Status
 from caisson.study import Study, StudyError, StudyRun
 
 DEPTH = "penetration_m"

@@ -19,7 +19,7 @@ from scipy.stats import qmc
 from caisson.parameters.distributions import is_number
 from caisson.parameters.entry import Parameter, Sample, Value, read_all, text_of
 from caisson.parameters.formula import FormulaError
-from caisson.run import Run, RunError, read_parameters, set_options
+from caisson.runner import Run, RunError, read_parameters, set_options
 from caisson.study import StudyError, file_name
 
 GRID, ONE, LATIN = "grid", "one at a time", "Latin hypercube"

@@ -16,7 +16,7 @@ from typing import Any
 
 from caisson.paths import ROOT
 from caisson.results import Results, Table
-from caisson.run import Status, environment
+from caisson.runner import Status, environment
 from caisson.study import Study, StudyError, StudyRun
 
 POLL = 0.1  # s

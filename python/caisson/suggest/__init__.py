@@ -26,7 +26,7 @@ from caisson.cpt import interpretation, tables
 from caisson.cpt.interpretation import Interpretation
 from caisson.paths import INSTALLED
 from caisson.results import ResultsError
-from caisson.run import RunError, ask, read_parameters
+from caisson.runner import RunError, ask, read_parameters
 from caisson.suggest import cone
 from caisson.suggest.sizes import (
     LEVELS,

@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 
 from caisson import table
 from caisson.paths import short
-from caisson.run import Run
+from caisson.runner import Run
 from caisson.study import Options, Study, StudyError
 from caisson.validation.verdict import COLUMNS, Row
 

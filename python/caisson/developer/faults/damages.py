@@ -10,7 +10,7 @@ from caisson.developer.faults.campaign import Part, Result
 from caisson.developer.faults.process import Outcome, call
 from caisson.developer.faults.states import CASES, COMPARED, contents, state_of
 from caisson.paths import PROGRAM
-from caisson.run import Status, set_options
+from caisson.runner import Status, set_options
 
 Random = random.Random
 DIGITS = b"0123456789"

@@ -9,7 +9,7 @@ from caisson.developer.faults.campaign import Part, Result
 from caisson.developer.faults.mutations import GENTLE, ROUGH, Material, mutate
 from caisson.developer.faults.process import call
 from caisson.paths import PROGRAM, ROOT
-from caisson.run import Status, read_parameters, set_options
+from caisson.runner import Status, read_parameters, set_options
 
 WALL_TIME_LIMIT = 1.5  # s, of a run
 KINDS = {

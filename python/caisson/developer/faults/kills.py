@@ -8,7 +8,7 @@ from caisson.developer.faults.campaign import Part, Result
 from caisson.developer.faults.process import Outcome, call
 from caisson.developer.faults.states import CASES, Case, difference, state_of
 from caisson.paths import PROGRAM
-from caisson.run import Status, set_options
+from caisson.runner import Status, set_options
 
 MOST_RUNS = 30  # of a trial, then something is wrong with it
 KILL = -9

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from caisson.run import Status, environment
+from caisson.runner import Status, environment
 
 # s; of processor time, since the machine may do other things, and of wall time
 PROCESSOR_LIMIT, WALL_LIMIT = 20.0, 600.0
