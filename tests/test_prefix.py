@@ -10,7 +10,7 @@ from typing import Any
 
 from program import HERE, SUCCESS, ProgramTest, checks, summary
 
-from caisson.__main__ import COMMANDS, SOURCE_COMMANDS
+from caisson.__main__ import COMMANDS
 
 # what a login gives, and neither the sources nor another program
 ENVIRONMENT = {
@@ -20,12 +20,13 @@ ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
 }
 SHORT = ["--set", "Time/End time=0.05", "--set", "Verification/Checks="]
-STUDY = """kind = "verification"
-[[study]]
-id = "column"
-title = "A column under its own weight"
-scene = "column.prm"
-checks = [{check = "max stress_zz", what = "stress"}]
+STUDY = """kind = "parameters"
+title = "Two friction angles"
+scene = "jack_coarse.prm"
+depths = [0.55]
+set = {"Time/End penetration" = 0.6, "Time/Mass scaling" = 100}
+[parameters."Soil/Layer 1/Friction angle"]
+values = [31, 33]
 """
 
 
@@ -140,28 +141,28 @@ class Prefix(ProgramTest):
     def test_study(self) -> None:
         """Its results go to the current directory; a second time nothing is run."""
         self.installed("caisson", "scenes", "--copy", "mine")
-        (self.here / "mine/column.toml").write_text(STUDY)
-        said = self.installed("caisson", "study", "mine/column.toml")
-        self.assertRegex(said, r"column: \d+ s")
-        self.assertIn(
-            "column", (self.here / "results/verification/table.md").read_text()
-        )
-        said = self.installed("caisson", "study", "mine/column.toml")
-        self.assertNotRegex(said, r"column: \d+ s")
+        (self.here / "mine/angles.toml").write_text(STUDY)
+        said = self.installed("caisson", "study", "mine/angles.toml")
+        self.assertRegex(said, r"angles Friction angle 33: \d+ s")
+        table = self.here / "results/parameters/angles/table.csv"
+        self.assertIn("Friction angle", table.read_text())
+        said = self.installed("caisson", "study", "mine/angles.toml")
+        self.assertNotRegex(said, r"Friction angle 33: \d+ s")
 
     def test_plot_without_results(self) -> None:
         said = self.installed("caisson", "plot", "nothing", status=1)
         self.assertIn("nothing", said)
 
     def test_commands(self) -> None:
-        """Those that need the sources are not there."""
+        """All are there, and each has its help."""
         said = self.installed("caisson", "--help")
-        for name in set(COMMANDS) - set(SOURCE_COMMANDS):
+        for name in COMMANDS:
             self.assertRegex(said, rf"(?m)^  {name} ")
-        for name in SOURCE_COMMANDS:
-            self.assertNotRegex(said, rf"(?m)^  {name} ")
-        for name in set(COMMANDS) - set(SOURCE_COMMANDS):
             self.installed("caisson", name, "--help")
+
+    def test_neither_laboratory_nor_workshop(self) -> None:
+        names = {path.name for path in self.prefix.rglob("*")}
+        self.assertEqual(names & {"lab", "tools", "caisson_workshop"}, set())
 
 
 class Pages(ProgramTest):
@@ -182,10 +183,7 @@ class Pages(ProgramTest):
 
     def test_commands(self) -> None:
         named = re.findall(r"(?m)^\.TP\n\.BI? \"?([a-z-]+)", self.page("caisson.1"))
-        named += re.findall(
-            r'(?m)^\.BR ([a-z-]+) ", " ([a-z-]+)', self.page("caisson.1")
-        )[0]
-        self.assertEqual(set(named), set(COMMANDS) - set(SOURCE_COMMANDS))
+        self.assertEqual(set(named), set(COMMANDS))
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs, results, studies, pictures and checks of caisson_mpm.
+"""Runs, results, studies and pictures of caisson_mpm: what its users need.
 
 For scripts and notebooks (doc/how_to/python.md):
 
@@ -10,29 +10,27 @@ For scripts and notebooks (doc/how_to/python.md):
     run.history                         # a pandas.DataFrame; attrs["units"]
     run.frame(penetration=2.5).mesh     # a mesh for VTK and PyVista
 
-Everything around the program that is not the program itself. The modules, each
-above those that it uses:
+The modules, each above those that it uses:
 
-    paths, table, machine   where things are, how tables look, what a number
-                            was measured on
-    units, lock             units in names, and the lock of a run
-    scenes                  the scenes that come with the program
+    paths, table, units     where things are, how tables look, units in names
+    scenes, lock            the scenes that come with the program; the lock of a run
     runner                  Run: one call of the program with entries set
     results                 Results: what a run has left in its directory
     curves                  means over windows and other numbers of a curve
     frame, loaded, api      what the names above are: meshes, tables, run() and load()
-    design                  solutions to compare with (no program needed)
-    plot                    pictures of a run
+    plot, report            pictures of a run, and a page on it
     progress                how far a study is
     study                   the format of all studies, and how they are run
-    verification, accuracy, error_bar, stability, forces, parameters, drainage,
-    speed                   what a study is for: each evaluates one kind
+    parameters              studies of uncertain or varied entries
     cpt, suggest            layers from a cone test, and scenes for one's own caisson
     completion              what a shell completes
-    developer               checks of the sources
+    command_line            a command line with subcommands in groups
 
 scripts/caisson is the command line. Needed besides Python 3.11: numpy,
 SciPy, matplotlib, VTK and Jinja2, as Debian packages them; pandas for history.
+The package caisson_design beside it has the design methods, and needs nothing of it.
+The laboratory (lab) and the workshop (tools) import both; neither imports anything of
+them.
 
 Units are SI, angles in degrees, unless a name says otherwise (wall_kN). Arrays
 are given with their shapes, as in [n_rows].

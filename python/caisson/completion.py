@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from caisson.paths import SCENES
-from caisson.runner import RunError, ask
+from caisson.runner import RunError, query
 
 SCRIPT = Path(__file__).with_name("completion.bash")
 # the ends of the files that a command takes; all others take directories
@@ -26,7 +26,7 @@ def options_of(command: str, commands: Commands) -> dict[str, list[str]]:
     the program, if there is one."""
     module = importlib.import_module(commands[command][0])
     parser = argparse.ArgumentParser(prog=f"caisson {command}")
-    module.declare(parser)
+    module.add_arguments(parser)
     found = {
         word: list(map(str, action.choices or []))
         for action in parser._actions
@@ -35,7 +35,7 @@ def options_of(command: str, commands: Commands) -> dict[str, list[str]]:
     }
     if command == "run":
         try:
-            words = re.findall(r"^ +(?:-h \[ )?(--[\w-]+)", ask(["--help"]), re.M)
+            words = re.findall(r"^ +(?:-h \[ )?(--[\w-]+)", query(["--help"]), re.M)
         except (RunError, OSError):
             words = []
         found |= {word: [] for word in words}

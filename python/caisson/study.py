@@ -3,8 +3,8 @@
 
 All studies have one format. A file (TOML) says what it is for,
 
-    kind = "verification"   # or validation, accuracy, error bar, stability,
-                            # forces, parameters, drainage, speed
+    kind = "parameters"     # or one of the laboratory: verification, validation,
+                            # accuracy, error bar, stability, forces, drainage, speed
 
 and holds studies, or is one itself if it holds none (its id is then its name):
 
@@ -42,11 +42,10 @@ name of a run is made of its variant, mesh and own name, as far as it has them.
 
 A file that is one study takes all of its [variants].
 
-What a study is for takes further keys, of the study or its runs; each kind says
-which (caisson.verification, validation, accuracy, error_bar, stability, forces,
-parameters, drainage, speed). A kind may make the runs of a study itself, from keys of
-its own. A key that nobody knows is an error, so that no misspelt one is left out in
-silence.
+What a study is for takes further keys, of the study or its runs; the module of each
+kind says which (caisson.study_command and lab.study_command name it). A kind may make
+the runs of a study itself, from keys of its own. A key that is not known is an error,
+so that no misspelled one is left out in silence.
 
 A run that is complete is not repeated while the program, all entries in effect
 and the ranks are the same (caisson.runner.Run).
@@ -122,12 +121,12 @@ class StudyRun:
         if not again and self.run.is_complete():
             return
         status = self.run.execute(time_limit, ranks)
-        mark = self.run.mark()
-        if mark is None:
+        record = self.run.completion_record()
+        if record is None:
             how = "ended early" if status is None else f"exit status {status}"
             self.trouble = f"{how}, see {self.run.directory / 'log'}"
-        cost = f"{mark['wall_s']:.0f} s" if mark else self.trouble
-        if mark and mark["status"] == Status.FAILURE:
+        cost = f"{record['wall_s']:.0f} s" if record else self.trouble
+        if record and record["status"] == Status.FAILURE:
             cost = f"{cost}, ended with a failure"
         say(f"{self.study} {self.name}".rstrip() + f": {cost}")
 
@@ -135,11 +134,11 @@ class StudyRun:
     def status(self) -> Status | None:
         """The exit status of the finished run; without one None, and trouble says
         why."""
-        mark = self.run.mark()
-        if mark is None:
+        record = self.run.completion_record()
+        if record is None:
             self.trouble = self.trouble or f"no result in {self.run.directory}"
             return None
-        return Status(mark["status"])
+        return Status(record["status"])
 
 
 @dataclass

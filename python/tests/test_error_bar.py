@@ -8,11 +8,12 @@ import unittest.mock
 from pathlib import Path
 
 import numpy as np
-from made_up import write_run
+from synthetic import write_run
 
-from caisson import error_bar, verification
 from caisson.results import ResultsError, Table, read_table
 from caisson.study import Options, Reader, Study, StudyError
+from lab import verification
+from lab.studies import error_bar
 
 STUDY = """
 kind = "error bar"
@@ -34,7 +35,7 @@ factor = 2
 SUCTION = 1e4  # Pa for each meter
 
 
-def made_up(force: float, suction: float | None) -> Table:
+def synthetic(force: float, suction: float | None) -> Table:
     """Return a history whose forces are larger by this share, and whose suction is
     larger by this amount (Pa) and zero at 2 m; None: drained."""
     depth = np.linspace(0.5, 3.5, 301)
@@ -65,7 +66,7 @@ class ErrorBar(unittest.TestCase):
         (study,) = Reader(file, options, error_bar.STUDY_KEYS, set()).studies()
         for run, force, suction in zip(study.runs, (0, 0.03, -0.02), suctions):
             summary = {"fingerprint": "f00d", "wall_time_s": 60}
-            write_run(run.run.directory, made_up(force, suction), summary)
+            write_run(run.run.directory, synthetic(force, suction), summary)
         return study
 
     def bars(self, study: Study) -> tuple[Table, str]:
@@ -112,15 +113,6 @@ class ErrorBar(unittest.TestCase):
         bars, _ = self.bars(self.study((None, None, None)))
         self.assertEqual([name for name in bars if "suction" in name], [])
         np.testing.assert_allclose(bars["total_error"], 0.05)
-
-    def test_study_of_an_installation(self) -> None:
-        """Its error bar goes to the results: the prefix may be read-only."""
-        study, options = self.study(), Options(results=self.path / "results")
-        with unittest.mock.patch.object(error_bar, "SCENES", self.path.resolve()):
-            self.assertEqual(error_bar.file_of(study, options), self.path / "bar.csv")
-            with unittest.mock.patch.object(error_bar, "INSTALLED", True):
-                found = error_bar.file_of(study, options)
-        self.assertEqual(found, self.path / "results/bar.csv")
 
     def test_missing_run(self) -> None:
         study = self.study()

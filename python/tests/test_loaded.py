@@ -17,7 +17,7 @@ from caisson.frame import Frame, choose
 from caisson.paths import ROOT, find_program, version
 
 HERE = Path(__file__).resolve().parent
-STAND_IN = HERE / "stand_in.py"
+FAKE_PROGRAM = HERE / "fake_program.py"
 
 
 class Directory(unittest.TestCase):
@@ -223,7 +223,7 @@ class Runs(Directory):
         """Run with entries of the section Soil."""
         words = {f"Soil/{k.replace('_', ' ')}": v for k, v in entries.items()}
         Path("a.prm").touch()
-        return caisson.run("a.prm", words, output_directory=name, program=STAND_IN)
+        return caisson.run("a.prm", words, output_directory=name, program=FAKE_PROGRAM)
 
     def test_results(self) -> None:
         run = self.run_to("new", Friction_angle=35)
@@ -232,7 +232,7 @@ class Runs(Directory):
 
     def test_directory_of_the_scene(self) -> None:
         Path("a.prm").touch()
-        run = caisson.run("a.prm", program=STAND_IN)
+        run = caisson.run("a.prm", program=FAKE_PROGRAM)
         self.assertEqual(run.directory, Path("results").absolute())
 
     def test_what_the_program_says(self) -> None:
@@ -249,7 +249,7 @@ class Runs(Directory):
         with self.assertRaisesRegex(caisson.RunError, "no program none: .*PROGRAM"):
             caisson.run("a.prm", program="none")
         with self.assertRaisesRegex(caisson.RunError, "ranks is 0"):
-            caisson.run("a.prm", program=STAND_IN, ranks=0)
+            caisson.run("a.prm", program=FAKE_PROGRAM, ranks=0)
 
 
 if __name__ == "__main__":

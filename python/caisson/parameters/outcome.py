@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from caisson import curves
-from caisson.error_bar import QUANTITIES
 from caisson.parameters.entry import Parameter, Sample, read_all
 from caisson.parameters.sampling import numbers_of, sampling_of
 from caisson.plot.suction import rest_of_run
@@ -26,6 +25,17 @@ OBSERVED = (
 )
 SHOWN = {"_N": ("kN", 1e-3), "_Pa": ("kPa", 1e-3), "_m": ("m", 1.0), "_m3": ("m³", 1.0)}
 COMPLETE, FAILED = "complete", "failed"
+# column of history.csv: that of its half-width in the file of an error bar, and whether
+# this is relative
+HALF_WIDTHS = {
+    "tip_force_N": ("tip_error", True),
+    "inner_friction_N": ("inner_error", True),
+    "outer_friction_N": ("outer_error", True),
+    "total_force_N": ("total_error", True),
+    "required_suction_Pa": ("required_suction_half_width_Pa", False),
+    "exit_gradient_axis": ("exit_gradient_axis_half_width", False),
+    "plug_heave_m": ("plug_heave_half_width_m", False),
+}
 
 
 @dataclass
@@ -70,14 +80,14 @@ def why_failed(run: StudyRun) -> str:
 def status_of(run: StudyRun) -> tuple[str, str]:
     """Return how a run ended, and why if it failed. A result of other entries, as of
     the study before a change, does not count."""
-    mark = run.run.mark()
-    if mark is None:
+    record = run.run.completion_record()
+    if record is None:
         if run.trouble is None and not (run.run.directory / "log").is_file():
             return "not run", ""
         return "no result", why_failed(run) or (run.trouble or "")
-    if mark.get("entries") != run.run.words():
+    if record.get("entries") != run.run.entry_texts():
         return "out of date", "the entries of the study have changed since"
-    if mark["status"] != Status.SUCCESS:
+    if record["status"] != Status.SUCCESS:
         return FAILED, why_failed(run)
     return COMPLETE, ""
 
@@ -93,7 +103,7 @@ def outcome_of(run: StudyRun) -> Outcome:
                 raise ResultsError("the body does not move")
         except ResultsError as error:
             status, why, history = FAILED, str(error), None
-    mark = run.run.mark() or {}
+    record = run.run.completion_record() or {}
     sample = run.settings.get("sample")
     return Outcome(
         run.name,
@@ -102,7 +112,7 @@ def outcome_of(run: StudyRun) -> Outcome:
         why,
         history,
         run,
-        mark.get("wall_s"),
+        record.get("wall_s"),
         is_reference=sample is None,
     )
 
@@ -237,15 +247,15 @@ class Outcomes:
     def half_width(self, depths: np.ndarray, values: np.ndarray) -> np.ndarray | None:
         """Return the half-width [n_depths] of the error bar that the scene names, for
         its numerics; None where there is none. values: of what is observed."""
-        quantity = {q.column: q for q in QUANTITIES.values()}.get(self.column)
+        column, is_relative = HALF_WIDTHS.get(self.column, ("", False))
         outcome = next(o for o in [*self.all, self.reference] if o and o.history)
-        if quantity is None:
+        if not column:
             return None
         try:
             file = outcome.run.results.summary["entries"]["Output/Error bar"]
             bar = read_table(outcome.run.run.scene.parent / file)
-            half = bar[quantity.half_width]
+            half = bar[column]
         except (ResultsError, KeyError):
             return None
         half = np.interp(depths, bar[DEPTH], half, left=math.nan, right=math.nan)
-        return half * np.abs(values) if quantity.is_relative else half
+        return half * np.abs(values) if is_relative else half

@@ -9,8 +9,9 @@ import sys
 import time
 from pathlib import Path
 
-from caisson.plot import declare_cone, draw, keep_cone
+from caisson.plot import add_cone_arguments, draw, keep_cone
 from caisson.results import Results, ResultsError
+from caisson_design import InputError
 
 NAME = "report.html"
 INTERVAL = 30.0  # s, in which a followed report is renewed
@@ -71,9 +72,9 @@ def print_pdf(path: Path) -> Path:
     return pdf
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson report`."""
-    declare_cone(parser)
+    add_cone_arguments(parser)
     parser.add_argument("directories", nargs="+", type=Path, metavar="DIR")
     parser.add_argument("--pdf", action="store_true", help="print it to report.pdf too")
     parser.add_argument(
@@ -93,7 +94,7 @@ def main(options: argparse.Namespace) -> int:
             print(f"report: {path}")
             if options.pdf:
                 print(f"report: {print_pdf(path)}")
-        except (ResultsError, OSError, subprocess.CalledProcessError) as error:
+        except (InputError, OSError, subprocess.CalledProcessError) as error:
             print(f"report: {error}", file=sys.stderr)
             status = 1
     return status

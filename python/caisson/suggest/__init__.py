@@ -25,8 +25,7 @@ import jinja2
 from caisson.cpt import interpretation, tables
 from caisson.cpt.interpretation import Interpretation
 from caisson.paths import INSTALLED
-from caisson.results import ResultsError
-from caisson.runner import RunError, ask, read_parameters
+from caisson.runner import RunError, query, read_parameters
 from caisson.suggest import cone
 from caisson.suggest.sizes import (
     LEVELS,
@@ -38,6 +37,7 @@ from caisson.suggest.sizes import (
     start_of,
 )
 from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of, stiffens
+from caisson_design import InputError
 
 CHANGES = (-4, -2, 0, 2, 4)  # degrees, of a study of the friction angle
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "": 1.0}
@@ -55,11 +55,11 @@ def length(text: str) -> float:
     return value
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options."""
     add = parser.add_argument
     add("file", type=Path, help="the scene to write, a .prm file")
-    declare_caisson(parser, required=True)
+    add_caisson_arguments(parser, required=True)
     add(
         "--layer",
         action="append",
@@ -75,10 +75,10 @@ def declare(parser: argparse.ArgumentParser) -> None:
     text = "write a study, too: of the friction angle, or of a cone test's estimates"
     add("--study", type=Path, metavar="FILE.toml", help=text)
     add("--overwrite", action="store_true", help="replace files that exist")
-    interpretation.declare(parser)
+    interpretation.add_arguments(parser)
 
 
-def declare_caisson(parser: argparse.ArgumentParser, required: bool) -> None:
+def add_caisson_arguments(parser: argparse.ArgumentParser, required: bool) -> None:
     """Add the options of the caisson and of its run."""
     add = parser.add_argument
     for name, what in {
@@ -272,7 +272,7 @@ def cost_of(file: Path, text: str) -> str:
         copy = Path(folder, file.name)
         copy.write_text(text, encoding="utf-8")
         try:
-            return ask([str(copy), "--validate"]).replace(str(copy), str(file))
+            return query([str(copy), "--validate"]).replace(str(copy), str(file))
         except RunError as error:
             said = str(error).replace(str(copy), str(file))
             raise SuggestError(f"the program refuses the scene:\n{said}") from error
@@ -280,7 +280,7 @@ def cost_of(file: Path, text: str) -> str:
 
 def write(options: argparse.Namespace) -> None:
     """Write the scene, and the study if there is to be one; say what the scene will
-    cost. Raises SuggestError, RunError, ResultsError or OSError."""
+    cost. Raises SuggestError, RunError, InputError or OSError."""
     check(options)
     found = None
     if options.cpt:
@@ -307,7 +307,7 @@ def main(options: argparse.Namespace) -> int:
     """Write the scene, and say what it will cost."""
     try:
         write(options)
-    except (SuggestError, RunError, ResultsError, OSError) as error:
+    except (SuggestError, RunError, InputError, OSError) as error:
         print(f"suggest: {error}", file=sys.stderr)
         return 1
     run, study = (

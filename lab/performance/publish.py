@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Takes table and pictures of results/speed into doc/benchmarks.md and
+doc/pictures."""
+import argparse
+import shutil
+
+from caisson.paths import PICTURES, RESULTS, ROOT
+
+DOCUMENT = ROOT / "doc/benchmarks.md"
+BEGIN, END = "<!-- speed: begin -->", "<!-- speed: end -->"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `scripts/lab publish-speed`: none."""
+
+
+def main(_: argparse.Namespace) -> int:
+    """Replace what stands between the two marks."""
+    before, rest = DOCUMENT.read_text(encoding="utf-8").split(BEGIN)
+    after = rest.split(END)[1]
+    table = (RESULTS / "speed/table.md").read_text(encoding="utf-8")
+    DOCUMENT.write_text(f"{before}{BEGIN}\n{table}\n{END}{after}", encoding="utf-8")
+    for picture in (RESULTS / "speed").glob("speed_*.png"):
+        shutil.copy(picture, PICTURES)
+    return 0

@@ -1,0 +1,299 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs the scenes of the README and compares them with what the manual says of them.
+
+doc/scene_results.csv has the key numbers of each scene: of the whole run, and of a
+short way. Its rows say with which commit and on which processor they were made, and how
+much time of one core that took. Runs that are complete are not repeated. A number that
+differs by more than 3 % is a failure. --write takes new numbers into the file, and into
+the table of doc/results.md.
+"""
+import argparse
+import csv
+import re
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+
+import numpy as np
+
+from caisson import curves, table
+from caisson.paths import PROGRAM, RESULTS, ROOT, SCENES
+from caisson.results import Results, Table
+from caisson.runner import Entries, Run, RunError, Status
+from lab import machine
+from lab.curves import final_mean
+
+FILE = ROOT / "doc/scene_results.csv"
+PAGE = ROOT / "doc/results.md"
+BEGIN, END = "<!-- scene results -->\n", "<!-- end of scene results -->\n"
+TOLERANCE = 0.03  # of a number
+SMALL = 0.02  # of the largest number of its kind; below it, this is the scale
+SHORT_SHARE = 0.01  # of the way, in a short run
+WHOLE, SHORT = "whole", "short"
+# quantity: name in the table
+QUANTITIES = {
+    "total_force_N": "total",
+    "tip_force_N": "tip",
+    "required_suction_Pa": "suction",
+}
+# an installation that comes first, and how far it goes (m)
+AFTER = {"pull_out_after": ("jack", 2.0)}
+
+
+@dataclass
+class Number:
+    """A key number of a scene, and how it was found."""
+
+    scene: str
+    way: str  # WHOLE or SHORT
+    quantity: str
+    penetration_m: float
+    value: float
+    commit: str = ""
+    processor: str = ""
+    processor_s: float = 0.0
+
+    @property
+    def key(self) -> tuple[str, str, str, float]:
+        """What it is."""
+        return self.scene, self.way, self.quantity, round(self.penetration_m, 3)
+
+
+def scenes_of_readme() -> list[str]:
+    """Return the names of the scenes in the table of the README, in its order."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    return re.findall(r"^\| `prm/(\w+)\.prm`", text, re.MULTILINE)
+
+
+def key_numbers(history: Table) -> dict[tuple[str, float], float]:
+    """Return {(quantity, penetration): value} of a whole run: means over 0.2 m at each
+    meter on the way down, and the largest tension of a run that pulls."""
+    rows = curves.way_down(history["penetration_m"])
+    depth = history["penetration_m"][rows]
+    meters = np.arange(np.ceil(depth[0]), depth[-1] + 1e-9)
+    numbers = {}
+    for quantity in filter(history.__contains__, QUANTITIES):
+        means = curves.window_means(
+            depth, history[quantity][rows], meters, curves.FORCE_WINDOW
+        )
+        for x, mean in zip(meters, means):
+            if np.isfinite(mean):
+                numbers[quantity, float(x)] = float(mean)
+    total = history["total_force_N"]
+    if total.min() < -0.1 * abs(total.max()):
+        deepest = float(history["penetration_m"].max())
+        numbers["largest_tension_N", deepest] = float(-total.min())
+    return numbers
+
+
+def short_numbers(history: Table) -> dict[tuple[str, float], float]:
+    """Return the same of a short way: means over its last half."""
+    depth = history["penetration_m"]
+    length = (depth[-1] - depth[0]) / 2
+    return {
+        (quantity, float(depth[-1])): final_mean(depth, history[quantity], length)
+        for quantity in ("total_force_N", "tip_force_N")
+    }
+
+
+def short_way(run: Run) -> Entries | None:
+    """Return the entries that make a run of a scene short, None where the end is no
+    penetration."""
+    end = run.parameter("Time/End penetration", run.program)
+    if run.scene.stem in AFTER or end == "never":
+        return None
+    start = float(run.parameter("Rigid body/Initial penetration", run.program))
+    ramp = 0.03  # m, until the velocity is constant
+    return {"Time/End penetration": start + ramp + SHORT_SHARE * (float(end) - start)}
+
+
+def run_of(scene: str, way: str, results: Path, program: Path) -> Run | None:
+    """Return the run of a scene, None where it has no such way; what must come first
+    has been run."""
+    entries: dict[str, object] = {
+        "Output/Frame interval": "never",
+        "Output/Frame penetrations": "",
+    }
+    file = SCENES / f"{scene}.prm"
+    if scene in AFTER and way == WHOLE:
+        first, depth = AFTER[scene]
+        before = results / way / f"{first}_first"
+        end = {"Time/End penetration": depth}
+        Run(SCENES / f"{first}.prm", end, before, program=program).execute()
+        entries["Installation/Directory"] = str(before)
+    if way == SHORT:
+        short = short_way(Run(file, entries, results, program=program))
+        if short is None:
+            return None
+        entries.update(short)
+    return Run(file, entries, results / way / scene, program=program)
+
+
+def numbers_of(
+    scene: str, way: str, results: Path, program: Path, commit: str = ""
+) -> list[Number]:
+    """Run a scene and return its numbers. Raises RuntimeError where it fails."""
+    run = run_of(scene, way, results, program)
+    if run is None:
+        return []
+    if not run.is_complete():
+        run.execute()
+    record = run.completion_record()
+    if record is None or record["status"] != Status.SUCCESS:
+        raise RuntimeError(f"{run.directory / 'log'} says why {scene} failed")
+    results_of_run = Results(run.directory)
+    if "total_force_N" in results_of_run.history and (
+        results_of_run.history["penetration_m"].max() > 0
+    ):
+        find = key_numbers if way == WHOLE else short_numbers
+        found = find(results_of_run.history)
+    else:
+        found = {
+            (check["check"], 0.0): float(check["computed"])
+            for check in results_of_run.check_list
+            if check["exact"] != 0  # else it is noise
+        }
+    return [
+        Number(
+            scene,
+            way,
+            quantity,
+            depth,
+            value,
+            commit,
+            machine.processor(),
+            record["cpu_s"],
+        )
+        for (quantity, depth), value in found.items()
+    ]
+
+
+def read(path: Path = FILE) -> list[Number]:
+    """Return the numbers of the file; none where there is no file."""
+    if not path.is_file():
+        return []
+    with path.open(encoding="utf-8", newline="") as file:
+        return [
+            Number(
+                row["scene"],
+                row["way"],
+                row["quantity"],
+                float(row["penetration_m"]),
+                float(row["value"]),
+                row["commit"],
+                row["processor"],
+                float(row["processor_s"]),
+            )
+            for row in csv.DictReader(file)
+        ]
+
+
+def write(numbers: list[Number], path: Path = FILE) -> None:
+    """Write the file."""
+    rows = []
+    for number in numbers:
+        row = asdict(number)
+        row["value"] = f"{number.value:.5g}"
+        row["processor_s"] = f"{number.processor_s:.1f}"
+        row["penetration_m"] = f"{number.penetration_m:.5g}"
+        rows.append(list(row.values()))
+    table.write_csv(path, [field.name for field in fields(Number)], rows)
+
+
+def differences(new: list[Number], old: list[Number]) -> list[str]:
+    """Return what differs by more than the tolerance, or is missing, in words."""
+    known = {number.key: number.value for number in old}
+    scale: dict[tuple[str, str, str], float] = {}
+    for number in old:
+        key = number.key[:3]
+        scale[key] = max(scale.get(key, 0.0), abs(number.value))
+    found = []
+    for number in new:
+        where = f"{number.scene} ({number.way}): {number.quantity}"
+        where += f" at {number.penetration_m:.4g} m"
+        if number.key not in known:
+            found.append(f"{where} is not in {FILE.name}")
+            continue
+        was = known[number.key]
+        allowed = TOLERANCE * max(abs(was), SMALL * scale[number.key[:3]])
+        if not abs(number.value - was) <= allowed:
+            found.append(f"{where} is {number.value:.5g}, and was {was:.5g}")
+    return found
+
+
+def page(numbers: list[Number]) -> str:
+    """Return the table of the manual: a row for each scene and quantity."""
+    whole = [number for number in numbers if number.way == WHOLE]
+    rows: dict[tuple[str, str], list[str]] = {}
+    made: dict[str, Number] = {}
+    for number in whole:
+        made[number.scene] = number
+        unit = 1e-3 if number.quantity[-2:] in ("_N", "Pa") else 1.0
+        text = f"{unit * number.value:.4g}"
+        if number.penetration_m > 0:
+            text += f" at {number.penetration_m:.4g} m"
+        rows.setdefault((number.scene, number.quantity), []).append(text)
+    lines = []
+    for (scene, quantity), values in rows.items():
+        name = QUANTITIES.get(quantity, quantity.replace("_N", "").replace("_", " "))
+        n = made[scene]
+        took = f"{n.processor_s / 60:.1f} min"
+        lines.append([f"`prm/{scene}.prm`", name, "; ".join(values), took, n.commit])
+    columns = ["scene", "quantity", "value", "one core", "commit"]
+    processors = ", ".join(sorted({number.processor for number in whole}))
+    return f"{table.markdown(columns, lines)}\n\nProcessor: {processors}.\n"
+
+
+def page_is_true(numbers: list[Number], path: Path = PAGE) -> bool:
+    """Return whether the table of the manual is the one of these numbers."""
+    return BEGIN + "\n" + page(numbers) + "\n" + END in path.read_text(encoding="utf-8")
+
+
+def write_page(numbers: list[Number], path: Path = PAGE) -> None:
+    """Put the table into the manual."""
+    text = path.read_text(encoding="utf-8")
+    before, rest = text.split(BEGIN)
+    after = rest.split(END)[1]
+    path.write_text(
+        before + BEGIN + "\n" + page(numbers) + "\n" + END + after, encoding="utf-8"
+    )
+
+
+def merged(old: list[Number], new: list[Number]) -> list[Number]:
+    """Return the numbers with the scenes and ways of new replaced, in the order of
+    the README."""
+    ways = {(number.scene, number.way) for number in new}
+    numbers = [n for n in old if (n.scene, n.way) not in ways] + new
+    order = {name: i for i, name in enumerate(scenes_of_readme())}
+    return sorted(numbers, key=lambda n: (n.way != WHOLE, order.get(n.scene, 99)))
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `scripts/lab scene-results`."""
+    parser.add_argument("--only", default="", metavar="REGEX", help="scenes that fit")
+    parser.add_argument("--short", action="store_true", help="a short way of each")
+    parser.add_argument("--write", action="store_true", help="take the numbers over")
+    parser.add_argument("--results", type=Path, default=RESULTS / "scenes")
+    parser.add_argument("--program", type=Path, default=PROGRAM)
+
+
+def main(options: argparse.Namespace) -> int:
+    """Run the scenes; return 1 where a number differs or a scene fails."""
+    way = SHORT if options.short else WHOLE
+    complaints, commit = [], machine.commit()
+    for scene in scenes_of_readme():
+        if not re.search(options.only, scene):
+            continue
+        try:
+            new = numbers_of(scene, way, options.results, options.program, commit)
+        except (RuntimeError, RunError) as error:
+            complaints.append(str(error))
+            continue
+        old = read()
+        complaints += [] if options.write else differences(new, old)
+        took = f"{new[0].processor_s:.0f} s" if new else "left out"
+        print(f"{scene}: {took}", flush=True)
+        if options.write:
+            write(merged(old, new))
+            write_page(read())
+    print("\n".join(complaints) or "scenes: all numbers are as the manual has them")
+    return 1 if complaints else 0
