@@ -20,7 +20,7 @@
 #include <memory>
 #include <optional>
 
-#include "messages.h"
+#include "../shared/messages.h"
 
 using namespace CaissonMPM;
 using dealii::ParameterAcceptor;

@@ -22,7 +22,7 @@
 #include <limits>
 #include <thread>
 
-#include "messages.h"
+#include "../shared/messages.h"
 
 using namespace CaissonMPM;
 using dealii::ParameterAcceptor;

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "scene.h"
+#include "../shared/scene.h"
 
 const PrescribedMotion &
 motion_of(const Scene &s)

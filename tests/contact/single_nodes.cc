@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "scene.h"
+#include "../shared/scene.h"
 
 const std::string mesh = R"(
   subsection Grid

@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "scene.h"
+#include "../shared/scene.h"
 
 double
 volume_of(const BackgroundGrid &grid, const bool rigid_only)

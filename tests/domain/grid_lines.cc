@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "scene.h"
+#include "../shared/scene.h"
 
 /** Grid lines without a mesh. */
 struct Lines : EmptyParameters

@@ -10,8 +10,8 @@
 #include <map>
 #include <set>
 
-#include "messages.h"
-#include "scene.h"
+#include "../shared/messages.h"
+#include "../shared/scene.h"
 
 const std::string halved = R"(
   subsection Rigid body

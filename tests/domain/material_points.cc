@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "scene.h"
+#include "../shared/scene.h"
 
 void
 check_points()

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "examples/sinking.h"
-#include "examples/slab.h"
-#include "examples/updraft.h"
-#include "scene.h"
+#include "sinking.h"
+#include "slab.h"
+#include "updraft.h"
+#include "../shared/scene.h"
 
 using dealii::ParameterAcceptor;
 

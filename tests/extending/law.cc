@@ -13,7 +13,7 @@
 
 // laws.h must see the law
 // clang-format off
-#include "examples/janbu.h"
+#include "janbu.h"
 #include <caisson_mpm/kernels/laws.h>
 // clang-format on
 

@@ -18,7 +18,7 @@
 #include <random>
 #include <vector>
 
-#include "verdict.h"
+#include "../shared/verdict.h"
 
 using namespace CaissonMPM::Kernels;
 using Scalar = Lanes<1>;

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <functional>
 
-#include "scene.h"
-#include "verdict.h"
+#include "../shared/scene.h"
+#include "../shared/verdict.h"
 
 /** Rows of 0.05 m to a depth of 10 m, in the order of GridLines::row_lines().
  */

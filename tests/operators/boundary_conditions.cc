@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "scene.h"
+#include "../shared/scene.h"
 
 void
 check_boundary_conditions()

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "examples/excess_pressure.h"
-#include "scene.h"
+#include "../extending/excess_pressure.h"
+#include "../shared/scene.h"
 
 constexpr double dt = 1e-3;
 

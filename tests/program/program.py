@@ -2,11 +2,11 @@
 """Calls the program as a user does: what all test_*.py share.
 
 Each class of a file test_GROUP.py, but for those that others are derived from and
-whose name ends in Test, is a test program_GROUP.CLASS of ctest. By hand, all tests of
+whose name ends in Test, is a test program/GROUP.CLASS of ctest. By hand, all tests of
 a group, or those that fit a word:
 
-    cd tests && python3 -B -m unittest -v test_stop
-    cd tests && python3 -B -m unittest -v test_stop -k file
+    cd tests/program && python3 -B -m unittest -v test_stop_and_restart
+    cd tests/program && python3 -B -m unittest -v test_stop_and_restart -k file
 
 CAISSON_MPM_PROGRAM names another program than that of build/release, and
 CAISSON_MPM_TEST_DIRECTORY where the results go.
@@ -23,7 +23,7 @@ import unittest
 from pathlib import Path
 from typing import Any
 
-HERE = Path(__file__).resolve().parent
+HERE = Path(__file__).resolve().parent.parent  # tests
 sys.path.insert(0, str(HERE.parent / "python"))
 
 from caisson.developer.faults.process import quick_environment  # noqa: E402
@@ -39,14 +39,14 @@ Rows = list[dict[str, float]]
 Entries = dict[str, Any]
 SCRATCH = tempfile.TemporaryDirectory()
 ALONE = quick_environment(SCRATCH.name)  # of a program on one rank
-# server/program_server.cc, which ctest names; of use where it is not older than the
+# program_server.cc, which ctest names; of use where it is not older than the
 # program
 SERVER = os.environ.get("CAISSON_MPM_TEST_SERVER")
 
 
 def scene(name: str) -> str:
-    """Return a regression scene of this directory."""
-    return str(HERE / f"{name}.prm")
+    """Return a scene of the tests, whose names are unique over all rooms."""
+    return str(next(HERE.glob(f"*/{name}.prm")))
 
 
 def user_scene(name: str) -> str:
@@ -192,7 +192,7 @@ class ProgramTest(unittest.TestCase):
         entries: Entries | None = None,
         ranks: int = 1,
     ) -> str:
-        """Run a scene of this directory with its results in path."""
+        """Run a scene of the tests with its results in path."""
         return self.run_program(
             status,
             scene(name),

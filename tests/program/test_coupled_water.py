@@ -265,7 +265,7 @@ class Rest(ProgramTest):
 
 
 class Caisson(ProgramTest):
-    """The caisson of tests/suction.prm."""
+    """The caisson of water/suction.prm."""
 
     def compare_with_seepage(self, mesh: Entries, tolerances: dict[str, float]) -> None:
         """Where water moves freely, its flow is steady at each time."""

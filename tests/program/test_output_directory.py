@@ -113,7 +113,7 @@ class Failures(ProgramTest):
 
 
 class Signals(ProgramTest):
-    """Signals other than those of test_stop.py."""
+    """Signals other than those of test_stop_and_restart.py."""
 
     def test_signals_stop_in_order(self) -> None:
         """That of a terminal that is closed, and that of its key for quitting."""

@@ -23,8 +23,8 @@ POINTS = STRESS | {
     *("plastic_deviatoric", "plastic_volumetric", "material", "void_ratio"),
     "whole_volume_m3",
 }
-START: Entries = {"Time/End penetration": 0.5}  # where tests/jack.prm begins
-TIP = 0.2 * 0.2 / 2 / 2  # m2, what the wedge of tests/jack.prm lacks of a flat tip
+START: Entries = {"Time/End penetration": 0.5}  # where simulation/jack.prm begins
+TIP = 0.2 * 0.2 / 2 / 2  # m2, what the wedge of simulation/jack.prm lacks of a flat tip
 
 
 def read(file: Path) -> tuple[np.ndarray, Arrays]:

@@ -7,7 +7,7 @@ from program import Entries, ProgramTest, history
 
 LAYER = "Soil/Layer 1"
 GAMMA_W = 9810.0  # N/m3
-EMBEDMENT = 0.5  # m, of tests/jack.prm
+EMBEDMENT = 0.5  # m, of simulation/jack.prm
 WEIGHT = 0.9  # gradient that the weight of its soil withstands
 NEAR = 0.9  # share from which on the program warns
 AT_REST: Entries = {

@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 from program import SUCCESS, ProgramTest, history, user_scene
-from test_run_review import SMALL
+from test_result_warnings import SMALL
 
 
 class PoissonRatio(ProgramTest):

@@ -32,7 +32,7 @@ class Installation(ProgramTest):
     def go_on(
         self, before: Path, name: str, entries: Entries, ranks: int = 1
     ) -> tuple[Path, str]:
-        """Run tests/jack.prm after the run in a directory; where, and its words."""
+        """Run simulation/jack.prm after the run in a directory; where, and its text."""
         path = self.directory(name)
         more = {INSTALLATION: before, **entries}
         return path, self.run_scene("jack", path, entries=more, ranks=ranks)

@@ -37,7 +37,7 @@ class Stop(ProgramTest):
     """Signals, the stop file and --restart."""
 
     def run_until(self, path: Path, n_records: int, *options: str) -> tuple[int, str]:
-        """Run tests/jack.prm as TWICE, and send SIGTERM after some records. Return
+        """Run simulation/jack.prm as TWICE, and send SIGTERM after some records. Return
         the exit status and the words after the last record read.
 
         All records are far more than the pipe holds, so that the program cannot
@@ -60,7 +60,7 @@ class Stop(ProgramTest):
         return process.returncode, rest
 
     def run_pieces(self, path: Path, entries: Entries) -> None:
-        """Run tests/jack.prm to an earlier end than it has."""
+        """Run simulation/jack.prm to an earlier end than it has."""
         self.run_scene("jack", path, entries={**entries, "Time/End penetration": 0.55})
 
     def test_stopped_twice_is_one_run(self) -> None:

@@ -17,8 +17,8 @@ from program import (
     user_scene,
 )
 
-INNER_RADIUS = 2.8  # m, of tests/jack.prm
-WEIGHT = 6e4  # N, of tests/suction.prm
+INNER_RADIUS = 2.8  # m, of simulation/jack.prm
+WEIGHT = 6e4  # N, of water/suction.prm
 GAMMA_W = 9810.0  # N/m3
 AT_REST: Entries = {
     "Rigid body/Velocity": 0,

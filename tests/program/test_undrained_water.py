@@ -101,7 +101,7 @@ class Rest(ProgramTest):
 
 
 class Caisson(ProgramTest):
-    """The caisson of tests/suction.prm, jacked."""
+    """The caisson of water/suction.prm, jacked."""
 
     def jack(self, name: str, entries: Entries, *words: str) -> Path:
         path = self.directory(name)

@@ -16,7 +16,7 @@
 #include <fstream>
 #include <vector>
 
-#include "scene.h"
+#include "../shared/scene.h"
 
 /** A square box with this size of cells, with 25 points each. */
 std::string

@@ -13,7 +13,7 @@
 #include <limits>
 #include <vector>
 
-#include "scene.h"
+#include "../shared/scene.h"
 
 namespace
 {

@@ -163,7 +163,7 @@ def main(_: argparse.Namespace) -> int:
     listed = named_in_cmake()
     sources = files("include/**/*.h", "source/**/*.h", "source/**/*.cc")
     tests = files("tests/**/*.h", "tests/**/*.cc", "benchmarks/**/*.cc")
-    python = files("python/**/*.py", "tests/*.py")
+    python = files("python/**/*.py", "tests/program/*.py")
     scripts = files("scripts/*")
     violations = []
     for path in sources + tests + python + scripts:

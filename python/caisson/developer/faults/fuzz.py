@@ -37,7 +37,7 @@ class Fuzz(Part):
         """Copy all scenes, so that those that they include are beside them."""
         self.tree = self.directory / "scenes"
         shutil.rmtree(self.tree, ignore_errors=True)
-        for file in sorted([*ROOT.glob("prm/**/*"), *ROOT.glob("tests/*.prm")]):
+        for file in sorted([*ROOT.glob("prm/**/*"), *ROOT.glob("tests/*/*.prm")]):
             if file.suffix in (".prm", ".csv"):
                 copy = self.tree / file.relative_to(ROOT)
                 copy.parent.mkdir(parents=True, exist_ok=True)
