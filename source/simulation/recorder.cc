@@ -302,8 +302,8 @@ namespace CaissonMPM
        to_text(parts.clock.step_size, 6) + " s, mass scaling " +
          to_text(parts.soil.mass_scaling(), 6)},
       {"end", parts.schedule.end_description()}};
-    const auto of_water = parts.water->report(parts.materials).lines;
-    lines.insert(lines.end(), of_water.begin(), of_water.end());
+    const auto more = parts.water->report(parts.materials).lines;
+    lines.insert(lines.end(), more.begin(), more.end());
     console->summary(lines);
     for (const std::string &warning : warnings)
       console->warning(warning);

@@ -100,7 +100,7 @@ namespace CaissonMPM
         stiffness_and_strength(soil);
         solid_density(soil);
         const double k = soil.permeability;
-        if (scene.water.traits().uses_permeability && k > largest_permeability)
+        if (scene.water.uses_permeability && k > largest_permeability)
           doubt(soil.section() + "/Permeability",
                 k,
                 "m/s",
@@ -267,7 +267,7 @@ namespace CaissonMPM
   void
   SceneReview::points_at_tip()
   {
-    const unsigned int enough = scene.water.traits().least_points,
+    const unsigned int enough = scene.water.least_points,
                        n      = scene.generator.points_per_direction_in_path();
     if (is_pushed_in() && !scene.generator.splits_and_merges() && n < enough)
       origins.add_warning(
@@ -404,7 +404,7 @@ namespace CaissonMPM
             "N",
             "is less than a hundredth of the weight of the body's cells, " +
               to_text(own, 3) + " N. Check the unit, N: 1 kN is 1000 N.");
-    const LidCompartment *const lid = scene.water.traits().lid;
+    const LidCompartment *const lid = scene.water.lid;
     if (lid == nullptr)
       return;
     const BodyShape &shape = scene.body.shape();

@@ -384,7 +384,7 @@ namespace CaissonMPM
                  generator,
                  soil,
                  body,
-                 *water,
+                 water->traits(),
                  schedule,
                  mass_of_body(),
                  slowest_wave,

@@ -26,7 +26,7 @@ namespace CaissonMPM
     const PointGenerator &generator;
     const Soil           &soil;
     const RigidBody      &body;
-    const PoreWater      &water;
+    const WaterTraits    &water;
     const Schedule       &schedule;
     double                body_mass;  // of its cells, kg
     double                wave_speed; // least one of the layers, m/s
