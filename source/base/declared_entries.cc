@@ -60,7 +60,7 @@ namespace CaissonMPM
       return result + name;
     }
 
-    /** Of an entry without a unit users need not be told so. */
+    /** Of an entry without a unit users need no such note. */
     std::string
     without_empty_unit(const std::string &documentation)
     {
@@ -429,11 +429,11 @@ namespace CaissonMPM
     for (const auto text :
          {&DeclaredEntry::path, &DeclaredEntry::documentation})
       {
-        std::set<std::string> told;
+        std::set<std::string> explained;
         const std::string     found =
           describe_entries(entries, [&](const DeclaredEntry &entry) {
             return boost::icontains(entry.*text, word) &&
-                   (told.insert(meaning_in_any_section(entry)).second ||
+                   (explained.insert(meaning_in_any_section(entry)).second ||
                     entry.value != entry.default_value);
           });
         if (!found.empty())

@@ -22,7 +22,8 @@ namespace CaissonMPM
   BackgroundGrid::create_mesh()
   {
     create_triangulation();
-    set_up_part();
+    number_part();
+    signals.after_change();
   }
 
   void
@@ -112,17 +113,27 @@ namespace CaissonMPM
   void
   BackgroundGrid::repartition(const std::vector<unsigned int> &costs)
   {
+    signals.before_change();
     const auto connection =
       triangulation_.signals.weight.connect([&](const auto &cell, const auto) {
         return costs[index_of(number_of(cell))];
       });
     triangulation_.repartition();
     connection.disconnect();
-    set_up_part();
+    number_part();
+    signals.after_change();
   }
 
   void
-  BackgroundGrid::set_up_part()
+  BackgroundGrid::rebuild()
+  {
+    signals.before_change();
+    move_to(0.);
+    signals.after_change();
+  }
+
+  void
+  BackgroundGrid::number_part()
   {
     dof_handler_.distribute_dofs(fe);
     partitioner = std::make_shared<const Utilities::MPI::Partitioner>(

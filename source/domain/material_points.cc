@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_fields.h>
 
@@ -248,7 +249,7 @@ namespace CaissonMPM
   MaterialPoints::assert_settled() const
   {
     Assert(is_settled && !active_cells_changed,
-           ExcMessage("settle() must follow add() and take_all()"));
+           ExcMessage("settle() must follow add() and extract_points()"));
   }
 
   // ------------------------------------------------------------ relocation
@@ -272,7 +273,8 @@ namespace CaissonMPM
                 ExcInternalError());
     auto moving = take_out(update_result_.leaving, update_result_.n_leaving);
     bring_to_cells(moving);
-    if (++n_relocations % steps_between_orderings == 0)
+    // blocks of neighboring cells drift apart in memory slowly
+    if (++n_relocations % Intervals::ordering == 0)
       put_blocks_in_order();
   }
 
@@ -355,7 +357,7 @@ namespace CaissonMPM
   }
 
   std::vector<TravelingPoint>
-  MaterialPoints::take_all()
+  MaterialPoints::extract_points()
   {
     std::vector<TravelingPoint> result;
     result.reserve(n_points_);
@@ -367,7 +369,7 @@ namespace CaissonMPM
   }
 
   void
-  MaterialPoints::redistribute(const std::vector<TravelingPoint> &traveling)
+  MaterialPoints::insert_points(const std::vector<TravelingPoint> &traveling)
   {
     clear_blocks();
     for (const TravelingPoint &p : send_to_owners(grid, traveling))
@@ -558,7 +560,7 @@ namespace CaissonMPM
   }
 
   void
-  MaterialPoints::begin_anew()
+  MaterialPoints::rebuild_sums()
   {
     if (active_cells_changed)
       collect_active_cells();

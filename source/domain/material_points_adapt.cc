@@ -33,8 +33,8 @@ namespace CaissonMPM
     /**
      * Order points so that which of them become one does not depend on how the
      * ranks brought them to the cell. Halves of a point have its number and
-     * stand beside or above each other, up to round-off: their places are told
-     * apart along a line at an angle to both directions.
+     * stand beside or above each other, up to round-off: a line at an angle to
+     * both directions distinguishes their places.
      */
     template <typename PlacedPoint>
     void

@@ -276,6 +276,18 @@ namespace CaissonMPM
   }
 
   void
+  Soil::name_unused_permeability(ParameterOrigins  &origins,
+                                 const std::string &why) const
+  {
+    for (unsigned int i = 1; i <= n_layers(); ++i)
+      {
+        const std::string layer = "Soil/Layer " + to_text(i) + "/Permeability";
+        origins.add_unused({layer, layer + " ratio", layer + " by void ratio"},
+                           why);
+      }
+  }
+
+  void
   Soil::name_unused_entries(ParameterOrigins &origins) const
   {
     const std::string stress = "Soil/Initial stress is not K0";
@@ -468,7 +480,7 @@ namespace CaissonMPM
   } // namespace
 
   std::vector<Kernels::Material>
-  Soil::kernel_materials() const
+  Soil::kernel_materials(const double water_modulus) const
   {
     std::vector<Kernels::Material> result(n_materials());
     for (unsigned int i = 0; i < n_materials(); ++i)
@@ -476,7 +488,8 @@ namespace CaissonMPM
         const SoilMaterial &m = materials[i];
         m.set_law(result[i]);
         result[i].p_wave_modulus =
-          p_wave_modulus(result[i], Stress(), m.void_ratio());
+          p_wave_modulus(result[i], Stress(), m.void_ratio()) + water_modulus;
+        result[i].water_modulus   = water_modulus;
         result[i].initial_density = inertial_density(i);
         if (const auto nu = m.law_value("Poisson ratio"))
           result[i].volume_damping = volume_damping(*nu);

@@ -46,7 +46,7 @@ namespace CaissonMPM
   }
 
   bool
-  BodyForce::acts() const
+  BodyForce::is_active() const
   {
     return !acceleration[radial].is_zero() || !acceleration[vertical].is_zero();
   }

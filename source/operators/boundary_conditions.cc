@@ -144,7 +144,7 @@ namespace CaissonMPM
     if (region.empty())
       return;
     prescribed.clear();
-    // for messages; not made anew for each node
+    // for messages; not built for each node
     const std::string of_region = region_entry(),
                       of_velocity =
                         "Boundary conditions/Prescribed velocity = " +

@@ -7,7 +7,7 @@ namespace CaissonMPM
   NodalForce::collect(const ForceContext &context, Kernels::NodalSums *nodes)
   {
     force.clear();
-    if (!acts())
+    if (!is_active())
       return;
     force.resize(context.grid.n_nodes(), {{0., 0.}});
     add(context, force.data());
@@ -19,7 +19,7 @@ namespace CaissonMPM
   void
   NodalForce::correct(const ForceContext &context, Kernels::NodalVector *change)
   {
-    if (!acts() || !is_corrected())
+    if (!is_active() || !is_implicit())
       return;
     const std::vector<Kernels::NodalVector> before = force;
     force.assign(context.grid.n_nodes(), {{0., 0.}});

@@ -3,6 +3,8 @@
 #include <caisson_mpm/operators/nodal_forces.h>
 #include <caisson_mpm/operators/surrounding_pressure.h>
 
+#include <algorithm>
+
 namespace CaissonMPM
 {
   NodalForces::NodalForces()
@@ -38,6 +40,23 @@ namespace CaissonMPM
       force->collect(context, nodes);
   }
 
+  bool
+  NodalForces::have_implicit() const
+  {
+    return std::any_of(forces.begin(), forces.end(), [](const auto &force) {
+      return force->is_active() && force->is_implicit();
+    });
+  }
+
+  void
+  NodalForces::solve(const Kernels::NodalVector             *velocity,
+                     const std::vector<Kernels::CornerView> &corners)
+  {
+    for (const auto &force : forces)
+      if (force->is_active() && force->is_implicit())
+        force->solve(velocity, corners);
+  }
+
   void
   NodalForces::correct(const ForceContext   &context,
                        Kernels::NodalVector *change)
@@ -52,7 +71,7 @@ namespace CaissonMPM
   {
     Vector2 sum;
     for (const auto &force : forces)
-      if (force->acts())
+      if (force->is_active())
         sum += force->at_corner(cell, corner);
     return sum;
   }

@@ -79,22 +79,23 @@ namespace CaissonMPM
     step.n_corners = contact.corners().views().size();
   }
 
-  const NodalData &
-  NodalMotion::predict(const Vector2    &body_velocity,
-                       NodalConstraints &constraints)
-  {
-    momentum.predict(predicted);
-    momentum.constrain(size.seconds, body_velocity, constraints, predicted);
-    return predicted;
-  }
-
   void
   NodalMotion::correct(const SoilOnGrid &soil,
                        NodalForces      &forces,
                        const double      time,
                        const Vector2    &body_velocity,
+                       NodalConstraints &constraints,
                        Contact          &contact)
   {
+    enter(Stage::corrected);
+    if (!forces.have_implicit())
+      return;
+    // 1. predict: v+ with the forces of the last step, and constrained
+    momentum.predict(predicted);
+    momentum.constrain(size.seconds, body_velocity, constraints, predicted);
+    // 2. compute the forces that follow from it
+    forces.solve(nodal_vectors(predicted), contact.corners().views());
+    // 3. correct v+ by their change
     momentum.correct({*kernels, step, soil.points, soil.grid, time}, forces);
     contact.corners().add_forces(step, forces);
     accelerate(body_velocity, contact);

@@ -39,7 +39,7 @@ namespace CaissonMPM
   }
 
   bool
-  SurroundingPressure::acts() const
+  SurroundingPressure::is_active() const
   {
     return !pressure.is_zero();
   }

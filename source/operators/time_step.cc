@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/operators/time_step.h>
 
@@ -13,12 +14,6 @@
 namespace CaissonMPM
 {
   using namespace dealii;
-
-  namespace
-  {
-    // The mesh moves slowly, and the search goes through all cells.
-    constexpr unsigned int steps_between_searches = 20;
-  } // namespace
 
   TimeStep::TimeStep()
     : ParameterAcceptor("/Time")
@@ -63,7 +58,8 @@ namespace CaissonMPM
                    const Soil                     &soil,
                    std::vector<Kernels::Material> &materials)
   {
-    if (++age == steps_between_searches)
+    // The mesh moves slowly, and the search goes through all cells.
+    if (++age == Intervals::time_step)
       {
         find_moduli(grid.communicator(), points, soil, materials);
         find_limit(grid, points, soil, materials);

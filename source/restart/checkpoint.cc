@@ -27,7 +27,7 @@ namespace CaissonMPM
 
   namespace
   {
-    const std::string format_name = "caisson_mpm-checkpoint-10";
+    const std::string format_name = "caisson_mpm-checkpoint-11";
 
     // what a rank has in memory at a time besides its own
     constexpr unsigned long rows_per_piece = 20000;
@@ -45,8 +45,9 @@ namespace CaissonMPM
       unsigned long n_points = 0;
       unsigned long n_bytes  = 0; // of the file
       std::uint64_t checksum = 0; // of the points
-      NamedNumbers  state;
-      std::string   fingerprint;
+      std::vector<Checkpoint::FieldSum> fields;
+      NamedNumbers                      state;
+      std::string                       fingerprint;
     };
 
     /** The text below its first two lines. */
@@ -56,7 +57,10 @@ namespace CaissonMPM
       std::ostringstream out;
       out << "file " << info.file << "\npoints " << info.n_points << "\nbytes "
           << info.n_bytes << "\nchecksum_of_points " << info.checksum
-          << "\nstate\n";
+          << "\nfields\n";
+      for (const auto &[name, sum] : info.fields)
+        out << name << ' ' << sum << '\n';
+      out << "state\n";
       for (const auto &[name, value] : info.state)
         out << name << ' ' << to_text(value, 17) << '\n';
       out << "fingerprint\n" << info.fingerprint;
@@ -94,13 +98,16 @@ namespace CaissonMPM
           checksum != "checksum_of_text " + fingerprint_of(body))
         return {};
       std::map<std::string, std::string> entries;
-      read_lines(in, "state", [&](const auto &name, const auto &value) {
+      Info                               info;
+      read_lines(in, "fields", [&](const auto &name, const auto &value) {
         entries[name] = value;
+      });
+      read_lines(in, "state", [&](const auto &name, const auto &value) {
+        info.fields.emplace_back(name, value);
       });
       const auto count = [&](const std::string &name) {
         return std::strtoul(entries[name].c_str(), nullptr, 10);
       };
-      Info info;
       info.file     = entries["file"];
       info.n_points = count("points");
       info.n_bytes  = count("bytes");
@@ -213,12 +220,31 @@ namespace CaissonMPM
       return succeeded ? std::make_optional(sum) : std::nullopt;
     }
 
-    /** Write the points of all ranks, one rank's after the other's, each in the
-     * order of its cells. Returns as finish(). Collective. */
+    std::string
+    checksum_of(const std::vector<double> &values)
+    {
+      return fingerprint_of(
+        std::string(reinterpret_cast<const char *>(values.data()),
+                    values.size() * sizeof(double)));
+    }
+
+    std::vector<Checkpoint::FieldSum>
+    checksums_of(const NamedFields &fields)
+    {
+      std::vector<Checkpoint::FieldSum> result;
+      for (const auto &[name, values] : fields)
+        result.emplace_back(name, checksum_of(values));
+      return result;
+    }
+
+    /** Write the fields, and the points of all ranks, one rank's after the
+     * other's, each in the order of its cells. Returns as finish(). Collective.
+     */
     std::optional<std::uint64_t>
-    write_points(const std::string    &path,
-                 const BackgroundGrid &grid,
-                 const MaterialPoints &points)
+    write_data(const std::string    &path,
+               const BackgroundGrid &grid,
+               const MaterialPoints &points,
+               const NamedFields    &fields)
     {
       const MPI_Comm communicator = grid.communicator();
       const auto     n            = Utilities::MPI::all_gather(
@@ -243,7 +269,24 @@ namespace CaissonMPM
           write_piece();
       });
       write_piece();
+      for (const auto &[name, values] : fields)
+        file.write_field(name, values);
       return finish(file, communicator);
+    }
+
+    /** Read the fields of these names; their values mean nothing where this
+     * fails. Collective. */
+    NamedFields
+    read_all_fields(const std::string                       &path,
+                    const unsigned long                      n_points,
+                    const std::vector<Checkpoint::FieldSum> &fields,
+                    const MPI_Comm                           communicator)
+    {
+      NamedFields result;
+      PointFile   file(path, PointFile::Access::read, n_points, communicator);
+      for (const auto &[name, sum] : fields)
+        result.emplace_back(name, file.read_field(name));
+      return result;
     }
 
     /**
@@ -289,7 +332,7 @@ namespace CaissonMPM
       throw BadInput(
         "the checkpoint in " + directory +
         " is damaged, or was written by another version. Compute the run that "
-        "wrote it anew, in another directory: without --restart, the results "
+        "wrote it again, in another directory: without --restart, the results "
         "in this one would be removed.");
     }
 
@@ -299,7 +342,7 @@ namespace CaissonMPM
       const std::string text = read_text(info_file(directory));
       if (text.empty())
         throw BadInput("there is no checkpoint in " + directory +
-                       " to go on from (no file checkpoint.info). Give the "
+                       " to resume from (no file checkpoint.info). Give the "
                        "output directory of the run that was stopped, or run "
                        "without --restart.");
       const auto info = parse_info(text);
@@ -315,6 +358,7 @@ namespace CaissonMPM
   write_checkpoint(const std::string    &directory,
                    const BackgroundGrid &grid,
                    const MaterialPoints &points,
+                   const NamedFields    &fields,
                    const NamedNumbers   &state,
                    const std::string    &fingerprint)
   {
@@ -327,11 +371,14 @@ namespace CaissonMPM
                   "checkpoint-a.h5";
     info.n_points =
       Utilities::MPI::sum<unsigned long>(points.n_points(), communicator);
-    info.state                     = state;
-    info.fingerprint               = fingerprint;
-    const std::string   path       = directory + "/" + info.file;
-    const unsigned long n_bytes    = info.n_points * PointFile::bytes_per_point;
-    const auto          on_failure = [&]() {
+    info.fields               = checksums_of(fields);
+    info.state                = state;
+    info.fingerprint          = fingerprint;
+    const std::string path    = directory + "/" + info.file;
+    unsigned long     n_bytes = info.n_points * PointFile::bytes_per_point;
+    for (const auto &field : fields)
+      n_bytes += field.second.size() * sizeof(double);
+    const auto on_failure = [&]() {
       const int       error = has_space(directory, n_bytes) ? EIO : ENOSPC;
       std::error_code ignored;
       fs::remove(path, ignored);
@@ -341,7 +388,7 @@ namespace CaissonMPM
       return make_room(directory, info.file, n_bytes + 10000);
     });
 
-    const auto written = write_points(path, grid, points);
+    const auto written = write_data(path, grid, points, fields);
     on_first_rank(communicator, directory, [&]() {
       return written ? synchronize(path) : on_failure();
     });
@@ -349,8 +396,10 @@ namespace CaissonMPM
     // see that all is there: a full disk is not always reported
     const auto found =
       read_all_points(path, info.n_points, communicator, [](const auto &) {});
+    const NamedFields found_fields =
+      read_all_fields(path, info.n_points, info.fields, communicator);
     on_first_rank(communicator, directory, [&]() {
-      if (found != written)
+      if (found != written || checksums_of(found_fields) != info.fields)
         return on_failure();
       info.n_bytes  = size_of(path);
       info.checksum = *written;
@@ -375,6 +424,7 @@ namespace CaissonMPM
     file            = info.file;
     n_points        = info.n_points;
     checksum        = info.checksum;
+    fields          = info.fields;
     state_          = info.state;
     fingerprint_    = info.fingerprint;
   }
@@ -395,8 +445,21 @@ namespace CaissonMPM
       }
     throw BadInput("the checkpoint in " + directory + " was written with\n  " +
                    a + "\nand cannot be used with\n  " + b +
-                   "\nSet it back, or start the run anew, without --restart, "
-                   "in another directory.");
+                   "\nSet it back, or start the run again, without "
+                   "--restart, in another directory.");
+  }
+
+
+
+  NamedFields
+  Checkpoint::read_fields(const MPI_Comm communicator) const
+  {
+    const NamedFields result =
+      read_all_fields(directory + "/" + file, n_points, fields, communicator);
+    const bool are_whole = checksums_of(result) == fields;
+    if (Utilities::MPI::min(are_whole ? 1 : 0, communicator) == 0)
+      report_damaged(directory);
+    return result;
   }
 
 

@@ -2,6 +2,9 @@
 #include <caisson_mpm/domain/point_fields.h>
 #include <caisson_mpm/restart/point_file.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 #include <cstring>
 
 namespace CaissonMPM
@@ -78,8 +81,9 @@ namespace CaissonMPM
                        const Access        access,
                        const unsigned long n_points,
                        const MPI_Comm      communicator)
+    : is_first_rank(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
   {
-    // close() tells of errors; HDF5 shall not print them
+    // close() reports errors; HDF5 shall not print them
     check(H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr));
     const hid_t properties = check(H5Pcreate(H5P_FILE_ACCESS));
     check(H5Pset_fapl_mpio(properties, communicator, MPI_INFO_NULL));
@@ -224,6 +228,51 @@ namespace CaissonMPM
     for (TravelingPoint &p : points)
       for_each_column(p, [&](double &x) { x = *next++; });
     return points;
+  }
+
+
+
+  void
+  PointFile::write_field(const std::string         &name,
+                         const std::vector<double> &values)
+  {
+    const hsize_t n     = values.size();
+    const hid_t   space = check(H5Screate_simple(1, &n, nullptr));
+    const hid_t   field = check(H5Dcreate2(file,
+                                         name.c_str(),
+                                         H5T_IEEE_F64LE,
+                                         space,
+                                         H5P_DEFAULT,
+                                         H5P_DEFAULT,
+                                         H5P_DEFAULT));
+    if (is_first_rank)
+      check(H5Dwrite(field,
+                     H5T_NATIVE_DOUBLE,
+                     H5S_ALL,
+                     H5S_ALL,
+                     H5P_DEFAULT,
+                     values.data()));
+    check(H5Dclose(field));
+    check(H5Sclose(space));
+  }
+
+
+
+  std::vector<double>
+  PointFile::read_field(const std::string &name)
+  {
+    const hid_t field = check(H5Dopen2(file, name.c_str(), H5P_DEFAULT));
+    if (!succeeded)
+      return {};
+    const hid_t    space = check(H5Dget_space(field));
+    const hssize_t n     = H5Sget_simple_extent_npoints(space);
+    check(n);
+    std::vector<double> values(std::max<hssize_t>(n, 0));
+    check(H5Dread(
+      field, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+    check(H5Sclose(space));
+    check(H5Dclose(field));
+    return values;
   }
 
 

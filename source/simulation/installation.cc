@@ -84,7 +84,7 @@ namespace CaissonMPM
       " has the checkpoint of a run with other entries, which decide the state "
       "of the ground:" +
       lines +
-      "\nSet them back, or run the installation anew with them. Only the motion "
+      "\nSet them back, or run the installation again with them. Only the motion "
       "of the body, its weight and friction, water, permeabilities, loads, the "
       "time step, the end and the output may differ.");
   }

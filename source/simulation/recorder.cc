@@ -26,10 +26,11 @@ namespace CaissonMPM
                   title,
                   "The title says what the scene is. Units: none.");
     enter_subsection("Output");
-    add_parameter("Directory",
-                  directory,
-                  "All files of the run go to this directory, which is made if "
-                  "it is missing. Units: none.");
+    add_parameter(
+      "Directory",
+      directory,
+      "All files of the run go to this directory, which is created if "
+      "it does not exist. Units: none.");
     add_choice(*this,
                "Terminal",
                terminal,
@@ -81,14 +82,14 @@ namespace CaissonMPM
     design_methods.name_unused(
       origins,
       number_named("wall_thickness_m", sizes).has_value(),
-      parts.water.has_suction());
+      parts.water->traits().lid != nullptr);
   }
 
   std::vector<std::string>
   Recorder::count_names() const
   {
     auto names = parts.totals.count_names();
-    for (const std::string &name : parts.water.column_names())
+    for (const std::string &name : parts.water->column_names())
       names.push_back(name);
     return names;
   }
@@ -127,7 +128,7 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::tell_progress(const std::string &text)
+  Recorder::report_progress(const std::string &text)
   {
     console->header({{"setting up", text}});
   }
@@ -191,7 +192,7 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::note_files()
+  Recorder::store_file_hashes()
   {
     files = {records->history_fingerprint(),
              records->observations_fingerprint(),
@@ -202,7 +203,7 @@ namespace CaissonMPM
   Recorder::warn_of_changed_files()
   {
     const Files then = files;
-    note_files();
+    store_file_hashes();
     if (!parts.grid.is_first_rank())
       return;
     const auto compare = [&](const bool changed, const std::string &name) {
@@ -238,7 +239,7 @@ namespace CaissonMPM
       to_text(last_record, 6) + " s: the rows between are lost";
     if (!may_be_lost)
       throw BadInput(text + ". Put the file back, begin without --restart, or "
-                            "add --overwrite to go on without these rows.");
+                            "add --overwrite to resume without these rows.");
     console->warning(text);
   }
 
@@ -301,8 +302,8 @@ namespace CaissonMPM
        to_text(parts.clock.step_size, 6) + " s, mass scaling " +
          to_text(parts.soil.mass_scaling(), 6)},
       {"end", parts.schedule.end_description()}};
-    const auto of_water = parts.water.description(parts.materials);
-    lines.insert(lines.end(), of_water.begin(), of_water.end());
+    const auto more = parts.water->report(parts.materials).lines;
+    lines.insert(lines.end(), more.begin(), more.end());
     console->summary(lines);
     for (const std::string &warning : warnings)
       console->warning(warning);
@@ -374,7 +375,7 @@ namespace CaissonMPM
       }
     catch (const std::exception &)
       {
-        // the failure itself is what must be told
+        // the failure itself is what must be reported
       }
   }
 
@@ -404,7 +405,7 @@ namespace CaissonMPM
                                " N)";
     console->warning(
       std::string("the body has not come to rest") +
-      (parts.water.has_suction() ?
+      (parts.water->traits().lid != nullptr ?
          ", so that the suction, which begins then, has not begun. " :
          ". ") +
       (parts.schedule.is_at_end_penetration() ?

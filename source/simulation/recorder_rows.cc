@@ -42,7 +42,7 @@ namespace CaissonMPM
       Utilities::MPI::sum(parts.nodal_motion.reactions().contact.n_sticking,
                           communicator);
     row.counts = parts.totals.counts();
-    for (const auto &column : parts.water.columns())
+    for (const auto &column : parts.water->columns())
       row.counts.push_back(column);
     add_forces(row);
     add_sums_over_points(row);
@@ -51,10 +51,10 @@ namespace CaissonMPM
       records->append(row, observed);
     print_record(row);
     warn_of_lid(row);
-    for (const std::string &warning : parts.water.take_warnings())
+    for (const std::string &warning : parts.water->take_warnings())
       console->warning(warning);
-    tell_of_rest();
-    note_files();
+    report_rest();
+    store_file_hashes();
   }
 
   void
@@ -149,12 +149,12 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::tell_of_rest()
+  Recorder::report_rest()
   {
     const auto travel = parts.body.motion().travel_at_rest();
-    if (has_told_of_rest || !travel)
+    if (has_reported_rest || !travel)
       return;
-    has_told_of_rest = true;
+    has_reported_rest = true;
     console->message("the body came to rest at a penetration of " +
                      to_text(parts.body.shape().initial_depth() + *travel, 5) +
                      " m");
@@ -194,8 +194,8 @@ namespace CaissonMPM
                                parts.points,
                                parts.body,
                                parts.soil,
-                               parts.water.acts(),
+                               parts.water->traits().has_excess_pressure,
                                parts.clock.time);
-    note_files();
+    store_file_hashes();
   }
 } // namespace CaissonMPM

@@ -193,9 +193,11 @@ namespace CaissonMPM
              {{"layers", "[" + layers + "]"},
               {"frame_penetrations_m", "[" + frames + "]"},
               {"design_methods", Json::flat_object(facts.design_methods)}});
-      if (parts.water.flows())
-        append(members, Json::numbers(parts.water.limits()));
-      if (const std::string reason = parts.water.reason_to_end();
+      if (parts.water->traits().uses_permeability) // design methods need it
+        append(members,
+               {{"submerged_weight_N",
+                 Json::number(parts.body.submerged_weight())}});
+      if (const std::string reason = parts.water->reason_to_end();
           !reason.empty())
         append(members, {{"end_reason", Json::text(reason)}});
       if (const auto travel = parts.body.motion().travel_at_rest())

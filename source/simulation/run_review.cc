@@ -201,7 +201,7 @@ namespace CaissonMPM
   std::optional<std::string>
   RunReview::jump_of_pore_pressure() const
   {
-    if (!parts.water.is_coupled() || width == 0.)
+    if (!parts.water->traits().follows_soil || width == 0.)
       return {};
     const BodyShape &shape = parts.body.shape();
     const double     area =

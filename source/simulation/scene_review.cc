@@ -100,7 +100,7 @@ namespace CaissonMPM
         stiffness_and_strength(soil);
         solid_density(soil);
         const double k = soil.permeability;
-        if (scene.water.flows() && k > largest_permeability)
+        if (scene.water.uses_permeability && k > largest_permeability)
           doubt(soil.section() + "/Permeability",
                 k,
                 "m/s",
@@ -267,10 +267,9 @@ namespace CaissonMPM
   void
   SceneReview::points_at_tip()
   {
-    constexpr unsigned int enough = 4;
-    const unsigned int     n = scene.generator.points_per_direction_in_path();
-    if (is_pushed_in() && scene.water.is_coupled() &&
-        !scene.generator.splits_and_merges() && n < enough)
+    const unsigned int enough = scene.water.least_points,
+                       n      = scene.generator.points_per_direction_in_path();
+    if (is_pushed_in() && !scene.generator.splits_and_merges() && n < enough)
       origins.add_warning(
         "Material points/Per direction in path = " + to_text(n) +
         " without Split and merge lets cells beneath the tip run out of "
@@ -405,7 +404,8 @@ namespace CaissonMPM
             "N",
             "is less than a hundredth of the weight of the body's cells, " +
               to_text(own, 3) + " N. Check the unit, N: 1 kN is 1000 N.");
-    if (!scene.water.has_suction())
+    const LidCompartment *const lid = scene.water.lid;
+    if (lid == nullptr)
       return;
     const BodyShape &shape = scene.body.shape();
     const double least = part * scene.soil.unit_weight(scene.soil.material(0)) *
@@ -417,8 +417,8 @@ namespace CaissonMPM
           " Pa, less than a hundredth of the weight of soil over the length "
           "of the skirt. Check the unit, Pa: 1 kPa is 1000 Pa.");
     };
-    check("Water/Suction table", scene.water.largest_suction_of_table());
-    check("Water/Largest suction", scene.water.largest_suction_of_pump());
+    check("Water/Suction table", lid->settings().largest_of_table());
+    check("Water/Largest suction", lid->settings().largest.value_or(0.));
   }
 
   // ------------------------------------------------------------ time

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/fingerprint.h>
+#include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/simulation/physics_text.h>
 #include <caisson_mpm/simulation/simulation.h>
-#include <caisson_mpm/water/pore_pressure_force.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
@@ -22,23 +22,13 @@ namespace CaissonMPM
 
   namespace
   {
-    // Between two of these the mesh moves by less than the finest cell.
-    constexpr double steps_between_adaptations = 25.; // of reference
-    // Ranks agree on what each sees for itself; rarely, since that is
-    // collective.
-    constexpr unsigned int steps_between_agreements = 20;
-    constexpr unsigned int steps_between_balances   = 200;
-    // As often a run begins anew, as a restart does, and only then it writes
-    // checkpoints by itself: a restart then repeats it to the last bit.
-    constexpr unsigned int steps_between_beginnings = 400;
-    // To cut the mesh into other parts takes about as long as this many steps.
-    constexpr double steps_of_a_cut = 30.;
+    // To repartition the mesh takes about as long as this many steps.
+    constexpr double steps_of_repartition = 30.;
   } // namespace
 
   Simulation::Simulation(const MPI_Comm communicator)
     : ParameterAcceptor("/")
     , grid(lines, communicator)
-    , water(grid, points, soil, body)
     , points(grid)
     , schedule(body, clock)
     , recorder({clock,
@@ -56,7 +46,14 @@ namespace CaissonMPM
                 totals,
                 water})
   {
-    nodal_forces.add(std::make_unique<PorePressureForce>(water));
+    water_settings.parse_parameters_call_back.connect(
+      [this]() { choose_water(); });
+    grid.signals.after_change.connect([this]() {
+      body_points = generate_body_points(grid, body);
+      contact.initialize(grid, body.surface());
+      boundary_conditions.initialize(grid);
+      nodal_motion.initialize(grid);
+    });
     enter_subsection("Method");
     add_parameter("Instruction set",
                   instruction_set,
@@ -79,6 +76,14 @@ namespace CaissonMPM
   }
 
   void
+  Simulation::choose_water()
+  {
+    AssertThrow(!water, ExcMessage("Parameters must be parsed once only."));
+    water = make_pore_water(
+      {grid, points, soil, body, water_settings, totals, nodal_forces});
+  }
+
+  void
   Simulation::register_totals()
   {
     totals.keep("time", clock.time);
@@ -89,7 +94,6 @@ namespace CaissonMPM
     totals.count("soil_into_body_m3", inflow);
     points.register_totals(totals);
     energy.register_totals(totals);
-    water.register_totals(totals);
     schedule.register_totals(totals);
     recorder.register_totals(totals);
   }
@@ -99,62 +103,33 @@ namespace CaissonMPM
   void
   Simulation::advance()
   {
-    NodalWork work;
-    if (begins_anew())
-      timed("begin anew", [&]() { begin_anew(); });
     timed("choose step", [&]() { choose_step(); });
-    boundary_conditions.prepare(grid, clock.time, clock.step_size);
-    timed("ground water",
-          [&]() { water.update(clock.step_size, boundary_conditions); });
-    if (const auto *const filled = water.filled_beneath_lid())
-      contact.open_lid(*filled, Mudline::touching);
-    if (!body.motion().needs_response())
-      timed("move body", [&]() { move_body(); });
-    if (soil.has_walls())
-      timed("contact", [&]() {
-        contact.set_strength(
-          [this](const ContactFace &face) { return strength_of_face(face); });
-      });
-    const StepSize size = {clock.step_size,
-                           time_step.courant_number_of_soil(clock.step_size)};
+    timed("pore water", [&]() {
+      water->begin_step(clock.step_size, boundary_conditions, contact);
+    });
+    timed("move body", [&]() { move_body_by_itself(); });
+    timed("contact", [&]() { set_strength_of_walls(); });
     timed("points to grid", [&]() {
       nodal_motion.collect(soil_on_grid(), nodal_forces, clock.time);
     });
     timed("nodal motion", [&]() {
-      nodal_motion.accelerate(size,
+      nodal_motion.accelerate(size_of_step(),
                               nodal_forces,
                               body.mean_velocity(),
                               contact);
     });
-    if (body.motion().needs_response())
-      timed("move body", [&]() { move_body_with_soil(); });
-    if (water.is_coupled())
-      timed("pore pressure", [&]() { find_pore_pressure(); });
-    timed("contact", [&]() {
-      NodalConstraints constraints = constraints_of_nodes();
-      nodal_motion.constrain(body.mean_velocity(), constraints);
-    });
-    timed("transfer", [&]() {
-      const NodalConstraints constraints = constraints_of_nodes();
-      nodal_motion.prepare_transfer(constraints);
-      work = nodal_motion.work_of_step(nodal_forces, constraints);
-    });
+    timed("move body", [&]() { move_body_with_soil(); });
+    timed("implicit forces", [&]() { correct_velocities(); });
+    timed("contact", [&]() { constrain_velocities(); });
+    timed("transfer", [&]() { prepare_transfer(); });
     timed("move mesh", [&]() { grid.prepare_motion(body.motion().travel()); });
     timed("grid to points", [&]() { update_points(); });
     timed("relocate", [&]() {
       grid.advance();
       points.relocate();
     });
-    since_adaptation += size.n_reference_steps();
-    if (generator.splits_and_merges() &&
-        since_adaptation >= steps_between_adaptations)
-      timed("split and merge", [&]() {
-        adapt_points(since_adaptation * size.seconds /
-                     size.n_reference_steps());
-      });
-    add_step(work);
-    clock.time += size.seconds;
-    ++clock.step;
+    timed("split and merge", [&]() { adapt_points(); });
+    finish_step();
   }
 
   template <typename Action>
@@ -170,18 +145,42 @@ namespace CaissonMPM
   {
     clock.step_size =
       schedule.shorten(time_step.choose(grid, points, soil, materials));
+    boundary_conditions.prepare(grid, clock.time, clock.step_size);
+  }
+
+  StepSize
+  Simulation::size_of_step() const
+  {
+    return {clock.step_size, time_step.courant_number_of_soil(clock.step_size)};
+  }
+
+  void
+  Simulation::set_strength_of_walls()
+  {
+    if (soil.has_walls())
+      contact.set_strength(
+        [this](const ContactFace &face) { return strength_of_face(face); });
   }
 
   void
   Simulation::move_body()
   {
-    body.motion().set_load(body.submerged_weight() + water.load_on_body());
+    body.motion().set_load(body.submerged_weight() + water->load_on_body());
     body.motion().advance(clock.step_size, force_on_body);
+  }
+
+  void
+  Simulation::move_body_by_itself()
+  {
+    if (!body.motion().needs_response())
+      move_body();
   }
 
   void
   Simulation::move_body_with_soil()
   {
+    if (!body.motion().needs_response())
+      return;
     auto sums = nodal_motion.respond(contact).along(body.shape().direction());
     Utilities::MPI::sum(sums, grid.communicator(), sums);
     body.motion().set_response({sums[0] / clock.step_size, sums[1]});
@@ -190,19 +189,26 @@ namespace CaissonMPM
   }
 
   void
-  Simulation::add_step(NodalWork work)
+  Simulation::finish_step()
   {
-    if (grid.is_first_rank())
-      work.load += water.work_at_tip(
-        body.mean_velocity() * body.shape().direction() * clock.step_size);
-    energy.add(work, grid.circumference() * points.update_result().stress_work);
     const NodalReactions &reactions = nodal_motion.reactions();
     const SurfaceForces  &on_body   = reactions.contact.impulse;
     inflow += reactions.contact.inflow;
     recorder.add_step(on_body, reactions.prescribed.impulse);
     if (needs_force_on_body())
       force_on_body = find_force_on_body();
-    water.advance(clock.time, clock.step_size, force_on_body);
+    const double work_at_tip =
+      water->end_step(clock.time,
+                      clock.step_size,
+                      force_on_body,
+                      body.mean_velocity() * body.shape().direction() *
+                        clock.step_size);
+    if (grid.is_first_rank())
+      work_of_step.load += work_at_tip;
+    energy.add(work_of_step,
+               grid.circumference() * points.update_result().stress_work);
+    clock.time += clock.step_size;
+    ++clock.step;
   }
 
   double
@@ -237,8 +243,15 @@ namespace CaissonMPM
   }
 
   void
-  Simulation::adapt_points(const double interval)
+  Simulation::adapt_points()
   {
+    const StepSize size = size_of_step();
+    since_adaptation += size.n_reference_steps();
+    if (!generator.splits_and_merges() ||
+        since_adaptation < Intervals::adaptation)
+      return;
+    const double interval =
+      since_adaptation * size.seconds / size.n_reference_steps();
     since_adaptation  = 0.;
     const auto wanted = [this](const unsigned int cell) {
       return wanted_size_of_points(cell);
@@ -263,18 +276,34 @@ namespace CaissonMPM
   SoilOnGrid
   Simulation::soil_on_grid()
   {
-    return {*kernels, points, grid, materials, water.cell_pressure()};
+    return {*kernels, points, grid, materials, water->cell_pressure()};
   }
 
   void
-  Simulation::find_pore_pressure()
+  Simulation::correct_velocities()
   {
     NodalConstraints constraints = constraints_of_nodes();
-    const NodalData &predicted =
-      nodal_motion.predict(body.mean_velocity(), constraints);
-    water.correct(nodal_vectors(predicted), contact.corners().views());
-    nodal_motion.correct(
-      soil_on_grid(), nodal_forces, clock.time, body.mean_velocity(), contact);
+    nodal_motion.correct(soil_on_grid(),
+                         nodal_forces,
+                         clock.time,
+                         body.mean_velocity(),
+                         constraints,
+                         contact);
+  }
+
+  void
+  Simulation::constrain_velocities()
+  {
+    NodalConstraints constraints = constraints_of_nodes();
+    nodal_motion.constrain(body.mean_velocity(), constraints);
+  }
+
+  void
+  Simulation::prepare_transfer()
+  {
+    const NodalConstraints constraints = constraints_of_nodes();
+    nodal_motion.prepare_transfer(constraints);
+    work_of_step = nodal_motion.work_of_step(nodal_forces, constraints);
   }
 
   void
@@ -284,8 +313,8 @@ namespace CaissonMPM
       report_not_finite();
     auto &result = points.update_result();
     nodal_motion.update_points(grid.next(),
-                               water.volume_rates(nodal_motion.new_velocity(),
-                                                  contact.corners().views()),
+                               water->volume_rates(nodal_motion.new_velocity(),
+                                                   contact.corners().views()),
                                result);
     n_limited += result.n_limited;
   }
@@ -327,11 +356,11 @@ namespace CaissonMPM
   {
     const auto costs = points.cell_costs();
     // A part is made of whole cells: it may be impossible to do better than
-    // after the last cut.
+    // after the last repartition.
     lost_steps +=
-      steps_between_balances * std::max(0., imbalance(costs) - least_imbalance);
-    if (lost_steps > steps_of_a_cut)
-      cut_into_parts(costs);
+      Intervals::balance * std::max(0., imbalance(costs) - least_imbalance);
+    if (lost_steps > steps_of_repartition)
+      repartition(costs);
   }
 
   void
@@ -340,7 +369,7 @@ namespace CaissonMPM
     SectionTimer::Scope scope(timer, timer.section("output"));
     const Schedule::Due due = schedule.take_due();
     if (due.record || due.frame)
-      water.write_pressure_to_points();
+      water->write_pressure_to_points();
     if (due.record)
       recorder.record();
     if (due.frame)
@@ -353,48 +382,49 @@ namespace CaissonMPM
   }
 
   bool
-  Simulation::begins_anew() const
+  Simulation::rebuild_is_due() const
   {
-    return clock.step > 0 && clock.step % steps_between_beginnings == 0;
+    return clock.step > 0 && clock.step % Intervals::rebuild == 0;
   }
 
   void
-  Simulation::begin_anew()
+  Simulation::rebuild_caches()
   {
-    water.keep_field();
-    grid.move_to(0.); // where the parts are set up
-    set_up_part();
-    points.begin_anew();
+    grid.rebuild();
+    grid.move_to(body.motion().travel());
+    points.rebuild_sums();
     time_step.initialize(grid, points, soil, materials);
   }
 
   bool
   Simulation::checkpoint_is_due()
   {
-    if (!checkpoint_interval || !begins_anew())
+    if (!checkpoint_interval || !rebuild_is_due())
       return false;
     const bool due =
       recorder.seconds_running() - last_checkpoint > *checkpoint_interval;
     if (grid.n_ranks() == 1)
       return due;
     // clocks differ
-    return clock.step % steps_between_agreements == 0 &&
+    return clock.step % Intervals::agreement == 0 &&
            Utilities::MPI::max(due ? 1 : 0, grid.communicator()) == 1;
   }
 
   void
   Simulation::save_checkpoint()
   {
-    if (!needs_force_on_body()) // but a run that goes on after this one may
+    if (!needs_force_on_body()) // but a run that continues this one may
       force_on_body = find_force_on_body();
     totals.bring_to_first_rank(grid.communicator());
-    NamedNumbers       state    = totals.state();
-    const NamedNumbers of_water = water.field_state();
-    state.insert(state.end(), of_water.begin(), of_water.end());
+    NamedNumbers state = totals.state();
     state.emplace_back("mesh_uplift", lines.total_uplift());
     state.emplace_back("mesh_travel", lines.total_travel());
-    write_checkpoint(
-      recorder.output_directory(), grid, points, state, physics(prm));
+    write_checkpoint(recorder.output_directory(),
+                     grid,
+                     points,
+                     gather(grid, water->fields()),
+                     state,
+                     physics(prm));
   }
 
   std::string
@@ -402,7 +432,7 @@ namespace CaissonMPM
   {
     if (grid.n_ranks() == 1)
       return stop_request.reason();
-    if (clock.step % steps_between_agreements != 0)
+    if (clock.step % Intervals::agreement != 0)
       return "";
     const std::string  reason = stop_request.reason();
     const unsigned int rank =
@@ -421,7 +451,7 @@ namespace CaissonMPM
     save_checkpoint();
     recorder.review_run();
     recorder.write_summary("stopped");
-    recorder.message("stopped: " + reason + "; go on with --restart");
+    recorder.message("stopped: " + reason + "; resume with --restart");
     return ExitStatus::stopped;
   }
 
@@ -482,17 +512,19 @@ namespace CaissonMPM
     if (!is_restart)
       {
         if (installation.is_given())
-          recorder.message("goes on at a penetration of " +
+          recorder.message("continuing at a penetration of " +
                            to_text(body.penetration(), 6) + " m" +
                            installation.changes_in_words());
         recorder.write_frame();
         recorder.record();
       }
-    while (!schedule.is_finished() && water.reason_to_end().empty())
+    while (!schedule.is_finished() && water->reason_to_end().empty())
       {
+        if (rebuild_is_due())
+          timed("rebuild caches", [this]() { rebuild_caches(); });
         advance();
         output();
-        if (grid.n_ranks() > 1 && clock.step % steps_between_balances == 0)
+        if (grid.n_ranks() > 1 && clock.step % Intervals::balance == 0)
           timed("balance", [this]() { balance(); });
         const std::string reason = reason_to_stop();
         if (!reason.empty())
@@ -510,6 +542,6 @@ namespace CaissonMPM
     recorder.write_frame();
     recorder.message("ended at a penetration of " +
                      to_text(body.penetration(), 5) +
-                     " m: " + water.reason_to_end());
+                     " m: " + water->reason_to_end());
   }
 } // namespace CaissonMPM

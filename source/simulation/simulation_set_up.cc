@@ -60,10 +60,11 @@ namespace CaissonMPM
     lines.check_parameters();
     generator.check_parameters();
     boundary_conditions.check_parameters(lines);
-    water.check_parameters();
+    water->check_parameters();
     nodal_forces.check_parameters();
     nodal_motion.settings().check_parameters();
-    if ((water.is_coupled() || water.is_undrained()) &&
+    const WaterTraits &traits = water->traits();
+    if ((traits.follows_soil || traits.bulk_modulus > 0.) &&
         !nodal_motion.settings().uses_mean_volume())
       throw BadInput("Water/Level is coupled or undrained, but Method/Mean "
                      "volume change is false: the points of a cell are "
@@ -109,10 +110,9 @@ namespace CaissonMPM
     body.motion().register_totals(totals);
     body.motion().start();
     grid.create_mesh();
-    set_up_part();
+    grid.move_to(body.motion().travel());
     nodal_forces.initialize(soil.mass_scaling());
-    materials = soil.kernel_materials();
-    water.stiffen(materials);
+    materials = soil.kernel_materials(water->traits().bulk_modulus);
     body.find_weight(mass_of_body(), soil);
   }
 
@@ -180,7 +180,7 @@ namespace CaissonMPM
     const double             scaling = soil.mass_scaling();
     const auto               cells   = body.shape().cells_across_wall();
     if (body.shape().exists() && !body.motion().follows_loads() &&
-        !water.is_coupled() && scaling < usual_scaling)
+        !water->traits().follows_soil && scaling < usual_scaling)
       result.push_back("Time/Mass scaling = " + to_text(usual_scaling) +
                        " takes " +
                        to_text(std::sqrt(scaling / usual_scaling), 2) +
@@ -206,7 +206,7 @@ namespace CaissonMPM
     soil.name_unused_entries(origins);
     generator.name_unused_entries(origins);
     boundary_conditions.name_unused_entries(origins);
-    water.name_unused_entries(origins);
+    water->name_unused_entries(origins);
     nodal_motion.settings().name_unused_entries(origins);
     schedule.name_unused_entries(origins);
     recorder.name_unused_entries(origins);
@@ -224,11 +224,11 @@ namespace CaissonMPM
                       fingerprint_of(changed_physics(prm)),
                       installation.directory(),
                       *kernels);
-    recorder.tell_progress("the mesh of " + lines.description());
+    recorder.report_progress("the mesh of " + lines.description());
     make_mesh();
-    recorder.tell_progress(is_restart || installation.is_given() ?
-                             "the material points of the checkpoint" :
-                             "the material points");
+    recorder.report_progress(is_restart || installation.is_given() ?
+                               "the material points of the checkpoint" :
+                               "the material points");
     if (is_restart)
       resume();
     else
@@ -303,17 +303,6 @@ namespace CaissonMPM
     return strength;
   }
 
-  void
-  Simulation::set_up_part()
-  {
-    body_points = generate_body_points(grid, body);
-    contact.initialize(grid, body.surface());
-    water.initialize();
-    boundary_conditions.initialize(grid);
-    nodal_motion.initialize(grid);
-    grid.move_to(body.motion().travel());
-  }
-
   double
   Simulation::imbalance(const std::vector<unsigned int> &costs) const
   {
@@ -326,15 +315,14 @@ namespace CaissonMPM
   }
 
   void
-  Simulation::cut_into_parts(const std::vector<unsigned int> &costs)
+  Simulation::repartition(const std::vector<unsigned int> &costs)
   {
     std::vector<unsigned int> of_all_cells(costs.size());
     Utilities::MPI::sum(costs, grid.communicator(), of_all_cells);
-    const auto traveling = points.take_all();
-    water.keep_field();
+    const auto traveling = points.extract_points();
     grid.repartition(costs);
-    set_up_part();
-    points.redistribute(traveling);
+    grid.move_to(body.motion().travel());
+    points.insert_points(traveling);
     ++recorder.n_repartitions;
     // the points forget what moved and yielded: not by their costs now
     least_imbalance = imbalance(of_all_cells);
@@ -345,10 +333,10 @@ namespace CaissonMPM
   Simulation::start()
   {
     if (installation.is_given())
-      return go_on_after_installation();
+      return continue_from_installation();
     generator.generate(grid, body.shape(), soil, points);
     if (grid.n_ranks() > 1)
-      cut_into_parts(points.cell_costs());
+      repartition(points.cell_costs());
     energy.start(find_point_energies(points, materials, grid));
     schedule.start();
   }
@@ -363,23 +351,24 @@ namespace CaissonMPM
     if (!missing.empty())
       throw BadInput("the checkpoint in " + recorder.output_directory() +
                      " lacks the entry " + missing +
-                     ". Start the run anew in another directory.");
+                     ". Start the run again in another directory.");
     grid.move_to(body.motion().travel());
-    water.resume_field(state);
+    scatter(grid, checkpoint.read_fields(grid.communicator()), water->fields());
     if (grid.n_ranks() > 1)
-      cut_into_parts(points.cell_costs());
+      repartition(points.cell_costs());
     schedule.resume();
   }
 
   void
-  Simulation::go_on_after_installation()
+  Simulation::continue_from_installation()
   {
     const Checkpoint &checkpoint = installation.checkpoint();
     checkpoint.read_points(grid, points);
     totals.take_over(checkpoint.state());
     if (grid.n_ranks() > 1)
-      cut_into_parts(points.cell_costs());
-    water.go_on_after(installation.water_level(), checkpoint.state());
+      repartition(points.cell_costs());
+    water->continue_after(installation.water_level(),
+                          checkpoint.read_fields(grid.communicator()));
     energy.start(find_point_energies(points, materials, grid));
     schedule.start();
   }
@@ -395,7 +384,7 @@ namespace CaissonMPM
                  generator,
                  soil,
                  body,
-                 water,
+                 water->traits(),
                  schedule,
                  mass_of_body(),
                  slowest_wave,
@@ -409,7 +398,7 @@ namespace CaissonMPM
                            lines.depth();
     for (const auto &limits : {soil.known_limits(reach),
                                nodal_motion.settings().known_limits(),
-                               water.known_limits(materials)})
+                               water->report(materials).known_limits})
       for (const std::string &limit : limits)
         origins.add_limit(limit);
   }

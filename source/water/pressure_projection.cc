@@ -14,7 +14,7 @@ namespace CaissonMPM
 
   namespace
   {
-    // What is left is made good in the next step.
+    // The residual is carried into the next step.
     constexpr double accuracy = .1;
 
     // Where soil fills a cell by less than the first share, its velocities say
@@ -85,7 +85,8 @@ namespace CaissonMPM
     divergence.assign(grid->n_cells(), {});
     force_of.assign(grid->n_cells(), {});
     volumes.assign(grid->n_cells(), 0.);
-    knows_wet_cells = false;
+    wet_ = -1.;
+    wet_.update_ghost_values();
     acting.assign(grid->n_cells(), 0.);
   }
 
@@ -211,11 +212,10 @@ namespace CaissonMPM
         const bool         is_wet  = mudline->filled()[cell] > 0.;
         const unsigned int place   = solver_.place(cell);
         double            &was_wet = wet_.local_element(place);
-        if (is_wet && knows_wet_cells && was_wet == 0.)
+        if (is_wet && was_wet == 0.)
           pressure_.local_element(place) = pressure_above(cell);
         was_wet = is_wet ? 1. : 0.;
       }
-    knows_wet_cells = true;
   }
 
   double

@@ -17,45 +17,38 @@ namespace CaissonMPM
   namespace
   {
     constexpr double atmosphere = 101.3e3, vapor_pressure = 1.2e3; // Pa, 10 C
+  }                                                                // namespace
 
-    /** Declare the entries of what is beneath the lid and limits the suction.
-     */
-    void
-    declare_limits(ParameterAcceptor     &suction,
-                   std::optional<double> &largest,
-                   double                &water_depth,
-                   double                &gas)
-    {
-      add_word_or_number(suction,
-                         "Largest suction",
-                         largest,
-                         "unlimited",
-                         0.,
-                         "The run ends where the required suction exceeds that "
-                         "of the pump. Units: Pa.",
-                         Patterns::Double(0.));
-      suction.add_parameter(
-        "Water depth",
-        water_depth,
-        "The depth of the mudline below the sea sets the pressure "
-        "at which water boils: beneath the lid, whose height takes "
-        "from it, where a run ends, and in the soil, where it warns. Units: m.",
-        suction.prm,
-        Patterns::Double(0.));
-      suction.add_parameter(
-        "Trapped gas",
-        gas,
-        "The volume of gas beneath the lid at the pressure of the "
-        "open water on the mudline. It expands under suction at "
-        "constant temperature, and the pump takes this volume, too. "
-        "Units: m3.",
-        suction.prm,
-        Patterns::Double(0.));
-    }
-  } // namespace
+  SeaSettings::SeaSettings()
+    : Section("/Water")
+  {
+    add_parameter(
+      "Water depth",
+      depth,
+      "The depth of the mudline below the sea sets the pressure "
+      "at which water boils: beneath the lid, whose height takes "
+      "from it, where a run ends, and in the soil, where it warns. Units: m.",
+      prm,
+      Patterns::Double(0.));
+  }
 
-  Suction::Suction()
-    : ParameterAcceptor("/Water")
+  double
+  SeaSettings::ambient_pressure(const double unit_weight) const
+  {
+    return atmosphere + unit_weight * depth;
+  }
+
+  double
+  SeaSettings::cavitation(const double unit_weight, const double height) const
+  {
+    // a lid high above the sea draws up no water, but may stand there
+    return std::max(ambient_pressure(unit_weight) - vapor_pressure -
+                      unit_weight * height,
+                    0.);
+  }
+
+  SuctionSettings::SuctionSettings()
+    : Section("/Water")
   {
     add_choice(*this,
                "Suction control",
@@ -97,19 +90,34 @@ namespace CaissonMPM
                   "constant. Units: s.",
                   prm,
                   Patterns::Double(1e-6));
-    declare_limits(*this, largest, water_depth, gas);
+    add_word_or_number(*this,
+                       "Largest suction",
+                       largest,
+                       "unlimited",
+                       0.,
+                       "The run ends where the required suction exceeds that "
+                       "of the pump. Units: Pa.",
+                       Patterns::Double(0.));
+    add_parameter("Trapped gas",
+                  gas,
+                  "The volume of gas beneath the lid at the pressure of the "
+                  "open water on the mudline. It expands under suction at "
+                  "constant temperature, and the pump takes this volume, too. "
+                  "Units: m3.",
+                  prm,
+                  Patterns::Double(0.));
     parse_parameters_call_back.connect([this]() { fill_tables(); });
   }
 
   void
-  Suction::fill_tables()
+  SuctionSettings::fill_tables()
   {
     table      = parse_time_table(table_text);
     flow_table = parse_time_table(flow_text);
   }
 
   void
-  Suction::check_parameters() const
+  SuctionSettings::check_parameters() const
   {
     if (control == Control::table && table.empty())
       throw BadInput("Water/Suction control is table, but Water/Suction table "
@@ -125,7 +133,7 @@ namespace CaissonMPM
   }
 
   void
-  Suction::name_unused_entries(ParameterOrigins &origins) const
+  SuctionSettings::name_unused_entries(ParameterOrigins &origins) const
   {
     const std::vector<std::pair<Control, std::vector<std::string>>> entries = {
       {Control::required, {"Water/Suction delay"}},
@@ -141,21 +149,8 @@ namespace CaissonMPM
                              why[static_cast<int>(control)]);
   }
 
-  void
-  Suction::name_all_unused(ParameterOrigins &origins, const std::string &why)
-  {
-    origins.add_unused({"Water/Suction control",
-                        "Water/Suction table",
-                        "Water/Suction delay",
-                        "Water/Pumped flow table",
-                        "Water/Pump delay",
-                        "Water/Largest suction",
-                        "Water/Trapped gas"},
-                       why);
-  }
-
   double
-  Suction::largest_of_table() const
+  SuctionSettings::largest_of_table() const
   {
     double result = 0.;
     if (control == Control::table)
@@ -164,22 +159,28 @@ namespace CaissonMPM
     return result;
   }
 
+  Suction::Suction(const SuctionSettings &settings, const SeaSettings &sea)
+    : settings(settings)
+    , sea(sea)
+  {}
+
   void
   Suction::advance(const double time, const double dt, const SuctionLoad &load)
   {
-    required_ = (load.resistance - load.weight) / load.area;
-    if (control == Control::required)
+    using Control = SuctionSettings::Control;
+    required_     = (load.resistance - load.weight) / load.area;
+    if (settings.control == Control::required)
       {
-        suction -= std::expm1(-dt / delay) * (required_ - suction);
+        suction -= std::expm1(-dt / settings.delay) * (required_ - suction);
         suction = std::max(suction, 0.);
         return;
       }
     if (time > 0.) // until then, a body that its loads move comes to rest
       {
-        if (control == Control::flow)
+        if (settings.control == Control::flow)
           pump(time, dt, load);
         else
-          suction = value_at(table, time);
+          suction = value_at(settings.table, time);
       }
     last_volume = load.volume;
   }
@@ -188,41 +189,34 @@ namespace CaissonMPM
   Suction::pump(const double time, const double dt, const SuctionLoad &load)
   {
     double most = 0.;
-    for (const auto &entry : flow_table)
+    for (const auto &entry : settings.flow_table)
       most = std::max(most, entry.second);
     const double missing =
-      dt * value_at(flow_table, time) - (load.volume - last_volume);
+      dt * value_at(settings.flow_table, time) - (load.volume - last_volume);
     constexpr double share = .1; // at which a body that is lowered is fastest
     const double     rate  = share * (load.weight / load.area + suction) /
-                        (most * pump_delay); // Pa/m3
-    const double ambient = ambient_pressure(), left = ambient - suction,
-                 volume = gas * ambient / left;
+                        (most * settings.pump_delay); // Pa/m3
+    const double ambient = sea.ambient_pressure(unit_weight_of_water),
+                 left    = ambient - suction,
+                 volume  = settings.gas * ambient / left;
     if (volume * rate > left) // gas gives way more
-      suction = ambient - gas * ambient / (volume + missing);
+      suction = ambient - settings.gas * ambient / (volume + missing);
     else
       suction += rate * missing;
     suction = std::max(suction, 0.);
   }
 
   double
-  Suction::ambient_pressure() const
-  {
-    return atmosphere + unit_weight_of_water * water_depth;
-  }
-
-  double
   Suction::gas_expansion() const
   {
-    return gas * suction / (ambient_pressure() - suction);
+    return settings.gas * suction /
+           (sea.ambient_pressure(unit_weight_of_water) - suction);
   }
 
   double
   Suction::cavitation(const double height) const
   {
-    // a lid high above the sea draws up no water, but may stand there
-    return std::max(ambient_pressure() - vapor_pressure -
-                      unit_weight_of_water * height,
-                    0.);
+    return sea.cavitation(unit_weight_of_water, height);
   }
 
   std::string
@@ -231,16 +225,16 @@ namespace CaissonMPM
     const auto kilopascals = [](const double p) {
       return to_text(1e-3 * p, 4) + " kPa";
     };
-    if (largest && suction > *largest)
+    if (settings.largest && suction > *settings.largest)
       return "the suction exceeds Water/Largest suction = " +
-             kilopascals(*largest) + ", that of the pump";
+             kilopascals(*settings.largest) + ", that of the pump";
     const double boiling = cavitation(height);
     if (suction > boiling)
       return "the suction exceeds " + kilopascals(boiling) +
              ", where water boils beneath the lid (cavitation), " +
              to_text(height, 4) +
              " m above the mudline at Water/Water depth = " +
-             to_text(water_depth) + " m";
+             to_text(sea.depth) + " m";
     return "";
   }
 

@@ -82,7 +82,7 @@ namespace
     s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
     Updraft updraft;
     ParameterAcceptor::declare_all_parameters();
-    expect("does not act by itself", !updraft.acts());
+    expect("does not act by itself", !updraft.is_active());
     ParameterAcceptor::prm.parse_input_from_string(
       "subsection Loads\nset Updraft = 100\nend\n");
     ParameterAcceptor::parse_all_parameters();

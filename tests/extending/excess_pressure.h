@@ -48,7 +48,7 @@ namespace CaissonMPM
     }
 
     bool
-    acts() const override
+    is_active() const override
     {
       return !pressure.is_zero();
     }

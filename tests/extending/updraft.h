@@ -34,7 +34,7 @@ namespace CaissonMPM
     }
 
     bool
-    acts() const override
+    is_active() const override
     {
       return per_volume > 0.;
     }

@@ -121,16 +121,20 @@ struct Stepper
     scene.grid.prepare_motion(0.);
   }
 
+  SoilOnGrid
+  soil_on_grid()
+  {
+    return {*Kernels::select_kernels("auto"),
+            scene.points,
+            scene.grid,
+            materials,
+            nullptr};
+  }
+
   void
   collect()
   {
-    motion.collect({*Kernels::select_kernels("auto"),
-                    scene.points,
-                    scene.grid,
-                    materials,
-                    nullptr},
-                   forces,
-                   0.);
+    motion.collect(soil_on_grid(), forces, 0.);
   }
 
   /** Take a step without relocation; returns its works. */
@@ -142,6 +146,7 @@ struct Stepper
                       forces,
                       Vector2(),
                       contact);
+    motion.correct(soil_on_grid(), forces, 0., Vector2(), constraints, contact);
     motion.constrain(Vector2(), constraints);
     motion.prepare_transfer(constraints);
     const NodalWork work = motion.work_of_step(forces, constraints);

@@ -238,7 +238,7 @@ class Installation(ProgramTest):
         rows = history(before)
         cases: list[tuple[list[str], Entries]] = [
             (
-                ["Soil/Layer 1/Friction angle = 31, there 30", "anew"],
+                ["Soil/Layer 1/Friction angle = 31, there 30", "again"],
                 {"Soil/Layer 1/Friction angle": 31},
             ),
             (["Wall thickness = 0.1, there 0.2"], {"Rigid body/Wall thickness": 0.1}),
@@ -254,7 +254,7 @@ class Installation(ProgramTest):
         self.assertIn("is the output directory of this run, too", text)
         self.assertEqual(history(before), rows)
         flip_a_bit(before)
-        words = ["is damaged", "the run that wrote it anew"]
+        words = ["is damaged", "the run that wrote it again"]
         self.refused(words, entries={INSTALLATION: before, DEPTH: 0.6})
 
     def test_body_that_rested(self) -> None:

@@ -12,8 +12,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <vector>
 
 #include "../shared/scene.h"
@@ -138,6 +140,7 @@ write(Scene &s, const double time)
   write_checkpoint(directory,
                    s.grid,
                    s.points,
+                   {},
                    {{"time", time}, {"third", 1. / 3.}, {"large", 1e300}},
                    parameters);
 }
@@ -152,7 +155,7 @@ check_contents(Scene &s)
   std::printf("written: %s\n", valid_file().c_str());
   write(s, .7);
   std::printf("written: %s\n", valid_file().c_str());
-  s.points.take_all();
+  s.points.extract_points();
   const Checkpoint checkpoint(directory);
   checkpoint.read_points(s.grid, s.points);
   std::printf("the same points: %s\n",
@@ -225,6 +228,46 @@ check_damaged_text(Scene &s)
     }
   std::printf("damage of the text not noticed: %u\n", n_read);
   std::printf("as it was: %s\n", read(s).c_str());
+}
+
+/** Fields come back to the last bit, and their damage is noticed. */
+void
+check_fields(Scene &s)
+{
+  const double      nan     = std::numeric_limits<double>::quiet_NaN();
+  const double      large   = 1.2345678901234567e300;
+  const NamedFields written = {{"pressure", {1. / 3., nan, -0., large}},
+                               {"is_wet", {1., 0.}}};
+  write_checkpoint(directory, s.grid, s.points, written, {}, parameters);
+  const auto same = [](const NamedFields &a, const NamedFields &b) {
+    bool result = a.size() == b.size();
+    for (std::size_t i = 0; result && i < a.size(); ++i)
+      result = a[i].first == b[i].first &&
+               a[i].second.size() == b[i].second.size() &&
+               std::memcmp(a[i].second.data(),
+                           b[i].second.data(),
+                           a[i].second.size() * sizeof(double)) == 0;
+    return result;
+  };
+  const auto read_fields = [&]() {
+    return Checkpoint(directory).read_fields(MPI_COMM_WORLD);
+  };
+  std::printf("the same fields: %s\n",
+              same(read_fields(), written) ? "yes" : "no");
+  std::string bytes(sizeof(double), ' ');
+  std::memcpy(&bytes[0], &large, sizeof(double));
+  const auto place = read_text(path(valid_file())).find(bytes);
+  flip(path(valid_file()), place);
+  try
+    {
+      read_fields();
+      std::printf("damage of a field: not noticed\n");
+    }
+  catch (const BadInput &)
+    {
+      std::printf("damage of a field: noticed, and the points are %s\n",
+                  read(s).c_str());
+    }
 }
 
 /** The file system refuses what is too large. */
@@ -313,10 +356,10 @@ void
 generate(Scene &s)
 {
   s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
-  auto all = s.points.take_all();
+  auto all = s.points.extract_points();
   for (TravelingPoint &p : all)
     fill(p.point);
-  s.points.redistribute(all);
+  s.points.insert_points(all);
 }
 
 int
@@ -335,6 +378,7 @@ main(int argc, char *argv[])
   }
   Scene s(box("1"));
   generate(s);
+  check_fields(s);
   write(s, .1);
   check_damaged_text(s);
   check_damage(s, 7, 997);

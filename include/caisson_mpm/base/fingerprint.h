@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A short text or number that tells two longer texts apart.
+// A short text or number that distinguishes longer texts.
 #ifndef caisson_mpm_base_fingerprint_h
 #define caisson_mpm_base_fingerprint_h
 

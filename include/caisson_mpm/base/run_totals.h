@@ -91,8 +91,8 @@ namespace CaissonMPM
     resume(const NamedNumbers &state, const bool is_first_rank);
 
     /** Set what carry() has registered to the values in the checkpoint of
-     * another run, as far as it has them; all else begins anew. Every rank
-     * passes the same state; not collective. */
+     * another run, as far as it has them; all else starts from its initial
+     * value. Every rank passes the same state; not collective. */
     void
     take_over(const NamedNumbers &state);
 

@@ -50,7 +50,7 @@ namespace CaissonMPM
       return entries_;
     }
 
-    /** Tell which of the entries have no effect in their present state. */
+    /** Report which of the entries have no effect in their present state. */
     virtual void
     name_unused_entries(ParameterOrigins & /*origins*/) const
     {}

@@ -16,7 +16,7 @@ namespace CaissonMPM
   /**
    * Where the body is and how fast it moves. A motion is a state, which each
    * step advances: its future is not known to anyone else. Only a motion that
-   * is prescribed can tell when the body will be where.
+   * is prescribed knows when the body will be where.
    *
    * A motion is one class in one file; it declares its own entries and has one
    * line in the list of rigid_body.cc. It is the same on all ranks; not

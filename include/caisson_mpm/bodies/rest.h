@@ -48,8 +48,8 @@ namespace CaissonMPM
   /**
    * Finds out where the body rests first: its mean speed over a fifth of a
    * second is small, and the soil bears its load within 1 %. One of the two
-   * alone does not tell: a body may be slow for a moment, or balanced while it
-   * still moves, and at the start it is slow. Not collective.
+   * alone does not suffice: a body may be slow for a moment, or balanced while
+   * it still moves, and at the start it is slow. Not collective.
    */
   class Rest
   {

@@ -31,7 +31,7 @@ namespace CaissonMPM
     void
     check_parameters() const;
 
-    /** Tell which entries of the section have no effect. */
+    /** Report which entries of the section have no effect. */
     void
     name_unused_entries(ParameterOrigins &origins) const;
 
@@ -74,8 +74,8 @@ namespace CaissonMPM
     }
 
     /** Find submerged_weight(), from the mass of the body's cells where the
-     * entry is auto, and tell the motion this mass. On the whole circumference.
-     * Units: kg. */
+     * entry is auto, and pass this mass to the motion. On the whole
+     * circumference. Units: kg. */
     void
     find_weight(const double mass, const Soil &soil);
 

@@ -18,6 +18,8 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/mapping_q1.h>
 
+#include <boost/signals2/signal.hpp>
+
 #include <array>
 #include <map>
 #include <memory>
@@ -47,6 +49,18 @@ namespace CaissonMPM
     using Zone          = GridLines::Zone;
     using Side          = GridLines::Side;
 
+    /** An object that keeps values of the cells or nodes of this rank connects
+     * itself to these. */
+    struct Signals
+    {
+      /** The cells and nodes are still those of before. */
+      boost::signals2::signal<void()> before_change;
+      /** The rank has other cells and nodes, or the same ones, whose values are
+       * to be built again; the mesh is at the start of the travel. */
+      boost::signals2::signal<void()> after_change;
+    };
+    Signals signals;
+
     /** The lines must outlive the grid, and be placed before create_mesh(). */
     BackgroundGrid(const GridLines &lines, const MPI_Comm communicator);
 
@@ -55,12 +69,17 @@ namespace CaissonMPM
     create_mesh();
 
     /**
-     * Give each rank a part of about the same costs, and number its cells and
-     * nodes anew, at the start of the travel. @p costs [n_global_cells] are used
+     * Give each rank a part of about the same costs, and renumber its cells and
+     * nodes, at the start of the travel. @p costs [n_global_cells] are used
      * of the cells that this rank owns. Collective.
      */
     void
     repartition(const std::vector<unsigned int> &costs);
+
+    /** Let all that know the cells and nodes of this rank build their values
+     * again, as after a change of the parts. Collective. */
+    void
+    rebuild();
 
     /** Compute the geometry at @p travel, which next() gives until advance(). */
     void
@@ -278,7 +297,7 @@ namespace CaissonMPM
     /** Number the cells and nodes of this rank's part of the mesh, at the start
      * of the travel: after each change of the parts. Collective. */
     void
-    set_up_part();
+    number_part();
     void
     number_cells();
     void

@@ -19,7 +19,7 @@ namespace CaissonMPM
 #define CAISSON_LIST_MEMBER(name, n, ...) std::array<double, n> name = {};
 #define CAISSON_MEMBER(name, ...) double name = 0.;
 
-  /** Its state; kernels/point_fields.h tells what the members are. SI units. */
+  /** Its state; kernels/point_fields.h describes the members. SI units. */
   struct MaterialPoint
   {
     dealii::Point<2> position;

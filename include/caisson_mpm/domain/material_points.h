@@ -54,7 +54,7 @@ namespace CaissonMPM
     /** Forget what is kept of the cells from step to step: it is summed from
      * the points again, in their order. */
     void
-    begin_anew();
+    rebuild_sums();
 
     /** Return the number of points of this rank. */
     unsigned int
@@ -105,12 +105,12 @@ namespace CaissonMPM
 
     /** Take all points out, before the parts of the mesh change. */
     std::vector<TravelingPoint>
-    take_all();
+    extract_points();
 
-    /** Bring the points of take_all() to the ranks that own their cells now.
-     * Collective. */
+    /** Bring the points of extract_points() to the ranks that own their cells
+     * now. Collective. */
     void
-    redistribute(const std::vector<TravelingPoint> &traveling);
+    insert_points(const std::vector<TravelingPoint> &traveling);
 
     /** Register the counts of what this rank did with points. */
     void
@@ -209,9 +209,6 @@ namespace CaissonMPM
     }
 
   private:
-    // blocks of neighboring cells drift apart in memory slowly
-    static constexpr unsigned int steps_between_orderings = 200;
-
     // points to come whose blocks are asked for: the memory takes that long
     static constexpr unsigned int steps_ahead = 3;
 
@@ -314,7 +311,7 @@ namespace CaissonMPM
     // [n_cells], in r and z
     std::vector<std::array<SizeRange, 2>> sizes;
     // [n_cells], whether points came or went: whatever adds or removes a point
-    // sets it, and the kernels then sum the moments of the cell anew
+    // sets it, and the kernels then sum the moments of the cell again
     std::vector<unsigned char> changed;
     // [n_cells], what else makes a cell expensive: blocks that yielded in the
     // last step, and points taken out of it since this number of relocations

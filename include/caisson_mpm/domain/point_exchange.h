@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What ranks tell each other about material points: those that move to a cell
+// What ranks send each other of material points: those that move to a cell
 // of another rank, and which cells at the border have points.
 #ifndef caisson_mpm_domain_point_exchange_h
 #define caisson_mpm_domain_point_exchange_h

@@ -37,7 +37,7 @@ namespace CaissonMPM
     const char *unit;
     Merge       merge;
     InFrames    in_frames;
-    /** What it means, where the name does not tell. */
+    /** What it means, where the name does not say it. */
     const char *text;
 
     std::string

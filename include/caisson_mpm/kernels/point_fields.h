@@ -8,7 +8,7 @@
 // Every line names the member of the block, what it is one component of
 // (PART), or how its components are called (LIST), the unit, how the value of
 // two MPs that become one follows from theirs, whether frames show it, and what
-// it means where the name does not tell. The merges are
+// it means where the name does not say it. The merges are
 //   sum        the sum, of which two halves of an MP have half each,
 //   by_mass    the mean, weighted by mass,
 //   by_volume  the mean, weighted by volume,

@@ -52,9 +52,14 @@ namespace CaissonMPM
     void
     divide(const std::vector<double> &row_lines);
 
-    /** Tell which entries of the section have no effect. */
+    /** Report which entries of the section have no effect. */
     void
     name_unused_entries(ParameterOrigins &origins) const;
+
+    /** Name the permeabilities of all layers, which have no effect. */
+    void
+    name_unused_permeability(ParameterOrigins  &origins,
+                             const std::string &why) const;
 
     unsigned int
     n_layers() const
@@ -131,9 +136,11 @@ namespace CaissonMPM
     initial_velocity() const;
 
     /** The kernels' materials. Their body force is that on a
-     * unit of inertia: mass scaling leaves the weight as it is. */
+     * unit of inertia: mass scaling leaves the weight as it is. Water with this
+     * bulk modulus over the porosity resists their change of volume. Units: Pa.
+     */
     std::vector<Kernels::Material>
-    kernel_materials() const;
+    kernel_materials(const double water_modulus = 0.) const;
 
     /** Warnings of what the layers' laws are known not to describe, and of mass
      * scaling that is known to change the answer of a body that reaches down to

@@ -29,7 +29,7 @@ namespace CaissonMPM
     initialize(const double mass_scaling) override;
 
     bool
-    acts() const override;
+    is_active() const override;
 
   private:
     void

@@ -47,7 +47,7 @@ namespace CaissonMPM
     void
     check_parameters(const GridLines &lines) const;
 
-    /** Tell which entries the other choices leave without effect. */
+    /** Report which entries the other choices leave without effect. */
     void
     name_unused_entries(ParameterOrigins &origins) const;
 

@@ -58,7 +58,7 @@ namespace CaissonMPM
     /** Return whether the force is present at all. One that is not costs
      * nothing. */
     virtual bool
-    acts() const = 0;
+    is_active() const = 0;
 
     /** Return what a cell adds to its corner, if that is a convex corner of the
      * body, which takes it from each cell on its own. Units: N per radian. */
@@ -75,16 +75,27 @@ namespace CaissonMPM
     void
     collect(const ForceContext &context, Kernels::NodalSums *nodes);
 
-    /** Return whether the force is found again in a step, when the nodes are
-     * known to accelerate with the first one. */
+    /** Return whether the force follows from the velocities at the end of the
+     * step: those with the force of the last step predict them, solve()
+     * computes the force from these, and correct() adds it. */
     virtual bool
-    is_corrected() const
+    is_implicit() const
     {
       return false;
     }
 
-    /** Find the force again, keep it, and add what it has changed by to @p
-     * change [n_nodes]. */
+    /** Compute an implicit force from the predicted @p velocity [n_nodes], which
+     * cells at @p corners of the body see as these say. Collective. */
+    virtual void
+    solve(const Kernels::NodalVector             *velocity,
+          const std::vector<Kernels::CornerView> &corners)
+    {
+      (void)velocity;
+      (void)corners;
+    }
+
+    /** Find an implicit force again, keep it, and add what it has changed by to
+     * @p change [n_nodes]. */
     void
     correct(const ForceContext &context, Kernels::NodalVector *change);
 

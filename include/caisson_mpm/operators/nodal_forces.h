@@ -37,8 +37,19 @@ namespace CaissonMPM
     void
     collect(const ForceContext &context, Kernels::NodalSums *nodes);
 
-    /** Find those forces again that are corrected within the step, and add
-     * their change to @p change [n_nodes]. */
+    /** Return whether there is an implicit force; see
+     * NodalForce::is_implicit().
+     */
+    bool
+    have_implicit() const;
+
+    /** Compute the implicit forces. Collective. */
+    void
+    solve(const Kernels::NodalVector             *velocity,
+          const std::vector<Kernels::CornerView> &corners);
+
+    /** Find the implicit forces again, and add their change to @p change
+     * [n_nodes]. */
     void
     correct(const ForceContext &context, Kernels::NodalVector *change);
 

@@ -49,20 +49,9 @@ namespace CaissonMPM
                const Vector2     &body_velocity,
                Contact           &contact);
 
-    /** Return v+ held to contact and boundary conditions, before those forces
-     * are corrected that follow from it; see NodalForce::is_corrected(). */
-    const NodalData &
-    predict(const Vector2 &body_velocity, NodalConstraints &constraints);
-
-    /** Find these forces again, and v+ with them. After predict(). */
-    void
-    correct(const SoilOnGrid &soil,
-            NodalForces      &forces,
-            const double      time,
-            const Vector2    &body_velocity,
-            Contact          &contact);
     /** Return how the soil responds to a body that keeps the velocity which
-     * accelerate() was given. */
+     * accelerate() was given. For a body that responds, this and the next
+     * function follow accelerate(). */
     Contact::Response
     respond(Contact &contact) const;
 
@@ -70,7 +59,18 @@ namespace CaissonMPM
     void
     replace_body_velocity(const Vector2 &body_velocity, Contact &contact);
 
-    /** Hold v+ to contact and boundary conditions; see reactions(). */
+    /** Compute the implicit forces from v+, constrained by contact and boundary
+     * conditions, and v+ again with them; does nothing where there are none.
+     * See NodalForce::is_implicit(). */
+    void
+    correct(const SoilOnGrid &soil,
+            NodalForces      &forces,
+            const double      time,
+            const Vector2    &body_velocity,
+            NodalConstraints &constraints,
+            Contact          &contact);
+
+    /** Constrain v+ by contact and boundary conditions; see reactions(). */
     void
     constrain(const Vector2 &body_velocity, NodalConstraints &constraints);
 
@@ -138,18 +138,19 @@ namespace CaissonMPM
       points_updated,
       collected,
       accelerated,
+      corrected,
       constrained,
       transfer_prepared,
       work_found
     };
 
-    /** Go on to @p next, which must be the stage that follows. */
+    /** Enter @p next, which must be the stage that follows. */
     void
     enter(const Stage next);
 
     void
     accelerate(const Vector2 &body_velocity, Contact &contact);
-    /** Tell the kernels how cells see the corners of the body. */
+    /** Give the kernels how cells see the corners of the body. */
     void
     show_corners(const Contact &contact);
 

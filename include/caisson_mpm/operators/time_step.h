@@ -39,7 +39,7 @@ namespace CaissonMPM
                std::vector<Kernels::Material> &materials);
 
     /**
-     * Return the step of the current geometry. The limit is found anew every
+     * Return the step of the current geometry. The limit is found again every
      * few steps only: the mesh moves slowly. So is the p-wave modulus of
      * @p materials whose stiffness varies, with a margin for the steps between.
      * Throws RunFailure where a fixed step is no longer stable. The same on all

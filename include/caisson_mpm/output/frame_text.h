@@ -55,7 +55,7 @@ namespace CaissonMPM
     /**
      * Return the cells of this rank: what they are, how many points they have,
      * and the means of stress, void ratio and pore pressure over the points,
-     * by volume. A mean is not a number where no point tells it: in the body
+     * by volume. A mean is not a number where no point has it: in the body
      * and above the soil. Values are at the corners, of which each cell has its
      * own.
      */

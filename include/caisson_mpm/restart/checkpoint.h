@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The state of a run on disk, from which it can go on.
+// The state of a run on disk, from which it can be resumed.
 //
-// Files in the output directory: the points in checkpoint-a.h5 or
+// Files in the output directory: points and fields in checkpoint-a.h5 or
 // checkpoint-b.h5 in turn (point_file.h), and the text checkpoint.info, which
 // says which of the two is valid and has the rest of the state by name, with
-// checksums of the points and of its own text. The points are read back before,
+// checksums of points, fields and its own text. Both are read back before,
 // and the text is replaced last and at once, so that a run that is killed at
 // any time leaves one complete checkpoint. The mesh follows from the parameters
 // and the travel. Memory: some megabytes, however many points there are.
@@ -13,7 +13,7 @@
 #define caisson_mpm_restart_checkpoint_h
 
 #include <caisson_mpm/base/named_numbers.h>
-#include <caisson_mpm/domain/background_grid.h>
+#include <caisson_mpm/domain/grid_fields.h>
 #include <caisson_mpm/domain/material_points.h>
 
 #include <cstdint>
@@ -22,16 +22,18 @@
 namespace CaissonMPM
 {
   /**
-   * Write the points and @p state, whatever else the run must know: values of
-   * all ranks, of which the first one's are written. @p fingerprint is the text of all
-   * parameters that must be the same when the run goes on, one per line.
-   * Throws RunFailure where there is no room or the file is not as it should
-   * be; the previous checkpoint is still valid then. Collective.
+   * Write the points, @p fields of the grid, and @p state, whatever else the run
+   * must know: values of all ranks, of which the first one's are written. @p
+   * fingerprint is the text of all parameters that must be the same when the
+   * run is resumed, one per line. Throws RunFailure where there is no room or
+   * the file is not as it should be; the previous checkpoint is still valid
+   * then. Collective.
    */
   void
   write_checkpoint(const std::string    &directory,
                    const BackgroundGrid &grid,
                    const MaterialPoints &points,
+                   const NamedFields    &fields,
                    const NamedNumbers   &state,
                    const std::string    &fingerprint);
 
@@ -43,11 +45,11 @@ namespace CaissonMPM
     static bool
     is_in(const std::string &directory);
 
-    /** Read all but the points. Throws BadInput where there is no checkpoint,
-     * or its text is damaged. */
+    /** Read all but points and fields. Throws BadInput where there is no
+     * checkpoint, or its text is damaged. */
     explicit Checkpoint(const std::string &directory);
 
-    /** Return what was written besides the points. */
+    /** Return the numbers that were written. */
     const NamedNumbers &
     state() const
     {
@@ -76,12 +78,21 @@ namespace CaissonMPM
     void
     read_points(const BackgroundGrid &grid, MaterialPoints &points) const;
 
+    /** Return the fields. Throws BadInput where they are damaged. Collective.
+     */
+    NamedFields
+    read_fields(const MPI_Comm communicator) const;
+
+    /** A field as the text has it: its name, and a checksum of its values. */
+    using FieldSum = std::pair<std::string, std::string>;
+
   private:
-    std::string   directory, file;
-    unsigned long n_points = 0;
-    std::uint64_t checksum = 0; // of the points
-    NamedNumbers  state_;
-    std::string   fingerprint_;
+    std::string           directory, file;
+    unsigned long         n_points = 0;
+    std::uint64_t         checksum = 0; // of the points
+    std::vector<FieldSum> fields;
+    NamedNumbers          state_;
+    std::string           fingerprint_;
   };
 } // namespace CaissonMPM
 

@@ -19,11 +19,13 @@ namespace CaissonMPM
    * is a point: the global number of its cell, its material, and its fields
    * (kernels/point_fields.h) to the last digit, in SI units. The attribute
    * "columns" of the dataset names the columns; a file with others is not read.
+   * Fields of the grid are further datasets [n_places], each with its name.
    *
    * Any number of ranks share a file. To open and to close it is collective; in
    * between each rank writes or reads whichever rows it likes. Nothing throws
-   * where the file cannot be written or read: close() tells, so that all ranks
-   * can agree. (deal.II's classes for HDF5 look for errors in Debug mode only.)
+   * where the file cannot be written or read: close() reports it, so that all
+   * ranks can agree. (deal.II's classes for HDF5 look for errors in Debug mode
+   * only.)
    */
   class PointFile
   {
@@ -58,6 +60,14 @@ namespace CaissonMPM
      * nothing where this fails. */
     std::vector<TravelingPoint>
     read(const unsigned long first_row, const unsigned long n);
+
+    /** Write a field, which every rank passes. Collective. */
+    void
+    write_field(const std::string &name, const std::vector<double> &values);
+
+    /** Return a field on all ranks, empty where there is none. Collective. */
+    std::vector<double>
+    read_field(const std::string &name);
 
     /** Bring all to the file and close it. Returns whether all that this rank
      * has done with it succeeded. Collective. */
@@ -95,6 +105,7 @@ namespace CaissonMPM
     hid_t
     check(const hid_t result);
 
+    const bool    is_first_rank;
     hid_t         file = -1, dataset = -1, dataspace = -1;
     bool          succeeded   = true;
     std::uint64_t sum_of_rows = 0;

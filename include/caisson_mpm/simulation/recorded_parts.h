@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The parts of a simulation of which a run tells.
+// The parts of a simulation that a run reports on.
 #ifndef caisson_mpm_simulation_recorded_parts_h
 #define caisson_mpm_simulation_recorded_parts_h
 
@@ -17,14 +17,15 @@
 #include <caisson_mpm/operators/time_step.h>
 #include <caisson_mpm/simulation/clock.h>
 #include <caisson_mpm/simulation/schedule.h>
-#include <caisson_mpm/water/ground_water.h>
+#include <caisson_mpm/water/pore_water.h>
 
+#include <memory>
 #include <vector>
 
 namespace CaissonMPM
 {
   /** References only: the simulation owns the parts. What is not const is
-   * changed by telling of it: the grid's vertices are written, the energy
+   * changed by reporting: the grid's vertices are written, the energy
    * balance is closed, and the totals are brought to the first rank. */
   struct RecordedParts
   {
@@ -41,7 +42,7 @@ namespace CaissonMPM
     BackgroundGrid                       &grid;
     EnergyBalance                        &energy;
     RunTotals                            &totals;
-    GroundWater                          &water;
+    const std::unique_ptr<PoreWater>     &water; // when parameters are known
   };
 } // namespace CaissonMPM
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a run tells while it goes on: rows, observations, frames, progress.
+// What a run reports while it proceeds: rows, observations, frames, progress.
 #ifndef caisson_mpm_simulation_recorder_h
 #define caisson_mpm_simulation_recorder_h
 
@@ -77,9 +77,9 @@ namespace CaissonMPM
     void
     open();
 
-    /** Say what is done before the first step; after describe(). */
+    /** Report what is done before the first step; after describe(). */
     void
-    tell_progress(const std::string &text);
+    report_progress(const std::string &text);
 
     /** Begin new files. The results of an earlier run are put aside, or removed
      * with @p overwrite. */
@@ -159,9 +159,9 @@ namespace CaissonMPM
     verbosity() const;
     void
     begin();
-    /** Tell the files so far from others. */
+    /** Take the fingerprints of the files as they are. */
     void
-    note_files();
+    store_file_hashes();
     /** Remove the results of an earlier run, and say so. */
     void
     clear_directory();
@@ -185,7 +185,7 @@ namespace CaissonMPM
     warn_of_lid(const HistoryRow &row);
     /** Say once where a body that its loads move came to rest. */
     void
-    tell_of_rest();
+    report_rest();
     void
     print_record(const HistoryRow &row);
     void
@@ -246,9 +246,9 @@ namespace CaissonMPM
     };
     Files files;
 
-    unsigned int max_in_body      = 0;
-    bool         at_lid           = false;
-    bool         has_told_of_rest = false;
+    unsigned int max_in_body       = 0;
+    bool         at_lid            = false;
+    bool         has_reported_rest = false;
   };
 } // namespace CaissonMPM
 

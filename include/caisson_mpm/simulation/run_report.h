@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a run tells at its end: run.json, and the tables on the terminal.
+// What a run reports at its end: run.json, and the tables on the terminal.
 #ifndef caisson_mpm_simulation_run_report_h
 #define caisson_mpm_simulation_run_report_h
 

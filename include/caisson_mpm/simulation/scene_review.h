@@ -12,7 +12,7 @@
 #include <caisson_mpm/operators/method_settings.h>
 #include <caisson_mpm/simulation/run_cost.h>
 #include <caisson_mpm/simulation/schedule.h>
-#include <caisson_mpm/water/ground_water.h>
+#include <caisson_mpm/water/lid_compartment.h>
 
 #include <string>
 
@@ -26,7 +26,7 @@ namespace CaissonMPM
     const PointGenerator &generator;
     const Soil           &soil;
     const RigidBody      &body;
-    const GroundWater    &water;
+    const WaterTraits    &water;
     const Schedule       &schedule;
     double                body_mass;  // of its cells, kg
     double                wave_speed; // least one of the layers, m/s

@@ -54,7 +54,7 @@ namespace CaissonMPM
     void
     check_parameters() const;
 
-    /** Tell which entries have no effect without a body. */
+    /** Report which entries have no effect without a body. */
     void
     name_unused_entries(ParameterOrigins &origins) const;
 

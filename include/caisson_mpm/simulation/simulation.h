@@ -28,11 +28,12 @@
 #include <caisson_mpm/simulation/recorder.h>
 #include <caisson_mpm/simulation/run_cost.h>
 #include <caisson_mpm/simulation/schedule.h>
-#include <caisson_mpm/water/ground_water.h>
+#include <caisson_mpm/water/pore_water.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -63,7 +64,7 @@ namespace CaissonMPM
       return soil.declare_subsection(path);
     }
 
-    /** Tell which entries have no effect in this scene; before or after
+    /** Report which entries have no effect in this scene; before or after
      * set_up(). */
     void
     name_unused_entries(ParameterOrigins &origins) const;
@@ -75,13 +76,13 @@ namespace CaissonMPM
     void
     set_up(const CommandLine &command_line);
 
-    /** Tell what else is to be warned of in this scene, doubtful values and
+    /** Report further warnings of this scene, doubtful values and
      * known limits; after set_up(). Collective. */
     void
     review(ParameterOrigins &origins) const;
 
     /** Find out how large the run is; after set_up(). Takes some steps: run()
-     * does not go on from there. */
+     * does not continue from there. */
     RunCost
     estimate_cost();
 
@@ -100,6 +101,9 @@ namespace CaissonMPM
     run_to_end(const std::vector<std::string> &warnings);
     void
     register_totals();
+    /** Make the pore water when the parameters are known. */
+    void
+    choose_water();
     /** Find out how the motion begins, and which travel the mesh was made for,
      * if the run goes on from a checkpoint. */
     void
@@ -139,36 +143,41 @@ namespace CaissonMPM
      * Units: m/s. */
     double
     wave_speed(const unsigned int material) const;
-    /** Set up what knows the cells or nodes of this rank. */
-    void
-    set_up_part();
     /** Return the largest work of a rank over the mean of all. @p costs
      * [n_global_cells] are used of the cells of this rank. Collective. */
     double
     imbalance(const std::vector<unsigned int> &costs) const;
-    /** Cut the mesh into new parts where the old ones have cost more time by
-     * now than this does. Collective. */
+    /** Repartition the mesh where the present parts have cost more time by now
+     * than this does. Collective. */
     void
     balance();
     /** Give each rank a part of the same costs. Collective. */
     void
-    cut_into_parts(const std::vector<unsigned int> &costs);
+    repartition(const std::vector<unsigned int> &costs);
     void
     start();
     void
     resume();
     /** Start with the state of the installation. */
     void
-    go_on_after_installation();
+    continue_from_installation();
     void
     advance();
     template <typename Action>
     void
     timed(const char *section, const Action &action);
+    // the parts of a step, in their order
     void
     choose_step();
+    StepSize
+    size_of_step() const;
+    /** Move a body whose velocity depends on earlier steps only. */
+    void
+    move_body_by_itself();
     void
     move_body();
+    void
+    set_strength_of_walls();
     NodalConstraints
     constraints_of_nodes();
     SoilOnGrid
@@ -176,19 +185,23 @@ namespace CaissonMPM
     /** Move a body whose velocity depends on the soil in this step. */
     void
     move_body_with_soil();
-    /** Find the pressure of coupled pore water, and the velocities with it. */
     void
-    find_pore_pressure();
+    correct_velocities();
+    void
+    constrain_velocities();
+    void
+    prepare_transfer();
     void
     update_points();
     /** The width and height that points in this cell should have. Units: m. */
     std::array<double, 2>
     wanted_size_of_points(const unsigned int cell) const;
+    /** Split and merge points, where it is time to. */
     void
-    adapt_points(const double interval);
+    adapt_points();
     /** Hand the sums of this step to those who keep them. */
     void
-    add_step(NodalWork work);
+    finish_step();
     void
     report_not_finite() const;
 
@@ -202,15 +215,15 @@ namespace CaissonMPM
     bool
     needs_force_on_body() const
     {
-      return body.motion().needs_force() || water.acts();
+      return body.motion().needs_force() || water->traits().has_excess_pressure;
     }
-    /** Whether the next step begins anew. */
+    /** Whether the caches are to be rebuilt before the next step. */
     bool
-    begins_anew() const;
-    /** Forget what is kept over steps only to save time, as a restart does: its
-     * last digits depend on the steps before. Collective. */
+    rebuild_is_due() const;
+    /** Build again what is kept over steps only to save time, as a restart
+     * does: its last digits depend on the steps before. Collective. */
     void
-    begin_anew();
+    rebuild_caches();
     bool
     checkpoint_is_due();
     void
@@ -219,11 +232,11 @@ namespace CaissonMPM
     reason_to_stop();
     ExitStatus
     stop(const std::string &reason);
-    /** Say that a run that was finished has nothing to continue, and leave its
-     * files as they are. */
+    /** Report that a run that was finished has nothing to continue, and leave
+     * its files as they are. */
     ExitStatus
     nothing_left();
-    /** Tell that water ends the run, and how things are. */
+    /** Report that water ends the run. */
     void
     end_early();
     ExitStatus
@@ -237,7 +250,7 @@ namespace CaissonMPM
     RigidBody          body;
     PointGenerator     generator;
     BoundaryConditions boundary_conditions;
-    GroundWater        water;
+    WaterSettings      water_settings;
     NodalForces        nodal_forces;
     NodalMotion        nodal_motion;
     TimeStep           time_step;
@@ -257,7 +270,8 @@ namespace CaissonMPM
     double                         inflow    = 0.; // of soil into the body, m3
     double since_adaptation = 0.; // of points, in steps of reference
     // in the last step, or that before the last checkpoint; N
-    double force_on_body = 0.;
+    double    force_on_body = 0.;
+    NodalWork work_of_step;
     // from up to down, for which a mesh that a checkpoint needs was made; m
     std::optional<std::pair<double, double>> travel_of_mesh;
 
@@ -265,10 +279,12 @@ namespace CaissonMPM
     std::string           instruction_set     = "auto";
     std::optional<double> checkpoint_interval = 600.;
 
-    RunTotals    totals;
-    SectionTimer timer;
-    Schedule     schedule;
-    Recorder     recorder;
+    RunTotals totals;
+    // of the level that the settings choose; after the totals, where it is
+    std::unique_ptr<PoreWater> water;
+    SectionTimer               timer;
+    Schedule                   schedule;
+    Recorder                   recorder;
 
     // of the ranks, largest over mean work, after the last cut into parts; and
     // the steps that could have been made since in the time that ranks waited

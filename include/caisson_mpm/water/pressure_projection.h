@@ -124,19 +124,13 @@ namespace CaissonMPM
       return remainder_;
     }
 
-    /** 1 where a cell had water in the last step, else 0: cells that soil
-     * enters begin with the pressure of the free water. */
+    /** 1 where a cell had water in the last step, else 0, and -1 before the
+     * first: cells that soil enters begin with the pressure of the free water.
+     */
     CellData &
     wet_cells()
     {
       return wet_;
-    }
-
-    /** Let wet_cells() count: it has been set. */
-    void
-    know_wet_cells()
-    {
-      knows_wet_cells = true;
     }
 
     /** Return the pressure at the nodes: the known one where there is one, else
@@ -216,7 +210,6 @@ namespace CaissonMPM
     std::vector<Kernels::CellGeometry> shapes;
     std::vector<OfCorners>             divergence, force_of;
     std::vector<double>                volumes, acting, volume_rates_;
-    bool                knows_wet_cells = false; // since initialize()
     std::vector<Beyond> beyond_node; // [n_nodes], cell: nothing is known
     // [n_faces]
     std::vector<double>             seepage, inertia;

@@ -5,10 +5,8 @@
 #ifndef caisson_mpm_water_suction_h
 #define caisson_mpm_water_suction_h
 
-#include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/base/run_totals.h>
-
-#include <deal.II/base/parameter_acceptor.h>
+#include <caisson_mpm/base/section.h>
 
 #include <optional>
 #include <string>
@@ -25,6 +23,64 @@ namespace CaissonMPM
     double area       = 0.; // of the lid, plus that of the tip times the share
                             // of the suction that has reached it; m2
     double volume = 0.;     // of water that has left the caisson so far; m3
+  };
+
+  /** The sea above the mudline. */
+  struct SeaSettings : public Section
+  {
+    SeaSettings();
+
+    /** Return the absolute pressure of the open water on the mudline; @p
+     * unit_weight of the water in N/m3. Units: Pa. */
+    double
+    ambient_pressure(const double unit_weight) const;
+
+    /** Return the suction at which water boils at this @p height over the
+     * original mudline, for instance beneath the lid. Units: N/m3, m; Pa. */
+    double
+    cavitation(const double unit_weight, const double height) const;
+
+    double depth = 30.; // of the mudline, m
+  };
+
+  /** How the suction is given, and what limits it. */
+  class SuctionSettings : public Section
+  {
+  public:
+    enum class Control
+    {
+      required,
+      table,
+      flow
+    };
+
+    SuctionSettings();
+
+    /** Throw BadInput where the entries contradict each other. */
+    void
+    check_parameters() const;
+
+    /** Report which entries the control leaves without effect. */
+    void
+    name_unused_entries(ParameterOrigins &origins) const override;
+
+    /** Return the largest suction of the table; 0 where it is not used. Units:
+     * Pa. */
+    double
+    largest_of_table() const;
+
+    Control                                control = Control::required;
+    double                                 delay = 0.02, pump_delay = 0.1; // s
+    std::optional<double>                  largest;    // of the pump, Pa
+    double                                 gas = 0.;   // at p_0, m3
+    std::vector<std::pair<double, double>> table;      // s, Pa
+    std::vector<std::pair<double, double>> flow_table; // s, m3/s
+
+  private:
+    void
+    fill_tables();
+
+    std::string table_text, flow_text;
   };
 
   /**
@@ -46,57 +102,25 @@ namespace CaissonMPM
    * way more than the above, it alone says what the suction is.
    * Not collective; the same on all ranks.
    */
-  class Suction : public dealii::ParameterAcceptor
+  class Suction
   {
   public:
-    Suction();
+    /** The settings must outlive this object. */
+    Suction(const SuctionSettings &settings, const SeaSettings &sea);
 
-    /** Tell the @p unit_weight of the water. Units: N/m3. */
+    /** Set the unit weight of the water. Units: N/m3. */
     void
     initialize(const double unit_weight)
     {
       unit_weight_of_water = unit_weight;
     }
 
-    /** Throw BadInput where the entries contradict each other. */
+    /** Continue the suction of another run, while this @p volume of water has
+     * left the caisson. Units: m3. */
     void
-    check_parameters() const;
-
-    /** Tell which entries the control leaves without effect. */
-    void
-    name_unused_entries(ParameterOrigins &origins) const;
-
-    /** Tell that no entry of the suction has an effect, and why. */
-    static void
-    name_all_unused(ParameterOrigins &origins, const std::string &why);
-
-    /** Whether the motion of the body decides how large the suction is. */
-    bool
-    is_result() const
-    {
-      return control == Control::required;
-    }
-
-    /** Whether the body must follow its loads. */
-    bool
-    moves_body() const
-    {
-      return control == Control::flow;
-    }
-
-    /** Go on after another run with its suction, while this @p volume of water
-     * has left the caisson. Units: m3. */
-    void
-    go_on_at(const double volume)
+    continue_at(const double volume)
     {
       last_volume = volume;
-    }
-
-    /** Let the water beneath the lid have no excess pressure. */
-    void
-    release()
-    {
-      suction = required_ = 0.;
     }
 
     /** Continue by a step of length @p dt to @p time, that of the table; at 0 and
@@ -134,51 +158,19 @@ namespace CaissonMPM
     std::string
     limit_reached(const double height) const;
 
-    /** Return the largest suction of the table; 0 where it is not used. Units:
-     * Pa. */
-    double
-    largest_of_table() const;
-
-    /** Return the largest suction of the pump; 0 where it has no limit. Units:
-     * Pa. */
-    double
-    largest_of_pump() const
-    {
-      return largest.value_or(0.);
-    }
-
     void
     register_totals(RunTotals &totals);
 
   private:
-    enum class Control
-    {
-      required,
-      table,
-      flow
-    };
-
-    void
-    fill_tables();
-    /** The absolute pressure of the open water on the mudline. Units: Pa. */
-    double
-    ambient_pressure() const;
     /** Let the pump take its flow for a step. */
     void
     pump(const double time, const double dt, const SuctionLoad &load);
 
-    Control                                control = Control::required;
-    std::string                            table_text, flow_text;
-    double                                 delay = 0.02, pump_delay = 0.1;
-    std::optional<double>                  largest;
-    double                                 water_depth = 30.;
-    double                                 gas         = 0.; // at p_0, m3
-    std::vector<std::pair<double, double>> table;            // s, Pa
-    std::vector<std::pair<double, double>> flow_table;       // s, m3/s
-
-    double unit_weight_of_water = 0.; // N/m3
-    double suction = 0., required_ = 0.;
-    double last_volume = 0.; // m3
+    const SuctionSettings &settings;
+    const SeaSettings     &sea;
+    double                 unit_weight_of_water = 0.; // N/m3
+    double                 suction = 0., required_ = 0.;
+    double                 last_volume = 0.; // m3
   };
 } // namespace CaissonMPM
 

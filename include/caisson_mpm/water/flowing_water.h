@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the models have in common in which the pore water flows.
+#ifndef caisson_mpm_water_flowing_water_h
+#define caisson_mpm_water_flowing_water_h
+
+#include <caisson_mpm/water/lid_compartment.h>
+#include <caisson_mpm/water/permeability_field.h>
+#include <caisson_mpm/water/pore_water.h>
+#include <caisson_mpm/water/tip_integral.h>
+
+#include <boost/signals2/connection.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** Knows where the soil ends and how permeable it is, and owns the
+   * compartment beneath the lid of a caisson. A derived class computes the
+   * flow. */
+  class FlowingWater : public PoreWater
+  {
+  public:
+    void
+    check_parameters() const override;
+    void
+    name_unused_entries(ParameterOrigins &origins) const override;
+    double
+    load_on_body() const override
+    {
+      return (lid ? lid->load() : 0.) - flow().tip_force;
+    }
+    double
+    end_step(const double time,
+             const double dt,
+             const double force_on_body,
+             const double travel) override;
+    std::string
+    reason_to_end() const override;
+    void
+    write_pressure_to_points() override;
+    NamedNumbers
+    columns() override;
+    std::vector<std::string>
+    take_warnings() override;
+    WaterReport
+    report(const std::vector<Kernels::Material> &materials) const override;
+    void
+    continue_after(const std::string &level,
+                   const NamedFields &fields) override;
+
+    /** Return the excess pressure at the nodes. [n_nodes], Pa */
+    const std::vector<double> &
+    nodal_pressure();
+
+    /** Return the share of each cell below the mudline. [n_cells] */
+    const std::vector<double> &
+    filled() const
+    {
+      return mudline.filled();
+    }
+
+    /** The suction beneath the lid, 0 without one. Units: Pa. */
+    double
+    suction() const
+    {
+      return lid ? lid->suction() : 0.;
+    }
+
+  protected:
+    explicit FlowingWater(const WaterScene &scene);
+
+    /** Prepare for the cells and nodes of this rank. */
+    virtual void
+    reinit();
+
+    /** Return the flow now. */
+    virtual WaterFlow
+    flow() const = 0;
+
+    /** Return the water that leaves the soil at the nodes over the scale of the
+     * flow. [n_nodes], m3/s per radian */
+    virtual const NodalData &
+    outflow() = 0;
+
+    /** Return a field at the nodes, and what makes it the pressure. Pa */
+    virtual std::pair<const NodalData *, double>
+    field_at_nodes() = 0;
+
+    /** Compute what a record needs besides. Collective. */
+    virtual void
+    prepare_columns()
+    {}
+
+    /** Return the numbers of a record with the present @p mudline. */
+    virtual NamedNumbers
+    columns_with(const Mudline &mudline) const;
+
+    NamedNumbers
+    present_columns() const override
+    {
+      return columns_with(mudline);
+    }
+
+    /** Find the mudline, and where it touches the lid. Collective. */
+    void
+    find_mudline();
+
+    /** Register the flow that has been computed, also as the first one. */
+    void
+    finish_flow();
+
+    Mudline                         mudline;
+    PermeabilityField               soil_in_cells;
+    TipIntegral                     tip;
+    std::unique_ptr<LidCompartment> lid;                      // of a caisson
+    bool                            is_solved        = false; // since reinit()
+    bool                            has_started      = false;
+    unsigned int                    steps_since_look = 0;
+    double                          time = 0., last_force_on_body = 0.; // s, N
+
+  private:
+    boost::signals2::scoped_connection before_change, after_change;
+    NamedFields                        kept;     // while the parts change
+    std::vector<double>                pressure; // [n_nodes], Pa
+  };
+} // namespace CaissonMPM
+
+#endif

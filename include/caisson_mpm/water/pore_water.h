@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What a step, a record and a checkpoint see of the pore water, whichever model
+// of it a scene has chosen.
+#ifndef caisson_mpm_water_pore_water_h
+#define caisson_mpm_water_pore_water_h
+
+#include <caisson_mpm/base/named_numbers.h>
+#include <caisson_mpm/base/run_totals.h>
+#include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/domain/grid_fields.h>
+#include <caisson_mpm/domain/material_points.h>
+#include <caisson_mpm/materials/soil.h>
+#include <caisson_mpm/operators/boundary_conditions.h>
+#include <caisson_mpm/operators/contact.h>
+#include <caisson_mpm/operators/nodal_forces.h>
+#include <caisson_mpm/water/water_settings.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CaissonMPM
+{
+  class LidCompartment;
+
+  /** What the water is in, and where it registers what it owns. References
+   * only; all must outlive the water. */
+  struct WaterScene
+  {
+    BackgroundGrid      &grid;
+    MaterialPoints      &points;
+    const Soil          &soil;
+    const RigidBody     &body;
+    const WaterSettings &settings;
+    RunTotals           &totals;
+    NodalForces         &forces;
+  };
+
+  /** What other parts of the program must know of a model. */
+  struct WaterTraits
+  {
+    bool has_excess_pressure = false; // and needs the force on the body
+    bool uses_permeability   = false;
+    bool follows_soil        = false; // the pressure follows from its motion
+    // in each direction in the path of the body, without Split and merge
+    unsigned int least_points = 1;
+    double       bulk_modulus = 0.; // that resists changes of volume, Pa
+    // beneath which there is suction; null without one
+    const LidCompartment *lid = nullptr;
+  };
+
+  /** What a run prints of the water at its beginning. */
+  struct WaterReport
+  {
+    std::vector<std::pair<std::string, std::string>> lines; // name, text
+    std::vector<std::string>                         known_limits;
+  };
+
+  /**
+   * The pore water of a scene, with the excess pressure beyond the hydrostatic
+   * one. Submerged soil has its buoyant weight, so that nothing else of the
+   * water acts on it.
+   *
+   * A derived class is one model. It is made once, by make_pore_water() when
+   * all parameters are known, adds its numbers to the totals and its nodal
+   * force to the forces, and follows the signals of the grid. The functions
+   * here do nothing: a model overrides what it needs, and a drained scene needs
+   * nothing. Whatever leaves a model is a pressure in Pa. None of the functions
+   * is called for a single point.
+   */
+  class PoreWater
+  {
+  public:
+    virtual ~PoreWater() = default;
+
+    PoreWater(const PoreWater &) = delete;
+    PoreWater &
+    operator=(const PoreWater &) = delete;
+
+    /** Throw BadInput where the entries contradict each other, or the scene. */
+    virtual void
+    check_parameters() const
+    {}
+
+    /** Report which entries have no effect. */
+    virtual void
+    name_unused_entries(ParameterOrigins &origins) const;
+
+    const WaterTraits &
+    traits() const
+    {
+      return traits_;
+    }
+
+    // ---------------------------------------------------------- a step
+
+    /** At the start of a step of length @p dt, compute what is not known well
+     * enough from earlier steps, and let the contact with a lid begin where the
+     * soil touches it. Collective. Units: s. */
+    virtual void
+    begin_step(const double              dt,
+               const BoundaryConditions &conditions,
+               Contact                  &contact);
+
+    /** Return what the water presses the body down with: suction beneath the
+     * lid, and less pressure beneath the tip. Units: N. */
+    virtual double
+    load_on_body() const
+    {
+      return 0.;
+    }
+
+    /** Return the pressure that the stress of each cell contains, for
+     * Kernels::StepContext, or null. [n_cells], Pa */
+    virtual const double *
+    cell_pressure() const
+    {
+      return nullptr;
+    }
+
+    /** Return the rates of volume change [n_cells] that strain the soil, whose
+     * nodes have this velocity in the end, or null where the velocity alone
+     * says. Collective. 1/s */
+    virtual const double *
+    volume_rates(const Kernels::NodalVector             *velocity,
+                 const std::vector<Kernels::CornerView> &corners);
+
+    /**
+     * Continue to the end of a step. @p force_on_body is the force of the soil
+     * in this step, in the direction of the travel, and @p travel that of the
+     * body. Return the work at the tip that is not in that force. Units: s, N,
+     * m; J.
+     */
+    virtual double
+    end_step(const double time,
+             const double dt,
+             const double force_on_body,
+             const double travel);
+
+    /** Return why the run cannot continue, or an empty text. */
+    virtual std::string
+    reason_to_end() const
+    {
+      return "";
+    }
+
+    // ---------------------------------------------------------- records
+
+    /** Give the points the pressure at their places. */
+    virtual void
+    write_pressure_to_points()
+    {}
+
+    /** Return the names of the numbers that water adds to a record. */
+    std::vector<std::string>
+    column_names() const;
+
+    /** Return these numbers now; computes the flow where it is not known.
+     * Collective. */
+    virtual NamedNumbers
+    columns()
+    {
+      return {};
+    }
+
+    /** Return new warnings, each once; after columns(). */
+    virtual std::vector<std::string>
+    take_warnings()
+    {
+      return {};
+    }
+
+    /** Return what a run prints of the water. @p materials are those of the
+     * layers. */
+    virtual WaterReport
+    report(const std::vector<Kernels::Material> &materials) const;
+
+    // ---------------------------------------------------------- its state
+
+    /** Return the fields from which the water continues: a checkpoint has them,
+     * and they are kept when the parts of the ranks change. */
+    virtual std::vector<GridField>
+    fields()
+    {
+      return {};
+    }
+
+    /** Continue another run, with its totals and the @p fields of its
+     * checkpoint, in which Water/Level was @p level. Collective. */
+    virtual void
+    continue_after(const std::string &level, const NamedFields &fields);
+
+  protected:
+    explicit PoreWater(const WaterScene &scene);
+
+    /** Return the groups of entries that the model uses. */
+    virtual std::vector<const Section *>
+    used_groups() const
+    {
+      return {};
+    }
+
+    /** Return the numbers of a record as they are. */
+    virtual NamedNumbers
+    present_columns() const
+    {
+      return {};
+    }
+
+    /** Whether the body is a caisson, which may have suction beneath its lid.
+     */
+    bool
+    is_caisson() const
+    {
+      return scene.body.shape().name() == "caisson";
+    }
+
+    /** Return the warning of a caisson that is pulled from soil whose water
+     * cannot follow at once, while water flows freely beneath its lid; empty
+     * where there is no such lid. @p advice: what to do, a clause. */
+    std::string
+    warning_of_open_lid(const double suction, const std::string &advice) const;
+
+    /** Return " at a penetration of x m", or an empty text without a body. */
+    std::string
+    place_in_words() const;
+
+    const WaterScene scene;
+    WaterTraits      traits_;
+  };
+
+  /** Return whether a condition holds for the first time, and remember it. */
+  bool
+  holds_first(bool &has_held, const bool holds);
+
+  /** Return the model that Water/Level chooses. */
+  std::unique_ptr<PoreWater>
+  make_pore_water(const WaterScene &scene);
+} // namespace CaissonMPM
+
+#endif

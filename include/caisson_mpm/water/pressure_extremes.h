@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The smallest and the largest excess pore pressure, and how far the water is
+// from boiling where it is nearest to it.
+#ifndef caisson_mpm_water_pressure_extremes_h
+#define caisson_mpm_water_pressure_extremes_h
+
+#include <caisson_mpm/base/named_numbers.h>
+#include <caisson_mpm/domain/cell_geometry.h>
+
+#include <mpi.h>
+
+#include <array>
+#include <string>
+
+namespace CaissonMPM
+{
+  /** Of one record. The margin is the absolute pressure over that of vapor, at
+   * most that of the water on the mudline at rest. */
+  class PressureExtremes
+  {
+  public:
+    /** Begin a record. @p unit_weight of the water in N/m3, @p at_rest: the
+     * margin on the mudline at rest, Pa. */
+    void
+    begin(const double unit_weight, const double at_rest);
+
+    /** Include a pressure in the extremes. Units: Pa. */
+    void
+    include(const double pressure);
+
+    /** Include a pressure at a place in the margin. Units: Pa, m. */
+    void
+    include_at(const double pressure, const double r, const double z);
+
+    /** The same in the middle of a cell. */
+    void
+    include_in(const double pressure, const Kernels::CellGeometry &cell);
+
+    /** Take the extremes of all ranks. Collective. */
+    void
+    end(const MPI_Comm communicator);
+
+    NamedNumbers
+    columns() const;
+
+    /** Return whether water would boil. */
+    bool
+    boils() const
+    {
+      return lowest[0] < 0.;
+    }
+
+    /** Return the warning of this. @p place: of the body, in words. Units: s. */
+    std::string
+    warning(const double time, const std::string &place) const;
+
+  private:
+    double                unit_weight = 0., at_rest = 0.;
+    double                smallest = 0., largest = 0.; // Pa
+    std::array<double, 3> lowest = {{0., 0., 0.}};     // margin, r, z; Pa, m
+  };
+} // namespace CaissonMPM
+
+#endif

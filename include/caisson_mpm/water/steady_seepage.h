@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Water that flows steadily under the suction beneath the lid of a caisson.
+#ifndef caisson_mpm_water_steady_seepage_h
+#define caisson_mpm_water_steady_seepage_h
+
+#include <caisson_mpm/water/flowing_water.h>
+#include <caisson_mpm/water/seepage.h>
+
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** The flow is steady at each time: the field is computed again when the body
+   * or the mudline has moved, and the suction scales it in every step. */
+  class SteadySeepage : public FlowingWater
+  {
+  public:
+    explicit SteadySeepage(const WaterScene &scene);
+
+    void
+    check_parameters() const override;
+    void
+    begin_step(const double              dt,
+               const BoundaryConditions &conditions,
+               Contact                  &contact) override;
+    std::vector<GridField>
+    fields() override;
+    void
+    continue_after(const std::string &level,
+                   const NamedFields &fields) override;
+
+    /** The name of the share of the suction at the nodes among the fields. */
+    static const std::string name_of_field;
+
+  private:
+    std::vector<const Section *>
+    used_groups() const override;
+    void
+    reinit() override;
+    WaterFlow
+    flow() const override;
+    const NodalData &
+    outflow() override
+    {
+      return seepage.residual();
+    }
+    std::pair<const NodalData *, double>
+    field_at_nodes() override
+    {
+      return {&seepage.field(), -suction()};
+    }
+    void
+    prepare_columns() override;
+    /** Whether the field of an earlier step still serves. Collective. */
+    bool
+    still_serves();
+    void
+    solve();
+
+    Seepage seepage;
+    double  travel_at_solve = 0.;
+    // of plug, open and unknown nodes; m3/s over the suction in m of water
+    double flow_out = 0., flow_in = 0.;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Soil that no water leaves or enters: with the volume V of the points of a
+// cell, V_0 at the start, and the bulk modulus K_w of the water over the
+// porosity,
+//   p = -K_w ln(V / V_0).
+// The points change their volume with the mean divergence of their cell, and
+// carry V / V_0 through the mesh. One value in each cell does not lock. Points
+// of a cell that came from different cells differ in V / V_0, and no strain
+// would level them: they share the mean.
+#ifndef caisson_mpm_water_undrained_water_h
+#define caisson_mpm_water_undrained_water_h
+
+#include <caisson_mpm/water/pore_water.h>
+#include <caisson_mpm/water/pressure_extremes.h>
+#include <caisson_mpm/water/tip_integral.h>
+
+#include <boost/signals2/connection.hpp>
+
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** The pressure acts within the stress of the cells; see Kernels. */
+  class UndrainedWater : public PoreWater
+  {
+  public:
+    explicit UndrainedWater(const WaterScene &scene);
+
+    void
+    check_parameters() const override;
+    void
+    begin_step(const double              dt,
+               const BoundaryConditions &conditions,
+               Contact                  &contact) override;
+    double
+    load_on_body() const override
+    {
+      return -tip.value();
+    }
+    const double *
+    cell_pressure() const override
+    {
+      return pressure.data();
+    }
+    double
+    end_step(const double time,
+             const double dt,
+             const double force_on_body,
+             const double travel) override;
+    void
+    write_pressure_to_points() override;
+    NamedNumbers
+    columns() override;
+    std::vector<std::string>
+    take_warnings() override;
+    WaterReport
+    report(const std::vector<Kernels::Material> &materials) const override;
+    void
+    continue_after(const std::string &level,
+                   const NamedFields &fields) override;
+
+  private:
+    std::vector<const Section *>
+    used_groups() const override;
+    NamedNumbers
+    present_columns() const override;
+    /** Prepare for the cells of this rank. */
+    void
+    reinit();
+    void
+    compute_pressure();
+
+    boost::signals2::scoped_connection connection;
+    std::vector<double> pressure; // [n_cells], Pa; empty until it is computed
+    TipIntegral         tip;      // N
+    PressureExtremes    extremes; // of the last record
+    double              time = 0., last_force_on_body = 0.; // s, N
+    bool has_warned_of_open_lid = false, has_warned_of_boiling = false;
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The entries of section Water.
+#ifndef caisson_mpm_water_water_settings_h
+#define caisson_mpm_water_water_settings_h
+
+#include <caisson_mpm/base/section.h>
+#include <caisson_mpm/water/pressure_solver.h>
+#include <caisson_mpm/water/suction.h>
+
+#include <string>
+#include <vector>
+
+namespace CaissonMPM
+{
+  /** Where the pore water goes; doc/theory.md, sections 15 to 17. */
+  enum class WaterLevel
+  {
+    drained,
+    undrained,
+    seepage,
+    coupled
+  };
+
+  /** What an undrained model needs. */
+  struct UndrainedSettings : public Section
+  {
+    UndrainedSettings();
+
+    double bulk_modulus = 1e8; // of the water over the porosity, Pa
+  };
+
+  /** What steady seepage needs. */
+  struct SeepageSettings : public Section
+  {
+    SeepageSettings();
+
+    double renewal = 0.25; // share of a cell
+  };
+
+  /** What a coupled model needs. */
+  struct CoupledSettings : public Section
+  {
+    explicit CoupledSettings(PressureSolver::OpenSides &sides);
+
+    double      time_compression = 1.;
+    std::string bottom_text      = "0";
+  };
+
+  /** Sides of the domain, for all models in which water flows. */
+  struct OpenSideSettings : public Section
+  {
+    explicit OpenSideSettings(PressureSolver::OpenSides &sides);
+  };
+
+  /**
+   * The level, and the entries in groups: each model of the water uses some of
+   * the groups, and what a scene sets in the others has no effect.
+   */
+  class WaterSettings : public Section
+  {
+  public:
+    WaterSettings();
+
+    /** Name the entries of all groups but those @p used. */
+    void
+    name_unused_groups(ParameterOrigins                   &origins,
+                       const std::vector<const Section *> &used,
+                       const std::string                  &why) const;
+
+    /** Return the level as its entry has it. */
+    std::string
+    level_name() const;
+
+    WaterLevel                level = WaterLevel::drained;
+    PressureSolver::OpenSides sides;
+    UndrainedSettings         undrained;
+    SeepageSettings           seepage;
+    CoupledSettings           coupled;
+    OpenSideSettings          open_sides;
+    SeaSettings               sea;
+    SuctionSettings           suction;
+  };
+} // namespace CaissonMPM
+
+#endif

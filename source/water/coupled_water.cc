@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/intervals.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/water/coupled_water.h>
+#include <caisson_mpm/water/steady_seepage.h>
+
+#include <cmath>
+
+namespace CaissonMPM
+{
+  namespace
+  {
+    // Above this, inertia changes the pressure of a transient by more than half
+    // a per cent.
+    constexpr double largest_inertia = .02;
+
+    /** The force of the pressure in the cells, computed twice in a step. */
+    class CoupledPressureForce : public NodalForce
+    {
+    public:
+      explicit CoupledPressureForce(CoupledWater &water)
+        : water(water)
+      {}
+
+      std::string
+      name() const override
+      {
+        return "pore pressure";
+      }
+
+      bool
+      is_active() const override
+      {
+        return true;
+      }
+
+      bool
+      is_implicit() const override
+      {
+        return true;
+      }
+
+      void
+      solve(const Kernels::NodalVector             *velocity,
+            const std::vector<Kernels::CornerView> &corners) override
+      {
+        water.solve(velocity, corners);
+      }
+
+      Vector2
+      at_corner(const unsigned int cell,
+                const unsigned int corner) const override
+      {
+        return water.pressure_projection().force_at(cell, corner);
+      }
+
+    private:
+      void
+      add(const ForceContext &, Kernels::NodalVector *force) override
+      {
+        water.pressure_projection().add_force(force);
+      }
+
+      CoupledWater &water;
+    };
+  } // namespace
+
+  CoupledWater::CoupledWater(const WaterScene &scene)
+    : FlowingWater(scene)
+  {
+    traits_.follows_soil = true;
+    traits_.least_points = 4;
+    projection.register_totals(scene.totals);
+    scene.totals.keep("water_unbalanced", unbalanced);
+    scene.totals.keep("water_through_surfaces", through_surfaces);
+    scene.forces.add(std::make_unique<CoupledPressureForce>(*this));
+  }
+
+  // ------------------------------------------------------------ parameters
+
+  void
+  CoupledWater::check_parameters() const
+  {
+    bottom_expression().at_time(0.);
+    FlowingWater::check_parameters();
+    const PressureSolver::OpenSides &open = scene.settings.sides;
+    if (!lid && !open.surface && !open.outer && !open.bottom)
+      throw BadInput(
+        "the pore water has nowhere to drain to. Set Water/Drained "
+        "surface, Drained outer side or Drained bottom = true.");
+  }
+
+  std::vector<const Section *>
+  CoupledWater::used_groups() const
+  {
+    return {&scene.settings.coupled,
+            &scene.settings.open_sides,
+            &scene.settings.sea,
+            &scene.settings.suction};
+  }
+
+  void
+  CoupledWater::name_unused_entries(ParameterOrigins &origins) const
+  {
+    FlowingWater::name_unused_entries(origins);
+    if (!scene.settings.sides.bottom)
+      origins.add_unused({"Water/Bottom pressure"},
+                         "Water/Drained bottom is false");
+  }
+
+  Expression
+  CoupledWater::bottom_expression() const
+  {
+    const std::string &text = scene.settings.coupled.bottom_text;
+    return Expression(text, "Water/Bottom pressure = " + text);
+  }
+
+  // ------------------------------------------------------------ the fields
+
+  void
+  CoupledWater::reinit()
+  {
+    FlowingWater::reinit();
+    bottom_pressure = bottom_expression();
+    projection.initialize(scene.grid);
+    step = 0.;
+  }
+
+  std::vector<GridField>
+  CoupledWater::fields()
+  {
+    const auto place = [this](const unsigned int cell) {
+      return projection.solver().place(cell);
+    };
+    return {{"pore_pressure", &projection.pressure(), place},
+            {"pore_water_left", &projection.remainder(), place},
+            {"is_wet", &projection.wet_cells(), place}};
+  }
+
+  void
+  CoupledWater::continue_after(const std::string &level,
+                               const NamedFields &fields)
+  {
+    if (level == scene.settings.level_name())
+      scatter(scene.grid, fields, this->fields());
+    else if (const auto *const share =
+               field_named(SteadySeepage::name_of_field, fields))
+      begin_with_seepage(*share);
+    FlowingWater::continue_after(level, fields);
+    integrate_over_tip();
+  }
+
+  void
+  CoupledWater::begin_with_seepage(const std::vector<double> &share_of_suction)
+  {
+    CellData &p = projection.pressure();
+    p.zero_out_ghost_values();
+    for (unsigned int cell = 0; cell < scene.grid.n_cells(); ++cell)
+      if (scene.grid.is_owned(cell))
+        {
+          double mean = 0.;
+          for (unsigned int k = 0; k < 4; ++k)
+            mean +=
+              .25 * share_of_suction[place_of_corner(scene.grid, cell, k)];
+          p.local_element(projection.solver().place(cell)) = -suction() * mean;
+        }
+    p.update_ghost_values();
+    projection.begin_with({-suction(), 0.});
+  }
+
+  // ------------------------------------------------------------ a step
+
+  void
+  CoupledWater::begin_step(const double              dt,
+                           const BoundaryConditions &conditions,
+                           Contact                  &contact)
+  {
+    if (!is_solved || ++steps_since_look == Intervals::soil_of_water)
+      {
+        soil_in_cells.compute(scene.grid,
+                              scene.points,
+                              scene.soil,
+                              scene.settings.coupled.time_compression);
+        steps_since_look = 0;
+      }
+    // steps that end at a record differ by rounding alone
+    const bool is_new_step = std::abs(dt - step) > 1e-9 * step;
+    if (is_new_step || steps_since_look % Intervals::equations_of_water == 0)
+      {
+        find_mudline();
+        projection.set_up(scene.grid,
+                          mudline,
+                          soil_in_cells.properties,
+                          scene.settings.sides,
+                          conditions,
+                          dt);
+      }
+    if (!is_solved && !projection.solver().has_known_value())
+      throw RunFailure(
+        "the pore water has nowhere to drain to: its pressure is known nowhere. "
+        "Set Water/Drained surface, Drained outer side or Drained bottom.");
+    is_solved = true;
+    step      = dt;
+    if (lid)
+      lid->open(contact);
+  }
+
+  void
+  CoupledWater::solve(const Kernels::NodalVector             *velocity,
+                      const std::vector<Kernels::CornerView> &corners)
+  {
+    projection.solve(velocity,
+                     corners,
+                     {-suction(), bottom_pressure.at_time(time + .5 * step)});
+    integrate_over_tip();
+    finish_flow();
+    const PressureProjection::Flow &flow = projection.flow();
+    unbalanced += step * std::abs(flow.left);
+    through_surfaces += step * (std::abs(flow.out) + std::abs(flow.in));
+  }
+
+  void
+  CoupledWater::integrate_over_tip()
+  {
+    tip.integrate(scene.grid,
+                  [this](const unsigned int cell, const unsigned int) {
+                    return projection.pressure_in(cell);
+                  });
+  }
+
+  WaterFlow
+  CoupledWater::flow() const
+  {
+    WaterFlow result;
+    result.out            = projection.flow().out;
+    result.in             = projection.flow().in;
+    result.tip_force      = tip.value();
+    result.tip_resistance = tip.value();
+    if (suction() > 0. && tip.area() > 0.)
+      result.pressure_factor = -tip.value() / tip.area() / suction();
+    result.n_iterations = projection.solver().n_iterations();
+    return result;
+  }
+
+  // ------------------------------------------------------------ records
+
+  void
+  CoupledWater::prepare_columns()
+  {
+    const double gamma = scene.soil.unit_weight_of_water();
+    extremes.begin(gamma, scene.settings.sea.cavitation(gamma, 0.));
+    for (const unsigned int cell : projection.solver().cells())
+      {
+        const double p = projection.pressure_in(cell);
+        if (has_started)
+          extremes.include(p);
+        if (is_solved)
+          extremes.include_in(p, scene.grid.geometry(cell));
+      }
+    if (is_solved)
+      for (unsigned int node = 0; node < scene.grid.n_owned_nodes(); ++node)
+        if (const auto p = projection.known_at(node))
+          extremes.include_at(*p, scene.grid.r_of(node), scene.grid.z_of(node));
+    extremes.end(scene.grid.communicator());
+  }
+
+  NamedNumbers
+  CoupledWater::columns_with(const Mudline &mudline) const
+  {
+    NamedNumbers result = extremes.columns();
+    result.emplace_back("water_balance",
+                        through_surfaces > 0. ? unbalanced / through_surfaces :
+                                                0.);
+    const NamedNumbers of_flow = FlowingWater::columns_with(mudline);
+    result.insert(result.end(), of_flow.begin(), of_flow.end());
+    if (lid)
+      result.emplace_back("total_force_with_water_N",
+                          -last_force_on_body + tip.value());
+    return result;
+  }
+
+  std::vector<std::string>
+  CoupledWater::take_warnings()
+  {
+    std::vector<std::string> warnings;
+    const std::string        open_lid =
+      warning_of_open_lid(suction(),
+                          "Give the suction beneath a sealed one with Water/"
+                          "Suction control = table");
+    if (holds_first(has_warned_of_open_lid, !open_lid.empty()))
+      warnings.push_back(open_lid);
+    if (holds_first(has_warned_of_boiling, extremes.boils()))
+      warnings.push_back(extremes.warning(time, place_in_words()));
+    const auto of_plug = FlowingWater::take_warnings();
+    warnings.insert(warnings.end(), of_plug.begin(), of_plug.end());
+    return warnings;
+  }
+
+  std::vector<CoupledWater::Drainage>
+  CoupledWater::drainage(const std::vector<Kernels::Material> &materials) const
+  {
+    std::vector<Drainage> result;
+    if (!scene.body.shape().exists())
+      return result;
+    const double diameter = 2. * scene.body.shape().right(),
+                 speed    = scene.body.motion().usual_velocity();
+    for (const unsigned int i : scene.soil.uppermost_materials())
+      {
+        const double modulus = materials[i].p_wave_modulus;
+        Drainage     d;
+        d.c_v = scene.settings.coupled.time_compression *
+                scene.soil.material(i).permeability * modulus /
+                scene.soil.unit_weight_of_water();
+        d.group = speed * diameter / d.c_v;
+        d.inertia =
+          d.c_v /
+          (std::sqrt(modulus / scene.soil.inertial_density(i)) * diameter);
+        result.push_back(d);
+      }
+    return result;
+  }
+
+  WaterReport
+  CoupledWater::report(const std::vector<Kernels::Material> &materials) const
+  {
+    WaterReport  result      = FlowingWater::report(materials);
+    const double compression = scene.settings.coupled.time_compression;
+    const auto   group       = [this](const Drainage &layer) {
+      if (!scene.body.motion().needs_response())
+        return to_text(layer.group, 3);
+      return to_text(2. * scene.body.shape().right() / layer.c_v, 3) +
+             " for each m/s of the velocity, which is a result";
+    };
+    const auto of_layers = drainage(materials);
+    for (unsigned int i = 0; i < of_layers.size(); ++i)
+      {
+        const Drainage &layer = of_layers[i];
+        result.lines.emplace_back("drainage of layer " + to_text(i + 1),
+                                  "c_v = " + to_text(layer.c_v, 3) +
+                                    " m2/s, v D / c_v = " + group(layer) +
+                                    (compression != 1. ?
+                                       ", permeability times " +
+                                         to_text(compression) +
+                                         " (Water/Time compression)" :
+                                       ""));
+        if (layer.inertia > largest_inertia)
+          result.known_limits.push_back(
+            "inertia delays the drainage of layer " + to_text(i + 1) +
+            ": c_v over wave speed and diameter is " +
+            to_text(layer.inertia, 2) + ", more than " +
+            to_text(largest_inertia) +
+            ". Reduce Time/Mass scaling if pressures that change fast matter");
+      }
+    return result;
+  }
+} // namespace CaissonMPM

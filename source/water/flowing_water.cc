@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/kernels/cell_map.h>
+#include <caisson_mpm/water/flowing_water.h>
+
+namespace CaissonMPM
+{
+  FlowingWater::FlowingWater(const WaterScene &scene)
+    : PoreWater(scene)
+  {
+    if (is_caisson())
+      lid = std::make_unique<LidCompartment>(scene);
+    traits_.has_excess_pressure = true;
+    traits_.uses_permeability   = true;
+    traits_.lid                 = lid.get();
+    before_change = scene.grid.signals.before_change.connect([this]() {
+      if (has_started)
+        kept = gather(this->scene.grid, fields());
+    });
+    after_change  = scene.grid.signals.after_change.connect([this]() {
+      reinit();
+      scatter(this->scene.grid, kept, fields());
+      kept.clear();
+    });
+    scene.totals.carry("water_has_started", has_started);
+    scene.totals.keep("water_time", time);
+    scene.totals.carry("water_force_on_body", last_force_on_body);
+  }
+
+  void
+  FlowingWater::check_parameters() const
+  {
+    if (lid)
+      scene.settings.suction.check_parameters();
+    if (!scene.soil.is_submerged() || scene.soil.unit_weight_of_water() <= 0.)
+      throw BadInput("Water/Level is not drained, but the soil is dry: set "
+                     "Soil/Submerged = true, Soil/Fluid density and a Soil/"
+                     "Gravity that points downward, or Level = drained.");
+    if (lid)
+      lid->check_parameters();
+  }
+
+  void
+  FlowingWater::name_unused_entries(ParameterOrigins &origins) const
+  {
+    PoreWater::name_unused_entries(origins);
+    if (lid)
+      scene.settings.suction.name_unused_entries(origins);
+    else
+      origins.add_unused(scene.settings.suction.entries(),
+                         "there is no caisson");
+  }
+
+  void
+  FlowingWater::reinit()
+  {
+    if (lid)
+      lid->initialize();
+    mudline.initialize(scene.grid, scene.body.shape());
+    tip.reinit(scene.grid, scene.body.shape(), mudline);
+    is_solved        = false;
+    steps_since_look = 0;
+  }
+
+  void
+  FlowingWater::find_mudline()
+  {
+    mudline.find(scene.grid, scene.points);
+    if (lid)
+      lid->update_touching(mudline);
+  }
+
+  void
+  FlowingWater::finish_flow()
+  {
+    if (lid)
+      lid->start(mudline);
+    has_started = true;
+  }
+
+  double
+  FlowingWater::end_step(const double time,
+                         const double dt,
+                         const double force_on_body,
+                         const double)
+  {
+    last_force_on_body = force_on_body;
+    this->time         = time + dt;
+    if (lid)
+      lid->end_step(this->time, dt, force_on_body, mudline, flow());
+    return 0.;
+  }
+
+  std::string
+  FlowingWater::reason_to_end() const
+  {
+    return lid ? lid->reason_to_end(is_solved ? &mudline : nullptr) : "";
+  }
+
+  const std::vector<double> &
+  FlowingWater::nodal_pressure()
+  {
+    pressure.resize(scene.grid.n_nodes());
+    const auto [field, factor] = field_at_nodes();
+    for (unsigned int node = 0; node < scene.grid.n_nodes(); ++node)
+      pressure[node] = factor * field->local_element(node);
+    return pressure;
+  }
+
+  void
+  FlowingWater::write_pressure_to_points()
+  {
+    if (!is_solved)
+      return;
+    const std::vector<double> &p = nodal_pressure();
+    scene.points.set_pore_pressure([&](const unsigned int      cell,
+                                       const dealii::Point<2> &place) {
+      const Kernels::CellMap<> map(scene.grid.geometry(cell));
+      double                   at_corner[4], field[4];
+      for (unsigned int k = 0; k < 4; ++k)
+        at_corner[k] = p[scene.grid.cell_nodes(cell).node[k]];
+      Kernels::coefficients(at_corner, field);
+      return Kernels::evaluate(field,
+                               map.at_position(place[radial], place[vertical]));
+    });
+  }
+
+  NamedNumbers
+  FlowingWater::columns()
+  {
+    prepare_columns();
+    if (is_solved && lid)
+      lid->update_exit_gradient(mudline, soil_in_cells.permeability, outflow());
+    Mudline now = mudline;
+    now.find(scene.grid, scene.points);
+    if (lid)
+      lid->update_strength(now);
+    return columns_with(now);
+  }
+
+  NamedNumbers
+  FlowingWater::columns_with(const Mudline &mudline) const
+  {
+    const WaterFlow now = flow();
+    if (lid)
+      return lid->columns(mudline, now);
+    return {{"tip_water_force_N", now.tip_force},
+            {"total_force_with_water_N", -last_force_on_body + now.tip_force},
+            {"net_outflow_m3_s", -now.scale * now.in},
+            {"flow_iterations", 1. * now.n_iterations}};
+  }
+
+  std::vector<std::string>
+  FlowingWater::take_warnings()
+  {
+    std::vector<std::string> warnings;
+    if (lid)
+      lid->warn(place_in_words(), mudline, flow(), warnings);
+    return warnings;
+  }
+
+  WaterReport
+  FlowingWater::report(const std::vector<Kernels::Material> &) const
+  {
+    WaterReport result;
+    if (lid)
+      result.lines.emplace_back("suction", lid->description());
+    return result;
+  }
+
+  void
+  FlowingWater::continue_after(const std::string &, const NamedFields &)
+  {
+    mudline.find(scene.grid, scene.points);
+    if (lid)
+      lid->continue_after(mudline);
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/water/coupled_water.h>
+#include <caisson_mpm/water/pore_water.h>
+#include <caisson_mpm/water/steady_seepage.h>
+#include <caisson_mpm/water/undrained_water.h>
+
+#include <utility>
+
+namespace CaissonMPM
+{
+  namespace
+  {
+    /** Water that moves freely: its excess pressure is zero. */
+    class DrainedWater : public PoreWater
+    {
+    public:
+      explicit DrainedWater(const WaterScene &scene)
+        : PoreWater(scene)
+      {}
+    };
+  } // namespace
+
+  PoreWater::PoreWater(const WaterScene &scene)
+    : scene(scene)
+  {}
+
+  void
+  PoreWater::name_unused_entries(ParameterOrigins &origins) const
+  {
+    const std::string why = "Water/Level is " + scene.settings.level_name();
+    scene.settings.name_unused_groups(origins, used_groups(), why);
+    if (traits_.uses_permeability)
+      return;
+    scene.soil.name_unused_permeability(origins, why);
+    if (!scene.body.motion().follows_loads())
+      origins.add_unused({"Rigid body/Submerged weight"},
+                         why + ", and Rigid body/Motion is " +
+                           scene.body.motion().name());
+  }
+
+  void
+  PoreWater::begin_step(const double              dt,
+                        const BoundaryConditions &conditions,
+                        Contact                  &contact)
+  {
+    (void)dt;
+    (void)conditions;
+    (void)contact;
+  }
+
+  const double *
+  PoreWater::volume_rates(const Kernels::NodalVector             *velocity,
+                          const std::vector<Kernels::CornerView> &corners)
+  {
+    (void)velocity;
+    (void)corners;
+    return nullptr;
+  }
+
+  double
+  PoreWater::end_step(const double time,
+                      const double dt,
+                      const double force_on_body,
+                      const double travel)
+  {
+    (void)time;
+    (void)dt;
+    (void)force_on_body;
+    (void)travel;
+    return 0.;
+  }
+
+  std::vector<std::string>
+  PoreWater::column_names() const
+  {
+    std::vector<std::string> names;
+    for (const auto &column : present_columns())
+      names.push_back(column.first);
+    return names;
+  }
+
+  WaterReport
+  PoreWater::report(const std::vector<Kernels::Material> &materials) const
+  {
+    (void)materials;
+    return {};
+  }
+
+  void
+  PoreWater::continue_after(const std::string &level, const NamedFields &fields)
+  {
+    (void)level;
+    (void)fields;
+  }
+
+  std::string
+  PoreWater::warning_of_open_lid(const double       suction,
+                                 const std::string &advice) const
+  {
+    const BodyMotion &motion = scene.body.motion();
+    if (!is_caisson() || motion.follows_loads() ||
+        motion.mean_velocity() >= 0. || suction != 0.)
+      return "";
+    return "the caisson is pulled up, and water flows freely beneath its lid: "
+           "the force is that of an open lid, and not what a sealed one "
+           "bears. " +
+           advice;
+  }
+
+  std::string
+  PoreWater::place_in_words() const
+  {
+    return scene.body.shape().exists() ?
+             " at a penetration of " + to_text(scene.body.penetration(), 5) +
+               " m" :
+             "";
+  }
+
+  bool
+  holds_first(bool &has_held, const bool holds)
+  {
+    return holds && !std::exchange(has_held, true);
+  }
+
+  std::unique_ptr<PoreWater>
+  make_pore_water(const WaterScene &scene)
+  {
+    switch (scene.settings.level)
+      {
+        case WaterLevel::undrained:
+          return std::make_unique<UndrainedWater>(scene);
+        case WaterLevel::seepage:
+          return std::make_unique<SteadySeepage>(scene);
+        case WaterLevel::coupled:
+          return std::make_unique<CoupledWater>(scene);
+        case WaterLevel::drained:
+          break;
+      }
+    return std::make_unique<DrainedWater>(scene);
+  }
+} // namespace CaissonMPM

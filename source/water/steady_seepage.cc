@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/intervals.h>
+#include <caisson_mpm/water/steady_seepage.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+namespace CaissonMPM
+{
+  namespace
+  {
+    /** Minus the gradient of the excess pressure, per volume. */
+    class SeepageForce : public NodalForce
+    {
+    public:
+      explicit SeepageForce(SteadySeepage &water)
+        : water(water)
+      {}
+
+      std::string
+      name() const override
+      {
+        return "pore pressure";
+      }
+
+      bool
+      is_active() const override
+      {
+        return water.suction() != 0.;
+      }
+
+    private:
+      void
+      add(const ForceContext &context, Kernels::NodalVector *force) override
+      {
+        context.kernels.pressure_gradient_force(context.step,
+                                                water.nodal_pressure().data(),
+                                                water.filled().data(),
+                                                force);
+      }
+
+      SteadySeepage &water;
+    };
+  } // namespace
+
+  const std::string SteadySeepage::name_of_field = "share_of_suction";
+
+  SteadySeepage::SteadySeepage(const WaterScene &scene)
+    : FlowingWater(scene)
+  {
+    scene.forces.add(std::make_unique<SeepageForce>(*this));
+  }
+
+  void
+  SteadySeepage::check_parameters() const
+  {
+    FlowingWater::check_parameters();
+    if (!lid)
+      throw BadInput(
+        "Water/Level is seepage, but Rigid body/Kind is " +
+        scene.body.shape().name() +
+        ": only a caisson has a lid with suction beneath it. Set Kind = "
+        "caisson, or Level = drained, undrained or coupled.");
+  }
+
+  std::vector<const Section *>
+  SteadySeepage::used_groups() const
+  {
+    return {&scene.settings.seepage,
+            &scene.settings.open_sides,
+            &scene.settings.sea,
+            &scene.settings.suction};
+  }
+
+  void
+  SteadySeepage::reinit()
+  {
+    FlowingWater::reinit();
+    seepage.initialize(scene.grid);
+  }
+
+  std::vector<GridField>
+  SteadySeepage::fields()
+  {
+    return {{name_of_field, &seepage.field(), {}}};
+  }
+
+  void
+  SteadySeepage::begin_step(const double,
+                            const BoundaryConditions &,
+                            Contact &contact)
+  {
+    if (!still_serves())
+      solve();
+    lid->open(contact);
+  }
+
+  bool
+  SteadySeepage::still_serves()
+  {
+    const double renewal = scene.settings.seepage.renewal,
+                 moved =
+                   std::abs(scene.body.motion().travel() - travel_at_solve);
+    if (!is_solved || moved >= renewal * scene.body.shape().cell_width())
+      return false;
+    if (++steps_since_look < Intervals::mudline)
+      return true;
+    Mudline now = mudline;
+    now.find(scene.grid, scene.points);
+    lid->update_touching(now);
+    steps_since_look = 0;
+    return dealii::Utilities::MPI::max(now.largest_change(mudline),
+                                       scene.grid.communicator()) < renewal;
+  }
+
+  void
+  SteadySeepage::solve()
+  {
+    find_mudline();
+    soil_in_cells.compute(scene.grid, scene.points, scene.soil, 1.);
+    seepage.solve(scene.grid,
+                  mudline,
+                  soil_in_cells.permeability,
+                  scene.settings.sides);
+    tip.integrate(scene.grid,
+                  [this](const unsigned int cell, const unsigned int corner) {
+                    return seepage.field().local_element(
+                      scene.grid.cell_nodes(cell).node[corner]);
+                  });
+    const auto sums  = seepage.solver().sums_by_state(seepage.residual());
+    flow_out         = sums[PressureSolver::plug];
+    flow_in          = -sums[PressureSolver::open];
+    is_solved        = true;
+    travel_at_solve  = scene.body.motion().travel();
+    steps_since_look = 0;
+    finish_flow();
+  }
+
+  WaterFlow
+  SteadySeepage::flow() const
+  {
+    WaterFlow result;
+    result.scale           = suction() / scene.soil.unit_weight_of_water();
+    result.out             = flow_out;
+    result.in              = flow_in;
+    result.tip_force       = -suction() * tip.value();
+    result.tip_area        = tip.value();
+    result.pressure_factor = tip.value() / tip.area();
+    result.n_iterations    = seepage.solver().n_iterations();
+    return result;
+  }
+
+  void
+  SteadySeepage::prepare_columns()
+  {
+    if (!is_solved)
+      solve();
+  }
+
+  void
+  SteadySeepage::continue_after(const std::string &level,
+                                const NamedFields &fields)
+  {
+    scatter(scene.grid, fields, this->fields());
+    FlowingWater::continue_after(level, fields);
+  }
+} // namespace CaissonMPM

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/choice.h>
+#include <caisson_mpm/water/water_settings.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
+
+namespace CaissonMPM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const Choices<WaterLevel> levels = {{"drained", WaterLevel::drained},
+                                        {"undrained", WaterLevel::undrained},
+                                        {"seepage", WaterLevel::seepage},
+                                        {"coupled", WaterLevel::coupled}};
+  } // namespace
+
+  UndrainedSettings::UndrainedSettings()
+    : Section("/Water")
+  {
+    add_parameter("Bulk modulus",
+                  bulk_modulus,
+                  "Bulk modulus of the water in undrained soil over the "
+                  "porosity: the excess pressure is this times the decrease of "
+                  "volume. 20 to 60 times the bulk modulus of the soil leaves "
+                  "hardly any change of volume. Units: Pa.",
+                  prm,
+                  Patterns::Double(1e-9));
+  }
+
+  SeepageSettings::SeepageSettings()
+    : Section("/Water")
+  {
+    add_parameter("Renewal",
+                  renewal,
+                  "The flow is computed again when the body has moved, or the "
+                  "mudline changed, by this share of a cell. Units: none.",
+                  prm,
+                  Patterns::Double(1e-6, 1.));
+  }
+
+  CoupledSettings::CoupledSettings(PressureSolver::OpenSides &sides)
+    : Section("/Water")
+  {
+    add_parameter("Time compression",
+                  time_compression,
+                  "The scene runs this many times faster than what it stands "
+                  "for, and a coupled run multiplies all permeabilities with "
+                  "it, so that as much water flows. Units: none.",
+                  prm,
+                  Patterns::Double(1e-9));
+    add_parameter("Drained surface",
+                  sides.surface,
+                  "The free surface of the soil outside keeps the pressure of "
+                  "the open water; otherwise nothing flows through it. Units: "
+                  "none.");
+    add_parameter("Bottom pressure",
+                  bottom_text,
+                  "A drained bottom has this excess pressure in a coupled run, "
+                  "as an expression in the time t. Units: Pa.");
+  }
+
+  OpenSideSettings::OpenSideSettings(PressureSolver::OpenSides &sides)
+    : Section("/Water")
+  {
+    add_parameter("Drained outer side",
+                  sides.outer,
+                  "The far side of the domain keeps the pressure of the open "
+                  "water; otherwise nothing flows through it. Units: none.");
+    add_parameter("Drained bottom",
+                  sides.bottom,
+                  "The bottom of the domain keeps the pressure of the open "
+                  "water; otherwise nothing flows through it. Units: none.");
+  }
+
+  WaterSettings::WaterSettings()
+    : Section("/Water")
+    , coupled(sides)
+    , open_sides(sides)
+  {
+    add_choice(
+      *this,
+      "Level",
+      level,
+      levels,
+      "The pore water has no excess pressure (drained), stays where it "
+      "is and resists any change of volume (undrained), flows "
+      "steadily under the suction beneath the lid of a caisson "
+      "(seepage), or has the pressure that follows from the motion of "
+      "the soil (coupled). Units: none.");
+  }
+
+  std::string
+  WaterSettings::level_name() const
+  {
+    return name_of(levels, level);
+  }
+
+  void
+  WaterSettings::name_unused_groups(ParameterOrigins                   &origins,
+                                    const std::vector<const Section *> &used,
+                                    const std::string &why) const
+  {
+    const std::vector<const Section *> groups = {
+      &undrained, &seepage, &coupled, &open_sides, &sea, &suction};
+    for (const Section *const group : groups)
+      if (std::find(used.begin(), used.end(), group) == used.end())
+        origins.add_unused(group->entries(), why);
+  }
+} // namespace CaissonMPM
