@@ -230,6 +230,8 @@ namespace CaissonMPM
   PressureProjection::find_conductances(
     const std::vector<WaterProperties> &properties)
   {
+    // 1. Mobility k / gamma_w and specific volume 1 / rho of the cells, also of
+    //    those of other ranks across a face.
     for (CellData *v : {&mobility[0], &mobility[1], &inverse_density})
       v->zero_out_ghost_values();
     for (const unsigned int cell : solver_.cells())
@@ -242,7 +244,10 @@ namespace CaissonMPM
     for (CellData *v : {&mobility[0], &mobility[1], &inverse_density})
       v->update_ghost_values();
 
-    // the resistances of both halves add up
+    // 2. Through a face of the area A between centers at the distances a and b:
+    //    F = A / (a gamma_w / k_a + b gamma_w / k_b), as the resistances of
+    //    both halves add up, and the same with the density, I = A / (a rho_a +
+    //    b rho_b).
     const auto through = [](const CellPressureSolver::Face &face,
                             const CellData                 &property) {
       const double a     = property.local_element(face.place),
@@ -275,6 +280,7 @@ namespace CaissonMPM
         if (faces[f].beyond != Beyond::cell)
           open += conductances[f];
       }
+    // 3. The solver gets F + dt I over the largest of them.
     find_faces_below();
     scale            = Utilities::MPI::max(largest, grid->communicator());
     open_conductance = Utilities::MPI::sum(open, grid->communicator());
@@ -316,10 +322,16 @@ namespace CaissonMPM
                             const std::vector<Kernels::CornerView> &corners,
                             const KnownPressures                   &known)
   {
+    // 1. div v* of the predicted velocity, which contains the old pressure p'.
     find_volume_rates(velocity, corners);
     const CellPressureSolver::Known before = known_;
     begin_with(known);
 
+    // 2. The right side, per cell: dt sum_f I_f (p'_c - p'_f) for the force of
+    // p'
+    //    that v* has had already, less the volume change of the soil below the
+    //    mudline, and what the solver left of the last step. In hardly filled
+    //    cells it fades out: their pressure follows from those around them.
     source = 0.;
     source.zero_out_ghost_values();
     const auto &faces = solver_.faces();
@@ -344,11 +356,13 @@ namespace CaissonMPM
         source.local_element(i) *= share_of_own(x);
       }
     source.zero_out_ghost_values();
+    // 3. Solve sum_f (F_f + dt I_f) (p_c - p_f) = right side.
     source *= 1. / scale;
     solver_.solve(source, known_, accuracy, pressure_);
 
-    // What the solver left of each equation is small, but adds up. Shifted
-    // pressures take the sum away.
+    // 4. What the solver left of each equation is small, but adds up. One shift
+    //    of all pressures, whose flow through the open faces is the sum of what
+    //    was left, takes the sum away.
     double sum = 0.;
     for (const unsigned int cell : solver_.cells())
       sum += solver_.residual().local_element(solver_.place(cell));
@@ -366,6 +380,8 @@ namespace CaissonMPM
             left_now.local_element(faces[f].place) -=
               rise * solver_.conductances()[f];
       }
+    // 5. Carry the rest of each cell into the next step, with the share of a
+    //    whole step that this one was.
     remainder_.zero_out_ghost_values();
     remainder_.sadd(1. - step / long_step, scale * step, left_now);
     pressure_.update_ghost_values();
