@@ -205,12 +205,16 @@ check_uniform_divergence(const double axisymmetric)
 int
 main()
 {
+  heading("mean volume change");
   for (const double axisymmetric : {0., 1.})
     {
       std::printf("%s\n", axisymmetric > 0. ? "axisymmetric" : "plane strain");
-      heading("mean volume change");
       check_mean_volume(axisymmetric);
-      heading("motion of the points");
+    }
+  heading("motion of the points");
+  for (const double axisymmetric : {0., 1.})
+    {
+      std::printf("%s\n", axisymmetric > 0. ? "axisymmetric" : "plane strain");
       check_uniform_divergence(axisymmetric);
     }
 }
