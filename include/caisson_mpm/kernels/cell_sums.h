@@ -28,10 +28,9 @@ namespace CaissonMPM
         double    center_z, inverse_mean_height;
         bool      bound_stiffness; // IntegrationSettings::floor_mass
 
-        CAISSON_INLINE
-        CellToSum(const CellGeometry &geometry,
-                  const double        axisymmetric,
-                  const bool          bound_stiffness)
+        [[gnu::always_inline]] inline CellToSum(const CellGeometry &geometry,
+                                                const double axisymmetric,
+                                                const bool   bound_stiffness)
           : map(geometry)
           , axisymmetric(axisymmetric)
           , center_z(map.center_z())
@@ -48,8 +47,9 @@ namespace CaissonMPM
         LocalPoint<Number>  local;
         StressState<Number> stress;
 
-        CAISSON_INLINE
-        LoadedPoints(const PointBlock &b, const int lane, const CellMap<> &map)
+        [[gnu::always_inline]] inline LoadedPoints(const PointBlock &b,
+                                                   const int         lane,
+                                                   const CellMap<>  &map)
           : r(Number::load(b.r + lane))
           , z(Number::load(b.z + lane))
           , mass(Number::load(b.mass + lane))
@@ -64,7 +64,7 @@ namespace CaissonMPM
 
       /** Points of a full cell: their stress enters the affine fit. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       add_stress(const CellToSum            &cell,
                  const LoadedPoints<Number> &p,
                  const double /*modulus*/,
@@ -84,7 +84,7 @@ namespace CaissonMPM
       /** Points of a partly filled cell: each is a quadrature point with its
        * volume as weight. @p modulus: of the stiffness bound. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       add_stress(const CellToSum            &cell,
                  const LoadedPoints<Number> &p,
                  const double                modulus,
@@ -103,7 +103,7 @@ namespace CaissonMPM
       /** The sums over the points of a cell into its moments: FitSums, or
        * ForceSums for a cell that takes no Gauss points. */
       template <typename InternalSums, typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       sum_points(const PointsView &points,
                  const CellToSum  &cell,
                  const Material   *materials,
@@ -189,7 +189,7 @@ namespace CaissonMPM
       }
 
       /** The part of the way from @p a to @p b, where x is in between. */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       ramp(const double x, const double a, const double b)
       {
         const double part = (x - a) / (b - a);
@@ -202,7 +202,7 @@ namespace CaissonMPM
        * surface, 0 where they are filled by three quarters or more. What is a
        * count of points in one cell is a mean over four of them there.
        */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       find_surface(const StepContext &step, const unsigned int cell)
       {
         double around = 1.;
@@ -220,7 +220,7 @@ namespace CaissonMPM
        * number of points in a cell scatters while the mesh moves, and a cell
        * with fewer of them is no less full.
        */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       find_share_of_gauss_points(const IntegrationSettings &settings,
                                  const double               at_surface,
                                  const double               filled_fraction)
@@ -239,7 +239,7 @@ namespace CaissonMPM
        * cells that are full and yet have few points. Where soil has come apart,
        * the slopes would come and go with the points.
        */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       find_bound_of_fit(const double at_surface, const double filled_fraction)
       {
         const double in_full_cell = ramp(filled_fraction, .8, 1.);
@@ -249,7 +249,7 @@ namespace CaissonMPM
       /** Renew the moments of the cells of a group where they are out of date:
        * where points came or went, or where the kind of sums changes. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       renew_moments(const StepContext       &step,
                     const CellGroup<Number> &group,
                     const CellMap<Number>   &map)

@@ -22,7 +22,7 @@ namespace CaissonMPM
     {
       /** Reduce a velocity above the limit to it; returns the lanes cut. */
       template <typename Number>
-      CAISSON_INLINE unsigned int
+      [[gnu::always_inline]] inline unsigned int
       limit_speed(const double limit, Number &r, Number &z)
       {
         const Number speed = sqrt(r * r + z * z);
@@ -41,7 +41,7 @@ namespace CaissonMPM
         // volume
         using LaneSums<Number, 5>::sum;
 
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         add_work(const LocalPoint<Number> &p,
                  const Number              mass,
                  const Number              volume,
@@ -64,7 +64,7 @@ namespace CaissonMPM
        * @p center in xi less 1/2 and in the middle of eta.
        */
       template <typename Number>
-      CAISSON_INLINE Number
+      [[gnu::always_inline]] inline Number
       work_in_full_cells(const Number *s,
                          const Number *mass,
                          const Number  center,
@@ -91,7 +91,7 @@ namespace CaissonMPM
       /** New velocity and place of the points in the lanes from @p lane on;
        * returns the lanes whose velocity was cut. */
       template <typename Number>
-      CAISSON_INLINE unsigned int
+      [[gnu::always_inline]] inline unsigned int
       move_points(PointBlock               &b,
                   const int                 lane,
                   const LocalPoint<Number> &p,
@@ -138,8 +138,8 @@ namespace CaissonMPM
         Number        of_group[UpdateSums<Number>::size][Number::width];
         UpdateResult &result;
 
-        CAISSON_INLINE
-        UpdateInProgress(const PointsView &points, UpdateResult &result)
+        [[gnu::always_inline]] inline UpdateInProgress(const PointsView &points,
+                                                       UpdateResult     &result)
           : ahead(points)
           , result(result)
         {}
@@ -148,7 +148,7 @@ namespace CaissonMPM
       /** Update stress and volume of the points in the lanes from @p lane on,
        * or let their block wait; @p in_group is the number of the cell. */
       template <typename Law, typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       update_stress_of_lanes(PointBlock               &b,
                              PointHistory             &history,
                              const int                 lane,
@@ -208,7 +208,7 @@ namespace CaissonMPM
 
       /** Update one block; returns its lanes outside the moved cell. */
       template <typename Law, typename Number>
-      CAISSON_INLINE unsigned int
+      [[gnu::always_inline]] inline unsigned int
       update_block(PointBlock            &b,
                    PointHistory          &history,
                    const int              in_group,
@@ -243,7 +243,7 @@ namespace CaissonMPM
 
       /** Give a field the value at a corner that the cell sees, if it has this
        * share of the body's velocity. */
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       see_corner(const CornerView  &corner,
                  const NodalVector &at_node,
                  const double       share_of_body,
@@ -270,7 +270,7 @@ namespace CaissonMPM
       }
 
       /** The same in all fields of a cell at the body. */
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       see_corners(const StepContext &step,
                   const NodalFields &fields,
                   const unsigned int cell,
@@ -297,7 +297,7 @@ namespace CaissonMPM
        * new velocities: those that the points bring back (MUSL) are smoother,
        * and keep them.
        */
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       choose_volume_field(const StepContext &step,
                           const unsigned int cell,
                           CellUpdate        &update)
@@ -311,7 +311,7 @@ namespace CaissonMPM
       }
 
       /** Prepare the update of a cell, all but the mean divergence. */
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       prepare_cell(const StepContext &step,
                    const PointUpdate &how,
                    const unsigned int cell,
@@ -351,7 +351,7 @@ namespace CaissonMPM
       }
 
       /** Append the points of a block in the lanes @p outside to the list. */
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       list_leaving(const unsigned int cell,
                    const int          block,
                    unsigned int       outside,
@@ -370,7 +370,7 @@ namespace CaissonMPM
       /** Update the points of cell @p in_group of a group; list those that left
        * it, and return their number. */
       template <typename Number>
-      CAISSON_INLINE unsigned int
+      [[gnu::always_inline]] inline unsigned int
       update_points(const StepContext        &step,
                     const unsigned int        cell,
                     const int                 in_group,
@@ -419,7 +419,7 @@ namespace CaissonMPM
 
       /** Update the points of all cells of a group. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       update_group(const StepContext        &step,
                    const PointUpdate        &how,
                    const CellGroup<Number>  &group,

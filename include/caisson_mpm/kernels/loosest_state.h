@@ -36,7 +36,7 @@ namespace CaissonMPM
       /** The points in their loosest state in the lanes from @p lane on; empty
        * lanes are not. */
       template <typename Law, typename Number>
-      CAISSON_INLINE typename Number::Mask
+      [[gnu::always_inline]] inline typename Number::Mask
       in_loosest_state(const PointBlock               &b,
                        const PointHistory             &history,
                        const int                       lane,
@@ -52,7 +52,7 @@ namespace CaissonMPM
 
       /** The volume of the points of a cell in their loosest state. */
       template <typename Number>
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       loose_volume(const StepContext &step, const unsigned int cell)
       {
         const PointsView &points = step.points;
@@ -81,7 +81,7 @@ namespace CaissonMPM
 
       /** Share out the growth of a cell among the points that can take it. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       share_out_growth(const StepContext    &step,
                        const unsigned int    cell,
                        const UpdateSettings &settings,
@@ -108,7 +108,7 @@ namespace CaissonMPM
       /** Give points in their loosest state the volume change that is theirs.
        * Returns whether there are any. */
       template <typename Law, typename Number>
-      CAISSON_INLINE bool
+      [[gnu::always_inline]] inline bool
       hold_loose_points(const PointBlock               &b,
                         const PointHistory             &history,
                         const int                       lane,

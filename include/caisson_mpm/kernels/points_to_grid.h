@@ -28,9 +28,9 @@ namespace CaissonMPM
       {
         Number mass[4], momentum[2][4], force[2][4], stiffness[4];
 
-        CAISSON_INLINE
-        CellContribution(const LaneSums<Number, 17> &sums,
-                         const Number               *body_force)
+        [[gnu::always_inline]] inline CellContribution(
+          const LaneSums<Number, 17> &sums,
+          const Number               *body_force)
         {
           moments_to_corners(sums.sum, mass);
           for (int c = 0; c < 2; ++c)
@@ -42,7 +42,7 @@ namespace CaissonMPM
             }
         }
 
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         add_forces(const LaneSums<Number, 16> &sums)
         {
           Number corner[4];
@@ -59,7 +59,7 @@ namespace CaissonMPM
             stiffness[i] = sums.sum[ForceSums<Number>::stiffness + i];
         }
 
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         scatter(const CellGroup<Number> &group,
                 const CellNodes         *nodes_of,
                 NodalSums               *nodes) const
@@ -98,7 +98,7 @@ namespace CaissonMPM
        * follows from it is below the mass for any Courant number below one.
        */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       find_full_stiffness(const CellMap<Number> &map,
                           const double           axisymmetric,
                           const Number           modulus,
@@ -124,7 +124,7 @@ namespace CaissonMPM
 
       /** The internal force of full cells, from the fitted stress. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       integrate_full_cells(const CellMap<Number> &map,
                            const double           axisymmetric,
                            const Number          *fit,
@@ -188,7 +188,7 @@ namespace CaissonMPM
       }
 
       /** The largest modulus among the materials of a cell. */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       largest_modulus(const StepContext &step, const unsigned int cell)
       {
         const PointsView     &points    = step.points;
@@ -208,7 +208,7 @@ namespace CaissonMPM
 
       /** The volume of the soil of a cell at the start, if all of it gains
        * volume in shear; else 0. */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       volume_of_gaining_soil(const StepContext &step, const unsigned int cell)
       {
         const CellMoments &moments  = step.moments[cell];
@@ -242,7 +242,7 @@ namespace CaissonMPM
        * is the mean over the cell. Soil that has not dilated keeps its slope,
        * and its equilibrium with the weight.
        */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       pressure_slope(const StepContext &step, const unsigned int cell)
       {
         switch (step.integration.pressure_slope)
@@ -273,7 +273,7 @@ namespace CaissonMPM
        * change: with two cells across a tip in dense hypoplastic sand, the mean
        * makes the tip too stiff by two thirds.
        */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       largest_change_of_trace(const StepContext &step,
                               const unsigned int cell,
                               const int          d)
@@ -291,9 +291,9 @@ namespace CaissonMPM
 
       /** Both of them for the cells of a group. */
       template <typename Number>
-      CAISSON_INLINE KeptPressureSlope<Number>
-                     kept_pressure_slope(const StepContext       &step,
-                                         const CellGroup<Number> &group)
+      [[gnu::always_inline]] inline KeptPressureSlope<Number>
+      kept_pressure_slope(const StepContext       &step,
+                          const CellGroup<Number> &group)
       {
         const auto largest = [&](const int d) CAISSON_LAMBDA {
           return group.lanes([&](const unsigned int c) {
@@ -309,10 +309,10 @@ namespace CaissonMPM
       /** ForceSums of the cells of a group that are integrated at their points,
        * wholly or in part. @p rows: the internal sums of the cells. */
       template <typename Number>
-      CAISSON_INLINE LaneSums<Number, 16>
-                     sums_at_points(const StepContext       &step,
-                                    const CellGroup<Number> &group,
-                                    double *const           *rows)
+      [[gnu::always_inline]] inline LaneSums<Number, 16>
+      sums_at_points(const StepContext       &step,
+                     const CellGroup<Number> &group,
+                     double *const           *rows)
       {
         constexpr int        width = Number::width;
         double               mixed[width][16];
@@ -340,7 +340,7 @@ namespace CaissonMPM
        * them when the points are updated.
        */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       integrate_stress(const StepContext          &step,
                        const CellGroup<Number>    &group,
                        const CellMap<Number>      &map,

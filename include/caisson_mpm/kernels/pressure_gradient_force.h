@@ -24,7 +24,7 @@ namespace CaissonMPM
     inline namespace CAISSON_KERNEL_ISA
     {
       /** The lower share @p filled of a cell. */
-      CAISSON_INLINE CellGeometry
+      [[gnu::always_inline]] inline CellGeometry
       lower_part(CellGeometry geometry, const double filled)
       {
         geometry.height_left *= filled;
@@ -36,7 +36,7 @@ namespace CaissonMPM
       template <typename Number>
       struct GradientSums : LaneSums<Number, 8>
       {
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         add(const LocalPoint<Number> &p,
             const Number              volume,
             const Number             *gradient)

@@ -15,8 +15,8 @@ namespace CaissonMPM
     {
       /** An isotropic stress. */
       template <typename Number>
-      CAISSON_INLINE StressState<Number>
-                     isotropic(const Number p)
+      [[gnu::always_inline]] inline StressState<Number>
+      isotropic(const Number p)
       {
         return {p, p, p, Number(0.)};
       }
@@ -51,7 +51,7 @@ namespace CaissonMPM
 
       /** The integrals over the Gauss points of cells, one in each lane. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       integrate_pressure_in_full_cells(const CellMap<Number> &map,
                                        const double           axisymmetric,
                                        const Number          *coefficients,

@@ -46,20 +46,20 @@ namespace CaissonMPM
         using Sums = Number (*)[Number::width];
 
         /** How many ever waited. */
-        CAISSON_INLINE unsigned int
+        [[gnu::always_inline]] inline unsigned int
         total() const
         {
           return n_added;
         }
 
-        CAISSON_INLINE bool
+        [[gnu::always_inline]] inline bool
         is_full() const
         {
           return n == capacity;
         }
 
         /** Let a block wait. */
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         add(PointBlock               &block,
             const StressStep<Number> &s,
             const LocalPoint<Number> &p,
@@ -84,7 +84,7 @@ namespace CaissonMPM
         }
 
         /** Update all; none is left. */
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         update(const Sums sums)
         {
           for (int i = 0; i < n;)
@@ -102,7 +102,7 @@ namespace CaissonMPM
 
         /** Both may be the same. */
         template <typename Law>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         update_two(const WaitingBlock &v,
                    const WaitingBlock &w,
                    const Sums          sums)
@@ -153,7 +153,7 @@ namespace CaissonMPM
         }
 
         /** Add the work per volume, with the old volume. */
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         add_work(const WaitingBlock &w, const Number work, const Sums sums)
         {
           const Number q = Number::load(w.block->mass) * work;
