@@ -12,6 +12,7 @@
 #ifndef caisson_mpm_kernels_cell_sums_h
 #define caisson_mpm_kernels_cell_sums_h
 
+#include <caisson_mpm/kernels/for_each_block.h>
 #include <caisson_mpm/kernels/moments.h>
 
 namespace CaissonMPM
@@ -175,8 +176,7 @@ namespace CaissonMPM
                                step.integration.floor_mass);
         ForceSums<Number> sums;
         sums.clear();
-        for (int block = step.points.first_block[cell]; block >= 0;
-             block     = step.points.headers[block].next)
+        for_each_block(step.points, cell, [&](const int block) CAISSON_LAMBDA {
           for (int lane = 0; lane < block_size; lane += Number::width)
             add_stress(to_sum,
                        LoadedPoints<Number>(step.points.blocks[block],
@@ -185,6 +185,7 @@ namespace CaissonMPM
                        step.materials[step.points.headers[block].material]
                          .p_wave_modulus,
                        sums);
+        });
         sums.store(out);
       }
 

@@ -6,6 +6,7 @@
 #ifndef caisson_mpm_kernels_laws_h
 #define caisson_mpm_kernels_laws_h
 
+#include <caisson_mpm/kernels/for_each_block.h>
 #include <caisson_mpm/kernels/hypoplastic.h>
 #include <caisson_mpm/kernels/hypoplastic_intergranular.h>
 #include <caisson_mpm/kernels/linear_elastic.h>
@@ -13,8 +14,6 @@
 #include <caisson_mpm/kernels/mohr_coulomb_softening.h>
 #include <caisson_mpm/kernels/mohr_coulomb_stiffening.h>
 #include <caisson_mpm/kernels/overstress.h>
-
-#define CAISSON_LAMBDA __attribute__((always_inline))
 
 namespace CaissonMPM
 {

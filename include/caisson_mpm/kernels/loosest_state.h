@@ -57,25 +57,23 @@ namespace CaissonMPM
       {
         const PointsView &points = step.points;
         Number            volume(0.);
-        for (int block = points.first_block[cell]; block >= 0;
-             block     = points.headers[block].next)
-          {
-                const PointBlock &b = points.blocks[block];
-                const Material   &material =
-                  step.materials[points.headers[block].material];
-                if (!material.has_loosest_state)
-              continue;
-            with_law(material, [&](auto law, const auto &p) CAISSON_LAMBDA {
-              using Law = decltype(law);
-              if constexpr (knows_loosest_state<Law>(0))
-                for (int lane = 0; lane < block_size; lane += Number::width)
-                  volume +=
-                    select(in_loosest_state<Law, Number>(
-                             b, points.histories[block], lane, material, p),
-                           Number::load(b.volume + lane),
-                           Number(0.));
-            });
-          }
+        for_each_block(points, cell, [&](const int block) CAISSON_LAMBDA {
+          const PointBlock &b = points.blocks[block];
+          const Material   &material =
+            step.materials[points.headers[block].material];
+          if (!material.has_loosest_state)
+            return;
+          with_law(material, [&](auto law, const auto &p) CAISSON_LAMBDA {
+            using Law = decltype(law);
+            if constexpr (knows_loosest_state<Law>(0))
+              for (int lane = 0; lane < block_size; lane += Number::width)
+                volume +=
+                  select(in_loosest_state<Law, Number>(
+                           b, points.histories[block], lane, material, p),
+                         Number::load(b.volume + lane),
+                         Number(0.));
+          });
+        });
         return sum(volume);
       }
 

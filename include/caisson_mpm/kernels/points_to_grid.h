@@ -164,27 +164,26 @@ namespace CaissonMPM
         const CellMap<>       map(grid.geometry[cell]);
         const int             first = points.first_block[cell];
         const Material &reference   = materials[points.headers[first].material];
-        for (int block = first; block >= 0; block = points.headers[block].next)
-          {
-            const PointBlock &b   = points.blocks[block];
-            const Material   &own = materials[points.headers[block].material];
-            PointSums<Number> sums;
-            sums.clear();
-            for (int lane = 0; lane < block_size; lane += Number::width)
-              sums.add(map.at_position(Number::load(b.r + lane),
-                                       Number::load(b.z + lane)),
-                       Number::load(b.mass + lane),
-                       Number(0.),
-                       Number(0.));
-            double moments[4], corner[4];
+        for_each_block(points, cell, [&](const int block) CAISSON_LAMBDA {
+          const PointBlock &b   = points.blocks[block];
+          const Material   &own = materials[points.headers[block].material];
+          PointSums<Number> sums;
+          sums.clear();
+          for (int lane = 0; lane < block_size; lane += Number::width)
+            sums.add(map.at_position(Number::load(b.r + lane),
+                                     Number::load(b.z + lane)),
+                     Number::load(b.mass + lane),
+                     Number(0.),
+                     Number(0.));
+          double moments[4], corner[4];
+          for (int i = 0; i < 4; ++i)
+            moments[i] = sum(sums.sum[i]);
+          moments_to_corners(moments, corner);
+          for (int c = 0; c < 2; ++c)
             for (int i = 0; i < 4; ++i)
-              moments[i] = sum(sums.sum[i]);
-            moments_to_corners(moments, corner);
-            for (int c = 0; c < 2; ++c)
-              for (int i = 0; i < 4; ++i)
-                nodes[grid.nodes[cell].node[i]].force[c] +=
-                  corner[i] * (own.body_force[c] - reference.body_force[c]);
-          }
+              nodes[grid.nodes[cell].node[i]].force[c] +=
+                corner[i] * (own.body_force[c] - reference.body_force[c]);
+        });
       }
 
       /** The largest modulus among the materials of a cell. */
@@ -196,13 +195,11 @@ namespace CaissonMPM
         const CellMoments    &moments   = step.moments[cell];
         double result = materials[moments.material].p_wave_modulus;
         if (moments.several_materials)
-          for (int block = points.first_block[cell]; block >= 0;
-               block     = points.headers[block].next)
-            {
-                  const double own =
-                    materials[points.headers[block].material].p_wave_modulus;
-                  result = own > result ? own : result;
-            }
+          for_each_block(points, cell, [&](const int block) CAISSON_LAMBDA {
+            const double own =
+              materials[points.headers[block].material].p_wave_modulus;
+            result = own > result ? own : result;
+          });
         return result;
       }
 
@@ -219,19 +216,16 @@ namespace CaissonMPM
           return moments.mass[0] / material.initial_density;
         const PointsView &points = step.points;
         double            result = 0.;
-        for (int block = points.first_block[cell]; block >= 0;
-             block     = points.headers[block].next)
-          {
-                const Material &own =
-                  step.materials[points.headers[block].material];
-                if (own.volume_in_shear != VolumeInShear::gained)
-              return 0.;
-            double mass = 0.; // padding has none
-                for (int lane = 0; lane < block_size; ++lane)
-              mass += points.blocks[block].mass[lane];
-            result += mass / own.initial_density;
-          }
-        return result;
+        bool              all    = true;
+        for_each_block(points, cell, [&](const int block) CAISSON_LAMBDA {
+          const Material &own = step.materials[points.headers[block].material];
+          all &= own.volume_in_shear == VolumeInShear::gained;
+          double mass = 0.; // padding has none
+          for (int lane = 0; lane < block_size; ++lane)
+            mass += points.blocks[block].mass[lane];
+          result += mass / own.initial_density;
+        });
+        return all ? result : 0.;
       }
 
       /**

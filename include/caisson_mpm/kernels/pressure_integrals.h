@@ -33,19 +33,19 @@ namespace CaissonMPM
         const CellMap<>   map(step.grid.geometry[cell]);
         ForceSums<Number> sums;
         sums.clear();
-        for (int block = step.points.first_block[cell]; block >= 0;
-             block     = step.points.headers[block].next)
+        for_each_block(step.points, cell, [&](const int block) CAISSON_LAMBDA {
           for (int lane = 0; lane < block_size; lane += Number::width)
             {
-                  const LoadedPoints<Number> p(step.points.blocks[block],
+              const LoadedPoints<Number> p(step.points.blocks[block],
                                            lane,
                                            map);
-                  sums.add(p.local,
+              sums.add(p.local,
                        Number(map.inverse_width),
                        Number(step.grid.axisymmetric) / p.r,
                        p.volume,
                        isotropic(evaluate(coefficients, p.local)));
             }
+        });
         sums.store(out);
       }
 
