@@ -115,13 +115,13 @@ namespace CaissonMPM
 
   void
   ContactCorners::set_strength(const std::vector<ContactFace> &faces,
-                               const FindFaceStrength         &find)
+                               const FaceStrengthOf           &strength_at)
   {
     for (Corner &corner : corners)
       for (unsigned int i = 0; i < 2; ++i)
         {
           const ContactFace &face     = faces[corner.face[i]];
-          const FaceStrength strength = find(face);
+          const FaceStrength strength = strength_at(face);
           corner.friction[i]          = strength.friction;
           corner.adhesion[i] = strength.adhesion * face.areas[corner.end[i]];
         }
@@ -287,7 +287,7 @@ namespace CaissonMPM
           {
             const double w = mass[d] > 0. ? momentum[d] / mass[d] : 0.;
             const double a =
-              mass[d] > 0. ? force[d] / inertia_of(mass[d], dt, node) : 0.;
+              mass[d] > 0. ? force[d] / raised_mass(mass[d], dt, node) : 0.;
             corner.old[d]           = velocity[d] + w;
             v[corner.node].value[d] = corner.old[d];
             u[corner.node].value[d] = corner.old[d] + dt * a;
@@ -297,9 +297,9 @@ namespace CaissonMPM
   }
 
   double
-  ContactCorners::inertia_of(const double              mass,
-                             const double              dt,
-                             const Kernels::NodalSums &node)
+  ContactCorners::raised_mass(const double              mass,
+                              const double              dt,
+                              const Kernels::NodalSums &node)
   {
     return std::max(mass, .25 * dt * dt * node.stiffness);
   }
@@ -335,7 +335,7 @@ namespace CaissonMPM
     const Vector2 mass = mass_of(corner, node.mass);
     Vector2       inertia;
     for (unsigned int d = 0; d < 2; ++d)
-      inertia[d] = mass[d] > 0. ? inertia_of(mass[d], dt, node) : 0.;
+      inertia[d] = mass[d] > 0. ? raised_mass(mass[d], dt, node) : 0.;
     // what points have besides, and lose in this step
     const Vector2 lost =
       (1. - keep) * (vector_of(node.momentum) - node.mass * velocity -
@@ -440,7 +440,7 @@ namespace CaissonMPM
   }
 
   void
-  ContactCorners::hold(const Vector2 &body_velocity, NodalVector *v) const
+  ContactCorners::constrain(const Vector2 &body_velocity, NodalVector *v) const
   {
     for (const Corner &corner : corners)
       for (unsigned int d = 0; corner.has_soil && d < 2; ++d)

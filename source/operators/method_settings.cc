@@ -119,7 +119,7 @@ namespace CaissonMPM
   MethodSettings::declare_stability()
   {
     add_parameter("Mass floor",
-                  mass_floor,
+                  minimum_nodal_mass,
                   "Nodes that have less mass than the time step needs answer "
                   "as if they had it, and their neighbors take the rest of the "
                   "impulse. Units: none.");
@@ -151,7 +151,7 @@ namespace CaissonMPM
         " exceeds Method/Full cell fraction = " + to_text(full_fraction) +
         ". Reduce it.");
     if (!uses_musl() && transfer == VelocityTransfer::flip && damping == 0. &&
-        !mass_floor)
+        !minimum_nodal_mass)
       throw BadInput("Method/Stress update = USL with Velocity transfer = FLIP "
                      "needs Mass floor = true or Local damping: it is unstable "
                      "at nodes with little mass.");
@@ -204,7 +204,7 @@ namespace CaissonMPM
     constexpr double never_full = 1e300;
     return {at_points ? never_full : full_fraction,
             at_points ? never_full : full_fraction_inside,
-            mass_floor,
+            minimum_nodal_mass,
             pressure_fit};
   }
 

@@ -20,7 +20,7 @@ namespace CaissonMPM
     grid.reinit(filled_, 1);
     grid.reinit(change, 2);
     mass_.assign(grid.n_nodes(), 0.);
-    inertia_.assign(grid.n_nodes(), 0.);
+    raised_mass_.assign(grid.n_nodes(), 0.);
     n_owned_nodes_ = grid.n_owned_nodes();
     hanging_nodes  = &grid.hanging_nodes();
 
@@ -35,7 +35,7 @@ namespace CaissonMPM
   }
 
   void
-  NodalMomentum::find_filled(const Kernels::StepContext &step)
+  NodalMomentum::update_filled(const Kernels::StepContext &step)
   {
     filled_ = 0.;
     filled_.zero_out_ghost_values();
@@ -60,7 +60,7 @@ namespace CaissonMPM
   void
   NodalMomentum::collect(const ForceContext &context, NodalForces &forces)
   {
-    find_filled(context.step);
+    update_filled(context.step);
     sums_ = 0.;
     sums_.zero_out_ghost_values();
     auto *const nodes = reinterpret_cast<NodalSums *>(sums_.begin());
@@ -81,7 +81,7 @@ namespace CaissonMPM
     change.compress(dealii::VectorOperation::add);
     change.update_ghost_values();
     auto *const nodes = reinterpret_cast<NodalSums *>(sums_.begin());
-    for (std::size_t i = 0; i < inertia_.size(); ++i)
+    for (std::size_t i = 0; i < raised_mass_.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         nodes[i].force[d] += nodal_vectors(change)[i].value[d];
   }
@@ -97,18 +97,18 @@ namespace CaissonMPM
                        *u   = nodal_vectors(new_velocity_);
     added_inertia_          = 0.;
     double sum              = 0.;
-    for (unsigned int i = 0; i < inertia_.size(); ++i, ++node)
+    for (unsigned int i = 0; i < raised_mass_.size(); ++i, ++node)
       {
         if (node->mass <= 0.)
           {
-            mass_[i] = inertia_[i] = 0.;
+            mass_[i] = raised_mass_[i] = 0.;
             v[i] = u[i] = NodalVector();
             continue;
           }
-        mass_[i]    = node->mass;
-        inertia_[i] = std::max(node->mass, .25 * dt * dt * node->stiffness);
+        mass_[i]        = node->mass;
+        raised_mass_[i] = std::max(node->mass, .25 * dt * dt * node->stiffness);
         if (i < n_owned_nodes_)
-          added_inertia_ += inertia_[i] - node->mass;
+          added_inertia_ += raised_mass_[i] - node->mass;
         const double share =
           damping > 0. && !contact.is_contact_node(i) ? damping : 0.;
         for (unsigned int d = 0; d < 2; ++d)
@@ -154,13 +154,13 @@ namespace CaissonMPM
     v = new_velocity_;
     v.update_ghost_values();
     const NodalVector *const old = nodal_vectors(old_velocity_);
-    for (std::size_t i = 0; i < inertia_.size(); ++i)
-      if (inertia_[i] > mass_[i])
+    for (std::size_t i = 0; i < raised_mass_.size(); ++i)
+      if (raised_mass_[i] > mass_[i])
         for (unsigned int d = 0; d < 2; ++d)
           {
             double &own = nodal_vectors(v)[i].value[d];
             own         = old[i].value[d] +
-                  mass_[i] / inertia_[i] * (own - old[i].value[d]);
+                  mass_[i] / raised_mass_[i] * (own - old[i].value[d]);
           }
   }
 

@@ -45,8 +45,8 @@ namespace CaissonMPM
                        const Soil                     &soil,
                        std::vector<Kernels::Material> &materials)
   {
-    find_moduli(grid.communicator(), points, soil, materials);
-    find_limit(grid, points, soil, materials);
+    update_moduli(grid.communicator(), points, soil, materials);
+    update_limit(grid, points, soil, materials);
     age = 1; // the start of a run counts as a step
     if (!std::isfinite(limit) || limit <= 0.)
       throw BadInput("the stability limit of the time step is " +
@@ -65,8 +65,8 @@ namespace CaissonMPM
   {
     if (++age == steps_between_searches)
       {
-        find_moduli(grid.communicator(), points, soil, materials);
-        find_limit(grid, points, soil, materials);
+        update_moduli(grid.communicator(), points, soil, materials);
+        update_limit(grid, points, soil, materials);
       }
     if (is_too_large())
       throw RunFailure(text_of_too_large_step());
@@ -83,10 +83,10 @@ namespace CaissonMPM
   }
 
   void
-  TimeStep::find_moduli(const MPI_Comm                  communicator,
-                        const MaterialPoints           &points,
-                        const Soil                     &soil,
-                        std::vector<Kernels::Material> &materials)
+  TimeStep::update_moduli(const MPI_Comm                  communicator,
+                          const MaterialPoints           &points,
+                          const Soil                     &soil,
+                          std::vector<Kernels::Material> &materials)
   {
     // what stress and density may add until they are looked at again
     constexpr double    margin = 1.25;
@@ -153,10 +153,10 @@ namespace CaissonMPM
   } // namespace
 
   void
-  TimeStep::find_limit(const BackgroundGrid                 &grid,
-                       const MaterialPoints                 &points,
-                       const Soil                           &soil,
-                       const std::vector<Kernels::Material> &materials)
+  TimeStep::update_limit(const BackgroundGrid                 &grid,
+                         const MaterialPoints                 &points,
+                         const Soil                           &soil,
+                         const std::vector<Kernels::Material> &materials)
   {
     std::vector<double> squares, squares_of_soil; // of wave speeds, m2/s2
     for (unsigned int i = 0; i < soil.n_materials(); ++i)

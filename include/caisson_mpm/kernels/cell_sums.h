@@ -27,7 +27,7 @@ namespace CaissonMPM
         CellMap<> map;
         double    axisymmetric;
         double    center_z, inverse_mean_height;
-        bool      bound_stiffness; // IntegrationSettings::floor_mass
+        bool bound_stiffness; // IntegrationSettings::has_minimum_nodal_mass
 
         [[gnu::always_inline]] inline CellToSum(const CellGeometry &geometry,
                                                 const double axisymmetric,
@@ -155,7 +155,7 @@ namespace CaissonMPM
       {
         const CellToSum to_sum(geometry,
                                step.grid.axisymmetric,
-                               step.integration.floor_mass);
+                               step.integration.has_minimum_nodal_mass);
         CellMoments    &moments = step.moments[cell];
         const int       first   = step.points.first_block[cell];
         if (moments.full > 0.)
@@ -173,7 +173,7 @@ namespace CaissonMPM
       {
         const CellToSum   to_sum(step.grid.geometry[cell],
                                step.grid.axisymmetric,
-                               step.integration.floor_mass);
+                               step.integration.has_minimum_nodal_mass);
         ForceSums<Number> sums;
         sums.clear();
         for_each_block(step.points, cell, [&](const int block) CAISSON_LAMBDA {

@@ -10,9 +10,9 @@
 
 #include <caisson_mpm/kernels/cell_pressure.h>
 #include <caisson_mpm/kernels/cell_sums.h>
+#include <caisson_mpm/kernels/deferred_blocks.h>
 #include <caisson_mpm/kernels/loosest_state.h>
 #include <caisson_mpm/kernels/volume_change.h>
-#include <caisson_mpm/kernels/waiting_blocks.h>
 
 namespace CaissonMPM
 {
@@ -132,8 +132,8 @@ namespace CaissonMPM
       template <typename Number>
       struct UpdateInProgress
       {
-        BlocksAhead           ahead;
-        WaitingBlocks<Number> waiting;
+        BlocksAhead            ahead;
+        DeferredBlocks<Number> deferred;
         // row i: sum i of UpdateSums of the cells of a group
         Number        of_group[UpdateSums<Number>::size][Number::width];
         UpdateResult &result;
@@ -158,7 +158,7 @@ namespace CaissonMPM
                              const UpdateSettings     &settings,
                              const Material           &material,
                              UpdateSums<Number>       &sums,
-                             WaitingBlocks<Number>    &waiting)
+                             DeferredBlocks<Number>   &deferred)
       {
         const auto &parameters =
           reinterpret_cast<const typename Law::Parameters &>(
@@ -173,7 +173,7 @@ namespace CaissonMPM
                      volume = Number::load(b.volume + lane),
                      after  = volume * (Number(1.) + s.step.volume_change);
         sums.sum[4] += after;
-        if constexpr (may_wait<Law, Number>)
+        if constexpr (may_be_deferred<Law, Number>)
           if (material.stress_measure == StressMeasure::cauchy)
             {
               StressState<Number> stress = s.old;
@@ -190,7 +190,7 @@ namespace CaissonMPM
                 }
               if (!Law::needs_void_ratio(parameters) &&
                   material.overstress_time == 0.)
-                return waiting.add(b, s, p, material, in_group);
+                return deferred.add(b, s, p, material, in_group);
             }
         sums.add_work(p,
                       mass,
@@ -209,15 +209,15 @@ namespace CaissonMPM
       /** Update one block; returns its lanes outside the moved cell. */
       template <typename Law, typename Number>
       [[gnu::always_inline]] inline unsigned int
-      update_block(PointBlock            &b,
-                   PointHistory          &history,
-                   const int              in_group,
-                   const CellUpdate      &cell,
-                   const UpdateSettings  &settings,
-                   const Material        &material,
-                   unsigned int          &limited,
-                   UpdateSums<Number>    &sums,
-                   WaitingBlocks<Number> &waiting)
+      update_block(PointBlock             &b,
+                   PointHistory           &history,
+                   const int               in_group,
+                   const CellUpdate       &cell,
+                   const UpdateSettings   &settings,
+                   const Material         &material,
+                   unsigned int           &limited,
+                   UpdateSums<Number>     &sums,
+                   DeferredBlocks<Number> &deferred)
       {
         unsigned int outside = 0;
         limited              = 0;
@@ -234,7 +234,7 @@ namespace CaissonMPM
                                         settings,
                                         material,
                                         sums,
-                                        waiting);
+                                        deferred);
             limited |= move_points(b, lane, p, cell, settings, r, z) << lane;
             outside |= to_integer(!cell.moved.contains(r, z)) << lane;
           }
@@ -378,18 +378,18 @@ namespace CaissonMPM
                     const UpdateSettings     &settings,
                     UpdateInProgress<Number> &progress)
       {
-        const PointsView  &points  = step.points;
-        UpdateResult      &result  = progress.result;
-        const unsigned int before  = result.n_leaving,
-                           waiting = progress.waiting.total();
+        const PointsView  &points   = step.points;
+        UpdateResult      &result   = progress.result;
+        const unsigned int before   = result.n_leaving,
+                           deferred = progress.deferred.total();
         UpdateSums<Number> sums;
         sums.clear();
         for (int block = points.first_block[cell]; block >= 0;)
           {
             const BlockHeader header = points.headers[block];
             progress.ahead.advance();
-            if (progress.waiting.is_full())
-              progress.waiting.update(progress.of_group);
+            if (progress.deferred.is_full())
+              progress.deferred.update(progress.of_group);
             unsigned int    outside = 0, limited = 0;
             const Material &material = step.materials[header.material];
             with_law(material, [&](auto law, const auto &) CAISSON_LAMBDA {
@@ -402,7 +402,7 @@ namespace CaissonMPM
                                                     material,
                                                     limited,
                                                     sums,
-                                                    progress.waiting);
+                                                    progress.deferred);
             });
             // padding moves like the point that it repeats, but is none
             const unsigned int real = (1u << header.count) - 1u;
@@ -413,7 +413,7 @@ namespace CaissonMPM
         for (int k = 0; k < sums.size; ++k)
           progress.of_group[k][in_group] += sums.sum[k];
         points.n_yielding[cell] =
-          static_cast<unsigned short>(progress.waiting.total() - waiting);
+          static_cast<unsigned short>(progress.deferred.total() - deferred);
         return result.n_leaving - before;
       }
 
@@ -440,7 +440,7 @@ namespace CaissonMPM
             n_leaving[i] = update_points(
               step, group.cell[i], i, update[i], how.settings, progress);
           }
-        progress.waiting.update(progress.of_group);
+        progress.deferred.update(progress.of_group);
         // The sums for the next step, while the points are in the cache. A
         // cell that points leave is summed by points_to_grid instead.
         for (int i = 0; i < group.n; ++i)

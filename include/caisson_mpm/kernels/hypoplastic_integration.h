@@ -146,7 +146,7 @@ namespace CaissonMPM
 
         /** What the stress feels of a strain increment; and dh. */
         template <typename Number>
-        struct Felt
+        struct MobilizedStrain
         {
           StressState<Number> D;
           Number              length;
@@ -154,10 +154,10 @@ namespace CaissonMPM
         };
 
         template <typename Number>
-        [[gnu::always_inline]] static inline Felt<Number>
-        feel(const StressState<Number> &h,
-             const StressState<Number> &D,
-             const Parameters          &p)
+        [[gnu::always_inline]] static inline MobilizedStrain<Number>
+        mobilize(const StressState<Number> &h,
+                 const StressState<Number> &D,
+                 const Parameters          &p)
         {
           const Number length  = sqrt(product(h, h));
           const Number rho     = min(length * (1. / p.range), Number(1.));
@@ -212,11 +212,15 @@ namespace CaissonMPM
           const Number void_ratio = (1. + at.void_ratio) * (D.rr + D.zz + D.tt);
           if constexpr (remembers)
             {
-              const Felt<Number> felt = feel(at.memory, D, p);
-              return {stress_increment(
-                        at.stress, at.void_ratio, felt.D, felt.length, p),
+              const MobilizedStrain<Number> mobilized =
+                mobilize(at.memory, D, p);
+              return {stress_increment(at.stress,
+                                       at.void_ratio,
+                                       mobilized.D,
+                                       mobilized.length,
+                                       p),
                       void_ratio,
-                      felt.memory};
+                      mobilized.memory};
             }
           else
             return {stress_increment(at.stress, at.void_ratio, D, length, p),

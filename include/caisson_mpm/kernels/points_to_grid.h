@@ -378,7 +378,7 @@ namespace CaissonMPM
         integrate_full_cells(map, step.grid.axisymmetric, fit.sum, forces);
 
         // the bound of sum_J |K_IJ|, for the mass floor
-        if (step.integration.floor_mass)
+        if (step.integration.has_minimum_nodal_mass)
           find_full_stiffness(map,
                               step.grid.axisymmetric,
                               group.lanes([&](const unsigned int c) {
