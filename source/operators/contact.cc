@@ -73,6 +73,8 @@ namespace CaissonMPM
   void
   Contact::collect_surface_nodes(const BackgroundGrid &grid)
   {
+    // 1. the nodes of all faces, each with its surface and with one normal, or
+    //    two where the faces have different directions
     std::map<unsigned int, Node> found;
     for (const ContactFace &face : faces)
       for (unsigned int i = 0; i < 2; ++i)
@@ -89,6 +91,8 @@ namespace CaissonMPM
               (node.n_normals == 1 && node.normal[0] * face.normal < 1. - 1e-9))
             node.normal[node.n_normals++] = face.normal;
         }
+    // 2. concave corners are those with three rigid cells; the convex ones that
+    //    ContactCorners treats are left out
     std::vector<unsigned int> n_rigid(grid.n_nodes(), 0);
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       for (const unsigned int node : grid.cell_nodes(cell).node)
@@ -106,6 +110,7 @@ namespace CaissonMPM
         index[node.node] = nodes.size();
         nodes.push_back(node);
       }
+    // 3. the nodes of each face, for set_strength()
     nodes_of_faces.clear();
     for (const ContactFace &face : faces)
       {
@@ -227,16 +232,19 @@ namespace CaissonMPM
     NodeResult result = compute_contact(node, w);
     if (result.state == State::apart)
       return result;
+    // 1. split w = v - V into its normal part into the body and the rest
     const double  into    = std::min(0., w * result.normal);
     const Vector2 tangent = w - into * result.normal;
     const double  speed   = tangent.norm();
-    // the change of the tangential velocity that friction and adhesion bear
+    // 2. the change of the tangential velocity that friction and adhesion bear,
+    //    mu |w.n| + a A dt / m: what is slower sticks, the rest slides
     const double bearable = -node.friction * into + node.adhesion * dt / m;
     if (speed <= bearable)
       result.state = State::sticking;
     Vector2 left; // of the relative velocity
     if (result.state == State::sliding)
       left = tangent * (1. - bearable / speed);
+    // 3. the impulse on the body is what the soil loses
     result.impulse = m * (w - left);
     for (unsigned int d = 0; d < 2; ++d)
       u[d] = velocity[d] + left[d];

@@ -28,20 +28,25 @@ namespace CaissonMPM
                                NodalReactions             &reactions)
   {
     impulses.clear();
+    // 1. theta = 1 - m / M, and the cells where it is not 0
     const HangingNodes &hanging_nodes = constraints.hanging_nodes;
     if (!update_weak_cells(step, hanging_nodes, momentum))
       return;
-    // theta, and what follows from it, is 0 in all other cells
+    // 2. C theta, for mu = (1 - theta) m + C theta; theta, and what follows
+    //    from it, is 0 in all other cells
     Kernels::StepContext weak  = step;
     weak.points.active_cells   = weak_cells.data();
     weak.points.n_active_cells = weak_cells.size();
     apply_consistent_mass(kernels, weak, hanging_nodes, theta, received);
+    // 3. P = m (v+ - v), and C theta m^-1 P, which the neighbors receive
     compute_impulses(momentum);
     hanging_nodes.interpolate(field, 2);
     apply_consistent_mass(kernels, weak, hanging_nodes, field, product);
+    // 4. x = mu^-1 T^T P = mu^-1 ((1 - theta) P + C theta m^-1 P), and C x
     compute_increments(momentum);
     hanging_nodes.interpolate(field, 2);
     apply_consistent_mass(kernels, weak, hanging_nodes, field, product);
+    // 5. v+ = v + T x = v + (1 - theta) x + theta m^-1 C x, constrained again
     set_velocities(momentum);
     constraints.constrain(
       momentum.sums(), 1., false, momentum.new_velocity(), reactions);
@@ -63,6 +68,7 @@ namespace CaissonMPM
         any      = any || is_weak;
       }
     hanging_nodes.interpolate(theta, 2);
+    // theta of a hanging node is that of its masters, and its cells count, too
     weak_cells.clear();
     for (unsigned int i = 0; any && i < step.points.n_active_cells; ++i)
       {

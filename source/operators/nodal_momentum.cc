@@ -37,6 +37,7 @@ namespace CaissonMPM
   void
   NodalMomentum::update_filled(const Kernels::StepContext &step)
   {
+    // 1. the sum of the filled shares of the cells at each node, on all ranks
     filled_ = 0.;
     filled_.zero_out_ghost_values();
     double *const filled = filled_.begin();
@@ -51,6 +52,7 @@ namespace CaissonMPM
       }
     hanging_nodes->distribute(filled_, 1);
     filled_.compress(dealii::VectorOperation::add);
+    // 2. their mean: over all soil cells at the node, full or empty
     for (unsigned int i = 0; i < n_owned_nodes_; ++i)
       filled[i] /= std::max(n_soil_cells.local_element(i), 1.);
     filled_.update_ghost_values();
@@ -105,10 +107,14 @@ namespace CaissonMPM
             v[i] = u[i] = NodalVector();
             continue;
           }
+        // 1. M_I = max(m_I, dt^2 K_I / 4), with which the node would be stable;
+        //    MinimumNodalMass acts on those nodes where it exceeds m_I
         mass_[i]        = node->mass;
         raised_mass_[i] = std::max(node->mass, .25 * dt * dt * node->stiffness);
         if (i < n_owned_nodes_)
           added_inertia_ += raised_mass_[i] - node->mass;
+        // 2. v_I = p_I / m_I, and v_I+ = v_I + dt f_I / m_I with the force less
+        //    its damped share; not at the body, which would bear the damping
         const double share =
           damping > 0. && !contact.is_contact_node(i) ? damping : 0.;
         for (unsigned int d = 0; d < 2; ++d)
@@ -121,6 +127,7 @@ namespace CaissonMPM
             sum += u[i].value[d];
           }
       }
+    // 3. one sum finds all values that are not finite
     is_finite_ = std::isfinite(sum);
     accelerate_corners(dt, body_velocity, contact);
   }

@@ -35,12 +35,15 @@ namespace CaissonMPM
     const double keep     = settings.keep_velocity(size);
 
     transfer_of_body = 1. - keep;
-    // what is added to keep * V_p: FLIP's part of it first
+    // 1. what is added to a V_p (a = keep) by FLIP and PIC together:
+    //    a (v+ - v) + (1 - a) v+ = v+ - a v
     double *const transfer = transfer_velocity.begin();
     for (std::size_t i = 0; i < n; ++i)
       transfer[i] = v[i] - keep * old[i];
+    // 2. XPIC besides: (1 - a) sum_{k=1}^{n-1} (I - A)^k v
     if (settings.filter_order() > 1)
       add_filter(context, settings.filter_order(), 1. - keep);
+    // 3. the velocity that strains the points: v+ (USL) or S+ V_p (MUSL)
     strains_with_new = !settings.uses_musl();
     if (!strains_with_new)
       compute_strain_velocity(context, keep);
