@@ -130,9 +130,9 @@ namespace CaissonMPM
           path != path.parent_path())
         return obstacle_to(path.parent_path());
       if (status.type() == fs::file_type::none)
-        return "cannot be made: " + error.message();
+        return "cannot be created: " + error.message();
       if (status.type() != fs::file_type::directory)
-        return "cannot be made: a file is in its place";
+        return "cannot be created: a file is in its place";
       return access(path.c_str(), W_OK | X_OK) == 0 ?
                "" :
                std::string("cannot be written: ") + std::strerror(errno);
@@ -195,7 +195,7 @@ namespace CaissonMPM
     fs::create_directories(path_, error);
     std::error_code is_missing;
     if (!fs::is_directory(path_, is_missing))
-      return "cannot be made: " +
+      return "cannot be created: " +
              (error ? error.message() : "a file is in its place");
     const std::string probe = path_ + "/.writable";
     std::ofstream     file(probe);

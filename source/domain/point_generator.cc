@@ -33,11 +33,11 @@ namespace CaissonMPM
                   Patterns::Integer(0));
     add_parameter("Split and merge",
                   adaptive,
-                  "The run begins with the material points that the mesh needs "
-                  "at the start, splits those that come into smaller cells and "
-                  "merges those that come into larger ones; otherwise it "
-                  "begins with all that the smallest cells on the way will "
-                  "need. Units: none.");
+                  "The run begins with the material points that the mesh "
+                  "needs at the start, splits those that move into smaller "
+                  "cells and merges those that move into larger ones; "
+                  "otherwise it begins with all that the smallest cells on "
+                  "the way will need. Units: none.");
   }
 
   void
@@ -66,7 +66,8 @@ namespace CaissonMPM
     add_parameter("Largest number of points",
                   largest_number,
                   "More material points than this are refused before they are "
-                  "made; a point takes about 220 bytes of memory. Units: none.",
+                  "created; a point takes about 220 bytes of memory. Units: "
+                  "none.",
                   prm,
                   Patterns::Integer(1));
     add_parameter("Path margin",

@@ -18,7 +18,7 @@ namespace CaissonMPM
                                           {"free", SideCondition::free}};
     const std::string            text =
       ": roller sets its normal velocity to zero, fixed sets both components "
-      "to zero, and free does nothing. Units: none.";
+      "to zero, and free imposes nothing. Units: none.";
     add_choice(*this,
                "Axis",
                sides[0],
@@ -39,8 +39,8 @@ namespace CaissonMPM
       "Prescribed region",
       region_text,
       "The velocity is prescribed at nodes where this expression in the "
-      "current place r and z of a node, the time t and pi is positive; if it "
-      "is empty, no velocity is prescribed. Units: none.");
+      "current position r and z of a node, the time t and pi is positive; if "
+      "it is empty, no velocity is prescribed. Units: none.");
     add_parameter(
       "Prescribed velocity",
       velocity_text,

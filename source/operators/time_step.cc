@@ -25,8 +25,8 @@ namespace CaissonMPM
   {
     add_parameter("Courant number",
                   courant,
-                  "The time step over the stability limit of linear cells. "
-                  "Units: none.",
+                  "The time step is this fraction of the stability limit of "
+                  "linear cells. Units: none.",
                   prm,
                   Patterns::Double(1e-6, 1.));
     add_word_or_number(*this,
@@ -34,8 +34,8 @@ namespace CaissonMPM
                        fixed_step,
                        "auto",
                        0.,
-                       "The time step is this one, or with auto the stable one "
-                       "of the Courant number. Units: s.",
+                       "The time step has this length; with auto it follows "
+                       "from the Courant number. Units: s.",
                        Patterns::Double(0.));
   }
 
