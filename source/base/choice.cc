@@ -4,6 +4,7 @@
 #include <caisson_mpm/base/text.h>
 
 #include <cstdlib>
+#include <regex>
 
 namespace CaissonMPM
 {
@@ -12,10 +13,6 @@ namespace CaissonMPM
 
   namespace
   {
-    const std::string before_word      = "[Word ";
-    const std::string before_old_value = ", formerly ";
-    const std::string before_number    = ", or ";
-
     /** Return the number that stands alone in its text, if there is one. */
     std::optional<double>
     number_in(const std::string &text)
@@ -80,9 +77,9 @@ namespace CaissonMPM
   std::string
   WordOrNumber::description(const OutputStyle style) const
   {
-    return before_word + word +
-           (old_value ? before_old_value + to_text(*old_value) : "") +
-           before_number + number->description(style) + "]";
+    return "[Word " + word +
+           (old_value ? ", formerly " + to_text(*old_value) : "") + ", or " +
+           number->description(style) + "]";
   }
 
 
@@ -129,22 +126,11 @@ namespace CaissonMPM
   std::optional<WordDescription>
   read_word_description(const std::string &pattern)
   {
-    const std::size_t number = pattern.find(before_number);
-    if (pattern.compare(0, before_word.size(), before_word) != 0 ||
-        number == std::string::npos)
+    static const std::regex description(
+      R"(\[Word (.*?)(?:, formerly (.*?))?, or (.*)\])");
+    std::smatch part;
+    if (!std::regex_match(pattern, part, description))
       return {};
-    WordDescription result;
-    result.word =
-      pattern.substr(before_word.size(), number - before_word.size());
-    const std::size_t old_value = result.word.find(before_old_value);
-    if (old_value != std::string::npos)
-      {
-        result.old_value =
-          result.word.substr(old_value + before_old_value.size());
-        result.word.resize(old_value);
-      }
-    const std::size_t begin = number + before_number.size();
-    result.number           = pattern.substr(begin, pattern.size() - begin - 1);
-    return result;
+    return WordDescription{part[1], part[2], part[3]};
   }
 } // namespace CaissonMPM

@@ -36,13 +36,13 @@ namespace CaissonMPM
           "example friction or \"Rigid body\", and stop");
       add("validate", "check the input without running it, and stop");
       add("strict",
-          "take warnings of likely mistakes in the input for errors, with "
+          "treat warnings of likely mistakes in the input as errors, with "
           "--validate and in a run");
       add("restart", "continue from the checkpoint in the output directory");
       add("overwrite",
-          "remove the results of an earlier run in the output directory, which "
-          "are otherwise kept in earlier_1, earlier_2, ...; with --restart: go "
-          "on where rows of history.csv are lost");
+          "remove the results of an earlier run in the output directory, "
+          "which are otherwise kept in earlier_1, earlier_2, ...; with "
+          "--restart: continue although rows of history.csv are lost");
       add("version", "print the version and stop");
       add("help,h", "print this text and stop");
       return options;

@@ -10,10 +10,10 @@
 
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/property_tree/ptree.hpp>
-#include <boost/property_tree/xml_parser.hpp>
 
 #include <limits>
-#include <sstream>
+#include <regex>
+#include <type_traits>
 
 namespace CaissonMPM
 {
@@ -22,17 +22,22 @@ namespace CaissonMPM
     using Tree = boost::property_tree::ptree;
     using dealii::ParameterHandler;
 
-    Tree
-    tree_of(const ParameterHandler &prm)
+    /** An archive, as in Boost's serialization, that takes from a
+     * ParameterHandler the tree of its entries, which it otherwise keeps
+     * private. */
+    struct EntryArchive
     {
-      std::stringstream xml;
-      prm.print_parameters(xml,
-                           ParameterHandler::XML |
-                             ParameterHandler::KeepDeclarationOrder);
+      template <typename Value>
+      EntryArchive &
+      operator&(const Value &value)
+      {
+        if constexpr (std::is_same_v<Value, Tree>)
+          tree = value;
+        return *this;
+      }
+
       Tree tree;
-      boost::property_tree::read_xml(xml, tree);
-      return tree.get_child("ParameterHandler");
-    }
+    };
 
     /** Turn "Layer_201" back into "Layer 1": _XX is a hexadecimal code. */
     std::string
@@ -42,8 +47,7 @@ namespace CaissonMPM
       for (std::size_t i = 0; i < name.size(); ++i)
         if (name[i] == '_' && i + 2 < name.size())
           {
-            result +=
-              static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
+            result += std::stoi(name.substr(i + 1, 2), nullptr, 16);
             i += 2;
           }
         else
@@ -64,173 +68,30 @@ namespace CaissonMPM
     std::string
     without_empty_unit(const std::string &documentation)
     {
-      const auto unit = documentation.rfind(" Units: none");
-      return documentation.substr(0, unit);
+      return documentation.substr(0, documentation.rfind(" Units: none"));
     }
 
-    DeclaredEntry
-    read_entry(const Tree                     &node,
-               const std::vector<std::string> &subsections,
-               const std::string              &name)
-    {
-      DeclaredEntry entry;
-      entry.subsections   = subsections;
-      entry.name          = name;
-      entry.path          = join(subsections, name);
-      entry.value         = node.get<std::string>("value", "");
-      entry.default_value = node.get<std::string>("default_value", "");
-      entry.documentation =
-        without_empty_unit(node.get<std::string>("documentation", ""));
-      entry.pattern = node.get<std::string>("pattern_description", "");
-      entry.is_deprecated =
-        node.get<std::string>("deprecation_status", "") == "true";
-      if (const auto alias = node.get_optional<std::string>("alias"))
-        entry.alias_of = join(subsections, *alias);
-      return entry;
-    }
-
-    /** Add all that the tree holds below the subsections named by @p path. */
-    void
-    collect(const Tree                     &tree,
-            const std::vector<std::string> &path,
-            std::vector<DeclaredEntry>     &entries,
-            std::set<std::string>          &subsections)
-    {
-      for (const auto &[mangled_name, node] : tree)
-        {
-          const std::string name = unmangle(mangled_name);
-          if (node.count("value") > 0 || node.count("alias") > 0)
-            entries.push_back(read_entry(node, path, name));
-          else
-            {
-              std::vector<std::string> path_of_node = path;
-              path_of_node.push_back(name);
-              subsections.insert(join(path, name));
-              collect(node, path_of_node, entries, subsections);
-            }
-        }
-    }
-
-    /** The text between two marks, from the front; empty if there is none. */
+    /** " from 0 to 90" for "0" and "90"; a bound that is none is left out. */
     std::string
-    between(const std::string &text,
-            const std::string &begin,
-            const std::string &end)
+    range_in_words(const std::string &lower, const std::string &upper)
     {
-      const std::size_t first = text.find(begin);
-      if (first == std::string::npos)
-        return "";
-      const std::size_t start = first + begin.size();
-      return text.substr(start, text.find(end, start) - start);
-    }
-
-    bool
-    starts_with(const std::string &text, const std::string &beginning)
-    {
-      return text.compare(0, beginning.size(), beginning) == 0;
-    }
-
-    /** " from 0 to 90" for "0...90"; a bound that is no bound is left out. */
-    std::string
-    range_in_words(const std::string &range,
-                   const std::string &no_lower_bound,
-                   const std::string &no_upper_bound)
-    {
-      const std::size_t dots = range.find("...");
-      if (dots == std::string::npos)
-        return "";
-      const std::string lower = range.substr(0, dots);
-      const std::string upper = range.substr(dots + 3);
-      if (lower != no_lower_bound && upper != no_upper_bound)
-        return " from " + lower + " to " + upper;
-      if (lower != no_lower_bound)
-        return ", at least " + lower;
-      if (upper != no_upper_bound)
-        return ", at most " + upper;
-      return "";
+      const bool from_below = lower == "-MAX_DOUBLE" || lower == "-2147483648",
+                 up_to_any  = upper == "MAX_DOUBLE" || upper == "2147483647";
+      if (from_below)
+        return up_to_any ? "" : ", at most " + upper;
+      return up_to_any ? ", at least " + lower :
+                         " from " + lower + " to " + upper;
     }
 
     std::string
-    allowed_integers(const std::string &pattern)
+    number_of_items(const std::string &least, const std::string &most)
     {
-      // deal.II describes an unsigned integer as an integer without a range.
-      if (pattern == "[Integer]")
-        return "a whole number, at least 0";
-      using Limits = std::numeric_limits<int>;
-      return "a whole number" +
-             range_in_words(between(pattern, "[Integer range ", " (inclusive)"),
-                            to_text(Limits::min()),
-                            to_text(Limits::max()));
-    }
-
-    std::string
-    allowed_numbers(const std::string &pattern)
-    {
-      return "a number" +
-             range_in_words(between(pattern, "[Double ", " (inclusive)"),
-                            "-MAX_DOUBLE",
-                            "MAX_DOUBLE");
-    }
-
-    std::string
-    choices(const std::string &pattern, const std::string &kind)
-    {
-      std::string names = between(pattern, kind, "]");
-      names = dealii::Utilities::replace_in_string(names, "|", ", ");
-      return dealii::Utilities::trim(names);
-    }
-
-    std::string
-    number_of_items(const std::string &range)
-    {
-      const std::size_t dots  = range.find("...");
-      const std::string least = range.substr(0, dots);
-      const std::string most  = range.substr(dots + 3);
-      const bool        no_upper_bound =
-        most == to_text(std::numeric_limits<unsigned int>::max());
       if (least == most)
         return least + " items";
-      if (no_upper_bound)
-        return least == "0" ? "a list of items" :
-                              "a list of at least " + least + " items";
+      if (most == to_text(std::numeric_limits<unsigned int>::max()))
+        return "a list of " + (least == "0" ? "" : "at least " + least + " ") +
+               "items";
       return least + " to " + most + " items";
-    }
-
-    /** "[List of <...> of length 2...2 (inclusive) separated by <;>]" */
-    std::string
-    allowed_lists(const std::string &pattern)
-    {
-      const std::size_t inner_begin = pattern.find('<') + 1;
-      const std::size_t inner_end   = pattern.rfind("> of length ");
-      const std::string inner =
-        pattern.substr(inner_begin, inner_end - inner_begin);
-      const std::string rest      = pattern.substr(inner_end);
-      const std::string separator = between(rest, "separated by <", ">]");
-      const std::string length    = between(rest, "of length ", " (inclusive)");
-      if (length == "1...1")
-        return allowed_values(inner);
-      return number_of_items(length) + " separated by " +
-             (separator.empty() ? "commas" : "\"" + separator + "\"") +
-             ", each " + allowed_values(inner);
-    }
-
-    /** "[Map of <...>:<...> of length 0...3 (inclusive)]" */
-    std::string
-    allowed_maps(const std::string &pattern)
-    {
-      const std::size_t inner_end = pattern.rfind("> of length ");
-      const std::size_t colon     = pattern.rfind(">:<", inner_end);
-      const std::size_t key_begin = pattern.find('<') + 1;
-      const std::string key = pattern.substr(key_begin, colon - key_begin);
-      const std::string value =
-        pattern.substr(colon + 3, inner_end - colon - 3);
-      const std::string rest      = pattern.substr(inner_end);
-      const std::string separator = between(rest, "separated by <", ">]");
-      return number_of_items(between(rest, "of length ", " (inclusive)")) +
-             " \"name : value\" separated by " +
-             (separator.empty() ? "commas" : "\"" + separator + "\"") +
-             ", each name " + allowed_values(key) + " and each value " +
-             allowed_values(value);
     }
 
     /** Comment lines, broken at 78 characters. */
@@ -312,9 +173,46 @@ namespace CaissonMPM
 
   DeclaredEntries::DeclaredEntries(const ParameterHandler &prm)
   {
-    collect(tree_of(prm), {}, entries, subsections);
-    for (std::size_t i = 0; i < entries.size(); ++i)
-      index[entries[i].path] = i;
+    EntryArchive archive;
+    prm.save(archive, 0);
+    collect(archive.tree, {});
+  }
+
+
+
+  void
+  DeclaredEntries::collect(const Tree                     &tree,
+                           const std::vector<std::string> &above)
+  {
+    for (const auto &[mangled_name, node] : tree)
+      {
+        const std::string name = unmangle(mangled_name),
+                          path = join(above, name);
+        const auto alias       = node.get_optional<std::string>("alias");
+        if (alias || node.count("value") > 0)
+          {
+            const auto text = [&tree_of_entry = node](const char *key) {
+              return tree_of_entry.get<std::string>(key, "");
+            };
+            index[path] = entries.size();
+            entries.push_back({above,
+                               name,
+                               path,
+                               text("value"),
+                               text("default_value"),
+                               without_empty_unit(text("documentation")),
+                               text("pattern_description"),
+                               alias ? join(above, *alias) : "",
+                               text("deprecation_status") == "true"});
+          }
+        else
+          {
+            std::vector<std::string> below = above;
+            below.push_back(name);
+            subsections.insert(path);
+            collect(node, below);
+          }
+      }
   }
 
 
@@ -324,14 +222,6 @@ namespace CaissonMPM
   {
     const auto found = index.find(path);
     return found == index.end() ? nullptr : &entries[found->second];
-  }
-
-
-
-  bool
-  DeclaredEntries::has_subsection(const std::string &path) const
-  {
-    return subsections.count(path) > 0;
   }
 
 
@@ -349,28 +239,13 @@ namespace CaissonMPM
 
 
   std::vector<std::string>
-  DeclaredEntries::subsection_paths() const
-  {
-    return {subsections.begin(), subsections.end()};
-  }
-
-
-
-  const std::vector<DeclaredEntry> &
-  DeclaredEntries::all() const
-  {
-    return entries;
-  }
-
-
-
-  std::vector<std::string>
   choices_of(const std::string &pattern)
   {
-    if (!starts_with(pattern, "[Selection"))
+    static const std::regex selection(R"(\[Selection (.*)\])");
+    std::smatch             part;
+    if (!std::regex_match(pattern, part, selection))
       return {};
-    return dealii::Utilities::split_string_list(
-      between(pattern, "[Selection ", "]"), '|');
+    return dealii::Utilities::split_string_list(part[1], '|');
   }
 
 
@@ -380,34 +255,37 @@ namespace CaissonMPM
   std::string
   allowed_values(const std::string &pattern)
   {
+    static const std::regex //
+      number(R"(\[(Double|Integer range) (.+)\.\.\.(.+) \(inclusive\)\])"),
+      profile(R"(\[Profile (.*)\])"),
+      list(R"(\[List of <(.*)> of length (\d+)\.\.\.(\d+) \(inclusive\))"
+           R"((?: separated by <(.*)>)?\])");
+    std::smatch part;
     if (const auto word = read_word_description(pattern))
       return word->word + ", or " + allowed_values(word->number);
-    if (starts_with(pattern, "[Profile "))
-      return allowed_numbers(pattern) +
+    if (std::regex_match(pattern, part, profile))
+      return allowed_values(part[1]) +
              ", or an expression in d (the depth, m), s and p (the effective "
              "vertical and mean stress at the start, Pa)";
-    if (starts_with(pattern, "[Integer"))
-      return allowed_integers(pattern);
-    if (starts_with(pattern, "[Double"))
-      return allowed_numbers(pattern);
-    if (starts_with(pattern, "[Selection"))
-      return "one of: " + choices(pattern, "[Selection ");
-    if (starts_with(pattern, "[MultipleSelection"))
-      return "any of: " + choices(pattern, "[MultipleSelection ") +
-             " (separated by commas)";
-    if (starts_with(pattern, "[Bool"))
+    if (std::regex_match(pattern, part, number))
+      return (part[1] == "Double" ? "a number" : "a whole number") +
+             range_in_words(part[2], part[3]);
+    if (std::regex_match(pattern, part, list))
+      return part[2] == "1" && part[3] == "1" ?
+               allowed_values(part[1]) :
+               number_of_items(part[2], part[3]) + " separated by " +
+                 (part[4].matched ? "\"" + part[4].str() + "\"" : "commas") +
+                 ", each " + allowed_values(part[1]);
+    if (pattern == "[Integer]") // deal.II's name of an unsigned integer
+      return "a whole number, at least 0";
+    if (pattern == "[Bool]")
       return "true or false";
-    if (starts_with(pattern, "[List of <"))
-      return allowed_lists(pattern);
-    if (starts_with(pattern, "[Map of <"))
-      return allowed_maps(pattern);
-    if (starts_with(pattern, "[Anything"))
+    if (pattern == "[Anything]")
       return "any text";
-    if (starts_with(pattern, "[FileName"))
-      return "a file name";
-    if (starts_with(pattern, "[DirectoryName"))
-      return "a directory name";
-    return pattern;
+    std::string names;
+    for (const std::string &choice : choices_of(pattern))
+      names += (names.empty() ? "one of: " : ", ") + choice;
+    return names.empty() ? pattern : names;
   }
 
 

@@ -130,9 +130,9 @@ namespace CaissonMPM
           path != path.parent_path())
         return obstacle_to(path.parent_path());
       if (status.type() == fs::file_type::none)
-        return "cannot be made: " + error.message();
+        return "cannot be created: " + error.message();
       if (status.type() != fs::file_type::directory)
-        return "cannot be made: a file is in its place";
+        return "cannot be created: a file is in its place";
       return access(path.c_str(), W_OK | X_OK) == 0 ?
                "" :
                std::string("cannot be written: ") + std::strerror(errno);
@@ -193,18 +193,10 @@ namespace CaissonMPM
   {
     std::error_code error;
     fs::create_directories(path_, error);
-    std::error_code is_missing;
-    if (!fs::is_directory(path_, is_missing))
-      return "cannot be made: " +
-             (error ? error.message() : "a file is in its place");
-    const std::string probe = path_ + "/.writable";
-    std::ofstream     file(probe);
-    file << "writable" << std::endl;
-    if (!file)
-      return "cannot be written";
-    file.close();
-    fs::remove(probe, error);
-    return lock();
+    if (const std::string obstacle = obstacle_to(fs::absolute(path_));
+        !obstacle.empty())
+      return obstacle;
+    return error ? "cannot be created: " + error.message() : lock();
   }
 
 

@@ -185,8 +185,8 @@ namespace CaissonMPM
                          "lines on the way.");
       throw BadInput(place + ": the file " + quote(name) +
                      " is included a second time, first at " + entry->second +
-                     ".\n  It would undo what was set since. Remove one of "
-                     "the two.");
+                     ".\n  It would undo the settings made since then. Remove "
+                     "one of the two.");
     }
 
 
@@ -219,11 +219,11 @@ namespace CaissonMPM
     {
       const std::string place = at(line);
       if (name.empty())
-        throw BadInput(place + ": \"include\" lacks a file.\n  Write "
+        throw BadInput(place + ": \"include\" needs a file name.\n  Write "
                                "\"include other.prm\".");
       if (!files.back().may_include)
         throw BadInput(place +
-                       ": \"include\" must stand before the first \"set\" and "
+                       ": \"include\" must come before the first \"set\" and "
                        "\"subsection\".\n  A file then changes what it "
                        "includes, and not the other way round.");
       const auto directory = std::filesystem::path(files.back().name);
@@ -291,7 +291,7 @@ namespace CaissonMPM
     Reader::enter_subsection(const std::string &name, const unsigned int line)
     {
       if (name.empty())
-        throw BadInput(at(line) + ": \"subsection\" lacks a name.\n  Write "
+        throw BadInput(at(line) + ": \"subsection\" needs a name.\n  Write "
                                   "\"subsection Name\".");
       if (name.find('/') != std::string::npos)
         throw BadInput(at(line) + ": " + quote(name) +
@@ -326,8 +326,8 @@ namespace CaissonMPM
     {
       if (!rest.empty())
         throw BadInput(at(line) + ": " + quote("end " + rest) +
-                       " cannot be read.\n  \"end\" stands alone on its line; "
-                       "a comment begins with \"#\".");
+                       " cannot be read.\n  \"end\" must be alone on its "
+                       "line; a comment begins with \"#\".");
       if (open().empty())
         throw BadInput(at(line) +
                        ": this \"end\" closes no subsection.\n  Remove it, or "
@@ -426,7 +426,7 @@ namespace CaissonMPM
       if (entry.is_deprecated)
         origins.add_warning(place + ": " + quote(entry.path) +
                             " is now called " + quote(entry.alias_of) +
-                            "; the old name will go.");
+                            "; the old name will be removed.");
       return *entries.find(entry.alias_of);
     }
 
@@ -446,7 +446,7 @@ namespace CaissonMPM
         return value;
       origins.add_warning(place + ": " + quote(entry.path) + " = " + value +
                           " is now written " + quote(description->word) +
-                          "; the number will go.");
+                          "; the number will no longer be accepted.");
       return description->word;
     }
 

@@ -60,14 +60,14 @@ namespace CaissonMPM
                        wall_time_limit,
                        "never",
                        0.,
-                       "The run stops with a checkpoint after this wall time, "
-                       "or never because of it. Units: s.",
+                       "The run stops with a checkpoint after this wall time; "
+                       "with never, there is no limit. Units: s.",
                        dealii::Patterns::Double(0.));
     add_parameter("Stop file",
                   stop_file,
                   "The run stops with a checkpoint when a file of this name "
-                  "appears in the output directory, and removes the file; an "
-                  "empty name stands for no file. Units: none.",
+                  "appears in the output directory, and removes the file; "
+                  "with an empty name there is no such file. Units: none.",
                   prm,
                   dealii::Patterns::Anything());
   }

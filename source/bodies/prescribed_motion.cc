@@ -76,7 +76,7 @@ namespace CaissonMPM
   }
 
   void
-  PrescribedMotion::begin_at(const Start &start)
+  PrescribedMotion::begin_at(const InitialMotion &start)
   {
     BodyMotion::begin_at(start);
     fill_table();

@@ -169,7 +169,7 @@ namespace CaissonMPM
 
 
   void
-  RigidBody::find_weight(const double mass, const Soil &soil)
+  RigidBody::compute_weight(const double mass, const Soil &soil)
   {
     const double buoyancy = soil.unit_weight_of_water() * mass / density;
     submerged_weight_     = weight.value_or(-soil.gravity[vertical] * mass -

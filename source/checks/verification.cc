@@ -72,8 +72,8 @@ namespace CaissonMPM
       std::istringstream in(check.head);
       in >> check.mode >> check.name;
       if (check.name.empty())
-        throw BadInput(place + "before the first colon stand a mode and a "
-                               "quantity or a series, for instance max "
+        throw BadInput(place + "expected a mode and a quantity or a series "
+                               "before the first colon, for instance max "
                                "displacement_z.");
       check_known(check.mode, all_modes(), place, "mode");
       check.of_points = point_modes().count(check.mode) > 0;
@@ -110,9 +110,9 @@ namespace CaissonMPM
             }
           else
             throw BadInput(place + "\"" + word +
-                           "\" is not understood; behind a quantity may stand "
-                           "\"where REGION\", behind a series \"from T\" and "
-                           "\"to T\".");
+                           "\" is not understood; only \"where REGION\" may "
+                           "follow a quantity, and only \"from T\" and \"to "
+                           "T\" a series.");
         }
       if (check.begin > check.end)
         throw BadInput(place + "from " + to_text(check.begin) + " to " +

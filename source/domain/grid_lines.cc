@@ -33,8 +33,8 @@ namespace CaissonMPM
       Patterns::Double(0., 0.4));
     add_parameter("Largest number of cells",
                   largest_number,
-                  "A mesh of more cells is refused before it is made; a cell "
-                  "takes about 2 kB of memory. Units: none.",
+                  "A mesh with more cells is refused before it is created; a "
+                  "cell takes about 2 kB of memory. Units: none.",
                   prm,
                   Patterns::Integer(1));
     add_parameter("Refinement",
@@ -120,11 +120,11 @@ namespace CaissonMPM
                        fine_size,
                        "auto",
                        0.,
-                       "The finest cells have this width and height, and "
-                       "those of a body less width if its own is no multiple "
-                       "of it; auto takes what Rigid body/Cells across the "
-                       "wall gives for a caisson, cone or cylinder, and Cell "
-                       "width and Cell height for a box. Units: m.",
+                       "The finest cells have this width and height; those of "
+                       "a body are narrower if its width is not a multiple of "
+                       "it; auto takes what Rigid body/Cells across the wall "
+                       "gives for a caisson, cone or cylinder, and Cell width "
+                       "and Cell height for a box. Units: m.",
                        positive);
   }
 

@@ -118,7 +118,7 @@ namespace CaissonMPM
       throw BadInput("Rigid body/Cells across the wall = " + to_text(n) +
                      ", times Grid/Refinement, must be a multiple of " +
                      to_text(size) + ", because Grid/Refinement levels = " +
-                     to_text(levels) + " halves cells as often.");
+                     to_text(levels) + " halves cells that many times.");
     const double reach    = distance_of_tip(body) * (size / 2),
                  smallest = 2. * body.tip_height();
     if (is_wedge(body) && reach < smallest)
@@ -206,7 +206,7 @@ namespace CaissonMPM
       largest_number);
     if (tree_.n_cells() > largest_number)
       throw BadInput("Halving the cells near the body " + to_text(levels) +
-                     " times makes more than Grid/Largest number of cells = " +
+                     " times gives more than Grid/Largest number of cells = " +
                      to_text(largest_number) +
                      ". Reduce Grid/Refined distance or Grid/Refinement "
                      "levels.");

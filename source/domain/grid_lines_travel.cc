@@ -129,7 +129,7 @@ namespace CaissonMPM
     const double available = zone_bottom - bottom;
     if (travel_to_hold >= available)
       throw BadInput("The compressing zone, " + meters(available) +
-                     " high, cannot hold a travel of " +
+                     " high, cannot accommodate a travel of " +
                      meters(travel_to_hold) + ". Lower Grid/Bottom below " +
                      meters(zone_bottom - travel_to_hold) +
                      ", reduce Grid/Moving zone below tip, or push less far.");

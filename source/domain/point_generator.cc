@@ -33,11 +33,11 @@ namespace CaissonMPM
                   Patterns::Integer(0));
     add_parameter("Split and merge",
                   adaptive,
-                  "The run begins with the material points that the mesh needs "
-                  "at the start, splits those that come into smaller cells and "
-                  "merges those that come into larger ones; otherwise it "
-                  "begins with all that the smallest cells on the way will "
-                  "need. Units: none.");
+                  "The run begins with the material points that the mesh "
+                  "needs at the start, splits those that move into smaller "
+                  "cells and merges those that move into larger ones; "
+                  "otherwise it begins with all that the smallest cells on "
+                  "the way will need. Units: none.");
   }
 
   void
@@ -66,7 +66,8 @@ namespace CaissonMPM
     add_parameter("Largest number of points",
                   largest_number,
                   "More material points than this are refused before they are "
-                  "made; a point takes about 220 bytes of memory. Units: none.",
+                  "created; a point takes about 220 bytes of memory. Units: "
+                  "none.",
                   prm,
                   Patterns::Integer(1));
     add_parameter("Path margin",
@@ -134,20 +135,20 @@ namespace CaissonMPM
     parse_region();
   }
 
-  PointGenerator::Place
-  PointGenerator::place_of(const Kernels::CellGeometry &g,
-                           const BodyShape             &body,
-                           const double                 travel) const
+  PointGenerator::PointZone
+  PointGenerator::zone_of(const Kernels::CellGeometry &g,
+                          const BodyShape             &body,
+                          const double                 travel) const
   {
     if (!body.exists())
-      return Place::far;
+      return PointZone::far;
     const double middle = g.left + .5 * g.width;
     const double distance =
       std::max({body.left() - middle, middle - body.right(), 0.});
     if (distance < path_margin &&
         g.bottom_left + g.height_left > body.bottom() - travel - path_below)
-      return Place::path;
-    return distance < near_distance ? Place::near : Place::far;
+      return PointZone::path;
+    return distance < near_distance ? PointZone::near : PointZone::far;
   }
 
   unsigned int
@@ -155,7 +156,7 @@ namespace CaissonMPM
                                        const BodyShape             &body,
                                        const double travel) const
   {
-    return per_direction[static_cast<unsigned int>(place_of(g, body, travel))];
+    return per_direction[static_cast<unsigned int>(zone_of(g, body, travel))];
   }
 
   std::array<double, 2>
@@ -247,13 +248,13 @@ namespace CaissonMPM
                                   const BodyShape &body) const
   {
     std::vector<Parts>    parts;
-    std::array<double, 3> n_points = {{0., 0., 0.}}; // by place
+    std::array<double, 3> n_points = {{0., 0., 0.}}; // by zone
     for (unsigned int c = 0; c < lines.n_cells(); ++c)
       {
-        const auto  g     = lines.initial_geometry(GlobalCell(c));
-        const Place place = place_of(g, body, lines.total_travel());
+        const auto      g    = lines.initial_geometry(GlobalCell(c));
+        const PointZone zone = zone_of(g, body, lines.total_travel());
         parts.push_back(number_of_parts(lines, body, GlobalCell(c)));
-        n_points[static_cast<unsigned int>(place)] +=
+        n_points[static_cast<unsigned int>(zone)] +=
           double(parts[c][radial]) * parts[c][vertical];
       }
     check_number(n_points);

@@ -98,9 +98,9 @@ namespace CaissonMPM
                   "Tension is positive. Units: Pa.");
     add_parameter("Surcharge",
                   surcharge,
-                  "A load on the soil surface that was there before the body "
-                  "came. The uppermost row of cells bears it as a weight "
-                  "without inertia. Units: Pa.",
+                  "A load that acts on the soil surface before the body is "
+                  "installed. The uppermost row of cells carries it as a "
+                  "weight without inertia. Units: Pa.",
                   prm,
                   Patterns::Double(0.));
   }
@@ -461,8 +461,7 @@ namespace CaissonMPM
         limits.push_back(limit);
     if (const double usual = usual_mass_scaling(depth); mass_scaling() > usual)
       limits.push_back("Time/Mass scaling above " + to_text(usual) +
-                       " has been seen to change the tip force by more than "
-                       "5 %");
+                       " was found to change the tip force by more than 5 %");
     return limits;
   }
 

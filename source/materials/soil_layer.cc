@@ -65,8 +65,8 @@ namespace CaissonMPM
     soil.layer = index;
     add_parameter("Top depth",
                   soil.top_depth,
-                  "The depth of the layer's upper boundary below the soil "
-                  "surface must be 0 for layer 1. Units: m.",
+                  "The layer's upper boundary has this depth below the soil "
+                  "surface, which must be 0 for layer 1. Units: m.",
                   prm,
                   Patterns::Double(0.));
     add_parameter("Law",
@@ -96,10 +96,9 @@ namespace CaissonMPM
       soil.stress_measure,
       {{"Cauchy", Kernels::StressMeasure::cauchy},
        {"Kirchhoff", Kernels::StressMeasure::kirchhoff}},
-      "The elasticity of the law is one for this stress: with "
-      "Kirchhoff, the law of Hencky for the logarithmic strain since "
-      "the start. Strength is always that of the Cauchy stress. Units: "
-      "none.");
+      "The elastic law is formulated in this stress: with Kirchhoff, it is "
+      "Hencky's law for the logarithmic strain since the start. Strength is "
+      "always that of the Cauchy stress. Units: none.");
     declare_internal_length();
     declare_walls();
   }
@@ -111,8 +110,8 @@ namespace CaissonMPM
                         "Friction angle of the walls",
                         wall_friction_angle,
                         "of the body",
-                        "The angle of friction between the layer and the inner "
-                        "and outer wall of the body, in the place of the "
+                        "The angle of friction between the layer and the "
+                        "inner and outer wall of the body, instead of the "
                         "body's own. Units: degrees.",
                         Patterns::Double(0., 89.));
     add_word_or_profile(
@@ -120,10 +119,9 @@ namespace CaissonMPM
       "Adhesion factor of the walls",
       adhesion_factor,
       "of the body",
-      "The adhesion between the layer and the inner and outer "
-      "wall of the body is this factor alpha times Cohesion "
-      "over Sensitivity, in the place of the body's own. "
-      "Units: none.",
+      "The adhesion between the layer and the inner and outer wall of the "
+      "body is this factor alpha times Cohesion over Sensitivity, instead of "
+      "the body's own. Units: none.",
       Patterns::Double(0., 10.));
     add_profile(*this,
                 "Sensitivity",
@@ -150,8 +148,8 @@ namespace CaissonMPM
       "Relative density",
       relative_density,
       "by porosity",
-      "The relative density D gives the void ratio at the start as "
-      "e_max - D (e_max - e_min), in the place of Porosity. Units: none.",
+      "The relative density D gives the void ratio at the start as e_max - D "
+      "(e_max - e_min), instead of Porosity. Units: none.",
       Patterns::Double(-0.2, 1.3));
     add_parameter(
       "Minimum void ratio",
@@ -372,7 +370,7 @@ namespace CaissonMPM
       maximum_void_ratio -
       (*relative_density)(place) * (maximum_void_ratio - minimum_void_ratio);
     if (e < 0.)
-      throw BadInput(relative_density->name() + " makes a void ratio of " +
+      throw BadInput(relative_density->name() + " gives a void ratio of " +
                      to_text(e, 3) + " at a depth of " +
                      to_text(place.depth, 4) + " m. Reduce it.");
     return e / (1. + e);
@@ -455,7 +453,7 @@ namespace CaissonMPM
         if (!varies())
           throw;
         throw BadInput(std::string(error.what()) +
-                       " These are the numbers at a depth of " +
+                       " These are the values at a depth of " +
                        to_text(depth, 4) + " m" +
                        (k0 || overconsolidation.is_constant() ?
                           "" :

@@ -18,7 +18,7 @@ namespace CaissonMPM
                                           {"free", SideCondition::free}};
     const std::string            text =
       ": roller sets its normal velocity to zero, fixed sets both components "
-      "to zero, and free does nothing. Units: none.";
+      "to zero, and free imposes nothing. Units: none.";
     add_choice(*this,
                "Axis",
                sides[0],
@@ -39,8 +39,8 @@ namespace CaissonMPM
       "Prescribed region",
       region_text,
       "The velocity is prescribed at nodes where this expression in the "
-      "current place r and z of a node, the time t and pi is positive; if it "
-      "is empty, no velocity is prescribed. Units: none.");
+      "current position r and z of a node, the time t and pi is positive; if "
+      "it is empty, no velocity is prescribed. Units: none.");
     add_parameter(
       "Prescribed velocity",
       velocity_text,
@@ -166,16 +166,16 @@ namespace CaissonMPM
   std::array<std::vector<bool>, 2>
   BoundaryConditions::held_nodes(const unsigned int n_nodes) const
   {
-    std::array<std::vector<bool>, 2> held;
+    std::array<std::vector<bool>, 2> constrained;
     for (unsigned int d = 0; d < 2; ++d)
       {
-        held[d].assign(n_nodes, false);
+        constrained[d].assign(n_nodes, false);
         for (const unsigned int node : fixed[d])
-          held[d][node] = true;
+          constrained[d][node] = true;
       }
     for (const Prescribed &p : prescribed)
-      held[p.component][p.node] = true;
-    return held;
+      constrained[p.component][p.node] = true;
+    return constrained;
   }
 
   PrescribedResult
@@ -206,10 +206,10 @@ namespace CaissonMPM
     for (const Prescribed &p : prescribed)
       if (p.node < n_owned_nodes)
         {
-          const double held    = as_difference ? 0. : p.velocity;
+          const double target  = as_difference ? 0. : p.velocity;
           const double impulse = circumference * share *
                                  std::max(0., sums[p.node].mass) *
-                                 (held - v[p.node].value[p.component]);
+                                 (target - v[p.node].value[p.component]);
           result.impulse[p.component] += impulse;
           result.work += impulse * p.velocity;
         }

@@ -28,7 +28,7 @@ namespace CaissonMPM
     circumference  = grid.circumference();
     n_owned_nodes  = grid.n_owned_nodes();
     on_body.assign(grid.n_nodes(), false);
-    faces = find_contact_faces(grid);
+    faces = collect_contact_faces(grid);
     if (corner_normals == BodySurface::CornerNormals::split)
       corners_.initialize(grid, faces);
     collect_surface_nodes(grid);
@@ -39,7 +39,7 @@ namespace CaissonMPM
   }
 
   void
-  Contact::set_strength(const FindFaceStrength &find)
+  Contact::set_strength(const FaceStrengthOf &strength_at)
   {
     std::vector<double> areas(nodes.size(), 0.);
     for (Node &node : nodes)
@@ -47,7 +47,7 @@ namespace CaissonMPM
     for (unsigned int f = 0; f < faces.size(); ++f)
       {
         const ContactFace &face     = faces[f];
-        const FaceStrength strength = find(face);
+        const FaceStrength strength = strength_at(face);
         for (unsigned int i = 0; i < 2; ++i)
           {
             const int k = nodes_of_faces[f][i];
@@ -67,12 +67,14 @@ namespace CaissonMPM
                 (strength.friction - node.friction) * face.areas[i] / areas[k];
           }
       }
-    corners_.set_strength(faces, find);
+    corners_.set_strength(faces, strength_at);
   }
 
   void
   Contact::collect_surface_nodes(const BackgroundGrid &grid)
   {
+    // 1. the nodes of all faces, each with its surface and with one normal, or
+    //    two where the faces have different directions
     std::map<unsigned int, Node> found;
     for (const ContactFace &face : faces)
       for (unsigned int i = 0; i < 2; ++i)
@@ -89,6 +91,8 @@ namespace CaissonMPM
               (node.n_normals == 1 && node.normal[0] * face.normal < 1. - 1e-9))
             node.normal[node.n_normals++] = face.normal;
         }
+    // 2. concave corners are those with three rigid cells; the convex ones that
+    //    ContactCorners treats are left out
     std::vector<unsigned int> n_rigid(grid.n_nodes(), 0);
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       for (const unsigned int node : grid.cell_nodes(cell).node)
@@ -102,10 +106,11 @@ namespace CaissonMPM
         on_body[entry.first] = true;
         if (corners_.is_corner(node.node))
           continue;
-        find_normals(grid, node);
+        compute_normals(grid, node);
         index[node.node] = nodes.size();
         nodes.push_back(node);
       }
+    // 3. the nodes of each face, for set_strength()
     nodes_of_faces.clear();
     for (const ContactFace &face : faces)
       {
@@ -118,7 +123,7 @@ namespace CaissonMPM
   }
 
   void
-  Contact::find_normals(const BackgroundGrid &grid, Node &node) const
+  Contact::compute_normals(const BackgroundGrid &grid, Node &node) const
   {
     // by symmetry: the point of a cone
     if (grid.lines().reaches_axis() &&
@@ -160,7 +165,7 @@ namespace CaissonMPM
   }
 
   Contact::NodeResult
-  Contact::find_contact(const Node &node, const Vector2 &w) const
+  Contact::compute_contact(const Node &node, const Vector2 &w) const
   {
     const auto against = [&w](const Vector2 &normal) {
       return w * normal < 0. ? NodeResult{State::sliding, normal} :
@@ -181,7 +186,7 @@ namespace CaissonMPM
     const bool at_rest = node.surface == tip && velocity.norm_square() == 0.;
     if (at_rest || node.concave ||
         corner_normals == BodySurface::CornerNormals::both)
-      return find_contact_at_corner(node, w);
+      return compute_contact_at_corner(node, w);
     return against(corner_normal(node));
   }
 
@@ -198,7 +203,7 @@ namespace CaissonMPM
   }
 
   Contact::NodeResult
-  Contact::find_contact_at_corner(const Node &node, const Vector2 &w) const
+  Contact::compute_contact_at_corner(const Node &node, const Vector2 &w) const
   {
     // Into neither face: slide on one if that leads away from the other.
     bool apart = true;
@@ -224,19 +229,22 @@ namespace CaissonMPM
     Vector2 w;
     for (unsigned int d = 0; d < 2; ++d)
       w[d] = u[d] - velocity[d];
-    NodeResult result = find_contact(node, w);
+    NodeResult result = compute_contact(node, w);
     if (result.state == State::apart)
       return result;
+    // 1. split w = v - V into its normal part into the body and the rest
     const double  into    = std::min(0., w * result.normal);
     const Vector2 tangent = w - into * result.normal;
     const double  speed   = tangent.norm();
-    // the change of the tangential velocity that friction and adhesion bear
+    // 2. the change of the tangential velocity that friction and adhesion bear,
+    //    mu |w.n| + a A dt / m: what is slower sticks, the rest slides
     const double bearable = -node.friction * into + node.adhesion * dt / m;
     if (speed <= bearable)
       result.state = State::sticking;
     Vector2 left; // of the relative velocity
     if (result.state == State::sliding)
       left = tangent * (1. - bearable / speed);
+    // 3. the impulse on the body is what the soil loses
     result.impulse = m * (w - left);
     for (unsigned int d = 0; d < 2; ++d)
       u[d] = velocity[d] + left[d];
@@ -270,7 +278,7 @@ namespace CaissonMPM
       for (unsigned int d = 0; d < 2; ++d)
         v[node].value[d] = velocity[d];
     sums.work   = -(total * velocity);
-    sums.inflow = find_inflow(dt, mass, v);
+    sums.inflow = compute_inflow(dt, mass, v);
     return sums;
   }
 
@@ -324,9 +332,9 @@ namespace CaissonMPM
   }
 
   double
-  Contact::find_inflow(const double                dt,
-                       const std::vector<double>  &mass,
-                       const Kernels::NodalVector *v) const
+  Contact::compute_inflow(const double                dt,
+                          const std::vector<double>  &mass,
+                          const Kernels::NodalVector *v) const
   {
     double sum = 0.;
     for (const ContactFace &face : faces)
@@ -370,9 +378,9 @@ namespace CaissonMPM
   }
 
   Vector2
-  Contact::held(const unsigned int i,
-                const Vector2     &body_velocity,
-                const double      *u) const
+  Contact::constrained(const unsigned int i,
+                       const Vector2     &body_velocity,
+                       const double      *u) const
   {
     Vector2 w;
     for (unsigned int d = 0; d < 2; ++d)
@@ -391,11 +399,11 @@ namespace CaissonMPM
         if (results[i].state == State::apart)
           continue;
         double *const u   = v[nodes[i].node].value;
-        const Vector2 now = held(i, body_velocity, u);
+        const Vector2 now = constrained(i, body_velocity, u);
         for (unsigned int d = 0; d < 2; ++d)
           u[d] = now[d];
       }
-    corners_.hold(body_velocity, v);
+    corners_.constrain(body_velocity, v);
     for (const unsigned int node : inner_nodes)
       for (unsigned int d = 0; d < 2; ++d)
         v[node].value[d] = body_velocity[d];
@@ -414,7 +422,7 @@ namespace CaissonMPM
           continue;
         const Node         &node = nodes[i];
         const double *const u    = v[node.node].value;
-        const Vector2       now  = held(i, body_velocity, u);
+        const Vector2       now  = constrained(i, body_velocity, u);
         Vector2             impulse;
         for (unsigned int d = 0; d < 2; ++d)
           impulse[d] = share * sums[node.node].mass * (u[d] - now[d]);

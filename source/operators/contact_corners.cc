@@ -59,17 +59,22 @@ namespace CaissonMPM
     n_owned_nodes = grid.n_owned_nodes();
     of_cell.assign(grid.n_nodes(), NodalSums());
     corners.clear();
+    // 1. count the rigid cells at each node: a node with three of them is a
+    //    concave corner, which Contact treats
     std::vector<unsigned int> n_rigid(grid.n_nodes(), 0);
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       for (const unsigned int node : grid.cell_nodes(cell).node)
         n_rigid[node] += grid.is_rigid(cell);
 
+    // 2. list the faces at each node
     std::map<unsigned int,
              std::vector<std::pair<const ContactFace *, unsigned int>>>
       faces_at;
     for (const ContactFace &face : faces)
       for (unsigned int i = 0; i < 2; ++i)
         faces_at[face.nodes[i]].emplace_back(&face, i);
+    // 3. take the convex corners, with two faces of different directions; one
+    //    on the axis has a single normal by symmetry, and Contact treats it
     for (const auto &entry : faces_at)
       {
         const unsigned int node    = entry.first;
@@ -88,6 +93,7 @@ namespace CaissonMPM
           }
         corners.push_back(corner);
       }
+    // 4. number their cells in the same way on all ranks, to sum over these
     number_cells(grid);
     update_views();
   }
@@ -115,13 +121,13 @@ namespace CaissonMPM
 
   void
   ContactCorners::set_strength(const std::vector<ContactFace> &faces,
-                               const FindFaceStrength         &find)
+                               const FaceStrengthOf           &strength_at)
   {
     for (Corner &corner : corners)
       for (unsigned int i = 0; i < 2; ++i)
         {
           const ContactFace &face     = faces[corner.face[i]];
-          const FaceStrength strength = find(face);
+          const FaceStrength strength = strength_at(face);
           corner.friction[i]          = strength.friction;
           corner.adhesion[i] = strength.adhesion * face.areas[corner.end[i]];
         }
@@ -171,9 +177,13 @@ namespace CaissonMPM
     keep = share_that_points_keep;
     if (sums_.empty())
       return;
+    // 1. faces open and close as the last step found, so that all fields of a
+    //    step see the same faces
     for (Corner &corner : corners)
       for (Cell &cell : corner.cells)
         cell.closed = cell.closed_next;
+    // 2. m_c, p_c and f_c: what each cell alone brings to its corner, of which
+    //    the nodal sums contain only the total
     std::fill(of_points.begin(), of_points.end(), 0.);
     Kernels::StepContext alone  = step; // a step in which one cell has points
     alone.points.n_active_cells = 1;
@@ -196,6 +206,7 @@ namespace CaissonMPM
                 sum[3 + d] = own.force[d];
               }
           }
+    // 3. add the other nodal forces, and sum over ranks
     add_forces(step, forces);
   }
 
@@ -273,6 +284,8 @@ namespace CaissonMPM
         corner.has_soil       = node.mass > 0.;
         if (!corner.has_soil)
           continue;
+        // 1. sum Q^T p and sum Q^T f, relative to the body: the nodal sums, in
+        //    which the cells at faces take Q^T in the place of 1
         Vector2 momentum = vector_of(node.momentum) - node.mass * velocity,
                 force    = vector_of(node.force);
         for (const Cell &cell : corner.cells)
@@ -282,12 +295,15 @@ namespace CaissonMPM
             momentum += cell.back(relative) - relative;
             force += cell.back(own.force) - own.force;
           }
+        // 2. w = (sum Q^T p) / (sum Q^T m Q), the velocity before the step, and
+        //    w+ = w + dt (sum Q^T f) / M with the raised mass M; a component
+        //    that acts on no cell moves with the body
         const Vector2 mass = mass_of(corner, node.mass);
         for (unsigned int d = 0; d < 2; ++d)
           {
             const double w = mass[d] > 0. ? momentum[d] / mass[d] : 0.;
             const double a =
-              mass[d] > 0. ? force[d] / inertia_of(mass[d], dt, node) : 0.;
+              mass[d] > 0. ? force[d] / raised_mass(mass[d], dt, node) : 0.;
             corner.old[d]           = velocity[d] + w;
             v[corner.node].value[d] = corner.old[d];
             u[corner.node].value[d] = corner.old[d] + dt * a;
@@ -297,9 +313,9 @@ namespace CaissonMPM
   }
 
   double
-  ContactCorners::inertia_of(const double              mass,
-                             const double              dt,
-                             const Kernels::NodalSums &node)
+  ContactCorners::raised_mass(const double              mass,
+                              const double              dt,
+                              const Kernels::NodalSums &node)
   {
     return std::max(mass, .25 * dt * dt * node.stiffness);
   }
@@ -332,16 +348,19 @@ namespace CaissonMPM
                                   NodalVector     &u) const
   {
     const Vector2 w = corner.old - velocity, x = vector_of(u.value) - velocity;
+    // 1. the mass of each component, raised to what the time step needs
     const Vector2 mass = mass_of(corner, node.mass);
     Vector2       inertia;
     for (unsigned int d = 0; d < 2; ++d)
-      inertia[d] = mass[d] > 0. ? inertia_of(mass[d], dt, node) : 0.;
-    // what points have besides, and lose in this step
+      inertia[d] = mass[d] > 0. ? raised_mass(mass[d], dt, node) : 0.;
+    // 2. the impulse of the plain balance: dt f, and the share that the points
+    //    lose in a step of the momentum that w lacks, p - sum m Q w
     const Vector2 lost =
       (1. - keep) * (vector_of(node.momentum) - node.mass * velocity -
                      momentum_of(corner, node.mass, w));
     const Vector2 given = dt * vector_of(node.force) + lost;
-    // what is left to the body when the velocity has changed by y
+    // 3. what the soil does not take when w changes by y acts on the body; its
+    //    parts against both normals press the faces, which then bear friction
     const auto remainder = [&](Vector2 y) {
       for (unsigned int d = 0; d < 2; ++d)
         y[d] *= mass[d] > 0. ? inertia[d] / mass[d] : 0.;
@@ -349,6 +368,8 @@ namespace CaissonMPM
     };
     const Vector2 left =
       slide(corner, dt, inertia, resolve(corner, remainder(x - w)), x);
+    // 4. with what friction has left of the velocity, and less its impulses,
+    //    the remainder again is the normal impulse of each face
     Vector2 rest = remainder(left - w);
     for (unsigned int i = 0; i < 2; ++i)
       rest -= corner.reaction.impulse[i];
@@ -357,7 +378,7 @@ namespace CaissonMPM
       {
         Cell &cell = corner.cells[i];
         corner.reaction.impulse[i] -= pressed[i] * corner.normal[i];
-        // A face that advances or slides stays closed: whether soil presses
+        // 5. A face that advances or slides stays closed: whether soil presses
         // on it changes from step to step, and what comes off for a step
         // and back again loses energy and gets into the body.
         cell.closed_next =
@@ -401,6 +422,8 @@ namespace CaissonMPM
                         const std::array<double, 2> &pressed,
                         const Vector2               &x) const
   {
+    // 1. the largest impulse of friction along the face, mu p + a A dt, as the
+    //    impulse on the component that acts: with |Q w| = |q| w, |q| times it
     std::array<double, 2> bearable = {{0., 0.}}; // by face
     Vector2               of_component;
     for (unsigned int i = 0; i < 2; ++i)
@@ -412,6 +435,8 @@ namespace CaissonMPM
                         cell.q.norm();
           of_component[cell.free] += bearable[i];
         }
+    // 2. friction acts against each component, and at most stops it; with some
+    //    to spare the component sticks
     Vector2 left = x;
     for (unsigned int d = 0; d < 2; ++d)
       {
@@ -427,6 +452,8 @@ namespace CaissonMPM
                                             x[d] - corner.reaction.friction[d] / inertia[d];
           }
       }
+    // 3. the impulse along each face, in proportion to what it bears; divided
+    //    by q.q, so that its product with q is its part of the friction
     for (unsigned int i = 0; i < 2; ++i)
       if (bearable[i] > 0.)
         {
@@ -440,7 +467,7 @@ namespace CaissonMPM
   }
 
   void
-  ContactCorners::hold(const Vector2 &body_velocity, NodalVector *v) const
+  ContactCorners::constrain(const Vector2 &body_velocity, NodalVector *v) const
   {
     for (const Corner &corner : corners)
       for (unsigned int d = 0; corner.has_soil && d < 2; ++d)
@@ -460,6 +487,8 @@ namespace CaissonMPM
         if (cell.is_owned && cell.closed && corner.has_soil &&
             step.points.first_block[cell.cell] >= 0)
           {
+            // 1. the cell sees the corner with Q w, not with w: the change
+            //    (Q - 1) w times the column of the corner in its mass matrix
             const auto  matrix   = mass_matrix(step.moments[cell.cell].mass);
             const auto &nodes    = step.grid.nodes[cell.cell].node;
             const unsigned int k = cell.corner;
@@ -474,6 +503,8 @@ namespace CaissonMPM
                 for (unsigned int d = 0; d < 2; ++d)
                   to[nodes[j]].value[d] += matrix[j][k] * change[d];
               }
+            // 2. the corner takes Q^T of what the cell gives it, relative to
+            //    the body, in the place of all of it
             at_corner += matrix[k][k] * change - lumped * of_body;
             const Vector2 correction = cell.back(at_corner) - at_corner;
             for (unsigned int d = 0; d < 2; ++d)

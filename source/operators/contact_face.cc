@@ -54,7 +54,7 @@ namespace CaissonMPM
   }
 
   std::vector<ContactFace>
-  find_contact_faces(const BackgroundGrid &grid)
+  collect_contact_faces(const BackgroundGrid &grid)
   {
     std::vector<ContactFace> faces;
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)

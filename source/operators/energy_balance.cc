@@ -11,9 +11,9 @@ namespace CaissonMPM
   using namespace dealii;
 
   PointEnergies
-  find_point_energies(const MaterialPoints                 &points,
-                      const std::vector<Kernels::Material> &materials,
-                      const BackgroundGrid                 &grid)
+  compute_point_energies(const MaterialPoints                 &points,
+                         const std::vector<Kernels::Material> &materials,
+                         const BackgroundGrid                 &grid)
   {
     PointEnergies result;
     points.for_each_motion([&](const Point<2>    &position,

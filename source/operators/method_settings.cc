@@ -56,8 +56,8 @@ namespace CaissonMPM
     add_parameter("FLIP fraction",
                   flip_fraction,
                   "FLIP has this share in the blend in a step with a Courant "
-                  "number of 0.8, and XPIC the rest; in shorter steps XPIC has "
-                  "less, in proportion. Units: none.",
+                  "number of 0.8, and XPIC the rest; in shorter steps the "
+                  "share of XPIC is smaller, in proportion. Units: none.",
                   prm,
                   Patterns::Double(0., 1.));
     add_choice(*this,
@@ -82,14 +82,15 @@ namespace CaissonMPM
     add_parameter("Full cell fraction",
                   full_fraction,
                   "A cell at a free surface takes Gauss points only if its "
-                  "points fill this share of its volume; from 0.05 less on, it "
+                  "points fill this share of its volume; with 0.05 less, it "
                   "is integrated at its points only. Units: none.",
                   prm,
                   Patterns::Double(0.1, 2.));
     add_parameter("Full cell fraction inside",
                   full_fraction_inside,
-                  "The same share for a cell inside the soil, where the cells "
-                  "around are filled. Units: none.",
+                  "A cell inside the soil, with filled cells around it, takes "
+                  "Gauss points only if its points fill this share of its "
+                  "volume. Units: none.",
                   prm,
                   Patterns::Double(0.1, 2.));
     add_choice(
@@ -97,10 +98,10 @@ namespace CaissonMPM
       "Pressure in full cells",
       pressure_fit,
       pressure_fits,
-      "The mean stress of the points of a full cell is fitted by an "
-      "affine function, as the deviator always is, or by its mean; auto "
-      "goes over to the mean where soil with a dilatancy angle has dilated "
-      "by 0.5 to 2 %. Units: none.");
+      "The mean stress of the points of a full cell is fitted by an affine "
+      "function, as the deviator always is, or by its mean; auto changes to "
+      "the mean where soil with a dilatancy angle has dilated by 0.5 to 2 %. "
+      "Units: none.");
     add_parameter("Mean volume change",
                   mean_volume,
                   "The points of a cell are strained with its mean volume "
@@ -119,10 +120,10 @@ namespace CaissonMPM
   MethodSettings::declare_stability()
   {
     add_parameter("Mass floor",
-                  mass_floor,
-                  "Nodes that have less mass than the time step needs answer "
-                  "as if they had it, and their neighbors take the rest of the "
-                  "impulse. Units: none.");
+                  minimum_nodal_mass,
+                  "Nodes below the minimum nodal mass that the time step "
+                  "needs respond as if they had it, and their neighbors take "
+                  "the rest of the impulse. Units: none.");
     add_parameter("Local damping",
                   damping,
                   "This share of the out-of-balance force of a node acts "
@@ -131,9 +132,9 @@ namespace CaissonMPM
                   Patterns::Double(0., 0.95));
     add_parameter("Velocity limiter",
                   limits_velocity,
-                  "The velocity of points in cells next to the body is cut to "
-                  "k H / dt, with the shortest side H of the cell and the step "
-                  "dt at a Courant number of 0.8. Units: none.");
+                  "The velocity of points in cells next to the body is "
+                  "limited to k H / dt, with the shortest side H of the cell "
+                  "and the step dt at a Courant number of 0.8. Units: none.");
     add_parameter("Limiter factor",
                   limiter_factor,
                   "The velocity limiter uses this number as its factor k. "
@@ -151,7 +152,7 @@ namespace CaissonMPM
         " exceeds Method/Full cell fraction = " + to_text(full_fraction) +
         ". Reduce it.");
     if (!uses_musl() && transfer == VelocityTransfer::flip && damping == 0. &&
-        !mass_floor)
+        !minimum_nodal_mass)
       throw BadInput("Method/Stress update = USL with Velocity transfer = FLIP "
                      "needs Mass floor = true or Local damping: it is unstable "
                      "at nodes with little mass.");
@@ -204,7 +205,7 @@ namespace CaissonMPM
     constexpr double never_full = 1e300;
     return {at_points ? never_full : full_fraction,
             at_points ? never_full : full_fraction_inside,
-            mass_floor,
+            minimum_nodal_mass,
             pressure_fit};
   }
 
@@ -236,9 +237,9 @@ namespace CaissonMPM
   {
     std::vector<std::string> limits;
     if (force_integration == ForceIntegration::material_points)
-      limits.push_back("Method/Integration = material points makes noise where "
-                       "points cross cells; it has been seen to halve the tip "
-                       "force of a caisson: see doc/limitations.md");
+      limits.push_back("Method/Integration = material points causes noise "
+                       "where points cross cells; it was found to halve the "
+                       "tip force of a caisson: see doc/limitations.md");
     if (transfer == VelocityTransfer::pic)
       limits.push_back("Method/Velocity transfer = PIC is viscous: a pulse "
                        "loses a third of its energy over 20 of its lengths: "

@@ -19,7 +19,7 @@ namespace CaissonMPM
   }
 
   void
-  NodalConstraints::hold(NodalData &v) const
+  NodalConstraints::constrain(NodalData &v) const
   {
     if (!contact.empty())
       contact.constrain(contact.body_velocity(), nodal_vectors(v));
@@ -28,19 +28,20 @@ namespace CaissonMPM
   }
 
   void
-  NodalConstraints::hold_old(const NodalData &old, NodalData &held) const
+  NodalConstraints::constrain_old(const NodalData &old,
+                                  NodalData       &constrained) const
   {
-    held = old;
-    held.update_ghost_values();
-    hold(held);
+    constrained = old;
+    constrained.update_ghost_values();
+    constrain(constrained);
   }
 
   void
-  NodalConstraints::hold(const Kernels::NodalSums *sums,
-                         const double              share,
-                         const bool                as_difference,
-                         NodalData                &v,
-                         NodalReactions           &result) const
+  NodalConstraints::constrain(const Kernels::NodalSums *sums,
+                              const double              share,
+                              const bool                as_difference,
+                              NodalData                &v,
+                              NodalReactions           &result) const
   {
     Kernels::NodalVector *const u = nodal_vectors(v);
     if (!contact.empty())

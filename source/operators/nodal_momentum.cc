@@ -20,7 +20,7 @@ namespace CaissonMPM
     grid.reinit(filled_, 1);
     grid.reinit(change, 2);
     mass_.assign(grid.n_nodes(), 0.);
-    inertia_.assign(grid.n_nodes(), 0.);
+    raised_mass_.assign(grid.n_nodes(), 0.);
     n_owned_nodes_ = grid.n_owned_nodes();
     hanging_nodes  = &grid.hanging_nodes();
 
@@ -35,8 +35,9 @@ namespace CaissonMPM
   }
 
   void
-  NodalMomentum::find_filled(const Kernels::StepContext &step)
+  NodalMomentum::update_filled(const Kernels::StepContext &step)
   {
+    // 1. the sum of the filled shares of the cells at each node, on all ranks
     filled_ = 0.;
     filled_.zero_out_ghost_values();
     double *const filled = filled_.begin();
@@ -51,6 +52,7 @@ namespace CaissonMPM
       }
     hanging_nodes->distribute(filled_, 1);
     filled_.compress(dealii::VectorOperation::add);
+    // 2. their mean: over all soil cells at the node, full or empty
     for (unsigned int i = 0; i < n_owned_nodes_; ++i)
       filled[i] /= std::max(n_soil_cells.local_element(i), 1.);
     filled_.update_ghost_values();
@@ -60,7 +62,7 @@ namespace CaissonMPM
   void
   NodalMomentum::collect(const ForceContext &context, NodalForces &forces)
   {
-    find_filled(context.step);
+    update_filled(context.step);
     sums_ = 0.;
     sums_.zero_out_ghost_values();
     auto *const nodes = reinterpret_cast<NodalSums *>(sums_.begin());
@@ -81,7 +83,7 @@ namespace CaissonMPM
     change.compress(dealii::VectorOperation::add);
     change.update_ghost_values();
     auto *const nodes = reinterpret_cast<NodalSums *>(sums_.begin());
-    for (std::size_t i = 0; i < inertia_.size(); ++i)
+    for (std::size_t i = 0; i < raised_mass_.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         nodes[i].force[d] += nodal_vectors(change)[i].value[d];
   }
@@ -97,18 +99,22 @@ namespace CaissonMPM
                        *u   = nodal_vectors(new_velocity_);
     added_inertia_          = 0.;
     double sum              = 0.;
-    for (unsigned int i = 0; i < inertia_.size(); ++i, ++node)
+    for (unsigned int i = 0; i < raised_mass_.size(); ++i, ++node)
       {
         if (node->mass <= 0.)
           {
-            mass_[i] = inertia_[i] = 0.;
+            mass_[i] = raised_mass_[i] = 0.;
             v[i] = u[i] = NodalVector();
             continue;
           }
-        mass_[i]    = node->mass;
-        inertia_[i] = std::max(node->mass, .25 * dt * dt * node->stiffness);
+        // 1. M_I = max(m_I, dt^2 K_I / 4), with which the node would be stable;
+        //    MinimumNodalMass acts on those nodes where it exceeds m_I
+        mass_[i]        = node->mass;
+        raised_mass_[i] = std::max(node->mass, .25 * dt * dt * node->stiffness);
         if (i < n_owned_nodes_)
-          added_inertia_ += inertia_[i] - node->mass;
+          added_inertia_ += raised_mass_[i] - node->mass;
+        // 2. v_I = p_I / m_I, and v_I+ = v_I + dt f_I / m_I with the force less
+        //    its damped share; not at the body, which would bear the damping
         const double share =
           damping > 0. && !contact.is_contact_node(i) ? damping : 0.;
         for (unsigned int d = 0; d < 2; ++d)
@@ -121,6 +127,7 @@ namespace CaissonMPM
             sum += u[i].value[d];
           }
       }
+    // 3. one sum finds all values that are not finite
     is_finite_ = std::isfinite(sum);
     accelerate_corners(dt, body_velocity, contact);
   }
@@ -154,13 +161,13 @@ namespace CaissonMPM
     v = new_velocity_;
     v.update_ghost_values();
     const NodalVector *const old = nodal_vectors(old_velocity_);
-    for (std::size_t i = 0; i < inertia_.size(); ++i)
-      if (inertia_[i] > mass_[i])
+    for (std::size_t i = 0; i < raised_mass_.size(); ++i)
+      if (raised_mass_[i] > mass_[i])
         for (unsigned int d = 0; d < 2; ++d)
           {
             double &own = nodal_vectors(v)[i].value[d];
             own         = old[i].value[d] +
-                  mass_[i] / inertia_[i] * (own - old[i].value[d]);
+                  mass_[i] / raised_mass_[i] * (own - old[i].value[d]);
           }
   }
 

@@ -124,7 +124,7 @@ namespace CaissonMPM
                                     body_velocity,
                                     constraints,
                                     momentum.new_velocity());
-    if (step.integration.floor_mass)
+    if (step.integration.has_minimum_nodal_mass)
       mass_floor.distribute(*kernels, step, constraints, momentum, reactions_);
   }
 

@@ -9,7 +9,7 @@ namespace CaissonMPM
   void
   WorkOfStep::initialize(const BackgroundGrid &grid)
   {
-    grid.reinit(held, 2);
+    grid.reinit(constrained_old, 2);
     circumference = grid.circumference();
   }
 
@@ -20,7 +20,7 @@ namespace CaissonMPM
   {
     const ContactCorners &corners = constraints.contact.corners();
     return .5 * dt *
-           (corners.missing_power(nodal_vectors(held)) +
+           (corners.missing_power(nodal_vectors(constrained_old)) +
             corners.missing_power(strain));
   }
 
@@ -28,21 +28,21 @@ namespace CaissonMPM
   WorkOfStep::find(const double                dt,
                    const double                damping,
                    const NodalMomentum        &momentum,
-                   const MassFloor            &mass_floor,
+                   const MinimumNodalMass     &minimum_nodal_mass,
                    const Kernels::NodalVector *strain,
                    const NodalForces          &forces,
                    const NodalConstraints     &constraints,
                    const NodalReactions       &reactions)
   {
-    const std::size_t n = 2 * momentum.inertia().size();
-    constraints.hold_old(momentum.old_velocity(), held);
+    const std::size_t n = 2 * momentum.raised_mass().size();
+    constraints.constrain_old(momentum.old_velocity(), constrained_old);
 
     NodalWork                 result;
     const Kernels::NodalSums *node = momentum.sums();
     const double *const       v0   = momentum.old_velocity().begin(),
                         *v         = momentum.new_velocity().begin(),
                         *s         = strain->value;
-    double *const h                = held.begin();
+    double *const h                = constrained_old.begin();
     for (unsigned int i = 0; i < momentum.n_owned_nodes(); ++i, ++node)
       for (unsigned int d = 0; d < 2; ++d)
         {
@@ -55,17 +55,18 @@ namespace CaissonMPM
         }
     result.forces += missing_work(dt, constraints, strain);
     // of what this rank's points bring, to all of their nodes
-    result.load       = forces.work(dt, nodal_vectors(held), strain);
+    result.load       = forces.work(dt, nodal_vectors(constrained_old), strain);
     result.body       = reactions.contact.work;
     result.prescribed = reactions.prescribed.work;
     for (std::size_t k = 0; k < n; ++k)
       h[k] = .5 * (h[k] + v[k]);
-    result.mass_floor = mass_floor.work(nodal_vectors(held));
+    result.mass_floor = minimum_nodal_mass.work(nodal_vectors(constrained_old));
     for (double *sum :
          {&result.forces, &result.load, &result.mass_floor, &result.damping})
       *sum *= circumference;
     if (!constraints.contact.empty())
-      result.friction = constraints.contact.friction_heat(nodal_vectors(held));
+      result.friction =
+        constraints.contact.friction_heat(nodal_vectors(constrained_old));
     return result;
   }
 } // namespace CaissonMPM

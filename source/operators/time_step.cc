@@ -20,8 +20,8 @@ namespace CaissonMPM
   {
     add_parameter("Courant number",
                   courant,
-                  "The time step over the stability limit of linear cells. "
-                  "Units: none.",
+                  "The time step is this fraction of the stability limit of "
+                  "linear cells. Units: none.",
                   prm,
                   Patterns::Double(1e-6, 1.));
     add_word_or_number(*this,
@@ -29,8 +29,8 @@ namespace CaissonMPM
                        fixed_step,
                        "auto",
                        0.,
-                       "The time step is this one, or with auto the stable one "
-                       "of the Courant number. Units: s.",
+                       "The time step has this length; with auto it follows "
+                       "from the Courant number. Units: s.",
                        Patterns::Double(0.));
   }
 
@@ -40,8 +40,8 @@ namespace CaissonMPM
                        const Soil                     &soil,
                        std::vector<Kernels::Material> &materials)
   {
-    find_moduli(grid.communicator(), points, soil, materials);
-    find_limit(grid, points, soil, materials);
+    update_moduli(grid.communicator(), points, soil, materials);
+    update_limit(grid, points, soil, materials);
     age = 1; // the start of a run counts as a step
     if (!std::isfinite(limit) || limit <= 0.)
       throw BadInput("the stability limit of the time step is " +
@@ -61,8 +61,8 @@ namespace CaissonMPM
     // The mesh moves slowly, and the search goes through all cells.
     if (++age == Intervals::time_step)
       {
-        find_moduli(grid.communicator(), points, soil, materials);
-        find_limit(grid, points, soil, materials);
+        update_moduli(grid.communicator(), points, soil, materials);
+        update_limit(grid, points, soil, materials);
       }
     if (is_too_large())
       throw RunFailure(text_of_too_large_step());
@@ -79,13 +79,14 @@ namespace CaissonMPM
   }
 
   void
-  TimeStep::find_moduli(const MPI_Comm                  communicator,
-                        const MaterialPoints           &points,
-                        const Soil                     &soil,
-                        std::vector<Kernels::Material> &materials)
+  TimeStep::update_moduli(const MPI_Comm                  communicator,
+                          const MaterialPoints           &points,
+                          const Soil                     &soil,
+                          std::vector<Kernels::Material> &materials)
   {
-    // what stress and density may add until they are looked at again
-    constexpr double    margin = 1.25;
+    // what stress and density may add until the next update
+    constexpr double margin = 1.25;
+    // 1. the materials whose stiffness varies, if any
     std::vector<double> found(materials.size(), -1.);
     bool                any = false;
     for (unsigned int i = 0; i < materials.size(); ++i)
@@ -96,6 +97,7 @@ namespace CaissonMPM
         }
     if (!any)
       return;
+    // 2. the largest modulus of the points of each of them, on all ranks
     points.for_each([&](const MaterialPoint &p, const unsigned int) {
       double &largest = found[p.material];
       if (largest >= 0.)
@@ -106,6 +108,7 @@ namespace CaissonMPM
                          p.void_ratio(soil.material(p.material).void_ratio())));
     });
     Utilities::MPI::max(found, communicator, found);
+    // 3. the margin multiplies the part of the soil, not that of the water
     for (unsigned int i = 0; i < materials.size(); ++i)
       if (found[i] > 0.) // else no point is of this material
         materials[i].p_wave_modulus =
@@ -149,11 +152,13 @@ namespace CaissonMPM
   } // namespace
 
   void
-  TimeStep::find_limit(const BackgroundGrid                 &grid,
-                       const MaterialPoints                 &points,
-                       const Soil                           &soil,
-                       const std::vector<Kernels::Material> &materials)
+  TimeStep::update_limit(const BackgroundGrid                 &grid,
+                         const MaterialPoints                 &points,
+                         const Soil                           &soil,
+                         const std::vector<Kernels::Material> &materials)
   {
+    // 1. c^2 = (lambda + 2 mu) / rho of each material, with and without the
+    //    water; the stiffness of the points changes p_wave_modulus
     std::vector<double> squares, squares_of_soil; // of wave speeds, m2/s2
     for (unsigned int i = 0; i < soil.n_materials(); ++i)
       {
@@ -163,6 +168,8 @@ namespace CaissonMPM
         squares_of_soil.push_back(
           (material.p_wave_modulus - material.water_modulus) / density);
       }
+    // 2. the largest c^2 (1/dr^2 + 1/dz^2) of the cells of this rank, of the
+    //    stiffest material in each, and the same by zone and without the water
     unsigned int        limiting = 0;
     double              worst = 0., worst_of_soil = 0., speed = 0.; // 1/s2, m/s
     std::vector<double> worst_of_zone(GridLines::n_zones, 0.);
@@ -185,6 +192,7 @@ namespace CaissonMPM
             speed    = std::sqrt(square);
           }
       }
+    // 3. the limits, 1 / sqrt of the largest value on all ranks
     const MPI_Comm communicator = grid.communicator();
     Utilities::MPI::max(worst_of_zone, communicator, worst_of_zone);
     for (unsigned int zone = 0; zone < GridLines::n_zones; ++zone)
@@ -195,6 +203,7 @@ namespace CaissonMPM
       1. / std::sqrt(Utilities::MPI::max(worst_of_soil, communicator));
     age = 0;
 
+    // 4. the rank with the cell that limits the step describes it to all
     std::string text;
     if (of_all.max_index == Utilities::MPI::this_mpi_process(communicator))
       text = describe(grid, limiting, speed);

@@ -33,7 +33,7 @@ namespace CaissonMPM
       {},
       "Houlsby & Byrne's m, the radius to which friction on the outer wall "
       "enhances the vertical stress in the soil, over that of the wall; none "
-      "leaves the stress enhancement out on both walls. Units: none.",
+      "omits the stress enhancement on both walls. Units: none.",
       Patterns::Double(1.2, 10.));
   }
 

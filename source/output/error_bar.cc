@@ -86,10 +86,10 @@ namespace CaissonMPM
     add_parameter(
       "Error bar",
       file,
-      "The file with the errors of the forces, and of the suction where "
-      "there is one, as scripts/lab study makes it, lies at this path "
-      "relative to the scene's file, and leads to history_error.csv; "
-      "without a path there is none. Units: none.");
+      "The file with the errors of the forces, and of the suction where there "
+      "is one, as scripts/lab study writes it, has this path relative to "
+      "the scene's file; history_error.csv is written from it. With an empty "
+      "path there is none. Units: none.");
   }
 
   std::string
@@ -106,8 +106,8 @@ namespace CaissonMPM
     if (at == std::string::npos)
       throw BadInput("Output/Error bar = " + file + ": " + path +
                      " cannot be read, or has no line \"" + mark +
-                     "...\". Make it with scripts/lab study, or leave the "
-                     "entry empty.");
+                     "...\". Create it with scripts/lab study, or leave "
+                     "the entry empty.");
     if (text.compare(at + mark.size(), fingerprint.size(), fingerprint) != 0)
       return "the error bar of " + path +
              " was computed for other parameters: history_error.csv is not "
@@ -132,7 +132,7 @@ namespace CaissonMPM
       {
         throw BadInput("Output/Error bar = " + file + ": " + path +
                        " must have the columns penetration_m, tip_error and "
-                       "total_error, with numbers. Make it with "
+                       "total_error, with numbers. Create it with "
                        "scripts/lab study.");
       }
     return "";

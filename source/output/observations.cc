@@ -153,8 +153,8 @@ namespace CaissonMPM
       });
       if (samples.value.empty())
         throw RunFailure("Verification/Observations: " + o.name +
-                         ": no material point began in its region. Choose "
-                         "another region.");
+                         ": no material point is in its region at the start. "
+                         "Choose another region.");
       return samples;
     }
 
@@ -198,8 +198,8 @@ namespace CaissonMPM
                        "its name has letters, digits and _ only.");
       if (std::count(taken.begin(), taken.end(), name) > 0)
         throw BadInput(place + "the name \"" + name +
-                       "\" is taken, by another observation or a column of "
-                       "history.csv. Choose another one.");
+                       "\" is already used by another observation or a column "
+                       "of history.csv. Choose another one.");
     }
 
     Point<2>
@@ -209,8 +209,8 @@ namespace CaissonMPM
       std::istringstream in(text);
       in >> r >> z >> rest;
       if (z.empty() || !rest.empty())
-        throw BadInput(place + "behind \"at\" stand two numbers, the initial "
-                               "position r z in m.");
+        throw BadInput(place + "expected two numbers after \"at\", the "
+                               "initial position r z in m.");
       return {parse_number(r, place, "initial r"),
               parse_number(z, place, "initial z")};
     }
@@ -241,9 +241,9 @@ namespace CaissonMPM
       check_known(quantity, names_of(point_quantities()), place, "quantity");
       if (!rest.empty())
         throw BadInput(place + "\"" + rest +
-                       "\" is not understood; behind the quantity stand \"at "
-                       "R Z\" (kind point), \"on SHAPE\" (kind projection) or "
-                       "\"where REGION\".");
+                       "\" is not understood; after the quantity, expected "
+                       "\"at R Z\" (kind point), \"on SHAPE\" (kind "
+                       "projection) or \"where REGION\".");
       o.quantity = point_quantities().at(quantity);
     }
 

@@ -68,7 +68,7 @@ namespace CaissonMPM
       throw BadInput("observations.csv has " + to_text(others.size()) +
                      " rows up to the checkpoint and history.csv " +
                      to_text(rows.size()) +
-                     ", so that the run cannot go on in them. Run without "
+                     ", so that the run cannot continue them. Run without "
                      "--restart, or without Verification/Observations.");
     for (std::size_t i = 0; i < rows.size(); ++i)
       rows[i].insert(rows[i].end(), others[i].begin() + 1, others[i].end());

@@ -52,7 +52,7 @@ namespace CaissonMPM
     };
 
     /** A place between two entries of the curves. */
-    struct Place
+    struct CurvePosition
     {
       std::size_t second;
       double      share; // of the way to it
@@ -68,7 +68,7 @@ namespace CaissonMPM
     /** Return where the depth is passed first on the way down, or up; nothing
      * where that is nowhere, or between records that are farther apart than @p
      * step. */
-    std::optional<Place>
+    std::optional<CurvePosition>
     find(const std::vector<double> &depth,
          const double               wanted,
          const bool                 down,
@@ -81,7 +81,7 @@ namespace CaissonMPM
                        b = down ? depth[i] : -depth[i],
                        x = down ? wanted : -wanted;
           if (a < b && a <= x + rounding && x <= b + rounding && b - a < step)
-            return Place{i, std::clamp((x - a) / (b - a), 0., 1.)};
+            return CurvePosition{i, std::clamp((x - a) / (b - a), 0., 1.)};
         }
       return {};
     }

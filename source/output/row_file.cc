@@ -77,8 +77,8 @@ namespace CaissonMPM
       return {};
     if (text.compare(0, header.size(), header) != 0)
       throw BadInput(path + " has other columns than this run writes, so that "
-                            "the run cannot go on in it. Put the file back as "
-                            "the run had written it, or begin without "
+                            "the run cannot continue it. Restore the file as "
+                            "the run had written it, or start without "
                             "--restart.");
     const double       tolerance = 1e-9 * std::abs(time); // times are rounded
     Rows               rows;

@@ -89,7 +89,7 @@ namespace CaissonMPM
       "time step, the end and the output may differ.");
   }
 
-  BodyMotion::Start
+  BodyMotion::InitialMotion
   Installation::end_of_motion() const
   {
     const auto number = [this](const std::string &name) {

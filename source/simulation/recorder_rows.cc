@@ -115,7 +115,7 @@ namespace CaissonMPM
     max_in_body        = std::max(max_in_body, row.points_in_body);
 
     const PointEnergies energies =
-      find_point_energies(parts.points, parts.materials, parts.grid);
+      compute_point_energies(parts.points, parts.materials, parts.grid);
     parts.energy.close(energies);
     row.kinetic_energy = energies.kinetic;
     row.external_work  = parts.energy.work_of_body;

@@ -44,8 +44,8 @@ namespace CaissonMPM
   }
 
   void
-  Simulation::begin_at(const BodyMotion::Start &start,
-                       const NamedNumbers      &state)
+  Simulation::begin_at(const BodyMotion::InitialMotion &start,
+                       const NamedNumbers              &state)
   {
     body.motion().begin_at(start);
     travel_of_mesh.emplace(-number_named("mesh_uplift", state).value_or(0.),
@@ -113,7 +113,7 @@ namespace CaissonMPM
     grid.move_to(body.motion().travel());
     nodal_forces.initialize(soil.mass_scaling());
     materials = soil.kernel_materials(water->traits().bulk_modulus);
-    body.find_weight(mass_of_body(), soil);
+    body.compute_weight(mass_of_body(), soil);
   }
 
   double
@@ -337,7 +337,7 @@ namespace CaissonMPM
     generator.generate(grid, body.shape(), soil, points);
     if (grid.n_ranks() > 1)
       repartition(points.cell_costs());
-    energy.start(find_point_energies(points, materials, grid));
+    energy.start(compute_point_energies(points, materials, grid));
     schedule.start();
   }
 
@@ -369,7 +369,7 @@ namespace CaissonMPM
       repartition(points.cell_costs());
     water->continue_after(installation.water_level(),
                           checkpoint.read_fields(grid.communicator()));
-    energy.start(find_point_energies(points, materials, grid));
+    energy.start(compute_point_energies(points, materials, grid));
     schedule.start();
   }
 

@@ -83,16 +83,12 @@ test_descriptions()
     std::make_shared<Patterns::Double>(-std::numeric_limits<double>::max(), 5.),
     std::make_shared<Patterns::Bool>(),
     std::make_shared<Patterns::Selection>("a|b | c"),
-    std::make_shared<Patterns::MultipleSelection>("a|b|c"),
     std::make_shared<Patterns::List>(Patterns::Double(0.), 1, 1),
     std::make_shared<Patterns::List>(Patterns::Anything()),
     std::make_shared<Patterns::List>(Patterns::Integer(), 2),
     std::make_shared<Patterns::List>(
       Patterns::List(Patterns::Double(), 2, 2), 0, 4, ";"),
-    std::make_shared<Patterns::Map>(Patterns::Anything(), Patterns::Double(0.)),
     std::make_shared<Patterns::Anything>(),
-    std::make_shared<Patterns::FileName>(),
-    std::make_shared<Patterns::DirectoryName>(),
     std::make_shared<WordOrNumber>("auto", -1., Patterns::Double(0., 10.)),
     std::make_shared<WordOrNumber>("never", std::nullopt, Patterns::Double())};
   for (const auto &pattern : patterns)

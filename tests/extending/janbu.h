@@ -70,7 +70,7 @@ namespace CaissonMPM
         }
 
         template <typename Number>
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         pressure(const StressState<Number> &s)
         {
           return max((-1. / 3.) * (s.rr + s.zz + s.tt), Number(1e3));
@@ -92,7 +92,7 @@ namespace CaissonMPM
         }
 
         template <typename Number>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         update(StressState<Number>           &sigma,
                const StrainIncrement<Number> &de,
                LawState<Number>              &state,

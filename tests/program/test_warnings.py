@@ -190,7 +190,7 @@ REFUSED: tuple[tuple[list[str], Entries], ...] = (
     (["stability limit", "stiffness"], {f"{LAYER}/Youngs modulus": 1.7e308}),
     (["never end", "stiffness"], {f"{LAYER}/Youngs modulus": 1e308}),
     (
-        ["began in its region"],
+        ["in its region at the start"],
         {"Verification/Observations": "a = mean speed where 0"},
     ),
     (

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The entries that have been declared in a ParameterHandler, as a list that
-// can be searched and printed. The handler itself keeps them private, so they
-// are taken from its XML output.
+// can be searched and printed.
 #ifndef caisson_mpm_base_declared_entries_h
 #define caisson_mpm_base_declared_entries_h
 
@@ -52,19 +51,33 @@ namespace CaissonMPM
     find(const std::string &path) const;
 
     bool
-    has_subsection(const std::string &path) const;
+    has_subsection(const std::string &path) const
+    {
+      return subsections.count(path) > 0;
+    }
 
     /** The paths of all entries (without aliases). */
     std::vector<std::string>
     entry_paths() const;
 
     std::vector<std::string>
-    subsection_paths() const;
+    subsection_paths() const
+    {
+      return {subsections.begin(), subsections.end()};
+    }
 
     const std::vector<DeclaredEntry> &
-    all() const;
+    all() const
+    {
+      return entries;
+    }
 
   private:
+    /** Add all that the tree holds below the subsections @p above. */
+    void
+    collect(const boost::property_tree::ptree &tree,
+            const std::vector<std::string>    &above);
+
     std::vector<DeclaredEntry>         entries;
     std::map<std::string, std::size_t> index;
     std::set<std::string>              subsections;

@@ -27,7 +27,7 @@ namespace CaissonMPM
     check(const std::string &path, const MPI_Comm communicator);
 
     /**
-     * Make the directory if it is missing, try to write in it, and lock it.
+     * Create the directory if it does not exist, and lock it with a file in it.
      * Throws BadInput on all ranks if one of these fails.
      */
     OutputDirectory(const std::string &path, const MPI_Comm communicator);

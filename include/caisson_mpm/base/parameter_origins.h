@@ -87,7 +87,7 @@ namespace CaissonMPM
     }
 
   private:
-    struct Place
+    struct Setting
     {
       std::string text;
       bool        may_be_unused;
@@ -97,9 +97,9 @@ namespace CaissonMPM
     std::vector<std::string>
     entries_named_in(const std::string &text) const;
 
-    std::vector<std::string>     paths;
-    std::map<std::string, Place> places;
-    std::vector<std::string>     notes, doubts;
+    std::vector<std::string>       paths;
+    std::map<std::string, Setting> places;
+    std::vector<std::string>       notes, doubts;
   };
 } // namespace CaissonMPM
 

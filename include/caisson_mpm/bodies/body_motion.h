@@ -47,7 +47,7 @@ namespace CaissonMPM
 
     /** How a motion begins: at rest where nothing has moved the body before, or
      * as another motion has left it. */
-    struct Start
+    struct InitialMotion
     {
       double travel   = 0.; // m
       double velocity = 0.; // m/s
@@ -57,13 +57,13 @@ namespace CaissonMPM
     /** Let the motion begin like this; before the future is asked for, and
      * before start(). */
     virtual void
-    begin_at(const Start &start)
+    begin_at(const InitialMotion &start)
     {
       start_ = start;
     }
 
     /** Return how the motion begins. */
-    const Start &
+    const InitialMotion &
     beginning() const
     {
       return start_;
@@ -237,9 +237,9 @@ namespace CaissonMPM
     double time_ = 0., travel_ = 0., velocity_ = 0., mean_velocity_ = 0.;
 
   private:
-    double   load_ = 0., mass_ = 0.;
-    Response response_;
-    Start    start_;
+    double        load_ = 0., mass_ = 0.;
+    Response      response_;
+    InitialMotion start_;
   };
 } // namespace CaissonMPM
 

@@ -20,7 +20,7 @@ namespace CaissonMPM
     {
       BodyMotion::start();
       resistance = RecentMean(beginning().load);
-      rest       = Rest();
+      rest       = RestDetector();
     }
 
     bool
@@ -50,8 +50,8 @@ namespace CaissonMPM
     }
 
   protected:
-    RecentMean resistance; // of the soil, N
-    Rest       rest;
+    RecentMean   resistance; // of the soil, N
+    RestDetector rest;
   };
 } // namespace CaissonMPM
 

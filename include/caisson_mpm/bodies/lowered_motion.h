@@ -33,7 +33,7 @@ namespace CaissonMPM
     std::string
     description() const override
     {
-      return "weight and suction let the body sink until the soil holds it";
+      return "weight and suction let the body sink until the soil carries it";
     }
 
     void

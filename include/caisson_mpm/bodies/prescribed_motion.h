@@ -40,7 +40,7 @@ namespace CaissonMPM
     name_unused_entries(ParameterOrigins &origins) const override;
 
     void
-    begin_at(const Start &start) override;
+    begin_at(const InitialMotion &start) override;
 
     void
     start() override;

@@ -51,7 +51,7 @@ namespace CaissonMPM
    * alone does not suffice: a body may be slow for a moment, or balanced while
    * it still moves, and at the start it is slow. Not collective.
    */
-  class Rest
+  class RestDetector
   {
   public:
     /** What moves the body, and how it moves. Units: N, m/s, m. */

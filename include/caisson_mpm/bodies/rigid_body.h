@@ -77,7 +77,7 @@ namespace CaissonMPM
      * entry is auto, and pass this mass to the motion. On the whole
      * circumference. Units: kg. */
     void
-    find_weight(const double mass, const Soil &soil);
+    compute_weight(const double mass, const Soil &soil);
 
     /** The weight of the body in water, or in air where the soil is dry, on the
      * whole circumference. Units: N. */

@@ -68,12 +68,12 @@ namespace CaissonMPM
     unsigned int
     points_per_direction_in_path() const
     {
-      return per_direction[static_cast<unsigned int>(Place::path)];
+      return per_direction[static_cast<unsigned int>(PointZone::path)];
     }
 
   private:
     /** Where a cell is, in the order of per_direction. */
-    enum class Place : unsigned int
+    enum class PointZone : unsigned int
     {
       path,
       near,
@@ -84,10 +84,10 @@ namespace CaissonMPM
     declare_numbers();
     void
     declare_region();
-    Place
-    place_of(const Kernels::CellGeometry &g,
-             const BodyShape             &body,
-             const double                 travel) const;
+    PointZone
+    zone_of(const Kernels::CellGeometry &g,
+            const BodyShape             &body,
+            const double                 travel) const;
     unsigned int
     points_per_direction(const Kernels::CellGeometry &g,
                          const BodyShape             &body,
@@ -100,7 +100,7 @@ namespace CaissonMPM
                     const GlobalCell cell) const;
     std::vector<Parts> // [n_global_cells]
     number_of_parts(const GridLines &lines, const BodyShape &body) const;
-    /** Throw BadInput where these are too many, by place. */
+    /** Throw BadInput where these are too many, by zone. */
     void
     check_number(const std::array<double, 3> &n_points) const;
     bool

@@ -41,7 +41,7 @@ namespace CaissonMPM
 
         CellMap() = default;
 
-        CAISSON_INLINE explicit CellMap(const CellGeometry &g)
+        [[gnu::always_inline]] inline explicit CellMap(const CellGeometry &g)
           : left(g.left)
           , width(g.width)
           , inverse_width(1. / g.width)
@@ -54,8 +54,8 @@ namespace CaissonMPM
         {}
 
         template <typename Number>
-        CAISSON_INLINE LocalPoint<Number>
-                       at_reference(const Number xi, const Number eta) const
+        [[gnu::always_inline]] inline LocalPoint<Number>
+        at_reference(const Number xi, const Number eta) const
         {
           LocalPoint<Number> p;
           p.xi             = xi;
@@ -68,8 +68,8 @@ namespace CaissonMPM
         }
 
         template <typename Number>
-        CAISSON_INLINE LocalPoint<Number>
-                       at_position(const Number r, const Number z) const
+        [[gnu::always_inline]] inline LocalPoint<Number>
+        at_position(const Number r, const Number z) const
         {
           LocalPoint<Number> p;
           p.xi     = (r - Number(left)) * Number(inverse_width);
@@ -85,7 +85,7 @@ namespace CaissonMPM
 
         /** Whether places lie in the cell; a NaN does not. */
         template <typename Number>
-        CAISSON_INLINE typename Number::Mask
+        [[gnu::always_inline]] inline typename Number::Mask
         contains(const Number r, const Number z) const
         {
           const Number zero(0.),
@@ -96,7 +96,7 @@ namespace CaissonMPM
         }
 
         /** The volume per radian (in plane strain: the area) of the cell. */
-        CAISSON_INLINE Real
+        [[gnu::always_inline]] inline Real
         volume(const double axisymmetric) const
         {
           const Real area = width * (height + Real(.5) * height_slope);
@@ -109,7 +109,7 @@ namespace CaissonMPM
 
         /** The center of the volume (in plane strain: of the area), in xi less
          * 1/2. In eta it is in the middle. */
-        CAISSON_INLINE Real
+        [[gnu::always_inline]] inline Real
         center_of_volume(const double axisymmetric) const
         {
           // r and the height are linear in x = xi - 1/2
@@ -120,7 +120,7 @@ namespace CaissonMPM
                  (Real(12.) * r * mean_height() + r_slope * height_slope);
         }
 
-        CAISSON_INLINE Real
+        [[gnu::always_inline]] inline Real
         mean_height() const
         {
           return height + Real(.5) * height_slope;
@@ -128,13 +128,13 @@ namespace CaissonMPM
 
         /** How far the middle of the cell rises from left to right, over the
          * mean height. */
-        CAISSON_INLINE Real
+        [[gnu::always_inline]] inline Real
         rise() const
         {
           return (bottom_slope + Real(.5) * height_slope) / mean_height();
         }
 
-        CAISSON_INLINE Real
+        [[gnu::always_inline]] inline Real
         center_z() const
         {
           return bottom + Real(.5) * (bottom_slope + mean_height());
@@ -143,7 +143,7 @@ namespace CaissonMPM
 
       /** c0 + c1 xi + c2 eta + c3 xi eta. */
       template <typename Real, typename Number>
-      CAISSON_INLINE Number
+      [[gnu::always_inline]] inline Number
       evaluate(const Real *c, const LocalPoint<Number> &p)
       {
         return Number(c[0]) + Number(c[1]) * p.xi +
@@ -152,7 +152,7 @@ namespace CaissonMPM
 
       /** d/dr and d/dz of a field, in that order. */
       template <typename Real, typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       gradient(const Real               *c,
                const LocalPoint<Number> &p,
                const Real                inverse_width,
@@ -167,7 +167,7 @@ namespace CaissonMPM
 
       /** The coefficients of the field with corner values v[4]. */
       template <typename Real>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       coefficients(const Real *v, Real *c)
       {
         c[0] = v[0];
@@ -178,7 +178,7 @@ namespace CaissonMPM
 
       /** Sums of q {1, xi, eta, xi eta} to sums of q N_I. */
       template <typename Real>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       moments_to_corners(const Real *m, Real *corner)
       {
         corner[0] = m[0] - m[1] - m[2] + m[3];
@@ -191,7 +191,7 @@ namespace CaissonMPM
        * Sums of {a, a eta, b, b xi} to sums of a dN_I/dxi + b dN_I/deta.
        */
       template <typename Real>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       gradient_moments_to_corners(const Real *m, Real *corner)
       {
         corner[0] = -(m[0] - m[1]) - (m[2] - m[3]);

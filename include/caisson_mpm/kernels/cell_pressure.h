@@ -23,7 +23,7 @@ namespace CaissonMPM
     {
       /** The share of a cell in which its pressure acts: that of its height
        * which is filled, as a volume where points are its quadrature points. */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       acting_share(const StepContext &step, const unsigned int cell)
       {
         const double filled =
@@ -33,7 +33,7 @@ namespace CaissonMPM
         return full + (1. - full) * (filled < 1. ? filled : 1.);
       }
 
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       acting_pressure(const StepContext &step, const unsigned int cell)
       {
         return acting_share(step, cell) * step.pore_pressure[cell];
@@ -42,7 +42,7 @@ namespace CaissonMPM
       /** The work on the water of a cell that grows by @p growth, div v dt, in
        * this step: of the mean of its pressures before and after, over the
        * volume in which its force acts. J per radian. */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       work_on_water(const StepContext &step,
                     const unsigned int cell,
                     const double       growth)
@@ -58,7 +58,7 @@ namespace CaissonMPM
 
       /** The same of the cells of a group in a step of @p dt (s). */
       template <typename Number>
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       work_on_water(const StepContext       &step,
                     const CellGroup<Number> &group,
                     const CellUpdate        *update,
@@ -74,7 +74,7 @@ namespace CaissonMPM
       /** Take the pressure of the cells of a group from the stress in their
        * sums for the internal force. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       add_cell_pressure(const StepContext       &step,
                         const CellGroup<Number> &group,
                         const CellMap<Number>   &map,
@@ -97,7 +97,7 @@ namespace CaissonMPM
 
       /** Add what the water at the faces of the body presses back with to the
        * nodes of a cell. */
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       add_pressure_of_body(const StepContext &step,
                            const unsigned int cell,
                            NodalSums         *nodes)

@@ -12,6 +12,7 @@
 #ifndef caisson_mpm_kernels_cell_sums_h
 #define caisson_mpm_kernels_cell_sums_h
 
+#include <caisson_mpm/kernels/for_each_block.h>
 #include <caisson_mpm/kernels/moments.h>
 
 namespace CaissonMPM
@@ -26,12 +27,11 @@ namespace CaissonMPM
         CellMap<> map;
         double    axisymmetric;
         double    center_z, inverse_mean_height;
-        bool      bound_stiffness; // IntegrationSettings::floor_mass
+        bool bound_stiffness; // IntegrationSettings::has_minimum_nodal_mass
 
-        CAISSON_INLINE
-        CellToSum(const CellGeometry &geometry,
-                  const double        axisymmetric,
-                  const bool          bound_stiffness)
+        [[gnu::always_inline]] inline CellToSum(const CellGeometry &geometry,
+                                                const double axisymmetric,
+                                                const bool   bound_stiffness)
           : map(geometry)
           , axisymmetric(axisymmetric)
           , center_z(map.center_z())
@@ -48,8 +48,9 @@ namespace CaissonMPM
         LocalPoint<Number>  local;
         StressState<Number> stress;
 
-        CAISSON_INLINE
-        LoadedPoints(const PointBlock &b, const int lane, const CellMap<> &map)
+        [[gnu::always_inline]] inline LoadedPoints(const PointBlock &b,
+                                                   const int         lane,
+                                                   const CellMap<>  &map)
           : r(Number::load(b.r + lane))
           , z(Number::load(b.z + lane))
           , mass(Number::load(b.mass + lane))
@@ -64,7 +65,7 @@ namespace CaissonMPM
 
       /** Points of a full cell: their stress enters the affine fit. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       add_stress(const CellToSum            &cell,
                  const LoadedPoints<Number> &p,
                  const double /*modulus*/,
@@ -84,7 +85,7 @@ namespace CaissonMPM
       /** Points of a partly filled cell: each is a quadrature point with its
        * volume as weight. @p modulus: of the stiffness bound. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       add_stress(const CellToSum            &cell,
                  const LoadedPoints<Number> &p,
                  const double                modulus,
@@ -103,7 +104,7 @@ namespace CaissonMPM
       /** The sums over the points of a cell into its moments: FitSums, or
        * ForceSums for a cell that takes no Gauss points. */
       template <typename InternalSums, typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       sum_points(const PointsView &points,
                  const CellToSum  &cell,
                  const Material   *materials,
@@ -154,7 +155,7 @@ namespace CaissonMPM
       {
         const CellToSum to_sum(geometry,
                                step.grid.axisymmetric,
-                               step.integration.floor_mass);
+                               step.integration.has_minimum_nodal_mass);
         CellMoments    &moments = step.moments[cell];
         const int       first   = step.points.first_block[cell];
         if (moments.full > 0.)
@@ -172,11 +173,10 @@ namespace CaissonMPM
       {
         const CellToSum   to_sum(step.grid.geometry[cell],
                                step.grid.axisymmetric,
-                               step.integration.floor_mass);
+                               step.integration.has_minimum_nodal_mass);
         ForceSums<Number> sums;
         sums.clear();
-        for (int block = step.points.first_block[cell]; block >= 0;
-             block     = step.points.headers[block].next)
+        for_each_block(step.points, cell, [&](const int block) CAISSON_LAMBDA {
           for (int lane = 0; lane < block_size; lane += Number::width)
             add_stress(to_sum,
                        LoadedPoints<Number>(step.points.blocks[block],
@@ -185,11 +185,12 @@ namespace CaissonMPM
                        step.materials[step.points.headers[block].material]
                          .p_wave_modulus,
                        sums);
+        });
         sums.store(out);
       }
 
       /** The part of the way from @p a to @p b, where x is in between. */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       ramp(const double x, const double a, const double b)
       {
         const double part = (x - a) / (b - a);
@@ -202,7 +203,7 @@ namespace CaissonMPM
        * surface, 0 where they are filled by three quarters or more. What is a
        * count of points in one cell is a mean over four of them there.
        */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       find_surface(const StepContext &step, const unsigned int cell)
       {
         double around = 1.;
@@ -220,7 +221,7 @@ namespace CaissonMPM
        * number of points in a cell scatters while the mesh moves, and a cell
        * with fewer of them is no less full.
        */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       find_share_of_gauss_points(const IntegrationSettings &settings,
                                  const double               at_surface,
                                  const double               filled_fraction)
@@ -239,7 +240,7 @@ namespace CaissonMPM
        * cells that are full and yet have few points. Where soil has come apart,
        * the slopes would come and go with the points.
        */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       find_bound_of_fit(const double at_surface, const double filled_fraction)
       {
         const double in_full_cell = ramp(filled_fraction, .8, 1.);
@@ -249,7 +250,7 @@ namespace CaissonMPM
       /** Renew the moments of the cells of a group where they are out of date:
        * where points came or went, or where the kind of sums changes. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       renew_moments(const StepContext       &step,
                     const CellGroup<Number> &group,
                     const CellMap<Number>   &map)

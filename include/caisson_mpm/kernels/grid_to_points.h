@@ -10,9 +10,9 @@
 
 #include <caisson_mpm/kernels/cell_pressure.h>
 #include <caisson_mpm/kernels/cell_sums.h>
+#include <caisson_mpm/kernels/deferred_blocks.h>
 #include <caisson_mpm/kernels/loosest_state.h>
 #include <caisson_mpm/kernels/volume_change.h>
-#include <caisson_mpm/kernels/waiting_blocks.h>
 
 namespace CaissonMPM
 {
@@ -22,7 +22,7 @@ namespace CaissonMPM
     {
       /** Reduce a velocity above the limit to it; returns the lanes cut. */
       template <typename Number>
-      CAISSON_INLINE unsigned int
+      [[gnu::always_inline]] inline unsigned int
       limit_speed(const double limit, Number &r, Number &z)
       {
         const Number speed = sqrt(r * r + z * z);
@@ -41,7 +41,7 @@ namespace CaissonMPM
         // volume
         using LaneSums<Number, 5>::sum;
 
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         add_work(const LocalPoint<Number> &p,
                  const Number              mass,
                  const Number              volume,
@@ -64,7 +64,7 @@ namespace CaissonMPM
        * @p center in xi less 1/2 and in the middle of eta.
        */
       template <typename Number>
-      CAISSON_INLINE Number
+      [[gnu::always_inline]] inline Number
       work_in_full_cells(const Number *s,
                          const Number *mass,
                          const Number  center,
@@ -91,7 +91,7 @@ namespace CaissonMPM
       /** New velocity and place of the points in the lanes from @p lane on;
        * returns the lanes whose velocity was cut. */
       template <typename Number>
-      CAISSON_INLINE unsigned int
+      [[gnu::always_inline]] inline unsigned int
       move_points(PointBlock               &b,
                   const int                 lane,
                   const LocalPoint<Number> &p,
@@ -132,14 +132,14 @@ namespace CaissonMPM
       template <typename Number>
       struct UpdateInProgress
       {
-        BlocksAhead           ahead;
-        WaitingBlocks<Number> waiting;
+        BlocksAhead            ahead;
+        DeferredBlocks<Number> deferred;
         // row i: sum i of UpdateSums of the cells of a group
         Number        of_group[UpdateSums<Number>::size][Number::width];
         UpdateResult &result;
 
-        CAISSON_INLINE
-        UpdateInProgress(const PointsView &points, UpdateResult &result)
+        [[gnu::always_inline]] inline UpdateInProgress(const PointsView &points,
+                                                       UpdateResult     &result)
           : ahead(points)
           , result(result)
         {}
@@ -148,7 +148,7 @@ namespace CaissonMPM
       /** Update stress and volume of the points in the lanes from @p lane on,
        * or let their block wait; @p in_group is the number of the cell. */
       template <typename Law, typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       update_stress_of_lanes(PointBlock               &b,
                              PointHistory             &history,
                              const int                 lane,
@@ -158,7 +158,7 @@ namespace CaissonMPM
                              const UpdateSettings     &settings,
                              const Material           &material,
                              UpdateSums<Number>       &sums,
-                             WaitingBlocks<Number>    &waiting)
+                             DeferredBlocks<Number>   &deferred)
       {
         const auto &parameters =
           reinterpret_cast<const typename Law::Parameters &>(
@@ -173,7 +173,7 @@ namespace CaissonMPM
                      volume = Number::load(b.volume + lane),
                      after  = volume * (Number(1.) + s.step.volume_change);
         sums.sum[4] += after;
-        if constexpr (may_wait<Law, Number>)
+        if constexpr (may_be_deferred<Law, Number>)
           if (material.stress_measure == StressMeasure::cauchy)
             {
               StressState<Number> stress = s.old;
@@ -190,7 +190,7 @@ namespace CaissonMPM
                 }
               if (!Law::needs_void_ratio(parameters) &&
                   material.overstress_time == 0.)
-                return waiting.add(b, s, p, material, in_group);
+                return deferred.add(b, s, p, material, in_group);
             }
         sums.add_work(p,
                       mass,
@@ -208,16 +208,16 @@ namespace CaissonMPM
 
       /** Update one block; returns its lanes outside the moved cell. */
       template <typename Law, typename Number>
-      CAISSON_INLINE unsigned int
-      update_block(PointBlock            &b,
-                   PointHistory          &history,
-                   const int              in_group,
-                   const CellUpdate      &cell,
-                   const UpdateSettings  &settings,
-                   const Material        &material,
-                   unsigned int          &limited,
-                   UpdateSums<Number>    &sums,
-                   WaitingBlocks<Number> &waiting)
+      [[gnu::always_inline]] inline unsigned int
+      update_block(PointBlock             &b,
+                   PointHistory           &history,
+                   const int               in_group,
+                   const CellUpdate       &cell,
+                   const UpdateSettings   &settings,
+                   const Material         &material,
+                   unsigned int           &limited,
+                   UpdateSums<Number>     &sums,
+                   DeferredBlocks<Number> &deferred)
       {
         unsigned int outside = 0;
         limited              = 0;
@@ -234,7 +234,7 @@ namespace CaissonMPM
                                         settings,
                                         material,
                                         sums,
-                                        waiting);
+                                        deferred);
             limited |= move_points(b, lane, p, cell, settings, r, z) << lane;
             outside |= to_integer(!cell.moved.contains(r, z)) << lane;
           }
@@ -243,7 +243,7 @@ namespace CaissonMPM
 
       /** Give a field the value at a corner that the cell sees, if it has this
        * share of the body's velocity. */
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       see_corner(const CornerView  &corner,
                  const NodalVector &at_node,
                  const double       share_of_body,
@@ -270,7 +270,7 @@ namespace CaissonMPM
       }
 
       /** The same in all fields of a cell at the body. */
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       see_corners(const StepContext &step,
                   const NodalFields &fields,
                   const unsigned int cell,
@@ -297,7 +297,7 @@ namespace CaissonMPM
        * new velocities: those that the points bring back (MUSL) are smoother,
        * and keep them.
        */
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       choose_volume_field(const StepContext &step,
                           const unsigned int cell,
                           CellUpdate        &update)
@@ -311,7 +311,7 @@ namespace CaissonMPM
       }
 
       /** Prepare the update of a cell, all but the mean divergence. */
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       prepare_cell(const StepContext &step,
                    const PointUpdate &how,
                    const unsigned int cell,
@@ -351,7 +351,7 @@ namespace CaissonMPM
       }
 
       /** Append the points of a block in the lanes @p outside to the list. */
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       list_leaving(const unsigned int cell,
                    const int          block,
                    unsigned int       outside,
@@ -370,7 +370,7 @@ namespace CaissonMPM
       /** Update the points of cell @p in_group of a group; list those that left
        * it, and return their number. */
       template <typename Number>
-      CAISSON_INLINE unsigned int
+      [[gnu::always_inline]] inline unsigned int
       update_points(const StepContext        &step,
                     const unsigned int        cell,
                     const int                 in_group,
@@ -378,18 +378,18 @@ namespace CaissonMPM
                     const UpdateSettings     &settings,
                     UpdateInProgress<Number> &progress)
       {
-        const PointsView  &points  = step.points;
-        UpdateResult      &result  = progress.result;
-        const unsigned int before  = result.n_leaving,
-                           waiting = progress.waiting.total();
+        const PointsView  &points   = step.points;
+        UpdateResult      &result   = progress.result;
+        const unsigned int before   = result.n_leaving,
+                           deferred = progress.deferred.total();
         UpdateSums<Number> sums;
         sums.clear();
         for (int block = points.first_block[cell]; block >= 0;)
           {
             const BlockHeader header = points.headers[block];
             progress.ahead.advance();
-            if (progress.waiting.is_full())
-              progress.waiting.update(progress.of_group);
+            if (progress.deferred.is_full())
+              progress.deferred.update(progress.of_group);
             unsigned int    outside = 0, limited = 0;
             const Material &material = step.materials[header.material];
             with_law(material, [&](auto law, const auto &) CAISSON_LAMBDA {
@@ -402,7 +402,7 @@ namespace CaissonMPM
                                                     material,
                                                     limited,
                                                     sums,
-                                                    progress.waiting);
+                                                    progress.deferred);
             });
             // padding moves like the point that it repeats, but is none
             const unsigned int real = (1u << header.count) - 1u;
@@ -413,13 +413,13 @@ namespace CaissonMPM
         for (int k = 0; k < sums.size; ++k)
           progress.of_group[k][in_group] += sums.sum[k];
         points.n_yielding[cell] =
-          static_cast<unsigned short>(progress.waiting.total() - waiting);
+          static_cast<unsigned short>(progress.deferred.total() - deferred);
         return result.n_leaving - before;
       }
 
       /** Update the points of all cells of a group. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       update_group(const StepContext        &step,
                    const PointUpdate        &how,
                    const CellGroup<Number>  &group,
@@ -440,7 +440,7 @@ namespace CaissonMPM
             n_leaving[i] = update_points(
               step, group.cell[i], i, update[i], how.settings, progress);
           }
-        progress.waiting.update(progress.of_group);
+        progress.deferred.update(progress.of_group);
         // The sums for the next step, while the points are in the cache. A
         // cell that points leave is summed by points_to_grid instead.
         for (int i = 0; i < group.n; ++i)

@@ -58,7 +58,7 @@ namespace CaissonMPM
         static constexpr double small_strain = 2e-2, error_of_memory = 2e-2;
 
         template <typename Number>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         update(StressState<Number>           &sigma,
                const StrainIncrement<Number> &de,
                LawState<Number>              &law_state,
@@ -130,7 +130,7 @@ namespace CaissonMPM
         };
 
         template <typename Number>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         hold_in_bounds(State<Number> &state, const Parameters &p)
         {
           Hypoplasticity::hold_in_bounds(state.stress, p);
@@ -146,7 +146,7 @@ namespace CaissonMPM
 
         /** What the stress feels of a strain increment; and dh. */
         template <typename Number>
-        struct Felt
+        struct MobilizedStrain
         {
           StressState<Number> D;
           Number              length;
@@ -154,10 +154,10 @@ namespace CaissonMPM
         };
 
         template <typename Number>
-        static CAISSON_INLINE Felt<Number>
-                              feel(const StressState<Number> &h,
-                                   const StressState<Number> &D,
-                                   const Parameters          &p)
+        [[gnu::always_inline]] static inline MobilizedStrain<Number>
+        mobilize(const StressState<Number> &h,
+                 const StressState<Number> &D,
+                 const Parameters          &p)
         {
           const Number length  = sqrt(product(h, h));
           const Number rho     = min(length * (1. / p.range), Number(1.));
@@ -188,10 +188,10 @@ namespace CaissonMPM
 
         /** Take @p a where @p mask is set, else @p b. */
         template <typename Number>
-        static CAISSON_INLINE State<Number>
-                              choose(const typename Number::Mask &mask,
-                                     const State<Number>         &a,
-                                     const State<Number>         &b)
+        [[gnu::always_inline]] static inline State<Number>
+        choose(const typename Number::Mask &mask,
+               const State<Number>         &a,
+               const State<Number>         &b)
         {
           State<Number> result{select(mask, a.stress, b.stress),
                                select(mask, a.void_ratio, b.void_ratio),
@@ -203,20 +203,24 @@ namespace CaissonMPM
 
         /** The increments of a state for all of @p D. */
         template <typename Number>
-        static CAISSON_INLINE State<Number>
-                              rate(const State<Number>       &at,
-                                   const StressState<Number> &D,
-                                   const Number               length,
-                                   const Parameters          &p)
+        [[gnu::always_inline]] static inline State<Number>
+        rate(const State<Number>       &at,
+             const StressState<Number> &D,
+             const Number               length,
+             const Parameters          &p)
         {
           const Number void_ratio = (1. + at.void_ratio) * (D.rr + D.zz + D.tt);
           if constexpr (remembers)
             {
-              const Felt<Number> felt = feel(at.memory, D, p);
-              return {stress_increment(
-                        at.stress, at.void_ratio, felt.D, felt.length, p),
+              const MobilizedStrain<Number> mobilized =
+                mobilize(at.memory, D, p);
+              return {stress_increment(at.stress,
+                                       at.void_ratio,
+                                       mobilized.D,
+                                       mobilized.length,
+                                       p),
                       void_ratio,
-                      felt.memory};
+                      mobilized.memory};
             }
           else
             return {stress_increment(at.stress, at.void_ratio, D, length, p),
@@ -226,10 +230,10 @@ namespace CaissonMPM
 
         /** The state after the share @p share of an increment. */
         template <typename Number>
-        static CAISSON_INLINE State<Number>
-                              advanced(const State<Number> &start,
-                                       const Number         share,
-                                       const State<Number> &increment)
+        [[gnu::always_inline]] static inline State<Number>
+        advanced(const State<Number> &start,
+                 const Number         share,
+                 const State<Number> &increment)
         {
           State<Number> result{sum(start.stress, share, increment.stress),
                                start.void_ratio + share * increment.void_ratio,
@@ -242,12 +246,12 @@ namespace CaissonMPM
         /** One substep of the share @p share of the step: Euler, or Heun in
          * lanes whose stress changes more. */
         template <typename Number>
-        static CAISSON_INLINE Substep<Number>
-                              take_substep(const State<Number>       &start,
-                                           const StressState<Number> &D,
-                                           const Number               length,
-                                           const Number               share,
-                                           const Parameters          &p)
+        [[gnu::always_inline]] static inline Substep<Number>
+        take_substep(const State<Number>       &start,
+                     const StressState<Number> &D,
+                     const Number               length,
+                     const Number               share,
+                     const Parameters          &p)
         {
           // Euler: T + share dT(T)
           const State<Number> first = rate(start, D, length, p);
@@ -293,7 +297,7 @@ namespace CaissonMPM
         /** The share of the next substep: from the error of the last one, and
          * no more than is left. */
         template <typename Number>
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         next_share(const Number share, const Number error, const Number done)
         {
           const Number growth =

@@ -180,14 +180,14 @@ namespace CaissonMPM
 
         /** e_i at the pressure -tr T / 3. */
         template <typename Number>
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         loosest_void_ratio(const Number pressure, const Parameters &p)
         {
           return p.e_i0 * exp(-pow(pressure * (3. / p.hardness), p.n));
         }
 
         template <typename Number>
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         loosest_void_ratio(const StressState<Number> &sigma,
                            const Parameters          &p)
         {
@@ -195,7 +195,7 @@ namespace CaissonMPM
         }
 
         template <typename Number>
-        static CAISSON_INLINE typename Number::Mask
+        [[gnu::always_inline]] static inline typename Number::Mask
         is_loosest(const StressState<Number> &sigma,
                    const Number               volume,
                    const Number               volume_of_solids,
@@ -212,7 +212,7 @@ namespace CaissonMPM
 
         /** The pressure of a shifted stress, at least p_t. */
         template <typename Number>
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         shifted_pressure(const StressState<Number> &sigma, const Parameters &p)
         {
           return p.shift + max(Kernels::pressure(sigma), Number(0.));
@@ -221,7 +221,7 @@ namespace CaissonMPM
         /** Where soil may be in its loosest state, which is not below @p dense up
          * to dense_pressure. */
         template <typename Number>
-        static CAISSON_INLINE typename Number::Mask
+        [[gnu::always_inline]] static inline typename Number::Mask
         may_be_loosest(const Number      pressure,
                        const Number      looseness,
                        const Number      dense,
@@ -267,17 +267,17 @@ namespace CaissonMPM
         }
 
         template <typename Number>
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         product(const StressState<Number> &a, const StressState<Number> &b)
         {
           return a.rr * b.rr + a.zz * b.zz + a.tt * b.tt + 2. * (a.rz * b.rz);
         }
 
         template <typename Number>
-        static CAISSON_INLINE StressState<Number>
-                              sum(const StressState<Number> &a,
-                                  const Number               factor,
-                                  const StressState<Number> &b)
+        [[gnu::always_inline]] static inline StressState<Number>
+        sum(const StressState<Number> &a,
+            const Number               factor,
+            const StressState<Number> &b)
         {
           return {a.rr + factor * b.rr,
                   a.zz + factor * b.zz,
@@ -287,20 +287,20 @@ namespace CaissonMPM
 
         /** @p T is the shifted stress, in bounds. */
         template <typename Number>
-        static CAISSON_INLINE Factors<Number>
-                              factors(const StressState<Number> &T,
-                                      const Number               void_ratio,
-                                      const Parameters          &parameters);
+        [[gnu::always_inline]] static inline Factors<Number>
+        factors(const StressState<Number> &T,
+                const Number               void_ratio,
+                const Parameters          &parameters);
 
         /** Bring a shifted stress into the bounds of the file's head. */
         template <typename Number>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         hold_in_bounds(StressState<Number> &T, const Parameters &parameters);
 
         /** Reduce a shifted stress in bounds to what soil of a void ratio can
          * bear. */
         template <typename Number>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         hold_below_loosest(StressState<Number> &T,
                            const Number         void_ratio,
                            const Parameters    &p)
@@ -326,12 +326,12 @@ namespace CaissonMPM
 
         /** The increment of a shifted stress in bounds for all of @p D. */
         template <typename Number>
-        static CAISSON_INLINE StressState<Number>
-                              stress_increment(const StressState<Number> &T,
-                                               const Number               void_ratio,
-                                               const StressState<Number> &D,
-                                               const Number               length,
-                                               const Parameters          &p)
+        [[gnu::always_inline]] static inline StressState<Number>
+        stress_increment(const StressState<Number> &T,
+                         const Number               void_ratio,
+                         const StressState<Number> &D,
+                         const Number               length,
+                         const Parameters          &p)
         {
           const Factors<Number> f    = factors(T, void_ratio, p);
           const Number          on_D = f.scale * f.F * f.F;
@@ -414,8 +414,8 @@ namespace CaissonMPM
 
 
       template <typename Number>
-      CAISSON_INLINE Hypoplasticity::Factors<Number>
-                     Hypoplasticity::factors(const StressState<Number> &T,
+      [[gnu::always_inline]] inline Hypoplasticity::Factors<Number>
+      Hypoplasticity::factors(const StressState<Number> &T,
                               const Number               void_ratio,
                               const Parameters          &p)
       {
@@ -463,7 +463,7 @@ namespace CaissonMPM
 
 
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       Hypoplasticity::hold_in_bounds(StressState<Number> &T,
                                      const Parameters    &parameters)
       {

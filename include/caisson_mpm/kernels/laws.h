@@ -6,6 +6,7 @@
 #ifndef caisson_mpm_kernels_laws_h
 #define caisson_mpm_kernels_laws_h
 
+#include <caisson_mpm/kernels/for_each_block.h>
 #include <caisson_mpm/kernels/hypoplastic.h>
 #include <caisson_mpm/kernels/hypoplastic_intergranular.h>
 #include <caisson_mpm/kernels/linear_elastic.h>
@@ -13,8 +14,6 @@
 #include <caisson_mpm/kernels/mohr_coulomb_softening.h>
 #include <caisson_mpm/kernels/mohr_coulomb_stiffening.h>
 #include <caisson_mpm/kernels/overstress.h>
-
-#define CAISSON_LAMBDA __attribute__((always_inline))
 
 namespace CaissonMPM
 {
@@ -41,7 +40,7 @@ namespace CaissonMPM
 
       /** Call action(law, parameters) if the material's law is this one. */
       template <int slot, typename Action>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       with_slot(const Material &material, const Action &action)
       {
         if constexpr (SlotNumber<slot>::is_taken)
@@ -55,7 +54,7 @@ namespace CaissonMPM
       }
 
       template <typename Action, int... slot>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       with_law(const Material &material,
                const Action   &action,
                SlotList<slot...>)
@@ -65,7 +64,7 @@ namespace CaissonMPM
 
       /** Call action(law, parameters) with the law of the material. */
       template <typename Action>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       with_law(const Material &material, const Action &action)
       {
         with_law(material, action, Slots());
@@ -105,7 +104,7 @@ namespace CaissonMPM
       /** Whether the law reads the void ratio with these parameters; from
        * Law::needs_void_ratio(), if the law has one, for the argument 0. */
       template <typename Law>
-      CAISSON_INLINE auto
+      [[gnu::always_inline]] inline auto
       needs_void_ratio(const typename Law::Parameters &p, int)
         -> decltype(Law::needs_void_ratio(p))
       {
@@ -113,7 +112,7 @@ namespace CaissonMPM
       }
 
       template <typename Law>
-      CAISSON_INLINE bool
+      [[gnu::always_inline]] inline bool
       needs_void_ratio(const typename Law::Parameters &, long)
       {
         return Law::uses_void_ratio;

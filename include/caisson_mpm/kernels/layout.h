@@ -220,7 +220,7 @@ namespace CaissonMPM
     {
       double full_at_surface; // filled fraction from which a cell is full
       double full_inside;     // the same away from free surfaces
-      bool   floor_mass;      // sum the stiffness bound
+      bool   has_minimum_nodal_mass; // sum the stiffness bound
       PressureSlope pressure_slope;
     };
 

@@ -76,7 +76,7 @@ namespace CaissonMPM
 
         /** Advance @p sigma by the strain increment @p de. */
         template <typename Number>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         update(StressState<Number>           &sigma,
                const StrainIncrement<Number> &de,
                LawState<Number> & /*state*/,

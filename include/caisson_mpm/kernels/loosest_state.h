@@ -36,7 +36,7 @@ namespace CaissonMPM
       /** The points in their loosest state in the lanes from @p lane on; empty
        * lanes are not. */
       template <typename Law, typename Number>
-      CAISSON_INLINE typename Number::Mask
+      [[gnu::always_inline]] inline typename Number::Mask
       in_loosest_state(const PointBlock               &b,
                        const PointHistory             &history,
                        const int                       lane,
@@ -52,36 +52,34 @@ namespace CaissonMPM
 
       /** The volume of the points of a cell in their loosest state. */
       template <typename Number>
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       loose_volume(const StepContext &step, const unsigned int cell)
       {
         const PointsView &points = step.points;
         Number            volume(0.);
-        for (int block = points.first_block[cell]; block >= 0;
-             block     = points.headers[block].next)
-          {
-                const PointBlock &b = points.blocks[block];
-                const Material   &material =
-                  step.materials[points.headers[block].material];
-                if (!material.has_loosest_state)
-              continue;
-            with_law(material, [&](auto law, const auto &p) CAISSON_LAMBDA {
-              using Law = decltype(law);
-              if constexpr (knows_loosest_state<Law>(0))
-                for (int lane = 0; lane < block_size; lane += Number::width)
-                  volume +=
-                    select(in_loosest_state<Law, Number>(
-                             b, points.histories[block], lane, material, p),
-                           Number::load(b.volume + lane),
-                           Number(0.));
-            });
-          }
+        for_each_block(points, cell, [&](const int block) CAISSON_LAMBDA {
+          const PointBlock &b = points.blocks[block];
+          const Material   &material =
+            step.materials[points.headers[block].material];
+          if (!material.has_loosest_state)
+            return;
+          with_law(material, [&](auto law, const auto &p) CAISSON_LAMBDA {
+            using Law = decltype(law);
+            if constexpr (knows_loosest_state<Law>(0))
+              for (int lane = 0; lane < block_size; lane += Number::width)
+                volume +=
+                  select(in_loosest_state<Law, Number>(
+                           b, points.histories[block], lane, material, p),
+                         Number::load(b.volume + lane),
+                         Number(0.));
+          });
+        });
         return sum(volume);
       }
 
       /** Share out the growth of a cell among the points that can take it. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       share_out_growth(const StepContext    &step,
                        const unsigned int    cell,
                        const UpdateSettings &settings,
@@ -108,7 +106,7 @@ namespace CaissonMPM
       /** Give points in their loosest state the volume change that is theirs.
        * Returns whether there are any. */
       template <typename Law, typename Number>
-      CAISSON_INLINE bool
+      [[gnu::always_inline]] inline bool
       hold_loose_points(const PointBlock               &b,
                         const PointHistory             &history,
                         const int                       lane,

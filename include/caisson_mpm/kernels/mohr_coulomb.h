@@ -108,7 +108,7 @@ namespace CaissonMPM
          * come to it dilates no more.
          */
         template <typename Number>
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         loosest_void_ratio(const StressState<Number> &sigma,
                            const Parameters          &p)
         {
@@ -118,7 +118,7 @@ namespace CaissonMPM
         }
 
         template <typename Number>
-        static CAISSON_INLINE typename Number::Mask
+        [[gnu::always_inline]] static inline typename Number::Mask
         is_loosest(const StressState<Number> &sigma,
                    const Number               volume,
                    const Number               volume_of_solids,
@@ -165,7 +165,7 @@ namespace CaissonMPM
         /** Add the elastic increment. Returns whether that is all; if not,
          * the old stress must go to update(). */
         template <typename Number>
-        static CAISSON_INLINE bool
+        [[gnu::always_inline]] static inline bool
         update_elastic(StressState<Number>           &sigma,
                        const StrainIncrement<Number> &de,
                        const Parameters              &p)
@@ -176,7 +176,7 @@ namespace CaissonMPM
         }
 
         template <typename Number>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         update(StressState<Number>           &sigma,
                const StrainIncrement<Number> &de,
                LawState<Number>              &state,
@@ -204,7 +204,7 @@ namespace CaissonMPM
 
         /** update() where needs_void_ratio() is false. */
         template <typename Number>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         update_at_any_void_ratio(StressState<Number>           &sigma,
                                  const StrainIncrement<Number> &de,
                                  LawState<Number>              &state,
@@ -216,14 +216,14 @@ namespace CaissonMPM
 
         /** The elastic compression, 0 in tension. */
         template <typename Number>
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         compression(const StressState<Number> &s, const Parameters &p)
         {
           return max(pressure(s) * Number(1. / p.elastic.bulk), Number(0.));
         }
 
         template <typename Number>
-        static CAISSON_INLINE typename Number::Mask
+        [[gnu::always_inline]] static inline typename Number::Mask
         is_loosest(const Number      compression,
                    const Number      volume,
                    const Number      volume_of_solids,
@@ -236,7 +236,7 @@ namespace CaissonMPM
 
         /** The void ratio after a strain. */
         template <typename Number>
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         grown(const Number void_ratio, const StrainIncrement<Number> &de)
         {
           return (Number(1.) + void_ratio) *
@@ -248,7 +248,7 @@ namespace CaissonMPM
          * this void ratio: all of it where there is a gap, whose closing is
          * plastic. @p compression: the elastic one of @p sigma. */
         template <typename Number>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         close_gap(StressState<Number>         &sigma,
                   const typename Number::Mask &loose,
                   const Number                 compression,
@@ -278,7 +278,7 @@ namespace CaissonMPM
 
         /** The update where soil in the lanes @p loose dilates no more. */
         template <typename Number>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         update_loose(StressState<Number>           &sigma,
                      const StrainIncrement<Number> &de,
                      LawState<Number>              &state,

@@ -118,7 +118,7 @@ namespace CaissonMPM
         Real inverse_plane, inverse_major_edge, inverse_minor_edge;
 
         /** The sines and cosines suit 0 <= psi <= phi < pi/2. */
-        static CAISSON_INLINE MohrCoulombStrength
+        [[gnu::always_inline]] static inline MohrCoulombStrength
         make(const MohrCoulombElasticity &elastic,
              const Real                   sin_phi,
              const Real                   cos_phi,
@@ -143,7 +143,7 @@ namespace CaissonMPM
          * sqrt(2/3 e:e) of the deviator e of the plastic strain increment, and
          * to plastic_volumetric its trace.
          */
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         update(StressState<Number>           &sigma,
                const StrainIncrement<Number> &de,
                LawState<Number>              &state,
@@ -155,7 +155,7 @@ namespace CaissonMPM
          * circle in its place: most soil is far from yield, and this spares it
          * the square root. @p sigma: with the elastic increment.
          */
-        static CAISSON_INLINE bool
+        [[gnu::always_inline]] static inline bool
         is_surely_elastic(const StressState<Number> &sigma,
                           const Strength            &strength)
         {
@@ -169,7 +169,7 @@ namespace CaissonMPM
 
       private:
         /** f of the major and the minor stress. Units: Pa. */
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         yield_function(const Number    major,
                        const Number    minor,
                        const Strength &s)
@@ -179,17 +179,17 @@ namespace CaissonMPM
         }
 
         /** Step 1 of the file's head. Admissible stresses do not change. */
-        static CAISSON_INLINE Stress
+        [[gnu::always_inline]] static inline Stress
         to_cone(const Stress &trial, const Number yield, const Strength &);
 
         /** Steps 2 and 3, for trial stresses that step 1 leaves above T. */
-        static CAISSON_INLINE Stress
+        [[gnu::always_inline]] static inline Stress
         to_cutoff(const Stress                &trial,
                   const MohrCoulombElasticity &elastic,
                   const Strength              &strength);
 
         /** Add the plastic strain that took @p trial to @p final_stress. */
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         accumulate(LawState<Number>            &state,
                    const Stress                &trial,
                    const Stress                &final_stress,
@@ -198,21 +198,21 @@ namespace CaissonMPM
 
 
 
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       smaller(const double a, const double b)
       {
         return a < b ? a : b;
       }
 
       template <int n>
-      CAISSON_INLINE Lanes<n>
-                     smaller(const Lanes<n> a, const Lanes<n> b)
+      [[gnu::always_inline]] inline Lanes<n>
+      smaller(const Lanes<n> a, const Lanes<n> b)
       {
         return min(a, b);
       }
 
       /** min(c / s, no_cutoff) without a division by s = 0. */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       apex_of(const double c, const double s)
       {
         constexpr double no_cutoff = MohrCoulombStrength<double>::no_cutoff;
@@ -220,8 +220,8 @@ namespace CaissonMPM
       }
 
       template <int n>
-      CAISSON_INLINE Lanes<n>
-                     apex_of(const Lanes<n> c, const Lanes<n> s)
+      [[gnu::always_inline]] inline Lanes<n>
+      apex_of(const Lanes<n> c, const Lanes<n> s)
       {
         const Lanes<n> no_cutoff(MohrCoulombStrength<double>::no_cutoff);
         const auto     exists = c < no_cutoff * s;
@@ -229,7 +229,7 @@ namespace CaissonMPM
       }
 
       template <typename Real>
-      CAISSON_INLINE MohrCoulombStrength<Real>
+      [[gnu::always_inline]] inline MohrCoulombStrength<Real>
       MohrCoulombStrength<Real>::make(const MohrCoulombElasticity &elastic,
                                       const Real                   sin_phi,
                                       const Real                   cos_phi,
@@ -271,7 +271,7 @@ namespace CaissonMPM
 
 
       template <typename Number, typename Strength>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       MohrCoulombReturn<Number, Strength>::update(
         StressState<Number>           &sigma,
         const StrainIncrement<Number> &de,
@@ -302,7 +302,7 @@ namespace CaissonMPM
 
 
       template <typename Number, typename Strength>
-      CAISSON_INLINE PrincipalStresses<Number>
+      [[gnu::always_inline]] inline PrincipalStresses<Number>
       MohrCoulombReturn<Number, Strength>::to_cone(const Stress   &trial,
                                                    const Number    yield,
                                                    const Strength &p)
@@ -343,8 +343,8 @@ namespace CaissonMPM
 
 
       template <typename Number, typename Strength>
-      CAISSON_INLINE PrincipalStresses<Number>
-                     MohrCoulombReturn<Number, Strength>::to_cutoff(
+      [[gnu::always_inline]] inline PrincipalStresses<Number>
+      MohrCoulombReturn<Number, Strength>::to_cutoff(
         const Stress                &trial,
         const MohrCoulombElasticity &elastic,
         const Strength              &p)
@@ -377,7 +377,7 @@ namespace CaissonMPM
 
 
       template <typename Number, typename Strength>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       MohrCoulombReturn<Number, Strength>::accumulate(
         LawState<Number>            &state,
         const Stress                &trial,

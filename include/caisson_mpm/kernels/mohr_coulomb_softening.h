@@ -168,7 +168,7 @@ namespace CaissonMPM
         }
 
         template <typename Number>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         update(StressState<Number>           &sigma,
                const StrainIncrement<Number> &de,
                LawState<Number>              &state,

@@ -101,7 +101,7 @@ namespace CaissonMPM
 
         /** That of MohrCoulomb with the integral of dp / K. */
         template <typename Number>
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         loosest_void_ratio(const StressState<Number> &sigma,
                            const Parameters          &p)
         {
@@ -112,7 +112,7 @@ namespace CaissonMPM
         }
 
         template <typename Number>
-        static CAISSON_INLINE typename Number::Mask
+        [[gnu::always_inline]] static inline typename Number::Mask
         is_loosest(const StressState<Number> &sigma,
                    const Number               volume,
                    const Number               volume_of_solids,
@@ -166,7 +166,7 @@ namespace CaissonMPM
 
         /** E / E_ref. */
         template <typename Number>
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         stiffening(const StressState<Number> &s, const Parameters &p)
         {
           return pow(Number(p.inverse_stress) *
@@ -175,7 +175,7 @@ namespace CaissonMPM
         }
 
         template <typename Number>
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         bulk_modulus(const StressState<Number> &s, const Parameters &p)
         {
           return Number(p.reference.elastic.bulk) * stiffening(s, p);
@@ -183,7 +183,7 @@ namespace CaissonMPM
 
         /** The elastic compression by a stress that has this bulk modulus. */
         template <typename Number>
-        static CAISSON_INLINE Number
+        [[gnu::always_inline]] static inline Number
         compression(const StressState<Number> &s,
                     const Number               bulk_modulus,
                     const Parameters          &p)
@@ -202,7 +202,7 @@ namespace CaissonMPM
         }
 
         template <typename Number>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         update(StressState<Number>           &sigma,
                const StrainIncrement<Number> &de,
                LawState<Number>              &state,
@@ -233,7 +233,7 @@ namespace CaissonMPM
         /** The update with the strain increment @p de, which is @p stiffer
          * where it multiplies the elasticity at the reference stress. */
         template <typename Number>
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         update_dilatant(StressState<Number>           &sigma,
                         const StrainIncrement<Number> &stiffer,
                         const StrainIncrement<Number> &de,

@@ -19,7 +19,7 @@ namespace CaissonMPM
     inline namespace CAISSON_KERNEL_ISA
     {
       template <typename Number>
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       sum_of_lanes(const Number x)
       {
         return sum(x);
@@ -32,7 +32,7 @@ namespace CaissonMPM
         static constexpr int size = n;
         Number               sum[n];
 
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         clear()
         {
           for (int i = 0; i < n; ++i)
@@ -40,7 +40,7 @@ namespace CaissonMPM
         }
 
         /** The sums over all lanes, into out[n]. */
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         store(double *out) const
         {
           constexpr int width = Number::width;
@@ -51,7 +51,7 @@ namespace CaissonMPM
         }
 
         /** Lane i into row i of the first @p n_rows, each n numbers. */
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         store_lanes(const int n_rows, double *const *rows) const
         {
           constexpr int width = Number::width;
@@ -66,7 +66,7 @@ namespace CaissonMPM
         }
 
         /** Row i of @p rows [width], each n numbers, into lane i. */
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         load_lanes(const double *const *rows)
         {
           constexpr int width = Number::width;
@@ -88,7 +88,8 @@ namespace CaissonMPM
       class BlocksAhead
       {
       public:
-        CAISSON_INLINE explicit BlocksAhead(const PointsView &points)
+        [[gnu::always_inline]] inline explicit BlocksAhead(
+          const PointsView &points)
           : points(points)
         {
           constexpr int n_ahead = 8;
@@ -98,7 +99,7 @@ namespace CaissonMPM
         }
 
         /** Ask for the next block: to be called once per block. */
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         advance()
         {
           if (block < 0)
@@ -117,7 +118,7 @@ namespace CaissonMPM
         }
 
       private:
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         enter_cell()
         {
           if (active < points.n_active_cells)
@@ -137,8 +138,8 @@ namespace CaissonMPM
         int          n; // cells
         unsigned int cell[Number::width];
 
-        CAISSON_INLINE
-        CellGroup(const PointsView &points, const unsigned int begin)
+        [[gnu::always_inline]] inline CellGroup(const PointsView  &points,
+                                                const unsigned int begin)
         {
           const unsigned int left = points.n_active_cells - begin;
           n = left < Number::width ? static_cast<int>(left) : Number::width;
@@ -148,15 +149,15 @@ namespace CaissonMPM
 
         /** Lane i: value(number of its cell). */
         template <typename Value>
-        CAISSON_INLINE Number
+        [[gnu::always_inline]] inline Number
         lanes(const Value &value) const
         {
           return make_lanes<Number>(
             [&](const int i) { return value(cell[i]); });
         }
 
-        CAISSON_INLINE CellMap<Number>
-                       map(const CellGeometry *geometry) const
+        [[gnu::always_inline]] inline CellMap<Number>
+        map(const CellGeometry *geometry) const
         {
           const double *rows[Number::width];
           for (int i = 0; i < Number::width; ++i)
@@ -183,7 +184,7 @@ namespace CaissonMPM
         static constexpr int momentum = 9;
         using LaneSums<Number, 17>::sum;
 
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         add(const LocalPoint<Number> &p,
             const Number              mass,
             const Number              velocity_r,
@@ -221,7 +222,7 @@ namespace CaissonMPM
         static constexpr int stiffness = 12;
         using LaneSums<Number, 16>::sum;
 
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         add(const LocalPoint<Number>  &p,
             const Number               inverse_width,
             const Number               inverse_r, // 0 in plane strain
@@ -243,7 +244,7 @@ namespace CaissonMPM
          * A bound of the row sums of the stiffness, sum_J |K_IJ|, from the
          * 1-norms of the gradients (see NodalSums::stiffness).
          */
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         add_stiffness(const LocalPoint<Number> &p,
                       const Number              inverse_width,
                       const Number              inverse_r,
@@ -267,7 +268,7 @@ namespace CaissonMPM
         }
 
       private:
-        static CAISSON_INLINE void
+        [[gnu::always_inline]] static inline void
         add_component(Number                   *s,
                       const LocalPoint<Number> &p,
                       const Number              inverse_width,
@@ -292,7 +293,7 @@ namespace CaissonMPM
         // per component m s, m s x, m s y; padded to the size of ForceSums
         using LaneSums<Number, 16>::sum;
 
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         add(const Number x, const Number y, const Number mass, const Number *s)
         {
           const Number m_x = mass * x, m_y = mass * y;
@@ -307,7 +308,7 @@ namespace CaissonMPM
 
       /** The affine function with the coefficients fit[0 .. 2]. */
       template <typename Real, typename Number>
-      CAISSON_INLINE Number
+      [[gnu::always_inline]] inline Number
       evaluate_fit(const Real *fit, const Number x, const Number y)
       {
         return Number(fit[0]) + Number(fit[1]) * x + Number(fit[2]) * y;
@@ -335,7 +336,7 @@ namespace CaissonMPM
        * 2/27.
        */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       add_distance_of_centers(const Number bounded,
                               const Number dx,
                               const Number dy,
@@ -361,11 +362,11 @@ namespace CaissonMPM
        * points on a line.
        */
       template <typename Number>
-      CAISSON_INLINE SymmetricMatrix<Number>
-                     inverse_covariance(const Number mass,
-                                        const Number xx,
-                                        const Number xy,
-                                        const Number yy)
+      [[gnu::always_inline]] inline SymmetricMatrix<Number>
+      inverse_covariance(const Number mass,
+                         const Number xx,
+                         const Number xy,
+                         const Number yy)
       {
         const Number smallest_variance(.02), one(1.), half_of(.5);
         const Number center = half_of * (xx + yy), half = half_of * (xx - yy),
@@ -387,8 +388,8 @@ namespace CaissonMPM
         Number y, xi_y, y2;
 
         /** From the moments in xi and eta, @p m [9]: y is bilinear. */
-        CAISSON_INLINE
-        MassOverHeight(const CellMap<Number> &map, const Number *m)
+        [[gnu::always_inline]] inline MassOverHeight(const CellMap<Number> &map,
+                                                     const Number          *m)
         {
           const Number inverse = Number(1.) / map.mean_height();
           const Number a0      = (map.bottom - map.center_z()) * inverse,
@@ -431,7 +432,7 @@ namespace CaissonMPM
        * center of the points is not that of the volume.
        */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       fit_stress(const CellMap<Number>           &map,
                  const double                     axisymmetric,
                  const Number                    *m,
@@ -494,10 +495,9 @@ namespace CaissonMPM
         Number             inverse_r; // 0 in plane strain
         Number             volume;
 
-        CAISSON_INLINE
-        GaussPoint(const CellMap<Number> &map,
-                   const double           axisymmetric,
-                   const int              i)
+        [[gnu::always_inline]] inline GaussPoint(const CellMap<Number> &map,
+                                                 const double axisymmetric,
+                                                 const int    i)
         {
           constexpr double x[2] = {.21132486540518712, .78867513459481288};
           point          = map.at_reference(Number(x[i % 2]), Number(x[i / 2]));

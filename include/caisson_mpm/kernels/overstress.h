@@ -45,7 +45,7 @@ namespace CaissonMPM
 
       /** The radius of the largest of Mohr's circles. */
       template <typename Number>
-      CAISSON_INLINE Number
+      [[gnu::always_inline]] inline Number
       largest_radius(const StressState<Number> &s)
       {
         const Number center = Number(.5) * (s.rr + s.zz),
@@ -61,7 +61,7 @@ namespace CaissonMPM
        * strains may not depend on what they become in the step.
        */
       template <typename Law, typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       update_with_overstress(StressState<Number>            &sigma,
                              const StrainIncrement<Number>  &de,
                              LawState<Number>               &state,

@@ -28,9 +28,9 @@ namespace CaissonMPM
       {
         Number mass[4], momentum[2][4], force[2][4], stiffness[4];
 
-        CAISSON_INLINE
-        CellContribution(const LaneSums<Number, 17> &sums,
-                         const Number               *body_force)
+        [[gnu::always_inline]] inline CellContribution(
+          const LaneSums<Number, 17> &sums,
+          const Number               *body_force)
         {
           moments_to_corners(sums.sum, mass);
           for (int c = 0; c < 2; ++c)
@@ -42,7 +42,7 @@ namespace CaissonMPM
             }
         }
 
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         add_forces(const LaneSums<Number, 16> &sums)
         {
           Number corner[4];
@@ -59,7 +59,7 @@ namespace CaissonMPM
             stiffness[i] = sums.sum[ForceSums<Number>::stiffness + i];
         }
 
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         scatter(const CellGroup<Number> &group,
                 const CellNodes         *nodes_of,
                 NodalSums               *nodes) const
@@ -98,7 +98,7 @@ namespace CaissonMPM
        * follows from it is below the mass for any Courant number below one.
        */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       find_full_stiffness(const CellMap<Number> &map,
                           const double           axisymmetric,
                           const Number           modulus,
@@ -124,7 +124,7 @@ namespace CaissonMPM
 
       /** The internal force of full cells, from the fitted stress. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       integrate_full_cells(const CellMap<Number> &map,
                            const double           axisymmetric,
                            const Number          *fit,
@@ -164,31 +164,30 @@ namespace CaissonMPM
         const CellMap<>       map(grid.geometry[cell]);
         const int             first = points.first_block[cell];
         const Material &reference   = materials[points.headers[first].material];
-        for (int block = first; block >= 0; block = points.headers[block].next)
-          {
-            const PointBlock &b   = points.blocks[block];
-            const Material   &own = materials[points.headers[block].material];
-            PointSums<Number> sums;
-            sums.clear();
-            for (int lane = 0; lane < block_size; lane += Number::width)
-              sums.add(map.at_position(Number::load(b.r + lane),
-                                       Number::load(b.z + lane)),
-                       Number::load(b.mass + lane),
-                       Number(0.),
-                       Number(0.));
-            double moments[4], corner[4];
+        for_each_block(points, cell, [&](const int block) CAISSON_LAMBDA {
+          const PointBlock &b   = points.blocks[block];
+          const Material   &own = materials[points.headers[block].material];
+          PointSums<Number> sums;
+          sums.clear();
+          for (int lane = 0; lane < block_size; lane += Number::width)
+            sums.add(map.at_position(Number::load(b.r + lane),
+                                     Number::load(b.z + lane)),
+                     Number::load(b.mass + lane),
+                     Number(0.),
+                     Number(0.));
+          double moments[4], corner[4];
+          for (int i = 0; i < 4; ++i)
+            moments[i] = sum(sums.sum[i]);
+          moments_to_corners(moments, corner);
+          for (int c = 0; c < 2; ++c)
             for (int i = 0; i < 4; ++i)
-              moments[i] = sum(sums.sum[i]);
-            moments_to_corners(moments, corner);
-            for (int c = 0; c < 2; ++c)
-              for (int i = 0; i < 4; ++i)
-                nodes[grid.nodes[cell].node[i]].force[c] +=
-                  corner[i] * (own.body_force[c] - reference.body_force[c]);
-          }
+              nodes[grid.nodes[cell].node[i]].force[c] +=
+                corner[i] * (own.body_force[c] - reference.body_force[c]);
+        });
       }
 
       /** The largest modulus among the materials of a cell. */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       largest_modulus(const StepContext &step, const unsigned int cell)
       {
         const PointsView     &points    = step.points;
@@ -196,19 +195,17 @@ namespace CaissonMPM
         const CellMoments    &moments   = step.moments[cell];
         double result = materials[moments.material].p_wave_modulus;
         if (moments.several_materials)
-          for (int block = points.first_block[cell]; block >= 0;
-               block     = points.headers[block].next)
-            {
-                  const double own =
-                    materials[points.headers[block].material].p_wave_modulus;
-                  result = own > result ? own : result;
-            }
+          for_each_block(points, cell, [&](const int block) CAISSON_LAMBDA {
+            const double own =
+              materials[points.headers[block].material].p_wave_modulus;
+            result = own > result ? own : result;
+          });
         return result;
       }
 
       /** The volume of the soil of a cell at the start, if all of it gains
        * volume in shear; else 0. */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       volume_of_gaining_soil(const StepContext &step, const unsigned int cell)
       {
         const CellMoments &moments  = step.moments[cell];
@@ -219,19 +216,16 @@ namespace CaissonMPM
           return moments.mass[0] / material.initial_density;
         const PointsView &points = step.points;
         double            result = 0.;
-        for (int block = points.first_block[cell]; block >= 0;
-             block     = points.headers[block].next)
-          {
-                const Material &own =
-                  step.materials[points.headers[block].material];
-                if (own.volume_in_shear != VolumeInShear::gained)
-              return 0.;
-            double mass = 0.; // padding has none
-                for (int lane = 0; lane < block_size; ++lane)
-              mass += points.blocks[block].mass[lane];
-            result += mass / own.initial_density;
-          }
-        return result;
+        bool              all    = true;
+        for_each_block(points, cell, [&](const int block) CAISSON_LAMBDA {
+          const Material &own = step.materials[points.headers[block].material];
+          all &= own.volume_in_shear == VolumeInShear::gained;
+          double mass = 0.; // padding has none
+          for (int lane = 0; lane < block_size; ++lane)
+            mass += points.blocks[block].mass[lane];
+          result += mass / own.initial_density;
+        });
+        return all ? result : 0.;
       }
 
       /**
@@ -242,7 +236,7 @@ namespace CaissonMPM
        * is the mean over the cell. Soil that has not dilated keeps its slope,
        * and its equilibrium with the weight.
        */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       pressure_slope(const StepContext &step, const unsigned int cell)
       {
         switch (step.integration.pressure_slope)
@@ -273,7 +267,7 @@ namespace CaissonMPM
        * change: with two cells across a tip in dense hypoplastic sand, the mean
        * makes the tip too stiff by two thirds.
        */
-      CAISSON_INLINE double
+      [[gnu::always_inline]] inline double
       largest_change_of_trace(const StepContext &step,
                               const unsigned int cell,
                               const int          d)
@@ -291,9 +285,9 @@ namespace CaissonMPM
 
       /** Both of them for the cells of a group. */
       template <typename Number>
-      CAISSON_INLINE KeptPressureSlope<Number>
-                     kept_pressure_slope(const StepContext       &step,
-                                         const CellGroup<Number> &group)
+      [[gnu::always_inline]] inline KeptPressureSlope<Number>
+      kept_pressure_slope(const StepContext       &step,
+                          const CellGroup<Number> &group)
       {
         const auto largest = [&](const int d) CAISSON_LAMBDA {
           return group.lanes([&](const unsigned int c) {
@@ -309,10 +303,10 @@ namespace CaissonMPM
       /** ForceSums of the cells of a group that are integrated at their points,
        * wholly or in part. @p rows: the internal sums of the cells. */
       template <typename Number>
-      CAISSON_INLINE LaneSums<Number, 16>
-                     sums_at_points(const StepContext       &step,
-                                    const CellGroup<Number> &group,
-                                    double *const           *rows)
+      [[gnu::always_inline]] inline LaneSums<Number, 16>
+      sums_at_points(const StepContext       &step,
+                     const CellGroup<Number> &group,
+                     double *const           *rows)
       {
         constexpr int        width = Number::width;
         double               mixed[width][16];
@@ -340,7 +334,7 @@ namespace CaissonMPM
        * them when the points are updated.
        */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       integrate_stress(const StepContext          &step,
                        const CellGroup<Number>    &group,
                        const CellMap<Number>      &map,
@@ -384,7 +378,7 @@ namespace CaissonMPM
         integrate_full_cells(map, step.grid.axisymmetric, fit.sum, forces);
 
         // the bound of sum_J |K_IJ|, for the mass floor
-        if (step.integration.floor_mass)
+        if (step.integration.has_minimum_nodal_mass)
           find_full_stiffness(map,
                               step.grid.axisymmetric,
                               group.lanes([&](const unsigned int c) {

@@ -23,7 +23,7 @@ namespace CaissonMPM
     inline namespace CAISSON_KERNEL_ISA
     {
       /** Add the integrals @p sums of ForceSums of a cell to its corners. */
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       add_to_corners(const double    *sums,
                      const CellNodes &cell,
                      NodalVector     *out)

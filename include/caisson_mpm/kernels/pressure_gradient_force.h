@@ -15,6 +15,7 @@
 #define caisson_mpm_kernels_pressure_gradient_force_h
 
 #include <caisson_mpm/kernels/cell_map.h>
+#include <caisson_mpm/kernels/for_each_block.h>
 #include <caisson_mpm/kernels/moments.h>
 
 namespace CaissonMPM
@@ -24,7 +25,7 @@ namespace CaissonMPM
     inline namespace CAISSON_KERNEL_ISA
     {
       /** The lower share @p filled of a cell. */
-      CAISSON_INLINE CellGeometry
+      [[gnu::always_inline]] inline CellGeometry
       lower_part(CellGeometry geometry, const double filled)
       {
         geometry.height_left *= filled;
@@ -36,7 +37,7 @@ namespace CaissonMPM
       template <typename Number>
       struct GradientSums : LaneSums<Number, 8>
       {
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         add(const LocalPoint<Number> &p,
             const Number              volume,
             const Number             *gradient)
@@ -78,26 +79,25 @@ namespace CaissonMPM
               lower_part(step.grid.geometry[cell], filled[cell]));
             GradientSums<Number> sums;
             sums.clear();
-            for (int block = step.points.first_block[cell]; block >= 0;
-                 block     = step.points.headers[block].next)
-              {
-                    const PointBlock &b = step.points.blocks[block];
-                    for (int lane = 0; lane < block_size; lane += Number::width)
+            for_each_block(
+              step.points, cell, [&](const int block) CAISSON_LAMBDA {
+                const PointBlock &b = step.points.blocks[block];
+                for (int lane = 0; lane < block_size; lane += Number::width)
                   {
-                        const Number r                 = Number::load(b.r + lane),
-                                     z                 = Number::load(b.z + lane);
-                        const LocalPoint<Number> local = map.at_position(r, z);
-                        LocalPoint<Number>       in_field = local;
-                        if (filled[cell] < 1.)
+                    const Number r                 = Number::load(b.r + lane),
+                                 z                 = Number::load(b.z + lane);
+                    const LocalPoint<Number> local = map.at_position(r, z);
+                    LocalPoint<Number>       in_field = local;
+                    if (filled[cell] < 1.)
                       in_field = below.at_reference(
                         local.xi, min(below.at_position(r, z).eta, Number(1.)));
                     Number slope[2];
-                        gradient(
+                    gradient(
                       c, in_field, map.inverse_width, slope[0], slope[1]);
-                        // padding has no volume
-                        sums.add(local, Number::load(b.volume + lane), slope);
+                    // padding has no volume
+                    sums.add(local, Number::load(b.volume + lane), slope);
                   }
-              }
+              });
             double of_cell[GradientSums<Number>::size];
             sums.store(of_cell);
             for (int d = 0; d < 2; ++d)

@@ -15,8 +15,8 @@ namespace CaissonMPM
     {
       /** An isotropic stress. */
       template <typename Number>
-      CAISSON_INLINE StressState<Number>
-                     isotropic(const Number p)
+      [[gnu::always_inline]] inline StressState<Number>
+      isotropic(const Number p)
       {
         return {p, p, p, Number(0.)};
       }
@@ -33,25 +33,25 @@ namespace CaissonMPM
         const CellMap<>   map(step.grid.geometry[cell]);
         ForceSums<Number> sums;
         sums.clear();
-        for (int block = step.points.first_block[cell]; block >= 0;
-             block     = step.points.headers[block].next)
+        for_each_block(step.points, cell, [&](const int block) CAISSON_LAMBDA {
           for (int lane = 0; lane < block_size; lane += Number::width)
             {
-                  const LoadedPoints<Number> p(step.points.blocks[block],
+              const LoadedPoints<Number> p(step.points.blocks[block],
                                            lane,
                                            map);
-                  sums.add(p.local,
+              sums.add(p.local,
                        Number(map.inverse_width),
                        Number(step.grid.axisymmetric) / p.r,
                        p.volume,
                        isotropic(evaluate(coefficients, p.local)));
             }
+        });
         sums.store(out);
       }
 
       /** The integrals over the Gauss points of cells, one in each lane. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       integrate_pressure_in_full_cells(const CellMap<Number> &map,
                                        const double           axisymmetric,
                                        const Number          *coefficients,

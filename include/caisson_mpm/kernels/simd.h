@@ -19,8 +19,6 @@
 #  define CAISSON_KERNEL_ISA isa_default
 #endif
 
-#define CAISSON_INLINE inline __attribute__((always_inline))
-
 namespace CaissonMPM
 {
   namespace Kernels
@@ -62,29 +60,29 @@ namespace CaissonMPM
         {
           Bits bits;
 
-          friend CAISSON_INLINE Mask
+          [[gnu::always_inline]] friend inline Mask
           operator&(const Mask a, const Mask b)
           {
             return {static_cast<Bits>(a.bits & b.bits)};
           }
-          friend CAISSON_INLINE Mask
+          [[gnu::always_inline]] friend inline Mask
           operator|(const Mask a, const Mask b)
           {
             return {static_cast<Bits>(a.bits | b.bits)};
           }
-          friend CAISSON_INLINE Mask
+          [[gnu::always_inline]] friend inline Mask
           operator!(const Mask a)
           {
             return {static_cast<Bits>(~a.bits)};
           }
           /** Whether any lane is set. */
-          friend CAISSON_INLINE bool
+          [[gnu::always_inline]] friend inline bool
           any(const Mask a)
           {
             return to_integer(a) != 0;
           }
           /** Lane i as bit i of an integer. */
-          friend CAISSON_INLINE unsigned int
+          [[gnu::always_inline]] friend inline unsigned int
           to_integer(const Mask a)
           {
             if constexpr (sizeof(Bits) == 1)
@@ -106,82 +104,80 @@ namespace CaissonMPM
         };
 
         Lanes() = default;
-        CAISSON_INLINE
-        Lanes(const Values v)
+        [[gnu::always_inline]] inline Lanes(const Values v)
           : values(v)
         {}
-        CAISSON_INLINE
-        Lanes(const double x)
+        [[gnu::always_inline]] inline Lanes(const double x)
           : values(x - Values{})
         {}
 
-        static CAISSON_INLINE Lanes
+        [[gnu::always_inline]] static inline Lanes
         load(const double *p)
         {
           Lanes result;
           __builtin_memcpy(&result.values, p, sizeof(Values));
           return result;
         }
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         store(double *p) const
         {
           __builtin_memcpy(p, &values, sizeof(Values));
         }
-        CAISSON_INLINE double
+        [[gnu::always_inline]] inline double
         operator[](const int i) const
         {
           return values[i];
         }
-        CAISSON_INLINE Values
+        [[gnu::always_inline]] inline Values
         get() const
         {
           return values;
         }
 
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         operator+(const Lanes a, const Lanes b)
         {
           return Lanes(a.values + b.values);
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         operator-(const Lanes a, const Lanes b)
         {
           return Lanes(a.values - b.values);
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         operator*(const Lanes a, const Lanes b)
         {
           return Lanes(a.values * b.values);
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         operator/(const Lanes a, const Lanes b)
         {
           return Lanes(a.values / b.values);
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         operator-(const Lanes a)
         {
           return Lanes(-a.values);
         }
-        CAISSON_INLINE Lanes &
+        [[gnu::always_inline]] inline Lanes &
         operator+=(const Lanes b)
         {
           values += b.values;
           return *this;
         }
-        CAISSON_INLINE Lanes &
+        [[gnu::always_inline]] inline Lanes &
         operator-=(const Lanes b)
         {
           values -= b.values;
           return *this;
         }
-        CAISSON_INLINE Lanes &
+        [[gnu::always_inline]] inline Lanes &
         operator*=(const Lanes b)
         {
           values *= b.values;
           return *this;
         }
-        friend CAISSON_INLINE Mask
+        [[gnu::always_inline]] friend inline Mask
         operator<(const Lanes a, const Lanes b)
         {
 #ifdef __AVX512DQ__
@@ -193,7 +189,7 @@ namespace CaissonMPM
 #endif
             return {a.values < b.values};
         }
-        friend CAISSON_INLINE Mask
+        [[gnu::always_inline]] friend inline Mask
         operator>(const Lanes a, const Lanes b)
         {
 #ifdef __AVX512DQ__
@@ -205,7 +201,7 @@ namespace CaissonMPM
 #endif
             return {a.values > b.values};
         }
-        friend CAISSON_INLINE Mask
+        [[gnu::always_inline]] friend inline Mask
         operator<=(const Lanes a, const Lanes b)
         {
 #ifdef __AVX512DQ__
@@ -217,7 +213,7 @@ namespace CaissonMPM
 #endif
             return {a.values <= b.values};
         }
-        friend CAISSON_INLINE Mask
+        [[gnu::always_inline]] friend inline Mask
         operator>=(const Lanes a, const Lanes b)
         {
 #ifdef __AVX512DQ__
@@ -229,7 +225,7 @@ namespace CaissonMPM
 #endif
             return {a.values >= b.values};
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         select(const Mask m, const Lanes a, const Lanes b)
         {
 #ifdef __AVX512DQ__
@@ -241,7 +237,7 @@ namespace CaissonMPM
 #endif
             return Lanes(m.bits ? a.values : b.values);
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         max(const Lanes a, const Lanes b)
         {
 #ifdef __AVX512F__
@@ -252,7 +248,7 @@ namespace CaissonMPM
 #endif
             return select(a > b, a, b);
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         min(const Lanes a, const Lanes b)
         {
 #ifdef __AVX512F__
@@ -263,12 +259,12 @@ namespace CaissonMPM
 #endif
             return select(a < b, a, b);
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         abs(const Lanes a)
         {
           return max(a, -a);
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         sqrt(const Lanes a)
         {
 #ifdef __AVX512F__
@@ -287,7 +283,7 @@ namespace CaissonMPM
           return result;
         }
         /** The sum over all lanes. */
-        friend CAISSON_INLINE double
+        [[gnu::always_inline]] friend inline double
         sum(const Lanes a)
         {
 #ifdef __AVX512F__
@@ -315,27 +311,27 @@ namespace CaissonMPM
         {
           bool set;
 
-          friend CAISSON_INLINE Mask
+          [[gnu::always_inline]] friend inline Mask
           operator&(const Mask a, const Mask b)
           {
             return {a.set && b.set};
           }
-          friend CAISSON_INLINE Mask
+          [[gnu::always_inline]] friend inline Mask
           operator|(const Mask a, const Mask b)
           {
             return {a.set || b.set};
           }
-          friend CAISSON_INLINE Mask
+          [[gnu::always_inline]] friend inline Mask
           operator!(const Mask a)
           {
             return {!a.set};
           }
-          friend CAISSON_INLINE bool
+          [[gnu::always_inline]] friend inline bool
           any(const Mask a)
           {
             return a.set;
           }
-          friend CAISSON_INLINE unsigned int
+          [[gnu::always_inline]] friend inline unsigned int
           to_integer(const Mask a)
           {
             return a.set ? 1u : 0u;
@@ -343,116 +339,115 @@ namespace CaissonMPM
         };
 
         Lanes() = default;
-        CAISSON_INLINE
-        Lanes(const double x)
+        [[gnu::always_inline]] inline Lanes(const double x)
           : value(x)
         {}
 
-        static CAISSON_INLINE Lanes
+        [[gnu::always_inline]] static inline Lanes
         load(const double *p)
         {
           return Lanes(*p);
         }
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         store(double *p) const
         {
           *p = value;
         }
-        CAISSON_INLINE double
+        [[gnu::always_inline]] inline double
         operator[](const int) const
         {
           return value;
         }
 
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         operator+(const Lanes a, const Lanes b)
         {
           return Lanes(a.value + b.value);
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         operator-(const Lanes a, const Lanes b)
         {
           return Lanes(a.value - b.value);
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         operator*(const Lanes a, const Lanes b)
         {
           return Lanes(a.value * b.value);
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         operator/(const Lanes a, const Lanes b)
         {
           return Lanes(a.value / b.value);
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         operator-(const Lanes a)
         {
           return Lanes(-a.value);
         }
-        CAISSON_INLINE Lanes &
+        [[gnu::always_inline]] inline Lanes &
         operator+=(const Lanes b)
         {
           value += b.value;
           return *this;
         }
-        CAISSON_INLINE Lanes &
+        [[gnu::always_inline]] inline Lanes &
         operator-=(const Lanes b)
         {
           value -= b.value;
           return *this;
         }
-        CAISSON_INLINE Lanes &
+        [[gnu::always_inline]] inline Lanes &
         operator*=(const Lanes b)
         {
           value *= b.value;
           return *this;
         }
-        friend CAISSON_INLINE Mask
+        [[gnu::always_inline]] friend inline Mask
         operator<(const Lanes a, const Lanes b)
         {
           return {a.value < b.value};
         }
-        friend CAISSON_INLINE Mask
+        [[gnu::always_inline]] friend inline Mask
         operator>(const Lanes a, const Lanes b)
         {
           return {a.value > b.value};
         }
-        friend CAISSON_INLINE Mask
+        [[gnu::always_inline]] friend inline Mask
         operator<=(const Lanes a, const Lanes b)
         {
           return {a.value <= b.value};
         }
-        friend CAISSON_INLINE Mask
+        [[gnu::always_inline]] friend inline Mask
         operator>=(const Lanes a, const Lanes b)
         {
           return {a.value >= b.value};
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         select(const Mask m, const Lanes a, const Lanes b)
         {
           return m.set ? a : b;
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         max(const Lanes a, const Lanes b)
         {
           return a.value > b.value ? a : b;
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         min(const Lanes a, const Lanes b)
         {
           return a.value < b.value ? a : b;
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         abs(const Lanes a)
         {
           return Lanes(__builtin_fabs(a.value));
         }
-        friend CAISSON_INLINE Lanes
+        [[gnu::always_inline]] friend inline Lanes
         sqrt(const Lanes a)
         {
           return Lanes(__builtin_sqrt(a.value));
         }
-        friend CAISSON_INLINE double
+        [[gnu::always_inline]] friend inline double
         sum(const Lanes a)
         {
           return a.value;
@@ -464,7 +459,7 @@ namespace CaissonMPM
 
       /** Lane i holds value(i). */
       template <typename Number, typename Value>
-      CAISSON_INLINE Number
+      [[gnu::always_inline]] inline Number
       make_lanes(const Value &value)
       {
         if constexpr (Number::width == 1)
@@ -486,7 +481,7 @@ namespace CaissonMPM
        * even, the odd ones into odd, in turn from a and b.
        */
       template <int length, typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       exchange_runs(const Number a, const Number b, Number &even, Number &odd)
       {
         if constexpr (Number::width == 8 && length == 1)
@@ -525,7 +520,7 @@ namespace CaissonMPM
 
       /** Lane i of out[k] is lane k of in[i]. */
       template <typename Number, int length = 1>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       transpose(const Number *in, Number *out)
       {
         constexpr int width = Number::width;
@@ -547,7 +542,7 @@ namespace CaissonMPM
 
       /** Lane i of the result is the sum over all lanes of a[i]. */
       template <typename Number, int length = 1>
-      CAISSON_INLINE Number
+      [[gnu::always_inline]] inline Number
       sum_each(const Number *a)
       {
         constexpr int n = Number::width / length;

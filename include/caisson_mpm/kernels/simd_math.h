@@ -25,13 +25,13 @@ namespace CaissonMPM
         typedef unsigned long long Integers
           __attribute__((vector_size(n * sizeof(double))));
 
-        static CAISSON_INLINE Integers
+        [[gnu::always_inline]] static inline Integers
         of(const Lanes<n> x)
         {
           return reinterpret_cast<Integers>(x.get());
         }
-        static CAISSON_INLINE Lanes<n>
-                              to_lanes(const Integers bits)
+        [[gnu::always_inline]] static inline Lanes<n>
+        to_lanes(const Integers bits)
         {
           return Lanes<n>(reinterpret_cast<typename Lanes<n>::Values>(bits));
         }
@@ -42,7 +42,7 @@ namespace CaissonMPM
       {
         using Integers = unsigned long long;
 
-        static CAISSON_INLINE Integers
+        [[gnu::always_inline]] static inline Integers
         of(const Lanes<1> x)
         {
           const double value = x[0];
@@ -50,8 +50,8 @@ namespace CaissonMPM
           __builtin_memcpy(&bits, &value, sizeof(bits));
           return bits;
         }
-        static CAISSON_INLINE Lanes<1>
-                              to_lanes(const Integers bits)
+        [[gnu::always_inline]] static inline Lanes<1>
+        to_lanes(const Integers bits)
         {
           double value;
           __builtin_memcpy(&value, &bits, sizeof(value));
@@ -61,7 +61,7 @@ namespace CaissonMPM
 
       /** sum_i c[i] x^i. */
       template <typename Number, int n>
-      CAISSON_INLINE Number
+      [[gnu::always_inline]] inline Number
       polynomial(const double (&c)[n], const Number x)
       {
         Number result(c[n - 1]);
@@ -72,8 +72,8 @@ namespace CaissonMPM
 
       /** For -700 <= x <= 700; beyond, and for NaN, the value at the limit. */
       template <int n>
-      CAISSON_INLINE Lanes<n>
-                     exp(const Lanes<n> x)
+      [[gnu::always_inline]] inline Lanes<n>
+      exp(const Lanes<n> x)
       {
         using Number                     = Lanes<n>;
         using Bits                       = LaneBits<n>;
@@ -104,8 +104,8 @@ namespace CaissonMPM
 
       /** For normal numbers x > 0; smaller ones, and NaN, count as 1e-300. */
       template <int n>
-      CAISSON_INLINE Lanes<n>
-                     log(const Lanes<n> x)
+      [[gnu::always_inline]] inline Lanes<n>
+      log(const Lanes<n> x)
       {
         using Number                     = Lanes<n>;
         using Bits                       = LaneBits<n>;
@@ -139,16 +139,16 @@ namespace CaissonMPM
 
       /** x^y for x > 0. */
       template <int n>
-      CAISSON_INLINE Lanes<n>
-                     pow(const Lanes<n> x, const double y)
+      [[gnu::always_inline]] inline Lanes<n>
+      pow(const Lanes<n> x, const double y)
       {
         return exp(Lanes<n>(y) * log(x));
       }
 
       /** For |x| <= pi / 2. */
       template <int n>
-      CAISSON_INLINE Lanes<n>
-                     sin(const Lanes<n> x)
+      [[gnu::always_inline]] inline Lanes<n>
+      sin(const Lanes<n> x)
       {
         static constexpr double series[] = {1.,
                                             -1. / 6.,
@@ -166,8 +166,8 @@ namespace CaissonMPM
 
       /** For |x| <= pi / 2. */
       template <int n>
-      CAISSON_INLINE Lanes<n>
-                     cos(const Lanes<n> x)
+      [[gnu::always_inline]] inline Lanes<n>
+      cos(const Lanes<n> x)
       {
         static constexpr double series[] = {1.,
                                             -1. / 2.,

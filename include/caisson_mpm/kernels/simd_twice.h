@@ -23,22 +23,22 @@ namespace CaissonMPM
         {
           typename Number::Mask a, b;
 
-          friend CAISSON_INLINE Mask
+          [[gnu::always_inline]] friend inline Mask
           operator&(const Mask x, const Mask y)
           {
             return {x.a & y.a, x.b & y.b};
           }
-          friend CAISSON_INLINE Mask
+          [[gnu::always_inline]] friend inline Mask
           operator|(const Mask x, const Mask y)
           {
             return {x.a | y.a, x.b | y.b};
           }
-          friend CAISSON_INLINE Mask
+          [[gnu::always_inline]] friend inline Mask
           operator!(const Mask x)
           {
             return {!x.a, !x.b};
           }
-          friend CAISSON_INLINE bool
+          [[gnu::always_inline]] friend inline bool
           any(const Mask x)
           {
             return any(x.a | x.b);
@@ -46,105 +46,103 @@ namespace CaissonMPM
         };
 
         Twice() = default;
-        CAISSON_INLINE
-        Twice(const Number a, const Number b)
+        [[gnu::always_inline]] inline Twice(const Number a, const Number b)
           : a(a)
           , b(b)
         {}
-        CAISSON_INLINE
-        Twice(const double x)
+        [[gnu::always_inline]] inline Twice(const double x)
           : a(x)
           , b(x)
         {}
 
-        static CAISSON_INLINE Twice
+        [[gnu::always_inline]] static inline Twice
         load(const double *p, const double *q)
         {
           return {Number::load(p), Number::load(q)};
         }
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         store(double *p, double *q) const
         {
           a.store(p);
           b.store(q);
         }
 
-        friend CAISSON_INLINE Twice
+        [[gnu::always_inline]] friend inline Twice
         operator+(const Twice x, const Twice y)
         {
           return {x.a + y.a, x.b + y.b};
         }
-        friend CAISSON_INLINE Twice
+        [[gnu::always_inline]] friend inline Twice
         operator-(const Twice x, const Twice y)
         {
           return {x.a - y.a, x.b - y.b};
         }
-        friend CAISSON_INLINE Twice
+        [[gnu::always_inline]] friend inline Twice
         operator*(const Twice x, const Twice y)
         {
           return {x.a * y.a, x.b * y.b};
         }
-        friend CAISSON_INLINE Twice
+        [[gnu::always_inline]] friend inline Twice
         operator/(const Twice x, const Twice y)
         {
           return {x.a / y.a, x.b / y.b};
         }
-        friend CAISSON_INLINE Mask
+        [[gnu::always_inline]] friend inline Mask
         operator<(const Twice x, const Twice y)
         {
           return {x.a < y.a, x.b < y.b};
         }
-        friend CAISSON_INLINE Mask
+        [[gnu::always_inline]] friend inline Mask
         operator>(const Twice x, const Twice y)
         {
           return {x.a > y.a, x.b > y.b};
         }
-        friend CAISSON_INLINE Mask
+        [[gnu::always_inline]] friend inline Mask
         operator<=(const Twice x, const Twice y)
         {
           return {x.a <= y.a, x.b <= y.b};
         }
-        friend CAISSON_INLINE Mask
+        [[gnu::always_inline]] friend inline Mask
         operator>=(const Twice x, const Twice y)
         {
           return {x.a >= y.a, x.b >= y.b};
         }
-        friend CAISSON_INLINE Twice
+        [[gnu::always_inline]] friend inline Twice
         max(const Twice x, const Twice y)
         {
           return {max(x.a, y.a), max(x.b, y.b)};
         }
-        friend CAISSON_INLINE Twice
+        [[gnu::always_inline]] friend inline Twice
         min(const Twice x, const Twice y)
         {
           return {min(x.a, y.a), min(x.b, y.b)};
         }
-        friend CAISSON_INLINE Twice
+        [[gnu::always_inline]] friend inline Twice
         operator-(const Twice x)
         {
           return {-x.a, -x.b};
         }
-        CAISSON_INLINE Twice &
+        [[gnu::always_inline]] inline Twice &
         operator+=(const Twice y)
         {
           return *this = *this + y;
         }
-        CAISSON_INLINE Twice &
+        [[gnu::always_inline]] inline Twice &
         operator-=(const Twice y)
         {
           return *this = *this - y;
         }
-        friend CAISSON_INLINE Twice
+        [[gnu::always_inline]] friend inline Twice
         abs(const Twice x)
         {
           return {abs(x.a), abs(x.b)};
         }
-        friend CAISSON_INLINE Twice
+        [[gnu::always_inline]] friend inline Twice
         sqrt(const Twice x)
         {
           return {sqrt(x.a), sqrt(x.b)};
         }
-        friend CAISSON_INLINE Twice
+        [[gnu::always_inline]] friend inline Twice
         select(const Mask m, const Twice x, const Twice y)
         {
           return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};

@@ -36,25 +36,25 @@ namespace CaissonMPM
 
       /** The mean pressure, compression positive. */
       template <typename Number>
-      CAISSON_INLINE Number
+      [[gnu::always_inline]] inline Number
       pressure(const StressState<Number> &s)
       {
         return Number(-1. / 3.) * (s.rr + s.zz + s.tt);
       }
 
       template <typename Number>
-      CAISSON_INLINE StressState<Number>
-                     scaled(const Number factor, const StressState<Number> &a)
+      [[gnu::always_inline]] inline StressState<Number>
+      scaled(const Number factor, const StressState<Number> &a)
       {
         return {factor * a.rr, factor * a.zz, factor * a.tt, factor * a.rz};
       }
 
       /** Take the stress @p a where @p mask is set, else @p b. */
       template <typename Number>
-      CAISSON_INLINE StressState<Number>
-                     select(const typename Number::Mask &mask,
-                            const StressState<Number>   &a,
-                            const StressState<Number>   &b)
+      [[gnu::always_inline]] inline StressState<Number>
+      select(const typename Number::Mask &mask,
+             const StressState<Number>   &a,
+             const StressState<Number>   &b)
       {
         return {select(mask, a.rr, b.rr),
                 select(mask, a.zz, b.zz),
@@ -67,7 +67,7 @@ namespace CaissonMPM
        * the increment @p de: lambda tr(de) I + 2 mu de.
        */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       add_elastic_increment(StressState<Number>           &sigma,
                             const StrainIncrement<Number> &de,
                             const double                   lambda,
@@ -90,10 +90,10 @@ namespace CaissonMPM
 
       /** Take the principal stresses @p a where @p mask is set, else @p b. */
       template <typename Number>
-      CAISSON_INLINE PrincipalStresses<Number>
-                     select(const typename Number::Mask     &mask,
-                            const PrincipalStresses<Number> &a,
-                            const PrincipalStresses<Number> &b)
+      [[gnu::always_inline]] inline PrincipalStresses<Number>
+      select(const typename Number::Mask     &mask,
+             const PrincipalStresses<Number> &a,
+             const PrincipalStresses<Number> &b)
       {
         return {select(mask, a.major, b.major),
                 select(mask, a.middle, b.middle),
@@ -108,8 +108,8 @@ namespace CaissonMPM
       class PrincipalFrame
       {
       public:
-        CAISSON_INLINE
-        PrincipalFrame(const StressState<Number> &sigma)
+        [[gnu::always_inline]] inline PrincipalFrame(
+          const StressState<Number> &sigma)
         {
           half_difference     = 0.5 * (sigma.rr - sigma.zz);
           shear               = sigma.rz;
@@ -124,7 +124,7 @@ namespace CaissonMPM
           values.minor  = min(sigma.tt, lower);
         }
 
-        CAISSON_INLINE const PrincipalStresses<Number>                      &
+        [[gnu::always_inline]] inline const PrincipalStresses<Number> &
         principal_stresses() const
         {
           return values;
@@ -136,7 +136,7 @@ namespace CaissonMPM
          * Where the radius vanishes the in-plane axes are arbitrary, and the
          * two in-plane values are taken as equal.
          */
-        CAISSON_INLINE StressState<Number>
+        [[gnu::always_inline]] inline StressState<Number>
         with_principal_stresses(const PrincipalStresses<Number> &s) const
         {
           const Number upper  = select(hoop_is_major, s.middle, s.major);

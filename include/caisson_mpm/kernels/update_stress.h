@@ -30,8 +30,8 @@ namespace CaissonMPM
 
         CellField() = default;
 
-        CAISSON_INLINE
-        CellField(const NodalVector *field, const CellNodes &cell)
+        [[gnu::always_inline]] inline CellField(const NodalVector *field,
+                                                const CellNodes   &cell)
         {
           using Pair = Lanes<2>; // both components of a node
           Pair corner[4], coefficient[4];
@@ -48,7 +48,7 @@ namespace CaissonMPM
         }
 
         /** Go a share of the way to another field. */
-        CAISSON_INLINE void
+        [[gnu::always_inline]] inline void
         approach(const CellField &other, const double share)
         {
           for (int i = 0; i < 4; ++i)
@@ -66,18 +66,18 @@ namespace CaissonMPM
         Number rr, rz, zr, zz, tt;
 
         template <typename Real>
-        CAISSON_INLINE
-        VelocityGradient(const CellField<Real>    &v,
-                         const LocalPoint<Number> &p,
-                         const Real                inverse_width,
-                         const Number              inverse_r)
+        [[gnu::always_inline]] inline VelocityGradient(
+          const CellField<Real>    &v,
+          const LocalPoint<Number> &p,
+          const Real                inverse_width,
+          const Number              inverse_r)
         {
           gradient(v.r, p, inverse_width, rr, rz);
           gradient(v.z, p, inverse_width, zr, zz);
           tt = evaluate(v.r, p) * inverse_r;
         }
 
-        CAISSON_INLINE Number
+        [[gnu::always_inline]] inline Number
         trace() const
         {
           return rr + zz + tt;
@@ -86,7 +86,7 @@ namespace CaissonMPM
 
       /** The mean of div v over the volume of cells, by Gauss integration. */
       template <typename Number>
-      CAISSON_INLINE Number
+      [[gnu::always_inline]] inline Number
       mean_divergence(const CellMap<Number>   &map,
                       const double             axisymmetric,
                       const CellField<Number> &v)
@@ -133,7 +133,7 @@ namespace CaissonMPM
       /** Give a strain another volume change. In plane strain the hoop
        * direction stays unstrained. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       take_volume_change(const Number          change,
                          const CellUpdate     &cell,
                          StepOfStrain<Number> &step)
@@ -148,11 +148,11 @@ namespace CaissonMPM
 
       /** The strain of points at @p p with the radius @p r. */
       template <typename Number>
-      CAISSON_INLINE StepOfStrain<Number>
-                     find_strain(const LocalPoint<Number> &p,
-                                 const Number              r,
-                                 const CellUpdate         &cell,
-                                 const UpdateSettings     &settings)
+      [[gnu::always_inline]] inline StepOfStrain<Number>
+      find_strain(const LocalPoint<Number> &p,
+                  const Number              r,
+                  const CellUpdate         &cell,
+                  const UpdateSettings     &settings)
       {
         const Number dt(settings.time_step);
         const Number inverse_r = Number(cell.axisymmetric) / r;
@@ -183,7 +183,7 @@ namespace CaissonMPM
        * and would grow. The fit of the filtered stresses is the same fit.
        */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       filter_stress(StressState<Number>      &stress,
                     const LocalPoint<Number> &p,
                     const Number              z,
@@ -213,16 +213,15 @@ namespace CaissonMPM
       public:
         HalfTurn() = default;
 
-        CAISSON_INLINE
-        HalfTurn(const Number spin)
+        [[gnu::always_inline]] inline HalfTurn(const Number spin)
         {
           tangent = spin * (Number(.5) + Number(1. / 24.) * spin * spin);
           // sin w = 2 t / (1 + t^2), 1 - cos w = t sin w
           sine = (tangent + tangent) / (Number(1.) + tangent * tangent);
         }
 
-        CAISSON_INLINE StressState<Number>
-                       operator()(const StressState<Number> &s) const
+        [[gnu::always_inline]] inline StressState<Number>
+        operator()(const StressState<Number> &s) const
         {
           const Number difference = Number(.5) * (s.rr - s.zz);
           const Number to_rr      = sine * (s.rz - tangent * difference);
@@ -233,8 +232,8 @@ namespace CaissonMPM
         }
 
         /** The turn with this tangent of half of its angle, and this sine. */
-        CAISSON_INLINE
-        HalfTurn(const Number tangent, const Number sine)
+        [[gnu::always_inline]] inline HalfTurn(const Number tangent,
+                                               const Number sine)
           : tangent(tangent)
           , sine(sine)
         {}
@@ -248,7 +247,7 @@ namespace CaissonMPM
        * on the mean of old and new volume.
        */
       template <typename Number>
-      CAISSON_INLINE Number
+      [[gnu::always_inline]] inline Number
       work_per_volume(const StressState<Number>  &old,
                       const StressState<Number>  &stress,
                       const StepOfStrain<Number> &step)
@@ -274,7 +273,7 @@ namespace CaissonMPM
       /** Grains keep their volume: (1 + e) / (1 + e_0) = V / V_0. Empty lanes
        * have no number. */
       template <typename Number>
-      CAISSON_INLINE Number
+      [[gnu::always_inline]] inline Number
       void_ratio_of(const Number        volume,
                     const PointHistory &history,
                     const int           lane,
@@ -287,13 +286,13 @@ namespace CaissonMPM
 
       /** What the law knows of the points besides stress and strain. */
       template <typename Law, typename Number>
-      CAISSON_INLINE LawState<Number>
-                     load_state(const PointBlock   &b,
-                                const PointHistory &history,
-                                const int           lane,
-                                const Number        volume,
-                                const double        initial_void_ratio,
-                                const bool          uses_void_ratio)
+      [[gnu::always_inline]] inline LawState<Number>
+      load_state(const PointBlock   &b,
+                 const PointHistory &history,
+                 const int           lane,
+                 const Number        volume,
+                 const double        initial_void_ratio,
+                 const bool          uses_void_ratio)
       {
         LawState<Number> state;
         state.plastic_deviatoric = Number::load(b.plastic_deviatoric + lane);
@@ -308,7 +307,7 @@ namespace CaissonMPM
 
       /** The inverse of load_state(), but for the void ratio. */
       template <typename Law, typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       store_state(const LawState<Number> &state,
                   PointBlock             &b,
                   PointHistory           &history,
@@ -338,7 +337,7 @@ namespace CaissonMPM
       /** Turn the state of a law by half of the turn of a step, if the state is
        * a tensor. */
       template <typename Law, typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       turn_state(const HalfTurn<Number> &half_turn, LawState<Number> &state)
       {
         if constexpr (state_is_a_tensor<Law>(0))
@@ -354,8 +353,8 @@ namespace CaissonMPM
       }
 
       template <typename Number>
-      CAISSON_INLINE StressState<Number>
-                     load_stress(const PointBlock &b, const int lane)
+      [[gnu::always_inline]] inline StressState<Number>
+      load_stress(const PointBlock &b, const int lane)
       {
         return {Number::load(b.stress[0] + lane),
                 Number::load(b.stress[1] + lane),
@@ -364,7 +363,7 @@ namespace CaissonMPM
       }
 
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       store_stress(const StressState<Number> &s, PointBlock &b, const int lane)
       {
         s.rr.store(b.stress[0] + lane);
@@ -384,12 +383,12 @@ namespace CaissonMPM
 
       /** The step of the points in the lanes from @p lane on. */
       template <typename Number>
-      CAISSON_INLINE StressStep<Number>
-                     begin_stress_step(const PointBlock         &b,
-                                       const int                 lane,
-                                       const LocalPoint<Number> &p,
-                                       const CellUpdate         &cell,
-                                       const UpdateSettings     &settings)
+      [[gnu::always_inline]] inline StressStep<Number>
+      begin_stress_step(const PointBlock         &b,
+                        const int                 lane,
+                        const LocalPoint<Number> &p,
+                        const CellUpdate         &cell,
+                        const UpdateSettings     &settings)
       {
         // 1. Strain increment dt (L + L^T) / 2 and spin from the nodal field.
         StressStep<Number> result;
@@ -416,7 +415,7 @@ namespace CaissonMPM
        * stress does; its plastic strain is to be multiplied by J'.
        */
       template <typename Law, typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       apply_law(StressState<Number>        &stress,
                 const StepOfStrain<Number> &step,
                 const Number                relative_volume,
@@ -464,7 +463,7 @@ namespace CaissonMPM
       /** Set the stress and the volume of the points in the lanes from @p lane
        * on to those at the end of the step. Returns work_per_volume(). */
       template <typename Law, typename Number>
-      CAISSON_INLINE Number
+      [[gnu::always_inline]] inline Number
       update_stress(PointBlock               &b,
                     PointHistory             &history,
                     const int                 lane,

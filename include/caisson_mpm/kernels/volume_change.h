@@ -16,10 +16,10 @@ namespace CaissonMPM
     {
       /** One of the fields in @p update [group.n], one cell in each lane. */
       template <typename Number>
-      CAISSON_INLINE CellField<Number>
-                     field_of_group(const CellGroup<Number> &group,
-                                    const CellUpdate        *update,
-                                    CellField<> CellUpdate::*field)
+      [[gnu::always_inline]] inline CellField<Number>
+      field_of_group(const CellGroup<Number> &group,
+                     const CellUpdate        *update,
+                     CellField<> CellUpdate::*field)
       {
         const double *rows[Number::width];
         for (int i = 0; i < Number::width; ++i)
@@ -38,7 +38,7 @@ namespace CaissonMPM
       /** The mean divergence of each cell of a group, from the volume fields of
        * @p update [group.n]. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       find_mean_divergence(const CellGroup<Number> &group,
                            const CellMap<Number>   &map,
                            const double             axisymmetric,
@@ -63,7 +63,7 @@ namespace CaissonMPM
        * Hunen 2015, doi:10.1002/2015GC005824).
        */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       find_bubbles(const CellGroup<Number> &group,
                    const CellMap<Number>   &map,
                    const double             axisymmetric,
@@ -105,7 +105,7 @@ namespace CaissonMPM
 
       /** Both for B-bar: the volume change of points, and where they move. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       make_volume_change_uniform(const CellGroup<Number> &group,
                                  const CellMap<Number>   &map,
                                  const double             axisymmetric,
@@ -118,7 +118,7 @@ namespace CaissonMPM
       /** Take the mean divergence of cells from the list @p rates [n_cells],
        * if there is one, where it has a value. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       take_volume_rates(const CellGroup<Number> &group,
                         const double            *rates,
                         CellUpdate              *update)
@@ -133,7 +133,7 @@ namespace CaissonMPM
 
       /** Find the volume changes of the cells of a group, by all of these. */
       template <typename Number>
-      CAISSON_INLINE void
+      [[gnu::always_inline]] inline void
       find_volume_changes(const CellGroup<Number> &group,
                           const CellMap<Number>   &map,
                           const double             axisymmetric,

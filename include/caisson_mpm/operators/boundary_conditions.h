@@ -71,16 +71,16 @@ namespace CaissonMPM
     PrescribedResult
     apply(const std::vector<double> &mass, Kernels::NodalVector *v);
 
-    /** Hold another velocity field to the conditions of the last apply(). */
+    /** Constrain another velocity field as the last apply() did. */
     void
     constrain(Kernels::NodalVector *v) const;
 
-    /** The same for the difference of two fields that are held. */
+    /** The same for the difference of two constrained fields. */
     void
     constrain_difference(Kernels::NodalVector *v) const;
 
     /** Add to @p result what the prescribed nodes do to the soil, which gains
-     * the momentum @p share times m_I v_I, when the field @p v is held, as a
+     * the momentum @p share times m_I v_I, when the field @p v is constrained, as a
      * velocity or as a difference. Call it before. */
     void
     add_impulses(const Kernels::NodalSums   *sums,

@@ -52,7 +52,7 @@ namespace CaissonMPM
     /** Give the faces another strength than that of the body's entries, for
      * instance that of the soil beside them. */
     void
-    set_strength(const FindFaceStrength &find);
+    set_strength(const FaceStrengthOf &strength_at);
 
     bool
     empty() const
@@ -119,7 +119,7 @@ namespace CaissonMPM
     }
 
     /**
-     * Hold another velocity field to the contact found by the last apply():
+     * Constrain another velocity field by the contact of the last apply():
      * the normal part at sliding nodes, all of it at sticking ones is that of
      * @p body_velocity.
      */
@@ -194,14 +194,14 @@ namespace CaissonMPM
       return node.is_open ? inner_wall : node.surface;
     }
 
-    /** Find the state and the normal of a node with the relative velocity
+    /** Return the state and the normal of a node with the relative velocity
      * @p w. */
     NodeResult
-    find_contact(const Node &node, const Vector2 &w) const;
+    compute_contact(const Node &node, const Vector2 &w) const;
 
-    /** Find the same at a corner that has two normals. */
+    /** Return the same at a corner that has two normals. */
     NodeResult
-    find_contact_at_corner(const Node &node, const Vector2 &w) const;
+    compute_contact_at_corner(const Node &node, const Vector2 &w) const;
 
     /** Return which of both normals of a convex corner counts, or their mean,
      * as Rigid body/Corner normals says. */
@@ -215,12 +215,12 @@ namespace CaissonMPM
                   const double m,
                   double      *u) const;
 
-    /** Return the velocity @p u of surface node @p i held to what the last
+    /** Return the velocity @p u of surface node @p i, constrained as the last
      * apply() found. */
     Vector2
-    held(const unsigned int i,
-         const Vector2     &body_velocity,
-         const double      *u) const;
+    constrained(const unsigned int i,
+                const Vector2     &body_velocity,
+                const double      *u) const;
 
     void
     collect_surface_nodes(const BackgroundGrid &grid);
@@ -229,11 +229,11 @@ namespace CaissonMPM
     add_corners(ContactResult &sums, Vector2 &total) const;
     /** The volume of soil that flows into the body through its faces. */
     double
-    find_inflow(const double                dt,
-                const std::vector<double>  &mass,
-                const Kernels::NodalVector *v) const;
+    compute_inflow(const double                dt,
+                   const std::vector<double>  &mass,
+                   const Kernels::NodalVector *v) const;
     void
-    find_normals(const BackgroundGrid &grid, Node &node) const;
+    compute_normals(const BackgroundGrid &grid, Node &node) const;
     void
     collect_inner_nodes(const BackgroundGrid &grid);
 

@@ -60,7 +60,7 @@ namespace CaissonMPM
     /** Set the strength of the faces, which are those of initialize(). */
     void
     set_strength(const std::vector<ContactFace> &faces,
-                 const FindFaceStrength         &find);
+                 const FaceStrengthOf           &strength_at);
 
     /** Return whether the node is one of the corners. */
     bool
@@ -104,9 +104,9 @@ namespace CaissonMPM
             const Kernels::NodalSums   *sums,
             const Kernels::NodalVector *u) const;
 
-    /** Hold a velocity field to what sticks to a body of this velocity. */
+    /** Give what sticks to the body its velocity. */
     void
-    hold(const Vector2 &body_velocity, Kernels::NodalVector *v) const;
+    constrain(const Vector2 &body_velocity, Kernels::NodalVector *v) const;
 
     /** Add to @p to what the product of the mass matrix with @p from lacks at
      * the corners. The field has this share of the body's velocity: 1 for a
@@ -220,11 +220,11 @@ namespace CaissonMPM
     mass_of(const Corner &corner, const double total) const;
 
     /** The mass that accelerates: a component in which few cells act needs more
-     * than they have, as in MassFloor. */
+     * than they have, as in MinimumNodalMass. */
     static double
-    inertia_of(const double              mass,
-               const double              dt,
-               const Kernels::NodalSums &node);
+    raised_mass(const double              mass,
+                const double              dt,
+                const Kernels::NodalSums &node);
 
     /** sum m Q w. */
     Vector2

@@ -34,7 +34,7 @@ namespace CaissonMPM
   };
 
   /** Gives the strength of a face. */
-  using FindFaceStrength = std::function<FaceStrength(const ContactFace &)>;
+  using FaceStrengthOf = std::function<FaceStrength(const ContactFace &)>;
 
   /** The strength of a face by the entries of the body. */
   FaceStrength
@@ -42,7 +42,7 @@ namespace CaissonMPM
 
   /** Find all faces of the body in the cells that this rank knows. */
   std::vector<ContactFace>
-  find_contact_faces(const BackgroundGrid &grid);
+  collect_contact_faces(const BackgroundGrid &grid);
 } // namespace CaissonMPM
 
 #endif

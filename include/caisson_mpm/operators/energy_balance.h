@@ -30,9 +30,9 @@ namespace CaissonMPM
 
   /** Find these sums, of all ranks and the whole circumference. Collective. */
   PointEnergies
-  find_point_energies(const MaterialPoints                 &points,
-                      const std::vector<Kernels::Material> &materials,
-                      const BackgroundGrid                 &grid);
+  compute_point_energies(const MaterialPoints                 &points,
+                         const std::vector<Kernels::Material> &materials,
+                         const BackgroundGrid                 &grid);
 
   /**
    * The balance of a run. add() is called in every step, close() at records;

@@ -132,7 +132,7 @@ namespace CaissonMPM
     double                 full_fraction_inside = 0.4;
     bool                   mean_volume          = true;
     double                 stress_filter        = 0.01;
-    bool                   mass_floor           = true;
+    bool                   minimum_nodal_mass   = true;
     double                 damping              = 0.;
     bool                   limits_velocity      = true;
     double                 limiter_factor       = 0.75;

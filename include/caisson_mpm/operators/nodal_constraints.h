@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What holds the nodes: the contact with the rigid body, then the boundary
+// What constrains the nodes: the contact with the rigid body, then the boundary
 // conditions, which take precedence; hanging nodes follow their masters.
 #ifndef caisson_mpm_operators_nodal_constraints_h
 #define caisson_mpm_operators_nodal_constraints_h
@@ -37,22 +37,22 @@ namespace CaissonMPM
 
     /** Constrain another velocity field as the last apply() did the new one. */
     void
-    hold(NodalData &v) const;
+    constrain(NodalData &v) const;
 
-    /** Set @p held to the velocities @p old before the step, constrained
+    /** Set @p constrained to the velocities @p old before the step, constrained
      * likewise. */
     void
-    hold_old(const NodalData &old, NodalData &held) const;
+    constrain_old(const NodalData &old, NodalData &constrained) const;
 
-    /** Constrain a field, or the difference of two that are held, of which the
-     * soil gains the momentum @p share times m_I v_I, and add what the
-     * constraints bear to @p result, that of the last apply(). */
+    /** Constrain a field, or the difference of two that are constrained, of
+     * which the soil gains the momentum @p share times m_I v_I, and add what
+     * the constraints bear to @p result, that of the last apply(). */
     void
-    hold(const Kernels::NodalSums *sums,
-         const double              share,
-         const bool                as_difference,
-         NodalData                &v,
-         NodalReactions           &result) const;
+    constrain(const Kernels::NodalSums *sums,
+              const double              share,
+              const bool                as_difference,
+              NodalData                &v,
+              NodalReactions           &result) const;
   };
 } // namespace CaissonMPM
 

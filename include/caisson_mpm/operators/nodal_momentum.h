@@ -3,10 +3,10 @@
 // The equation of motion at the nodes: what the points bring, and the new
 // velocities
 //   v_I = p_I / m_I,   v_I+ = v_I + dt f_I / m_I,
-// held to contact and boundary conditions. Where m_I is below the mass M_I =
-// dt^2 K_I / 4 that the time step needs, with the bound K_I of the row sum of
-// the stiffness, MassFloor distributes the impulses afterwards (doc/theory.md,
-// section 5).
+// constrained by contact and boundary conditions. Where m_I is below the mass
+// M_I = dt^2 K_I / 4 that the time step needs, with the bound K_I of the row
+// sum of the stiffness, MinimumNodalMass distributes the impulses afterwards
+// (doc/theory.md, section 5).
 #ifndef caisson_mpm_operators_nodal_momentum_h
 #define caisson_mpm_operators_nodal_momentum_h
 
@@ -75,8 +75,8 @@ namespace CaissonMPM
     void
     predict(NodalData &v) const;
 
-    /** Hold the velocities @p v at the end of the step to contact and boundary
-     * conditions. */
+    /** Constrain the velocities @p v at the end of the step by contact and
+     * boundary conditions. */
     NodalReactions
     constrain(const double      dt,
               const Vector2    &body_velocity,
@@ -93,9 +93,9 @@ namespace CaissonMPM
     /** The larger one of m_I and M_I [n_nodes], 0 without soil. Units: kg per
      * radian. */
     const std::vector<double> &
-    inertia() const
+    raised_mass() const
     {
-      return inertia_;
+      return raised_mass_;
     }
 
     /** The velocities that the points brought. */
@@ -142,13 +142,13 @@ namespace CaissonMPM
 
   private:
     void
-    find_filled(const Kernels::StepContext &step);
+    update_filled(const Kernels::StepContext &step);
 
     const HangingNodes *hanging_nodes  = nullptr;
     unsigned int        n_owned_nodes_ = 0;
     double              added_inertia_ = 0.;
     bool                is_finite_     = true;
-    std::vector<double> mass_, inertia_;
+    std::vector<double> mass_, raised_mass_;
     NodalData           sums_, old_velocity_, new_velocity_, filled_, change;
     // of soil cells at a node, those at hanging nodes by their masters
     NodalData n_soil_cells;

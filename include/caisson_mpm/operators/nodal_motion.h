@@ -156,7 +156,7 @@ namespace CaissonMPM
 
     MethodSettings                    settings_;
     NodalMomentum                     momentum;
-    MassFloor                         mass_floor;
+    MinimumNodalMass                  mass_floor;
     PointTransfer                     transfer;
     WorkOfStep                        work;
     std::vector<Kernels::CellMoments> moments;

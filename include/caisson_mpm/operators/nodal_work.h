@@ -10,7 +10,7 @@
 #ifndef caisson_mpm_operators_nodal_work_h
 #define caisson_mpm_operators_nodal_work_h
 
-#include <caisson_mpm/operators/mass_floor.h>
+#include <caisson_mpm/operators/minimum_nodal_mass.h>
 
 namespace CaissonMPM
 {
@@ -46,7 +46,7 @@ namespace CaissonMPM
     find(const double                dt,
          const double                damping,
          const NodalMomentum        &momentum,
-         const MassFloor            &mass_floor,
+         const MinimumNodalMass     &minimum_nodal_mass,
          const Kernels::NodalVector *strain,
          const NodalForces          &forces,
          const NodalConstraints     &constraints,
@@ -60,8 +60,9 @@ namespace CaissonMPM
                  const NodalConstraints     &constraints,
                  const Kernels::NodalVector *strain) const;
 
-    double    circumference = 0.;
-    NodalData held; // the old velocity with the constraints of the new one
+    double circumference = 0.;
+    NodalData
+      constrained_old; // the old velocity with the constraints of the new one
   };
 } // namespace CaissonMPM
 

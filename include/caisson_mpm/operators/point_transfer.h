@@ -14,8 +14,8 @@
 // S+ V_p; as A is known per cell, no second pass over the points is needed.
 // USL strains them with v+.
 //
-// The velocities of the sums of XPIC and MUSL are held to the boundary
-// conditions and to the contact found for v+: the transfer must not undo them.
+// The velocities of the sums of XPIC and MUSL are constrained by the boundary
+// conditions and the contact found for v+: the transfer must not undo them.
 #ifndef caisson_mpm_operators_point_transfer_h
 #define caisson_mpm_operators_point_transfer_h
 
@@ -78,11 +78,11 @@ namespace CaissonMPM
 
     /** S+ V_p of the points after the update. */
     void
-    find_strain_velocity(const Context &context, const double keep);
+    compute_strain_velocity(const Context &context, const double keep);
 
     NodalData transfer_velocity, strain_velocity;
     NodalData filtered, after_round_trip; // memory of add_filter()
-    NodalData held_old;
+    NodalData constrained_old;
     bool      strains_with_new = false; // USL
     double    transfer_of_body = 1.;    // see NodalFields
   };

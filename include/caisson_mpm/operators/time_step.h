@@ -81,15 +81,15 @@ namespace CaissonMPM
 
   private:
     void
-    find_moduli(const MPI_Comm                  communicator,
-                const MaterialPoints           &points,
-                const Soil                     &soil,
-                std::vector<Kernels::Material> &materials);
+    update_moduli(const MPI_Comm                  communicator,
+                  const MaterialPoints           &points,
+                  const Soil                     &soil,
+                  std::vector<Kernels::Material> &materials);
     void
-    find_limit(const BackgroundGrid                 &grid,
-               const MaterialPoints                 &points,
-               const Soil                           &soil,
-               const std::vector<Kernels::Material> &materials);
+    update_limit(const BackgroundGrid                 &grid,
+                 const MaterialPoints                 &points,
+                 const Soil                           &soil,
+                 const std::vector<Kernels::Material> &materials);
 
     /** Whether a fixed step exceeds the limit. */
     bool

@@ -55,7 +55,7 @@ namespace CaissonMPM
     }
 
     /** Return how a motion begins after it. */
-    BodyMotion::Start
+    BodyMotion::InitialMotion
     end_of_motion() const;
 
     /** Return what the water was, as Water/Level has it. */

@@ -110,7 +110,7 @@ namespace CaissonMPM
     find_beginning();
     /** Let the motion begin like this, in the mesh of a checkpoint. */
     void
-    begin_at(const BodyMotion::Start &start, const NamedNumbers &state);
+    begin_at(const BodyMotion::InitialMotion &start, const NamedNumbers &state);
     /** Check all parameters and place the lines of the mesh. */
     void
     check_parameters();

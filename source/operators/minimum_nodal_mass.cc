@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/operators/consistent_mass.h>
-#include <caisson_mpm/operators/mass_floor.h>
+#include <caisson_mpm/operators/minimum_nodal_mass.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -12,7 +12,7 @@ namespace CaissonMPM
   using Kernels::NodalVector;
 
   void
-  MassFloor::initialize(const BackgroundGrid &grid)
+  MinimumNodalMass::initialize(const BackgroundGrid &grid)
   {
     for (NodalData *v : {&theta, &received, &field, &product})
       grid.reinit(*v, 2);
@@ -21,39 +21,44 @@ namespace CaissonMPM
   }
 
   void
-  MassFloor::distribute(const Kernels::KernelTable &kernels,
-                        const Kernels::StepContext &step,
-                        const NodalConstraints     &constraints,
-                        NodalMomentum              &momentum,
-                        NodalReactions             &reactions)
+  MinimumNodalMass::distribute(const Kernels::KernelTable &kernels,
+                               const Kernels::StepContext &step,
+                               const NodalConstraints     &constraints,
+                               NodalMomentum              &momentum,
+                               NodalReactions             &reactions)
   {
     impulses.clear();
+    // 1. theta = 1 - m / M, and the cells where it is not 0
     const HangingNodes &hanging_nodes = constraints.hanging_nodes;
-    if (!find_weak_cells(step, hanging_nodes, momentum))
+    if (!update_weak_cells(step, hanging_nodes, momentum))
       return;
-    // theta, and what follows from it, is 0 in all other cells
+    // 2. C theta, for mu = (1 - theta) m + C theta; theta, and what follows
+    //    from it, is 0 in all other cells
     Kernels::StepContext weak  = step;
     weak.points.active_cells   = weak_cells.data();
     weak.points.n_active_cells = weak_cells.size();
     apply_consistent_mass(kernels, weak, hanging_nodes, theta, received);
-    find_impulses(momentum);
+    // 3. P = m (v+ - v), and C theta m^-1 P, which the neighbors receive
+    compute_impulses(momentum);
     hanging_nodes.interpolate(field, 2);
     apply_consistent_mass(kernels, weak, hanging_nodes, field, product);
-    find_increments(momentum);
+    // 4. x = mu^-1 T^T P = mu^-1 ((1 - theta) P + C theta m^-1 P), and C x
+    compute_increments(momentum);
     hanging_nodes.interpolate(field, 2);
     apply_consistent_mass(kernels, weak, hanging_nodes, field, product);
+    // 5. v+ = v + T x = v + (1 - theta) x + theta m^-1 C x, constrained again
     set_velocities(momentum);
-    constraints.hold(
+    constraints.constrain(
       momentum.sums(), 1., false, momentum.new_velocity(), reactions);
   }
 
   bool
-  MassFloor::find_weak_cells(const Kernels::StepContext &step,
-                             const HangingNodes         &hanging_nodes,
-                             const NodalMomentum        &momentum)
+  MinimumNodalMass::update_weak_cells(const Kernels::StepContext &step,
+                                      const HangingNodes         &hanging_nodes,
+                                      const NodalMomentum        &momentum)
   {
     const NodalSums           *node    = momentum.sums();
-    const std::vector<double> &inertia = momentum.inertia();
+    const std::vector<double> &inertia = momentum.raised_mass();
     NodalVector *const         share   = nodal_vectors(theta);
     bool                       any     = false;
     for (unsigned int i = 0; i < inertia.size(); ++i)
@@ -63,6 +68,7 @@ namespace CaissonMPM
         any      = any || is_weak;
       }
     hanging_nodes.interpolate(theta, 2);
+    // theta of a hanging node is that of its masters, and its cells count, too
     weak_cells.clear();
     for (unsigned int i = 0; any && i < step.points.n_active_cells; ++i)
       {
@@ -78,14 +84,14 @@ namespace CaissonMPM
   }
 
   void
-  MassFloor::find_impulses(const NodalMomentum &momentum)
+  MinimumNodalMass::compute_impulses(const NodalMomentum &momentum)
   {
     const NodalVector *const taken  = nodal_vectors(received),
                              *share = nodal_vectors(theta),
                              *v     = nodal_vectors(momentum.old_velocity()),
                              *u     = nodal_vectors(momentum.new_velocity());
     NodalVector *const withheld     = nodal_vectors(field);
-    for (unsigned int i = 0; i < momentum.inertia().size(); ++i)
+    for (unsigned int i = 0; i < momentum.raised_mass().size(); ++i)
       {
         withheld[i] = NodalVector();
         if (!(taken[i].value[0] > 0.))
@@ -103,7 +109,7 @@ namespace CaissonMPM
   }
 
   void
-  MassFloor::find_increments(const NodalMomentum &momentum)
+  MinimumNodalMass::compute_increments(const NodalMomentum &momentum)
   {
     const NodalVector *const given = nodal_vectors(product);
     for (const auto &[i, impulse] : impulses)
@@ -118,7 +124,7 @@ namespace CaissonMPM
   }
 
   void
-  MassFloor::set_velocities(NodalMomentum &momentum)
+  MinimumNodalMass::set_velocities(NodalMomentum &momentum)
   {
     const NodalVector *const v = nodal_vectors(momentum.old_velocity());
     for (auto &[i, impulse] : impulses)
@@ -138,7 +144,7 @@ namespace CaissonMPM
   }
 
   double
-  MassFloor::work(const NodalVector *v) const
+  MinimumNodalMass::work(const NodalVector *v) const
   {
     double work = 0.;
     for (const auto &[i, impulse] : impulses)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What the mass floor keeps from nodes with little mass goes to their
-// neighbors.
+// The minimum nodal mass (entry Method/Mass floor): what it takes from the
+// impulses of nodes with little mass goes to their neighbors.
 //
 // A node with the mass m and the raised mass M answers to an impulse P with
 // P / M. Its points thus receive m / M of P. The share theta = 1 - m / M that
@@ -14,8 +14,8 @@
 // it keeps the momentum: m^T T = mu^T, and the rows of T have the sum 1. A node
 // whose neighbors have enough mass answers with P / M, and what its neighbors
 // do besides.
-#ifndef caisson_mpm_operators_mass_floor_h
-#define caisson_mpm_operators_mass_floor_h
+#ifndef caisson_mpm_operators_minimum_nodal_mass_h
+#define caisson_mpm_operators_minimum_nodal_mass_h
 
 #include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/operators/nodal_momentum.h>
@@ -28,7 +28,7 @@ namespace CaissonMPM
    * Owns the nodal fields that this needs, and what it found in the last step.
    * It costs next to nothing where no node has too little mass.
    */
-  class MassFloor
+  class MinimumNodalMass
   {
   public:
     /** Set up for the nodes that this rank knows. */
@@ -37,8 +37,8 @@ namespace CaissonMPM
 
     /**
      * Replace the new velocities of @p momentum, which answer to the impulses
-     * of the step with the raised masses, and hold them to the constraints
-     * once more, with what these bear added to @p reactions. Collective over
+     * of the step with the raised masses, and constrain them again, with
+     * what the constraints bear added to @p reactions. Collective over
      * MPI.
      */
     void
@@ -65,18 +65,18 @@ namespace CaissonMPM
     /** Set theta, and the active cells where it is not 0. Returns whether there
      * are any on any rank. Collective. */
     bool
-    find_weak_cells(const Kernels::StepContext &step,
-                    const HangingNodes         &hanging_nodes,
-                    const NodalMomentum        &momentum);
+    update_weak_cells(const Kernels::StepContext &step,
+                      const HangingNodes         &hanging_nodes,
+                      const NodalMomentum        &momentum);
 
     /** Set the impulses of all nodes of weak cells, and the field to m^-1 theta
      * P. */
     void
-    find_impulses(const NodalMomentum &momentum);
+    compute_impulses(const NodalMomentum &momentum);
 
     /** Set the field to mu^-1 T^T P. */
     void
-    find_increments(const NodalMomentum &momentum);
+    compute_increments(const NodalMomentum &momentum);
 
     /** Set the new velocities to v + T mu^-1 T^T P, and the impulses to what
      * is left of P - m dv. */

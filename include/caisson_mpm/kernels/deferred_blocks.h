@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Blocks that may yield wait for others, and are updated in pairs.
+// Blocks that may yield are deferred, and updated in pairs.
 //
 // The return to the yield surface is one long chain of operations, each of
 // which waits for the one before, so that a processor with wide lanes idles.
 // Two blocks at once take little longer than one. Most blocks are elastic, of
 // another law or of dilatant soil, and never come here.
-#ifndef caisson_mpm_kernels_waiting_blocks_h
-#define caisson_mpm_kernels_waiting_blocks_h
+#ifndef caisson_mpm_kernels_deferred_blocks_h
+#define caisson_mpm_kernels_deferred_blocks_h
 
 #include <caisson_mpm/kernels/simd_twice.h>
 #include <caisson_mpm/kernels/update_stress.h>
@@ -18,16 +18,16 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** Whether blocks of a law may wait. Narrow lanes keep the processor busy
+      /** Whether blocks of a law may be deferred. Narrow lanes keep the processor busy
        * without it. */
       template <typename Law, typename Number>
-      constexpr bool may_wait = __is_same(Law, MohrCoulomb) && Number::width
+      constexpr bool may_be_deferred = __is_same(Law, MohrCoulomb) && Number::width
                                                                  == block_size;
 
       /** A block whose stress and volume are still to be updated: what its
        * step needs besides the stress in the middle of the turn, which the
        * block has. */
-      struct alignas(64) WaitingBlock
+      struct alignas(64) DeferredBlock
       {
         double strain[4][block_size], volume_change[block_size],
           tangent[block_size], sine[block_size];
@@ -40,33 +40,33 @@ namespace CaissonMPM
       /** Those of a group of cells. Row i of @p Sums takes m q, m q xi, m q eta
        * and V q of the work q per volume, one cell in each column. */
       template <typename Number>
-      class WaitingBlocks
+      class DeferredBlocks
       {
       public:
         using Sums = Number (*)[Number::width];
 
-        /** How many ever waited. */
-        CAISSON_INLINE unsigned int
+        /** The number of all blocks so far. */
+        [[gnu::always_inline]] inline unsigned int
         total() const
         {
           return n_added;
         }
 
-        CAISSON_INLINE bool
+        [[gnu::always_inline]] inline bool
         is_full() const
         {
           return n == capacity;
         }
 
-        /** Let a block wait. */
-        CAISSON_INLINE void
+        /** Defer a block. */
+        [[gnu::always_inline]] inline void
         add(PointBlock               &block,
             const StressStep<Number> &s,
             const LocalPoint<Number> &p,
             const Material           &material,
             const int                 cell)
         {
-          WaitingBlock &w = blocks[n++];
+          DeferredBlock &w = blocks[n++];
           ++n_added;
           store_stress(s.old, block, 0);
           s.step.strain.rr.store(w.strain[0]);
@@ -83,8 +83,8 @@ namespace CaissonMPM
           w.cell     = cell;
         }
 
-        /** Update all; none is left. */
-        CAISSON_INLINE void
+        /** Update all blocks; none is left. */
+        [[gnu::always_inline]] inline void
         update(const Sums sums)
         {
           for (int i = 0; i < n;)
@@ -102,9 +102,9 @@ namespace CaissonMPM
 
         /** Both may be the same. */
         template <typename Law>
-        static CAISSON_INLINE void
-        update_two(const WaitingBlock &v,
-                   const WaitingBlock &w,
+        [[gnu::always_inline]] static inline void
+        update_two(const DeferredBlock &v,
+                   const DeferredBlock &w,
                    const Sums          sums)
         {
           using Two         = Twice<Number>;
@@ -153,8 +153,8 @@ namespace CaissonMPM
         }
 
         /** Add the work per volume, with the old volume. */
-        static CAISSON_INLINE void
-        add_work(const WaitingBlock &w, const Number work, const Sums sums)
+        [[gnu::always_inline]] static inline void
+        add_work(const DeferredBlock &w, const Number work, const Sums sums)
         {
           const Number q = Number::load(w.block->mass) * work;
           sums[0][w.cell] += q;
@@ -165,7 +165,7 @@ namespace CaissonMPM
 
         int          n       = 0;
         unsigned int n_added = 0;
-        WaitingBlock blocks[capacity];
+        DeferredBlock blocks[capacity];
       };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels
