@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
-# Configuration of the manual, which scripts/docs builds. It works with Sphinx
+# Configuration of the manual, which tools/docs builds. It works with Sphinx
 # 5.3 to 8.1 and MyST 0.18 to 4.0, the versions of Debian 12 and 13.
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "python"))
+for folder in ("python", "tools"):
+    sys.path.insert(0, str(Path(__file__).parents[1] / folder))
 
 project = "caisson_mpm"
 author = "the caisson_mpm authors"
 copyright = "the caisson_mpm authors, LGPL-2.1-or-later"
-extensions = ["myst_parser", "sphinx.ext.mathjax", "caisson.docs.offline"]
+extensions = ["myst_parser", "sphinx.ext.mathjax", "caisson_workshop.offline_manual"]
 
 # Headings get the anchors that GitHub gives them, so that a link to a section
 # works in both places and Sphinx can check it.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The intergranular strain of hypoplastic sand: strain cycles against an
-// independent integration (scripts/caisson element-tests cycles), and what
+// independent integration (scripts/lab element-tests cycles), and what
 // Niemunis & Herle (1997) imply: straight on the law is the one without it,
 // after a reversal and at rest its linear part is m_R times as stiff, after a
 // turn by 90 degrees m_T times; its length grows by a closed form for
@@ -196,7 +196,7 @@ cycles(const double amplitude, const int n_cycles, const int n_steps)
 void
 test_cycles()
 {
-  // scripts/caisson element-tests cycles: axial stress at each reversal
+  // scripts/lab element-tests cycles: axial stress at each reversal
   struct Case
   {
     double amplitude, axial[6];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The law HypoplasticSand in element tests, against an independent integration
-// with small steps (scripts/caisson element-tests table), and against what the
+// with small steps (scripts/lab element-tests table), and against what the
 // theory implies: Bauer's law along the loosest state, the friction angle phi_c
 // and the void ratio e_c in the critical state wherever the test began,
 // invariance to in-plane rotation, independence of the step, and a finite
@@ -25,7 +25,7 @@ struct Row
   double strain, lateral, axial, void_ratio;
 };
 
-/** One element test: the rows are those of scripts/caisson element-tests. */
+/** One element test: the rows are those of scripts/lab element-tests. */
 struct ElementTest
 {
   const char   *name;

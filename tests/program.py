@@ -26,10 +26,10 @@ from typing import Any
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "python"))
 
-from caisson.developer.faults.process import quick_environment  # noqa: E402
 from caisson.paths import BUILD, PROGRAM, SCENES  # noqa: E402
 from caisson.results import Results  # noqa: E402
 from caisson.runner import Status, environment, mpi_command, set_options  # noqa: E402
+from caisson_workshop.faults.process import quick_environment  # noqa: E402
 
 SUCCESS = Status.SUCCESS
 BAD_INPUT = Status.BAD_INPUT
@@ -102,7 +102,7 @@ def server() -> "subprocess.Popen[str] | None":
     return process
 
 
-def ask_server(words: list[str]) -> "subprocess.CompletedProcess[str] | None":
+def query_server(words: list[str]) -> "subprocess.CompletedProcess[str] | None":
     """Let the server make a call; return nothing where it cannot."""
     process = server()
     if process is None:
@@ -149,7 +149,7 @@ class ProgramTest(unittest.TestCase):
     ) -> "subprocess.CompletedProcess[str]":
         """Run the program to its end, whatever its status; with its words."""
         words = self.command(*options, entries=entries, ranks=ranks)
-        done = ask_server(words) if ranks == 1 else None
+        done = query_server(words) if ranks == 1 else None
         several = {**environment(), "OMPI_MCA_mpi_yield_when_idle": "1"}
         return done or subprocess.run(
             words,

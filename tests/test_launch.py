@@ -12,7 +12,7 @@ from program import HERE, ProgramTest, history, summary, user_scene
 
 from caisson import ranks
 from caisson.paths import PROGRAM
-from caisson.runner import ask, environment, size_in
+from caisson.runner import query, environment, size_in
 
 BY_STRESS = "0: Law = Mohr-Coulomb with stiffness by stress, Friction angle = 33"
 SCALING = "Time/Mass scaling"
@@ -62,7 +62,7 @@ class Launch(CommandTest):
         """Those that the points and this machine are good for, said in one line, also
         for a restart; the result is that of one rank. What only prints says nothing."""
         path, one = self.directory(), self.directory("one_rank")
-        points = size_in(ask([user_scene("jack_coarse"), "--validate"])).points
+        points = size_in(query([user_scene("jack_coarse"), "--validate"])).points
         expected = ranks.choose(points)[0]
         text = rf"^run: {expected} ranks? \("
         self.assertRegex(self.caisson(*self.run_to(0.502, path))[1], text)
@@ -150,7 +150,9 @@ class Suggest(CommandTest):
 
     def said(self, path: Path, scaling: int) -> str:
         """Return what the program says of a scene with this mass scaling."""
-        return ask([str(path), "--validate", "--set", f"{SCALING}={scaling}"], PROGRAM)
+        return query(
+            [str(path), "--validate", "--set", f"{SCALING}={scaling}"], PROGRAM
+        )
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ import unittest
 
 from program import ProgramTest
 
-from caisson import scene_results
+from lab.studies import scene_results
 
 
 class SceneTest(ProgramTest):

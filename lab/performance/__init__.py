@@ -2,7 +2,7 @@
 """Studies of kind "speed": how fast kernels and program are, as ratios taken in one
 run. Variants take turns, and medians of the ratios in each round are shown.
 
-The studies of prm/speed.toml make the sections of a report, by the first word of
+The studies of lab/performance/speed.toml make the sections of a report, by the first word of
 their id: kernels, step, size, ranks, agreement, needs, refinement, roofline. Keys
 beside the usual ones:
 
@@ -13,24 +13,24 @@ beside the usual ones:
 
 Tables (table.md and a .csv each) and pictures go to results/speed. A section that
 is not run keeps what it had there. The machine must do nothing else, so runs are
-never made side by side, and always anew. `scripts/caisson publish-speed` takes
+never made side by side, and always anew. `scripts/lab publish-speed` takes
 table and pictures into doc/benchmarks.md and doc/pictures.
 """
 import time
 from collections.abc import Callable, Sequence
 
 from caisson.paths import short
-from caisson.speed.kernels import measure_kernels, measure_roofline
-from caisson.speed.program import (
+from caisson.study import Options, Study, StudyError
+from lab.performance.kernels import measure_kernels, measure_roofline
+from lab.performance.program import (
     measure_agreement,
     measure_needs,
     measure_ranks,
     measure_size,
     measure_step,
 )
-from caisson.speed.refinement import measure_refinement
-from caisson.speed.report import Report
-from caisson.study import Options, Study, StudyError
+from lab.performance.refinement import measure_refinement
+from lab.performance.report import Report
 
 NAME = "speed"
 STUDY_KEYS = set("repeats base steps points repetitions sizes".split())

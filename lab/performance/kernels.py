@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from caisson.machine import INSTRUCTION_SETS
 from caisson.paths import BUILD, ROOT
-from caisson.speed.report import COLORS, Report, panels
 from caisson.study import Study
+from lab.machine import INSTRUCTION_SETS
+from lab.performance.report import COLORS, Report, panels
 
 KERNELS = BUILD / "kernel_benchmark"
 # by instruction set, points per cell, shear rate, kernel
@@ -293,7 +293,7 @@ def say_bounds(report: Report, rates: Rates, memory: float, points: int) -> None
     report.say(
         f"The kernels at {points:,} points, elastic, in million points per second."
         " Bytes and operations per point are counted in the source"
-        " (python/caisson/speed/kernels.py lists them), with empty lanes and what a"
+        " (lab/performance/kernels.py lists them), with empty lanes and what a"
         " cell adds; the bound by memory takes the fastest of these loops. The bounds"
         " suppose that nothing waits: no latency, division, root, shuffle or look-up,"
         " and as many multiplications as additions."

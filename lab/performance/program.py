@@ -7,12 +7,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from caisson import curves
-from caisson.machine import instruction_sets
 from caisson.results import Table
-from caisson.speed.report import Report, bars, panels
-from caisson.speed.timed import Measured, Rounds, execute, interleave, median
-from caisson.speed.timed import median_ratio
 from caisson.study import Study
+from lab.machine import instruction_sets
+from lab.performance.report import Report, bars, panels
+from lab.performance.timed import Measured, Rounds, execute, interleave, median
+from lab.performance.timed import median_ratio
 
 OUTPUT = ["output"]
 FORCES = ["tip_force_N", "inner_friction_N", "outer_friction_N", "total_force_N"]

@@ -10,8 +10,8 @@ DOCUMENT = ROOT / "doc/benchmarks.md"
 BEGIN, END = "<!-- speed: begin -->", "<!-- speed: end -->"
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson publish-speed`: none."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `scripts/lab publish-speed`: none."""
 
 
 def main(_: argparse.Namespace) -> int:

@@ -7,9 +7,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from caisson import curves
-from caisson.speed.report import Report, panels
-from caisson.speed.timed import Measured, execute
 from caisson.study import Study
+from lab.performance.report import Report, panels
+from lab.performance.timed import Measured, execute
 
 WALL = 0.2  # m
 START = 0.5  # m of penetration

@@ -86,8 +86,8 @@ def table(points: float, ranks: Sequence[int], work: Work) -> str:
     return "\n".join(lines)
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson scaling`."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `scripts/lab scaling`."""
     sizes = (1e5, 1e7)
     parser.add_argument("--points", type=float, nargs="+", default=sizes, metavar="N")
     parser.add_argument("--ranks", type=int, nargs="+", default=RANKS, metavar="P")

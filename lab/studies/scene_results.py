@@ -15,10 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson import curves, machine, table
+from caisson import curves, table
 from caisson.paths import PROGRAM, RESULTS, ROOT, SCENES
 from caisson.results import Results, Table
 from caisson.runner import Entries, Run, RunError, Status
+from lab import machine
 
 FILE = ROOT / "doc/scene_results.csv"
 PAGE = ROOT / "doc/results.md"
@@ -137,8 +138,8 @@ def numbers_of(
         return []
     if not run.is_complete():
         run.execute()
-    mark = run.mark()
-    if mark is None or mark["status"] != Status.SUCCESS:
+    record = run.completion_record()
+    if record is None or record["status"] != Status.SUCCESS:
         raise RuntimeError(f"{run.directory / 'log'} says why {scene} failed")
     results_of_run = Results(run.directory)
     if "total_force_N" in results_of_run.history and (
@@ -161,7 +162,7 @@ def numbers_of(
             value,
             commit,
             machine.processor(),
-            mark["cpu_s"],
+            record["cpu_s"],
         )
         for (quantity, depth), value in found.items()
     ]
@@ -267,8 +268,8 @@ def merged(old: list[Number], new: list[Number]) -> list[Number]:
     return sorted(numbers, key=lambda n: (n.way != WHOLE, order.get(n.scene, 99)))
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson scene-results`."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `scripts/lab scene-results`."""
     parser.add_argument("--only", default="", metavar="REGEX", help="scenes that fit")
     parser.add_argument("--short", action="store_true", help="a short way of each")
     parser.add_argument("--write", action="store_true", help="take the numbers over")

@@ -3,8 +3,8 @@
 
 A study of this kind has two keys of its own,
 
-    compare = "triaxial"       # the module of caisson.validation that compares
-    measured = "triaxial.csv"  # what was measured, if that is in a file beside it
+    compare = "triaxial"       # the comparison, one of COMPARISONS
+    measured = "triaxial.csv"  # what was measured, if that is in a file beside the scene
 
 and its runs are made by that module. It writes a picture and rows of a table; each row
 is a quantity, what was computed, what is asked, and whether that is met. A shortfall
@@ -21,20 +21,21 @@ from caisson import table
 from caisson.paths import short
 from caisson.runner import Run
 from caisson.study import Options, Study, StudyError
-from caisson.validation.verdict import COLUMNS, Row
+from lab.validation.verdict import COLUMNS, Row
 
 NAME = "validation"
 STUDY_KEYS = {"compare", "measured"}
 RUN_KEYS = set[str]()
-COMPARISONS = (
-    "triaxial",
-    "cone_clay",
-    "cone_coefficients",
-    "cone_layers",
-    "cone_quick",
-    "cone_sand",
-    "model_caisson",
-)
+# each is the module of this name in the folder of a case
+COMPARISONS = {
+    "triaxial": "triaxial",
+    "cone_clay": "cone_clay",
+    "cone_coefficients": "cone_in_sand",
+    "cone_layers": "cone_layers",
+    "cone_quick": "cone_sand",
+    "cone_sand": "cone_sand",
+    "model_caisson": "model_caisson",
+}
 
 
 class Comparison(Protocol):
@@ -49,11 +50,11 @@ class Comparison(Protocol):
 
 def comparison_of(keys: Mapping[str, Any]) -> Comparison:
     """Return the module of a study. Raises StudyError."""
-    name = keys.get("compare")
+    name = keys.get("compare", "")
     if name not in COMPARISONS:
         names = ", ".join(COMPARISONS)
         raise StudyError(f"compare is {name!r}, not one of {names}")
-    module: Any = importlib.import_module(f"caisson.validation.{name}")
+    module: Any = importlib.import_module(f"{__name__}.{COMPARISONS[name]}.{name}")
     return module
 
 
@@ -81,7 +82,8 @@ def evaluate(studies: Sequence[Study], options: Options, minutes: float) -> int:
             if run.status is None or run.trouble:
                 raise StudyError(f"{study.id} {run.name}: {run.trouble}")
         figure = Figure(figsize=(9, 4), layout="constrained")
-        measured = measured_of(study.file.parent, study.keys)
+        folder = study.runs[0].run.scene.parent
+        measured = measured_of(folder, study.keys)
         rows += comparison_of(study.keys).compare(study, measured, figure)
         path = options.results / f"{study.id}.png"
         figure.savefig(path, dpi=130)

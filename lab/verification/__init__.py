@@ -28,10 +28,10 @@ from typing import Any
 import numpy as np
 
 from caisson import error_bar, table
-from caisson.machine import machine
 from caisson.results import ResultsError, read_table
 from caisson.study import Options, Study, StudyError, StudyRun
 from caisson.table import number
+from lab.machine import machine
 
 NAME = "verification"
 STUDY_KEYS = {"checks"}
@@ -169,7 +169,7 @@ def evaluate(studies: Sequence[Study], options: Options, minutes: float) -> int:
     table.write_csv(options.results / "table.csv", COLUMNS, rows)
     text = table.markdown(COLUMNS, rows)
     (options.results / "table.md").write_text(
-        f"# Verification\n\n`scripts/verify`, {machine()}, {minutes:.0f} minutes.\n\n"
+        f"# Verification\n\n`scripts/lab verify`, {machine()}, {minutes:.0f} minutes.\n\n"
         f"{text}\n",
         encoding="utf-8",
     )

@@ -33,8 +33,8 @@ Found = list[tuple[StudyRun, float, float | None]]  # run, processor time (s), e
 
 def seconds_of(run: StudyRun) -> float | None:
     """Return the processor time of a run, None where it failed."""
-    mark = run.run.mark()
-    return None if mark is None else float(mark["cpu_s"])
+    record = run.run.completion_record()
+    return None if record is None else float(record["cpu_s"])
 
 
 def forces(study: Study, run: StudyRun) -> np.ndarray:

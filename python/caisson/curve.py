@@ -53,7 +53,7 @@ def describe(directory: Path, depths: Sequence[float]) -> Iterator[str]:
     )
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson curve`."""
     parser.add_argument("--at", default=DEPTHS, help="depths (m), with commas")
     parser.add_argument("directories", nargs="+", type=Path, metavar="DIR")

@@ -17,7 +17,7 @@ from caisson.paths import INSTALLED, PROGRAM, SCENES, scene_or_study, short
 from caisson.runner import (
     RunError,
     Status,
-    ask,
+    query,
     environment,
     mpi_command,
     read_parameters,
@@ -25,7 +25,7 @@ from caisson.runner import (
 )
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson run`."""
     parser.usage = "%(prog)s [--ranks N] FILE.prm [option of caisson_mpm]..."
     text = "MPI ranks, default: as many as pay on this machine"
@@ -54,7 +54,7 @@ def choose_ranks(arguments: list[str]) -> int:
     if "--validate" in arguments:
         return 1
     try:
-        points = size_in(ask([*arguments, "--validate"])).points
+        points = size_in(query([*arguments, "--validate"])).points
     except RunError:
         points = 0
     if not points:

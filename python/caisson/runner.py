@@ -81,7 +81,7 @@ def environment() -> dict[str, str]:
     return {**defaults, **os.environ}
 
 
-def ask(arguments: Sequence[str], program: Path = PROGRAM) -> str:
+def query(arguments: Sequence[str], program: Path = PROGRAM) -> str:
     """Return what the program says without a run, as with --validate. Raises RunError
     with that where it refuses the input."""
     done = subprocess.run(
@@ -118,7 +118,7 @@ def read_parameters(
     count as they do in a run. Raises RunError with what the program says where
     it refuses the input.
     """
-    words = ask([*arguments, "--print-parameters"], program)
+    words = query([*arguments, "--print-parameters"], program)
     entries, sections = {}, list[str]()
     for line in map(str.strip, words.splitlines()):
         if line.startswith("subsection "):
@@ -149,7 +149,7 @@ class Run:
     empties it before it runs, unless another process computes there.
     """
 
-    MARK = "run_key.json"
+    RECORD = "run_key.json"
 
     def __init__(
         self,
@@ -190,7 +190,7 @@ class Run:
     def validate(self) -> Size:
         """Let the program check the input without running it; return the size of the
         run. Raises RunError with what it says where it refuses the input."""
-        return size_in(ask([*self.arguments(), "--validate"], self.program))
+        return size_in(query([*self.arguments(), "--validate"], self.program))
 
     @functools.cached_property
     def key(self) -> str:
@@ -201,23 +201,23 @@ class Run:
         text = json.dumps([entries, self.ranks, digest(self.program)], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
 
-    def words(self) -> dict[str, str]:
+    def entry_texts(self) -> dict[str, str]:
         """Return the entries that are set, as a .prm file has them."""
         return {entry: in_words(value) for entry, value in self.entries.items()}
 
-    def mark(self) -> dict[str, Any] | None:
+    def completion_record(self) -> dict[str, Any] | None:
         """Return what a finished run has left: key, entries, status, wall_s and
         cpu_s."""
         try:
-            return json.loads((self.directory / self.MARK).read_text("utf-8"))
+            return json.loads((self.directory / self.RECORD).read_text("utf-8"))
         except (OSError, ValueError):
             return None
 
     def is_complete(self) -> bool:
         """Return whether the results there are those of this run."""
-        mark = self.mark()
+        record = self.completion_record()
         try:
-            return mark is not None and mark["key"] == self.key
+            return record is not None and record["key"] == self.key
         except RunError:
             return False
 
@@ -259,12 +259,12 @@ class Run:
         status = process.returncode = os.waitstatus_to_exitcode(code)
         if status not in (Status.SUCCESS, Status.FAILURE):
             return Status(status) if status in list(Status) else None
-        mark = {
+        record = {
             "key": self.key,
-            "entries": self.words(),
+            "entries": self.entry_texts(),
             "status": status,
             "wall_s": time.monotonic() - begin,
             "cpu_s": used.ru_utime + used.ru_stime,
         }
-        (self.directory / self.MARK).write_text(json.dumps(mark), "utf-8")
+        (self.directory / self.RECORD).write_text(json.dumps(record), "utf-8")
         return Status(status)

@@ -20,7 +20,7 @@ def title_of(scene: Path) -> str:
     return found.group(1) if found else ""
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson scenes`."""
     parser.add_argument(
         "--copy", type=Path, metavar="DIR", help="copy scenes and studies into DIR"

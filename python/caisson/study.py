@@ -43,7 +43,7 @@ name of a run is made of its variant, mesh and own name, as far as it has them.
 A file that is one study takes all of its [variants].
 
 What a study is for takes further keys, of the study or its runs; each kind says
-which (caisson.verification, validation, accuracy, error_bar, stability, forces,
+which (lab.verification, validation, accuracy, error_bar, stability, forces,
 parameters, drainage, speed). A kind may make the runs of a study itself, from keys of
 its own. A key that nobody knows is an error, so that no misspelt one is left out in
 silence.
@@ -120,12 +120,12 @@ class StudyRun:
         if not again and self.run.is_complete():
             return
         status = self.run.execute(time_limit, ranks)
-        mark = self.run.mark()
-        if mark is None:
+        record = self.run.completion_record()
+        if record is None:
             how = "ended early" if status is None else f"exit status {status}"
             self.trouble = f"{how}, see {self.run.directory / 'log'}"
-        cost = f"{mark['wall_s']:.0f} s" if mark else self.trouble
-        if mark and mark["status"] == Status.FAILURE:
+        cost = f"{record['wall_s']:.0f} s" if record else self.trouble
+        if record and record["status"] == Status.FAILURE:
             cost = f"{cost}, ended with a failure"
         print(f"{self.study} {self.name}".rstrip() + f": {cost}", flush=True)
 
@@ -133,11 +133,11 @@ class StudyRun:
     def status(self) -> Status | None:
         """The exit status of the finished run; without one None, and trouble says
         why."""
-        mark = self.run.mark()
-        if mark is None:
+        record = self.run.completion_record()
+        if record is None:
             self.trouble = self.trouble or f"no result in {self.run.directory}"
             return None
-        return Status(mark["status"])
+        return Status(record["status"])
 
 
 @dataclass

@@ -10,12 +10,12 @@ import concurrent.futures
 import importlib
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
 
 from caisson import needed
-from caisson.paths import INSTALLED, PROGRAM, RESULTS, SCENES, scene_or_study, short
+from caisson.paths import PROGRAM, RESULTS, scene_or_study
 from caisson.ranks import Size, cores, plan
 from caisson.runner import RunError, Status
 from caisson.study import (
@@ -29,37 +29,16 @@ from caisson.study import (
     read_toml,
 )
 
-# the studies of the project that have a command of their own
-OWN = {
-    "verify": SCENES / "verification/ladder.toml",
-    "validate": SCENES / "validation/validation.toml",
-    "accuracy": SCENES / "verification/accuracy.toml",
-    "stability": SCENES / "stability/stability.toml",
-    "error-bar": SCENES / "jack_study.toml",
-    "suction-error-bar": SCENES / "suction_study.toml",
-    "tip": SCENES / "tip_study.toml",
-    "drainage": SCENES / "drainage_study.toml",
-    "speed": SCENES / "speed.toml",
-}
+# those of users; the laboratory has more
 KINDS = {
-    "verification": "caisson.verification",
-    "validation": "caisson.validation",
-    "accuracy": "caisson.accuracy",
-    "stability": "caisson.stability",
     "error bar": "caisson.error_bar",
-    "forces": "caisson.forces",
     "parameters": "caisson.parameters",
-    "drainage": "caisson.drainage",
-    "speed": "caisson.speed",
 }
 # runs for each core above which several ranks gain nothing that matters, and the
 # duration of a run (s) below which it is not worth to ask for its size
 FEW, LONG = 4, 20
 # runs, how many of them at a time, and their ranks, None for their own
 Share = tuple[Sequence[StudyRun], int, int | None]
-
-if INSTALLED:  # speed is measured on what a build directory has
-    del OWN["speed"], KINDS["speed"]
 
 
 def whole_number(text: str) -> int:
@@ -89,14 +68,12 @@ def duration(seconds: float) -> str:
     return f"{seconds / 60:.2g} min" if seconds < 5400 else f"{seconds / 3600:.2g} h"
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of all studies."""
-    own = OWN.get(parser.prog.split()[-1])
-    if own is None:
+def add_arguments(parser: argparse.ArgumentParser, file: Path | None = None) -> None:
+    """Add the options of all studies; file: the study, an argument if None."""
+    if file is None:
         parser.add_argument("file", type=scene_or_study, help="the study, a .toml file")
     else:
-        parser.set_defaults(file=own)
-        parser.epilog = f"The study is {short(own)}."
+        parser.set_defaults(file=file)
     add = parser.add_argument
     add("--only", default="", metavar="REGEX", help="studies whose id or title fits")
     add("--quick", action="store_true", help="those of some seconds only")
@@ -111,14 +88,14 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--results", type=Path, help="directory of the results")
 
 
-def module_of(file: Path) -> ModuleType:
+def module_of(file: Path, kinds: Mapping[str, str] = KINDS) -> ModuleType:
     """Return the module of the kind of study. Raises StudyError."""
     kind = read_toml(file).get("kind")
-    if kind not in KINDS:
-        kinds = ", ".join(KINDS)
-        raise StudyError(f"{file}: kind is {kind!r}, not one of {kinds}")
+    if kind not in kinds:
+        known = ", ".join(kinds)
+        raise StudyError(f"{file}: kind is {kind!r}, not one of {known}")
     try:
-        return importlib.import_module(KINDS[kind])
+        return importlib.import_module(kinds[kind])
     except ModuleNotFoundError as error:
         raise StudyError(needed.complaint() or str(error)) from error
 
@@ -129,7 +106,7 @@ def reader_of(file: Path, options: Options, module: ModuleType) -> Reader:
     return Reader(file, options, module.STUDY_KEYS, module.RUN_KEYS, make_runs)
 
 
-def ask_size(run: StudyRun) -> None:
+def query_size(run: StudyRun) -> None:
     """Ask the program for the size of a run that it accepts."""
     try:
         run.size = run.run.validate()
@@ -143,7 +120,7 @@ def cost_of(study: Study) -> str:
     silent = [run for run in study.runs if not run.seconds]
     asked = silent[:: max(1, (len(silent) - 1) // 2)][:3]
     for run in asked:
-        ask_size(run)
+        query_size(run)
     found = [run.duration for run in asked]
     if not all(found):
         return "duration not known"
@@ -161,24 +138,24 @@ def print_list(studies: list[Study]) -> None:
         print(f"{study.id}: {study.title}, {n} runs, {cost_of(study)}", flush=True)
 
 
-def main(words: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace, kinds: Mapping[str, str] = KINDS) -> int:
     """Run and evaluate."""
     try:
-        module = module_of(words.file)
+        module = module_of(arguments.file, kinds)
         options = Options(
-            only=words.only,
-            quick=words.quick,
-            program=words.program.resolve(),
-            results=words.results or RESULTS / module.NAME.replace(" ", "_"),
+            only=arguments.only,
+            quick=arguments.quick,
+            program=arguments.program.resolve(),
+            results=arguments.results or RESULTS / module.NAME.replace(" ", "_"),
         )
-        studies = reader_of(words.file, options, module).studies()
+        studies = reader_of(arguments.file, options, module).studies()
         if not studies:
-            raise StudyError(f"{words.file}: no study fits")
-        if words.list:
+            raise StudyError(f"{arguments.file}: no study fits")
+        if arguments.list:
             print_list(studies)
             return 0
         options.results.mkdir(parents=True, exist_ok=True)
-        return int(run_and_evaluate(module, studies, options, words))
+        return int(run_and_evaluate(module, studies, options, arguments))
     except StudyError as error:
         print(f"study: {error}", file=sys.stderr)
         return 1
@@ -188,26 +165,26 @@ def run_and_evaluate(
     module: ModuleType,
     studies: list[Study],
     options: Options,
-    words: argparse.Namespace,
+    arguments: argparse.Namespace,
 ) -> int:
     """Run what is missing; return the status of the evaluation."""
     begin = time.monotonic()
     if hasattr(module, "measure"):  # its runs take turns
-        if words.part:
+        if arguments.part:
             raise StudyError(f"studies of kind {module.NAME!r} have no parts")
-        return int(module.measure(studies, options, words.evaluate))
-    if not words.evaluate:
-        jobs = words.jobs or getattr(module, "JOBS", None)
+        return int(module.measure(studies, options, arguments.evaluate))
+    if not arguments.evaluate:
+        jobs = arguments.jobs or getattr(module, "JOBS", None)
         if hasattr(module, "check"):
             module.check(studies, jobs or cores())
         runs = [run for study in studies for run in study.runs]
-        if words.part:
-            runs = runs[words.part[0] - 1 :: words.part[1]]
+        if arguments.part:
+            runs = runs[arguments.part[0] - 1 :: arguments.part[1]]
         limit = getattr(module, "TIME_LIMIT", None)
-        for some, at_a_time, ranks in shares_of(to_do_of(runs, words.again), jobs):
-            execute(some, at_a_time, words.again, limit, ranks)
-        if words.part:
-            return tell_part(runs, words)
+        for some, at_a_time, ranks in shares_of(to_do_of(runs, arguments.again), jobs):
+            execute(some, at_a_time, arguments.again, limit, ranks)
+        if arguments.part:
+            return report_part(runs, arguments)
     minutes = (time.monotonic() - begin) / 60
     return int(module.evaluate(studies, options, minutes))
 
@@ -224,7 +201,7 @@ def to_do_of(runs: Sequence[StudyRun], again: bool) -> list[StudyRun]:
         found = [run for run, is_chosen in zip(runs, chosen) if is_chosen]
         if len(found) <= FEW * cores():
             long = [run for run in found if run.seconds >= LONG]
-            list(pool.map(ask_size, [run for run in long if not run.size.points]))
+            list(pool.map(query_size, [run for run in long if not run.size.points]))
     return longest_first(found)
 
 
@@ -248,10 +225,10 @@ def shares_of(runs: Sequence[StudyRun], jobs: int | None) -> list[Share]:
     return shares
 
 
-def tell_part(runs: Sequence[StudyRun], words: argparse.Namespace) -> int:
+def report_part(runs: Sequence[StudyRun], arguments: argparse.Namespace) -> int:
     """Say what has become of the runs of a part; return 1 where one is missing."""
     done = sum(run.status == Status.SUCCESS for run in runs)
-    number, of = words.part
+    number, of = arguments.part
     print(f"part {number} of {of}: {done} of {len(runs)} runs are complete")
     for run in runs:
         if run.status != Status.SUCCESS:

@@ -155,7 +155,7 @@ class Launch(unittest.TestCase):
     def choose(self, answer: str, *arguments: str) -> tuple[int, str]:
         """Return what is chosen where the program answers so, and what is said."""
         said = io.StringIO()
-        with mock.patch.object(launch, "ask", return_value=answer), mock.patch.object(
+        with mock.patch.object(launch, "query", return_value=answer), mock.patch.object(
             ranks, "cores", return_value=2
         ), mock.patch.object(ranks, "can_start_ranks", return_value=True):
             with contextlib.redirect_stderr(said):

@@ -9,12 +9,12 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from made_up import write_run
+from synthetic import write_run
 
 from caisson.plot import comparison
 
 
-def made_up(directory: Path, depths: list[float]) -> Path:
+def synthetic(directory: Path, depths: list[float]) -> Path:
     """Write a history in which the force follows the depth, without water."""
     directory.mkdir()
     rows = [f"{i},{depth},{1e6 * depth}" for i, depth in enumerate(depths)]
@@ -48,7 +48,7 @@ class Files(unittest.TestCase):
     def compare(self, *words: object, interval: float = 0.1) -> int:
         """Run the command; a picture is given, so that none is left elsewhere."""
         parser = argparse.ArgumentParser(prog="caisson compare")
-        comparison.declare(parser)
+        comparison.add_arguments(parser)
         picture = str(self.path / "both.png")
         options = parser.parse_args(
             ["--interval", str(interval), picture, *map(str, words)]
@@ -65,8 +65,8 @@ class Files(unittest.TestCase):
     def test_common_depths(self) -> None:
         """A force of 1 MN per meter, empty where a run has not been; the columns of
         a quantity beside each other."""
-        deep = made_up(self.path / "deep", [0.5, 1.05, 2.3])
-        flat = made_up(self.path / "flat", [0.75, 1.25])
+        deep = synthetic(self.path / "deep", [0.5, 1.05, 2.3])
+        flat = synthetic(self.path / "flat", [0.75, 1.25])
         self.assertEqual(self.compare(deep, flat, interval=0.5), 0)
         self.assertGreater((self.path / "both.png").stat().st_size, 1000)
         columns = self.columns()
@@ -110,8 +110,8 @@ class Files(unittest.TestCase):
         self.assertEqual(columns["pushing_force_N [b/run]"][0], "5")
 
     def test_refused(self) -> None:
-        still = made_up(self.path / "still", [1, 1])
-        short = made_up(self.path / "short", [1.01, 1.02])
+        still = synthetic(self.path / "still", [1, 1])
+        short = synthetic(self.path / "short", [1.01, 1.02])
         cases: list[tuple[list[Path], str]] = [
             ([still], "still does not move"),
             ([short], "no run passes a multiple of 0.1 m"),

@@ -5,7 +5,8 @@ import unittest
 
 import numpy as np
 
-from caisson.consolidation import (
+from caisson.paths import ROOT
+from lab.verification.consolidation_large.consolidation import (
     TIME,
     Column,
     checks,
@@ -14,10 +15,9 @@ from caisson.consolidation import (
     observations,
     times_to,
 )
-from caisson.paths import ROOT
 
-SCENE = ROOT / "prm/verification/consolidation_large.prm"
-LADDER = ROOT / "prm/verification/ladder.toml"
+SCENE = ROOT / "lab/verification/consolidation_large/consolidation_large.prm"
+LADDER = ROOT / "lab/verification/ladder.toml"
 
 
 def neumann(load: float) -> float:

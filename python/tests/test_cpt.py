@@ -38,7 +38,7 @@ HEAD = "depth_m,qc_MPa,fs_kPa,u2_kPa\n"
 def options(*words: str) -> argparse.Namespace:
     """Return the options that say how a test is read."""
     parser = argparse.ArgumentParser()
-    interpretation.declare(parser)
+    interpretation.add_arguments(parser)
     return parser.parse_args(words)
 
 
@@ -529,7 +529,7 @@ class Command(WithFiles):
     def call(self, *words: str) -> tuple[int, str]:
         """Return status and words of `caisson cpt`."""
         parser = argparse.ArgumentParser()
-        command.declare(parser)
+        command.add_arguments(parser)
         said = io.StringIO()
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             status = command.main(parser.parse_args(words))

@@ -6,8 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from caisson.design.bearing_capacity import Footing, converged, factors, pressure
-from caisson.design.cavity_expansion import MohrCoulomb, Tresca, comparison
 from caisson.design.houlsby_byrne import (
     UNDISTURBED,
     Assumptions,
@@ -16,6 +14,17 @@ from caisson.design.houlsby_byrne import (
     Seepage,
     bearing_factor_weight,
     method,
+)
+from lab.verification.cavity_mohr_coulomb.cavity_expansion import (
+    MohrCoulomb,
+    Tresca,
+    comparison,
+)
+from lab.verification.footing_sand.bearing_capacity import (
+    Footing,
+    converged,
+    factors,
+    pressure,
 )
 
 SAND = Layer(top=0, unit_weight=8829, friction_angle=30, lateral_stress_ratio=0.5)

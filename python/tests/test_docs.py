@@ -4,8 +4,13 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from caisson.docs.names import defaults_of, entries_of, faults_of, wrong_defaults
-from caisson.docs.parameters import parsed
+from caisson_workshop.document_names import (
+    defaults_of,
+    entries_of,
+    faults_of,
+    wrong_defaults,
+)
+from caisson_workshop.parameter_page import parsed
 
 PRINTED = """
 # All entries.

@@ -8,11 +8,12 @@ import unittest.mock
 from pathlib import Path
 
 import numpy as np
-from made_up import write_run
+from synthetic import write_run
 
-from caisson import error_bar, verification
+from caisson import error_bar
 from caisson.results import ResultsError, Table, read_table
 from caisson.study import Options, Reader, Study, StudyError
+from lab import verification
 
 STUDY = """
 kind = "error bar"
@@ -34,7 +35,7 @@ factor = 2
 SUCTION = 1e4  # Pa for each meter
 
 
-def made_up(force: float, suction: float | None) -> Table:
+def synthetic(force: float, suction: float | None) -> Table:
     """Return a history whose forces are larger by this share, and whose suction is
     larger by this amount (Pa) and zero at 2 m; None: drained."""
     depth = np.linspace(0.5, 3.5, 301)
@@ -65,7 +66,7 @@ class ErrorBar(unittest.TestCase):
         (study,) = Reader(file, options, error_bar.STUDY_KEYS, set()).studies()
         for run, force, suction in zip(study.runs, (0, 0.03, -0.02), suctions):
             summary = {"fingerprint": "f00d", "wall_time_s": 60}
-            write_run(run.run.directory, made_up(force, suction), summary)
+            write_run(run.run.directory, synthetic(force, suction), summary)
         return study
 
     def bars(self, study: Study) -> tuple[Table, str]:

@@ -5,9 +5,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from caisson.developer.faults import damages, mutations
-from caisson.developer.faults.process import Outcome, call
-from caisson.developer.faults.states import difference
+from caisson_workshop.faults import damages, mutations
+from caisson_workshop.faults.process import Outcome, call
+from caisson_workshop.faults.states import difference
 
 SCENE = b"""set Title = a scene
 subsection Grid

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import caisson
 from caisson.__main__ import COMMANDS
-from caisson.developer.lengths import cpp_functions
 from caisson.paths import ROOT
+from caisson_workshop.lengths import cpp_functions
 
 CPP = """
 namespace N
@@ -55,7 +55,7 @@ class Imports(unittest.TestCase):
         """Each declares its options and has a main()."""
         for name, (module, _) in COMMANDS.items():
             found = importlib.import_module(module)
-            found.declare(argparse.ArgumentParser(prog=f"caisson {name}"))
+            found.add_arguments(argparse.ArgumentParser(prog=f"caisson {name}"))
             self.assertTrue(callable(found.main))
 
     def test_command_line(self) -> None:

@@ -17,7 +17,7 @@ from caisson.study import Options, Study, StudyError, StudyRun
 
 SHARES = (np.arange(20000) + 0.5) / 20000
 PHI = '[parameters."Soil/Friction angle"]\n'
-STAND_IN = Path(__file__).resolve().parent / "stand_in.py"
+FAKE_PROGRAM = Path(__file__).resolve().parent / "fake_program.py"
 
 
 class Distributions(unittest.TestCase):
@@ -105,7 +105,7 @@ class Runs(unittest.TestCase):
         file = self.path / "s.toml"
         head = 'kind = "parameters"\nscene = "a.prm"\n'
         file.write_text(head + text, encoding="utf-8")
-        options = Options(results=self.path / "results", program=STAND_IN)
+        options = Options(results=self.path / "results", program=FAKE_PROGRAM)
         module = study_command.module_of(file)
         (study,) = study_command.reader_of(file, options, module).studies()
         return study

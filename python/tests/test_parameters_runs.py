@@ -14,7 +14,7 @@ from pathlib import Path
 from unittest import mock
 
 import numpy as np
-from made_up import write_run
+from synthetic import write_run
 
 from caisson import parameters, study_command
 from caisson.parameters import effects
@@ -23,7 +23,7 @@ from caisson.ranks import cores
 from caisson.results import read_table
 from caisson.study import Options, Study, StudyError
 
-STAND_IN = Path(__file__).resolve().parent / "stand_in.py"
+FAKE_PROGRAM = Path(__file__).resolve().parent / "fake_program.py"
 HEAD = 'kind = "parameters"\nscene = "a.prm"\n'
 PHI = '[parameters."Soil/Friction angle"]\n'
 # starts one process only, and keeps the words of the call
@@ -63,8 +63,8 @@ class Commands(WithFiles):
     def study(self, *options: str) -> tuple[int, str]:
         """Run the command; return its status and all that it says."""
         parser = argparse.ArgumentParser(prog="caisson study")
-        study_command.declare(parser)
-        words = [str(self.path / "s.toml"), "--program", str(STAND_IN)]
+        study_command.add_arguments(parser)
+        words = [str(self.path / "s.toml"), "--program", str(FAKE_PROGRAM)]
         words += ["--results", str(self.path / "results"), *options]
         said = io.StringIO()
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
@@ -181,7 +181,7 @@ class Commands(WithFiles):
     def test_jobs(self) -> None:
         """As many runs at a time as there are cores for their ranks."""
         self.write("ranks = 1000\n" + PHI + "values = [30]")
-        options = Options(program=STAND_IN)
+        options = Options(program=FAKE_PROGRAM)
         file = self.path / "s.toml"
         module = study_command.module_of(file)
         (study,) = study_command.reader_of(file, options, module).studies()
@@ -230,7 +230,7 @@ class Evaluation(WithFiles):
         """Return the outcomes of a study whose forces, in N, are an expression of the
         penetration d, the number i of the run and its sample s."""
         file = self.write(text)
-        options = Options(results=self.path / "results", program=STAND_IN)
+        options = Options(results=self.path / "results", program=FAKE_PROGRAM)
         module = study_command.module_of(file)
         study: Study
         (study,) = study_command.reader_of(file, options, module).studies()
@@ -239,8 +239,13 @@ class Evaluation(WithFiles):
             table = {"time_s": PUSHED, "penetration_m": PUSHED}
             table["total_force_N"] = eval(force, names) + 0 * PUSHED
             write_run(run.run.directory, table, summary)
-            mark = {"key": "", "entries": run.run.words(), "status": 0, "wall_s": 1}
-            (run.run.directory / "run_key.json").write_text(json.dumps(mark))
+            record = {
+                "key": "",
+                "entries": run.run.entry_texts(),
+                "status": 0,
+                "wall_s": 1,
+            }
+            (run.run.directory / "run_key.json").write_text(json.dumps(record))
         return Outcomes(study)
 
     def test_one_at_a_time(self) -> None:

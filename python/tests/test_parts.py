@@ -7,7 +7,7 @@ import unittest
 from collections.abc import Sequence
 from pathlib import Path
 
-from caisson.developer.parts import PARTS, Part, Result, count, run_all, table
+from caisson_workshop.parts import PARTS, Part, Result, count, run_all, table
 
 
 def shell(name: str, words: str, needs: str = "", is_beside: bool = False) -> Part:

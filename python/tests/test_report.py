@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from made_up import write_columns, write_run
+from synthetic import write_columns, write_run
 
 from caisson import report
 from caisson.report import content, methods

@@ -99,7 +99,7 @@ class Tables(Directory):
 
 
 class Pictures(Directory):
-    """scripts/plot and scripts/caisson curve."""
+    """scripts/caisson plot and scripts/caisson curve."""
 
     def test_tiny_run(self) -> None:
         path = Path(shutil.copytree(TINY, self.path / "run"))

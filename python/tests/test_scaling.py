@@ -2,7 +2,7 @@
 """The estimate for many ranks."""
 import unittest
 
-from caisson.speed.scaling import NETWORKS, Network, Work, step_time, table
+from lab.performance.scaling import NETWORKS, Network, Work, step_time, table
 
 NO_COST = Network("none", 0.0, float("inf"))
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from caisson import scene_results
-from caisson.scene_results import WHOLE, Number
+from lab.studies import scene_results
+from lab.studies.scene_results import WHOLE, Number
 
 
 class Files(unittest.TestCase):

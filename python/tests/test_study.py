@@ -6,9 +6,11 @@ import unittest
 from pathlib import Path
 from typing import Any
 
-from caisson import study_command, verification
+from caisson import study_command
 from caisson.paths import SCENES
 from caisson.study import Options, Reader, Study, StudyError
+from lab import study_command as lab_studies
+from lab import verification
 
 HEAD = """
 kind = "forces"

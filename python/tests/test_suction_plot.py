@@ -10,13 +10,13 @@ from unittest import mock
 
 import numpy as np
 from matplotlib.figure import Figure
-from made_up import write_columns, write_run
+from synthetic import write_columns, write_run
 
 from caisson import plot
 from caisson.design import seepage
 from caisson.design import suction_installation as installation
-from caisson.design.houlsby_byrne import Caisson, Layer
 from caisson.design.cone import Profile
+from caisson.design.houlsby_byrne import Caisson, Layer
 from caisson.plot import design, suction, theory
 from caisson.plot import suction_methods as methods
 from caisson.results import Results
@@ -60,7 +60,7 @@ LIGHT: dict[str, Any] = {
 }
 
 
-def made_up() -> dict[str, np.ndarray]:
+def synthetic() -> dict[str, np.ndarray]:
     """Return columns of history.csv: required suction 10 kPa for each meter."""
     depth = np.linspace(0.5, 4.53, 32)
     required = 1e4 * (depth - REST)
@@ -104,7 +104,7 @@ class MadeUpRun(unittest.TestCase):
             return list(csv.DictReader(file))
 
     def test_files(self) -> None:
-        self.write(made_up())
+        self.write(synthetic())
         names = [path.name for path in plot.draw(self.path)]
         self.assertEqual(names, ["forces.png", "suction.png", "design.csv"])
         picture = (self.path / "suction.png").read_bytes()
@@ -114,7 +114,7 @@ class MadeUpRun(unittest.TestCase):
     def test_error_bars(self) -> None:
         """The band of 2 kPa about the required suction is drawn; without a file
         of bounds there is none."""
-        run = self.write(made_up())
+        run = self.write(synthetic())
         (axes,) = Figure().subplots(1, 1, squeeze=False)[0]
         answers = methods.answers_of(SITE, np.array([1.0, 4.0]))
         suction.draw_suction(axes, run, answers)
@@ -136,7 +136,7 @@ class MadeUpRun(unittest.TestCase):
         self.assertAlmostEqual(sides.max(), 10 * (at - REST) + 2)
 
     def test_values_at_one_depth(self) -> None:
-        design.write(self.path / "design.csv", self.write(made_up()))
+        design.write(self.path / "design.csv", self.write(synthetic()))
         rows = self.design()
         depths = [float(row["penetration_m"]) for row in rows]
         np.testing.assert_allclose(depths, np.arange(5, 46) / 10)
@@ -169,7 +169,7 @@ class MadeUpRun(unittest.TestCase):
 
     def test_cells_without_an_answer_are_empty(self) -> None:
         """Without weight, and with much friction outside, no suction suffices."""
-        design.write(self.path / "design.csv", self.write(made_up(), **LIGHT))
+        design.write(self.path / "design.csv", self.write(synthetic(), **LIGHT))
         last = self.design()[-1]
         self.assertEqual(last["houlsby_byrne_low_Pa"], "")
         self.assertGreater(float(last["critical_feld_Pa"]), 0)
@@ -186,7 +186,7 @@ class MadeUpRun(unittest.TestCase):
         self.assertAlmostEqual(found / seepage.feld(9e3, 4, D), 1)
 
     def test_penetration_by_weight(self) -> None:
-        history = made_up()
+        history = synthetic()
         self.assertAlmostEqual(suction.rest_of_run(history) or 0, REST, delta=0.14)
         history["suction_Pa"][0] = 5.0  # not for good
         self.assertAlmostEqual(suction.rest_of_run(history) or 0, REST, delta=0.14)
@@ -201,7 +201,7 @@ class MadeUpRun(unittest.TestCase):
             self.assertAlmostEqual(force / WEIGHT, 1)
 
     def test_water_boils_later_as_the_lid_comes_down(self) -> None:
-        history = made_up()
+        history = synthetic()
         for farthest, lines in ((310.0, 1), (300.0, 0)):  # kPa; it boils from 305 on
             axes = Figure().subplots()
             axes.set_xlim(0, farthest)
@@ -221,7 +221,7 @@ class MadeUpRun(unittest.TestCase):
     def test_drained_run(self) -> None:
         """It has forces in design.csv, and no suction. The only record within 0.1 m of
         4 m is that at 4.01 m. The first force is that of the second record."""
-        history = made_up()
+        history = synthetic()
         for name in ("suction_Pa", "required_suction_Pa"):
             del history[name]
         history["tip_force_N"] = 1e5 * history["penetration_m"]
@@ -245,7 +245,7 @@ class MadeUpRun(unittest.TestCase):
 
     def test_cone_test(self) -> None:
         """2 MPa per meter down to 4.2 m: 0.3 8 MPa pi 5.9 m 0.1 m at 4 m."""
-        run = self.write(made_up())
+        run = self.write(synthetic())
         (self.path / "cone.csv").write_text("depth_m,qc_MPa\n0,0\n4.2,8.4\n")
         design.write(self.path / "design.csv", run)
         rows = self.design()
@@ -277,7 +277,7 @@ class MadeUpRun(unittest.TestCase):
         heavy: dict[str, Any] = {"submerged_weight_N": 1e9}
         for change in (heavy, LIGHT):
             site = theory.Site({**SCENE, **change})
-            run = self.write(made_up(), **change)
+            run = self.write(synthetic(), **change)
             (axes,) = Figure().subplots(1, 1, squeeze=False)[0]
             answers = methods.answers_of(site, np.linspace(4, 6, 5))
             suction.draw_suction(axes, run, answers)
@@ -290,7 +290,7 @@ class MadeUpRun(unittest.TestCase):
         """Return the lines and bands of the suctions down to 4.5 m, by label."""
         (axes,) = Figure().subplots(1, 1, squeeze=False)[0]
         answers = methods.answers_of(site, np.linspace(0, 4.5, 91))
-        suction.draw_suction(axes, self.write(made_up()), answers)
+        suction.draw_suction(axes, self.write(synthetic()), answers)
         handles, labels = axes.get_legend_handles_labels()
         return dict(zip(labels, handles))
 
@@ -301,7 +301,7 @@ class MadeUpRun(unittest.TestCase):
         self.assertNotIn(name, self.drawn(SITE))
         cone = Profile([0, 10], [0, 10e6])
         self.assertIn(name, self.drawn(SITE._replace(cone=cone)))
-        design.write(self.path / "design.csv", self.write(made_up()))
+        design.write(self.path / "design.csv", self.write(synthetic()))
         self.assertNotIn("senders_randolph_Pa", self.design()[0])
 
     def test_required_and_critical_look_different(self) -> None:
@@ -351,10 +351,10 @@ class MadeUpRun(unittest.TestCase):
 
     def test_cone_test_of_the_command_line(self) -> None:
         """It is kept where it is good; a wrong one is named with its row."""
-        self.write(made_up())
+        self.write(synthetic())
         file = self.path / "mine.csv"
         parser = argparse.ArgumentParser()
-        plot.declare(parser)
+        plot.add_arguments(parser)
         options = parser.parse_args(["--cpt", str(file), str(self.path)])
         file.write_text("depth_m,qc_MPa\n0,0\n1,x\n", encoding="utf-8")
         with mock.patch("builtins.print") as printed:
@@ -371,21 +371,21 @@ class MadeUpRun(unittest.TestCase):
     def test_no_caisson_that_goes_down(self) -> None:
         """A cone, and a caisson that is pulled out, have no design.csv."""
         path = self.path / "design.csv"
-        self.assertIsNone(design.write(path, self.write(made_up(), diameter_m=None)))
-        history = made_up()
+        self.assertIsNone(design.write(path, self.write(synthetic(), diameter_m=None)))
+        history = synthetic()
         history["penetration_m"] = history["penetration_m"][::-1]
         self.assertIsNone(design.write(path, self.write(history)))
         self.assertFalse(path.exists())
 
     def test_body_at_rest_has_neither_file(self) -> None:
-        history = made_up()
+        history = synthetic()
         history["penetration_m"][:] = 1.0
         run = self.write(history)
         self.assertEqual(suction.draw(self.path, run), [])
         self.assertIsNone(design.write(self.path / "design.csv", run))
 
     def test_clay_says_why(self) -> None:
-        run = self.write(made_up(), layers=[{**SAND, "cohesion_Pa": 5e3}])
+        run = self.write(synthetic(), layers=[{**SAND, "cohesion_Pa": 5e3}])
         self.assertEqual(len(suction.draw(self.path, run)), 1)
         design.write(self.path / "design.csv", run)
         row = self.design()[10]
@@ -396,12 +396,12 @@ class MadeUpRun(unittest.TestCase):
         self.assertEqual(text, "no design methods: layer 1 has cohesion")
 
     def test_file_without_weight_says_why(self) -> None:
-        run = self.write(made_up(), submerged_weight_N=None)
+        run = self.write(synthetic(), submerged_weight_N=None)
         answers = methods.answers_of(theory.site_of(run), np.array([1.0]))
         self.assertIn("submerged_weight_N", answers.why_not)
 
     def test_way_back_is_left_out(self) -> None:
-        history = made_up()
+        history = synthetic()
         back = {name: np.append(column, -9.0) for name, column in history.items()}
         depth = design.depths_of(back)
         np.testing.assert_allclose(depth, design.depths_of(history))

@@ -2,7 +2,7 @@
 """What two hosts have sent each other is counted."""
 import unittest
 
-from caisson.developer.two_hosts import Traffic, describe, read_profile
+from caisson_workshop.two_hosts import Traffic, describe, read_profile
 
 PROFILE = """# POINT TO POINT
 E\t1\t0\t800 bytes\t10 msgs sent\t0,0,0,6,10

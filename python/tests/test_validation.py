@@ -5,11 +5,11 @@ import unittest
 
 import numpy as np
 
-from caisson.paths import SCENES
-from caisson.validation import triaxial
-from caisson.validation.verdict import Row
+from lab.paths import LAB
+from lab.validation.triaxial import triaxial
+from lab.validation.verdict import Row
 
-TESTS = SCENES / "validation/triaxial.csv"
+TESTS = LAB / "validation/triaxial/triaxial.csv"
 
 
 class Rows(unittest.TestCase):

@@ -435,7 +435,7 @@ namespace CaissonMPM
                          ": history.csv, run.json, points.pvd, grid.pvd" +
                          (parts.body.shape().exists() ? ", body.pvd" : ""));
     lines.emplace_back("next",
-                       "scripts/plot " + directory +
+                       "scripts/caisson plot " + directory +
                          " draws the results (of an installed program: "
                          "caisson plot); --restart with a later end continues "
                          "the run");

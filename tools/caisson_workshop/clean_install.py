@@ -11,7 +11,7 @@ With --day, the commands are those of doc/how_to/own_caisson.md: a scene for one
 caisson, its run and report, a study of the friction angle, and a comparison.
 
 With --user, the commands are those of an ordinary user with sudo, whom the tree then
-has, as Windows makes it (WSL). With --install, packages that scripts/package has
+has, as Windows makes it (WSL). With --install, packages that tools/package has
 built for this release are installed instead of the clone, and an ordinary user runs
 two scenes with them.
 
@@ -182,8 +182,8 @@ def run_inside(tree: Path, command: str, log: Path) -> int:
         ).returncode
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson bare-debian`."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `tools/workshop bare-debian`."""
     parser.add_argument("release", choices=RELEASES)
     parser.add_argument("directory", type=Path, metavar="DIR")
     parser.add_argument("--mirror", default=mirror(), help="default: that of apt")

@@ -12,17 +12,17 @@ import argparse
 import re
 from pathlib import Path
 
-from caisson.docs.parameters import Section, parsed
 from caisson.paths import ROOT
+from caisson_workshop.parameter_page import Section, parsed
 
 # Folders of the tree, and those of the C++ sources, which are named without the
 # folders "source" and "include/caisson_mpm" above them.
-FOLDERS = "prm scripts tests doc python benchmarks source include".split()
+FOLDERS = "prm lab scripts tools tests doc python source include".split()
 FLOORS = "base kernels materials bodies domain operators output checks restart".split()
 # Pages that are generated, or that name what is gone.
 GENERATED_OR_PAST = {"parameters.md", "CHANGELOG.md"}
 SUFFIXES = {".h", ".cc", ".py", ".prm", ".toml", ".txt", ""}
-# Code, formulas, and the part of the benchmarks that scripts/speed writes.
+# Code, formulas, and the part of the benchmarks that `scripts/lab publish-speed` writes.
 NOT_WRAPPED = r"```.*?```|\$\$.*?\$\$|<!-- speed: begin.*speed: end -->"
 STATED_DEFAULT = re.compile(r"`([^`/]+/[^`]+)`\s+is\s+`?([^`\s]+)`?\s+by\s+default")
 GLOSSARY = "glossary.md"
@@ -134,8 +134,8 @@ def faults_of(page: Path, entries: set[str], names: set[str]) -> list[str]:
     return faults
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson check-documents`."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `tools/workshop check-documents`."""
     text = "output of caisson_mpm --print-parameters"
     parser.add_argument("printed", type=Path, help=text)
 

@@ -124,8 +124,8 @@ def draw_step(axes: Axes) -> None:
     axes.annotate("", (13.65, 11.5), (13.65, 0.5), arrowprops=back)
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson draw-architecture`: none."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `tools/workshop draw-architecture`: none."""
 
 
 def main(_: argparse.Namespace) -> int:

@@ -246,8 +246,8 @@ def draw_steps(axes: Axes, x: float, y: float) -> None:
     )
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson draw-blocks`: none."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `tools/workshop draw-blocks`: none."""
 
 
 def main(_: argparse.Namespace) -> int:

@@ -87,8 +87,8 @@ def names(axes: Axes) -> None:
     words(axes, INSIDE - 1.25, -7.9, "near")
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson draw-zones`: none."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `tools/workshop draw-zones`: none."""
 
 
 def main(_: argparse.Namespace) -> int:

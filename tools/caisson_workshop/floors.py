@@ -15,8 +15,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from caisson.developer.lengths import check_lengths
 from caisson.paths import ROOT
+from caisson_workshop.lengths import check_lengths
 
 Violations = Iterator[tuple[int, str]]  # (line, text)
 
@@ -154,17 +154,18 @@ def check_source(path: Path, listed: set[Path]) -> Violations:
         yield 1, "not named in any CMakeLists.txt"
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson check-floors`: none."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `tools/workshop check-floors`: none."""
 
 
 def main(_: argparse.Namespace) -> int:
     """Check all files."""
     listed = named_in_cmake()
     sources = files("include/**/*.h", "source/**/*.h", "source/**/*.cc")
-    tests = files("tests/**/*.h", "tests/**/*.cc", "benchmarks/**/*.cc")
-    python = files("python/**/*.py", "tests/*.py")
-    scripts = files("scripts/*")
+    tests = files("tests/**/*.h", "tests/**/*.cc", "lab/**/*.h", "lab/**/*.cc")
+    folders = ("python", "lab", "tools", "tests")
+    python = files(*(f"{folder}/**/*.py" for folder in folders))
+    scripts = files("scripts/*", "tools/*")
     violations = []
     for path in sources + tests + python + scripts:
         found = [*check_license(path), *check_lengths(path)]

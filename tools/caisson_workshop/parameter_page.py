@@ -121,8 +121,8 @@ def entry_of(assignment: str, comment: str) -> Entry:
     return Entry(name, default.strip(), text, allowed.rstrip("."))
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson parameter-page`."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `tools/workshop parameter-page`."""
     add = parser.add_argument
     add("printed", type=Path, help="output of caisson_mpm --print-parameters")
     add("page", type=Path, help="the page to write, as Markdown")

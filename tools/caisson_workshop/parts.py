@@ -46,11 +46,11 @@ class Result:
 
 CTEST = ["ctest", "--test-dir", str(BUILD), "-j", CORES, "--output-on-failure"]
 PARTS = (
-    Part("lint", ["scripts/lint"], is_beside=True),
+    Part("lint", ["tools/lint"], is_beside=True),
     Part("build", ["scripts/build"]),
     Part(
         "documents",
-        ["scripts/docs", "--program", str(BUILD / "caisson_mpm")],
+        ["tools/docs", "--program", str(BUILD / "caisson_mpm")],
         "build",
         is_beside=True,
     ),
@@ -66,14 +66,14 @@ PARTS = (
     ),
     Part(
         "validation",
-        ["scripts/caisson", "validate", "--quick"],
+        ["scripts/lab", "validate", "--quick"],
         "build",
         is_beside=True,
         counts=[r"^validation: (?P<all>\d+) rows,", "(?P<failed>)NOT KNOWN WHY"],
     ),
     Part(
         "faults",
-        ["scripts/caisson", "faults", "--short"],
+        ["tools/workshop", "faults", "--short"],
         "build",
         is_beside=True,
         counts=[
@@ -83,7 +83,7 @@ PARTS = (
     ),
     Part(
         "verification",
-        ["scripts/caisson", "verify", "--quick"],
+        ["scripts/lab", "verify", "--quick"],
         "build",
         counts=[r"^(?P<all>\d+) rows: .*, (?P<failed>\d+) fail$"],
     ),
@@ -112,6 +112,7 @@ def run(part: Part, directory: Path, is_silent: bool = False) -> Result:
         subprocess.Popen(
             part.command,
             cwd=ROOT,
+            env={**os.environ, "CAISSON_MPM_PROGRAM": str(BUILD / "caisson_mpm")},
             text=True,
             errors="replace",
             stdout=subprocess.PIPE,
@@ -182,8 +183,8 @@ def table(results: dict[str, Result], seconds: float) -> str:
     )
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson test-parts`."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `tools/workshop test-parts`."""
     parser.add_argument("--directory", type=Path, default=ROOT / "build/test")
 
 

@@ -7,16 +7,17 @@
 # test expects. Leaks are not looked for: Open MPI has its own, and unloads its
 # plugins at the end, so that they have no name by which to leave them out.
 #
-# Usage: scripts/sanitize [option of ctest]...    e.g. scripts/sanitize -R kernels
+# Usage: tools/workshop sanitize [option of ctest]...
+#   e.g. tools/workshop sanitize -R kernels
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 export BUILD_DIRECTORY=build/sanitizers
 CMAKE_OPTIONS="-DCAISSON_MPM_SANITIZERS=address,undefined ${CMAKE_OPTIONS:-}"
 export CMAKE_OPTIONS
 scripts/setup --check build pictures
 scripts/build build_tests
 
-. scripts/test_environment
+. tools/caisson_workshop/test_environment.sh
 export ASAN_OPTIONS=exitcode=99:detect_leaks=0:strict_string_checks=1
 export UBSAN_OPTIONS=exitcode=99:print_stacktrace=1
 exec ctest --test-dir "$BUILD_DIRECTORY" --output-on-failure "$@"

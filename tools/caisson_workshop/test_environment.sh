@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
-# The environment of tests, for scripts/test and scripts/sanitize.
+# The environment of tests, for scripts/test and `tools/workshop sanitize`.
 # Tests run side by side, so each keeps to one thread; in a container they may
 # run as root on fewer cores than ranks.
 export OMP_NUM_THREADS=1 DEAL_II_NUM_THREADS=1

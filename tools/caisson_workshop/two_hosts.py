@@ -191,8 +191,8 @@ def describe(short: Traffic, longer: Traffic) -> str:
     return "\n".join(lines)
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson two-hosts`."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `tools/workshop two-hosts`."""
     scene = SCENES / "jack_coarse.prm"
     parser.add_argument(
         "scene", type=Path, nargs="?", default=scene, metavar="FILE.prm"

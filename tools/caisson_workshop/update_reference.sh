@@ -5,11 +5,12 @@
 # new references tests/NAME.output. A test that does not finish keeps its old
 # one. Say in the commit why the numbers changed.
 #
-# Usage: scripts/update_reference REGEX    e.g. scripts/update_reference jack
+# Usage: tools/workshop update-reference REGEX
+#   e.g. tools/workshop update-reference jack
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 if [ $# -ne 1 ]; then
-  sed -n '4,9s/^# \{0,1\}//p' "$0" >&2
+  sed -n '4,10s/^# \{0,1\}//p' "$0" >&2
   exit 1
 fi
 

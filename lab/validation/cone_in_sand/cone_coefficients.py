@@ -21,10 +21,11 @@ from scipy.ndimage import uniform_filter1d
 from caisson import curves
 from caisson.design import dnv
 from caisson.design.cone import Profile
+from caisson.paths import SCENES
 from caisson.study import Study, StudyRun
-from caisson.validation.verdict import Row
+from lab.validation.verdict import Row
 
-CONE_AREA = pi * 0.1**2  # m2, of prm/validation/cone_in_sand.prm
+CONE_AREA = pi * 0.1**2  # m2, of lab/validation/cone_in_sand/cone_in_sand.prm
 DIAMETER = 6.0  # m, of prm/jack.prm
 DEPTHS = (1.0, 2.0, 4.0, 6.0)
 WALLS = (0.05, 0.1, 0.2)  # m
@@ -84,7 +85,7 @@ def runs_of(_: Path) -> list[dict[str, Any]]:
             }
             name = f"{sand.name}_wall_{wall:g}"
             seconds = 60 * (0.1 / wall) ** 2
-            skirt = {"scene": "../jack.prm", "seconds": seconds}
+            skirt = {"scene": str(SCENES / "jack.prm"), "seconds": seconds}
             runs.append({**skirt, "name": name, "set": entries})
             coarse = {**entries, **mesh_of(2, SKIRT_RATIO)}
             skirt["seconds"] = seconds / 8

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from caisson.results import read_table
 from caisson.study import Study, StudyRun
-from caisson.validation.verdict import Row
+from lab.validation.verdict import Row
 
 DIAMETER = 0.036  # m
 HEIGHT = DIAMETER / 2 * 3**0.5  # m, of the cone

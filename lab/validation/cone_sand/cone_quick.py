@@ -7,8 +7,10 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from caisson.study import Study
-from caisson.validation import cone_clay, cone_sand
-from caisson.validation.verdict import Row
+from lab.paths import scene_of
+from lab.validation.cone_clay import cone_clay
+from lab.validation.cone_sand import cone_sand
+from lab.validation.verdict import Row
 
 CELLS = 2  # across the radius
 CLAY = cone_clay.Case()
@@ -30,7 +32,7 @@ def runs_of(_: Path) -> list[dict[str, Any]]:
         "Grid/Fine height": 0.06,
         "Time/End penetration": 0.35,
     }
-    scene = "../verification/cone_tresca.prm"
+    scene = str(scene_of("verification", "cone_tresca"))
     return [
         {"name": "clay", "seconds": 15, "scene": scene, "set": clay},
         {"name": "sand", "seconds": 30, "set": sand},

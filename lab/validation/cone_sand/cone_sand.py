@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 
 from caisson.curves import final_mean
 from caisson.study import Study, StudyRun
-from caisson.validation.verdict import Row
+from lab.validation.verdict import Row
 
 DIAMETER = 0.0357  # m
 DENSITIES = (0.5, 0.77, 0.9)

@@ -14,7 +14,7 @@ from caisson import curves
 from caisson.plot import theory
 from caisson.results import read_table
 from caisson.study import Study, StudyRun
-from caisson.validation.verdict import Row
+from lab.validation.verdict import Row
 
 ANGLES = (25, 40)  # of friction of the wall, degrees; 40: as rough as the sand
 SURFACES = ("outer wall", "inner wall", "tip")

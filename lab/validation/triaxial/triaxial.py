@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 
 from caisson.results import Table, read_table
 from caisson.study import Study, StudyRun
-from caisson.validation.verdict import Row
+from lab.validation.verdict import Row
 
-HEIGHT = 0.01  # m, of the sample in prm/validation/triaxial.prm
+HEIGHT = 0.01  # m, of the sample in lab/validation/triaxial/triaxial.prm
 WINDOW = 0.01  # of strain, for the dilatancy
 NAMES = {
     "q_peak_kPa": "largest deviator q (kPa)",

@@ -122,8 +122,8 @@ def comparison(history: Table, soil: Cavity, radius: float) -> list[list[float]]
     return rows
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson cavity-expansion`."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `scripts/lab cavity-expansion`."""
     parser.add_argument("history", type=Path, help="history.csv of a run")
     parser.add_argument("--radius", type=float, default=0.5, help="a0 (m)")
     parser.add_argument("--p0", type=float, default=1e5, help="Pa")

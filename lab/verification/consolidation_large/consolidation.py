@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Consolidation of a column that settles by a large part of its height.
 
-The reference of prm/verification/consolidation_large.prm: the theory of Gibson,
+The reference of lab/verification/consolidation_large/consolidation_large.prm: the theory of Gibson,
 England & Hussey (1967, Geotechnique 17, 261-273) with the law that the program
 integrates in uniaxial strain. Let a be the initial height of a soil layer above
 the base, w = dz/da its stretch, M the modulus and q the load. Then
@@ -13,7 +13,7 @@ because that of a layer does not change while it is compressed. Lengths are in
 units of the height H, times in H^2 / c_v with c_v = k M / gamma_w, and stresses
 in M.
 
-    python3 -m caisson.consolidation    prints the checks of the scene
+    python3 -m lab.verification.consolidation_large.consolidation    prints the checks of the scene
 """
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

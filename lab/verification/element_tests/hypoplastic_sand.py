@@ -6,10 +6,10 @@ compression positive, is integrated by Runge-Kutta's fourth order with small
 steps; the lateral strain rate of a drained triaxial test solves a quadratic
 equation. Nothing is taken from the C++ kernels.
 
-`scripts/caisson element-tests table` prints the values for tests/kernels_laws.cc,
-`scripts/caisson element-tests cycles` those for tests/kernels_intergranular.cc, with
+`scripts/lab element-tests table` prints the values for tests/kernels_laws.cc,
+`scripts/lab element-tests cycles` those for tests/kernels_intergranular.cc, with
 the intergranular strain of Niemunis & Herle (1997), and
-`scripts/caisson element-tests plot FILE` draws them with the results of the kernels
+`scripts/lab element-tests plot FILE` draws them with the results of the kernels
 in tests/kernels_laws.output.
 
 Units: Pa, degrees; strains are compression positive.
@@ -300,8 +300,8 @@ def plot(file: Path) -> None:
     figure.savefig(file, dpi=110)
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson element-tests`."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `scripts/lab element-tests`."""
     parser.add_argument("what", choices=["table", "cycles", "plot"])
     parser.add_argument("file", nargs="?", type=Path, help="of the picture")
 

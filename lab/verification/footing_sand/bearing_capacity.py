@@ -459,8 +459,8 @@ def factors(
     return found
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Declare the options of scripts/caisson capacity."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of scripts/lab capacity."""
     parser.add_argument(
         "--phi", type=float, nargs="+", default=[30], help="friction angles (degrees)"
     )

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Checks the body forces and exact stresses of the manufactured solutions in
-prm/verification against first principles, at some places and times.
+lab/verification against first principles, at some places and times.
 
 Only the motion and the elastic constants are taken from here. The stress comes
 from the rate law (Jaumann rate) integrated in time along the path of a point,
@@ -8,15 +8,15 @@ its divergence in the deformed state and the acceleration from differences:
 
     b = x_tt - J / rho0 div sigma.
 
-`scripts/caisson manufactured` prints the largest difference of each scene over the
+`scripts/lab manufactured` prints the largest difference of each scene over the
 largest value, and ends with status 1 where one exceeds 1e-4.
 """
 import argparse
 import math
 from collections.abc import Callable, Sequence
 
-from caisson.paths import SCENES
 from caisson.runner import read_parameters
+from lab.paths import scene_of
 
 Pair = tuple[float, float]
 Vector = list[float]
@@ -154,7 +154,7 @@ def evaluate(expression: str, r: float, z: float, t: float) -> float:
 
 def read_scene(name: str) -> tuple[list[str], list[tuple[str, str]]]:
     """Return the two body forces, and the checks (quantity, expression)."""
-    entries = read_parameters([str(SCENES / "verification" / f"{name}.prm")])
+    entries = read_parameters([str(scene_of("verification", name))])
     parts = [check.split(":") for check in entries["Verification/Checks"].split(";")]
     checks = [(part[0].split()[1], part[1].strip()) for part in parts]
     return entries["Loads/Body force"].split(";"), checks
@@ -184,8 +184,8 @@ def differences(name: str) -> dict[str, float]:
     }
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson manufactured`: none."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `scripts/lab manufactured`: none."""
 
 
 def main(_: argparse.Namespace) -> int:

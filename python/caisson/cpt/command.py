@@ -20,15 +20,15 @@ from caisson.cpt.interpretation import Interpretation
 from caisson.paths import RESULTS, scene_or_study, short
 from caisson.results import ResultsError
 from caisson.runner import RunError
+from caisson.study import StudyError
 from caisson.suggest.cone import REACH
 from caisson.suggest.soil import SuggestError
-from caisson.study import StudyError
 
 SIZES = ("diameter", "skirt", "wall")
 SCENE, STUDY = "scene.prm", "study.toml"
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson cpt`."""
     add = parser.add_argument
     add("cpt", type=scene_or_study, nargs="?", metavar="FILE.csv", help="the test")
@@ -36,8 +36,8 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--list", action="store_true", help="list the correlations, and do no more")
     add("--run", action="store_true", help="run the study of a caisson")
     add("--jobs", type=int, metavar="N", help="runs at a time, default: the fastest")
-    suggest.declare_caisson(parser, required=False)
-    interpretation.declare(parser)
+    suggest.add_caisson_arguments(parser, required=False)
+    interpretation.add_arguments(parser)
 
 
 def list_correlations() -> None:

@@ -50,7 +50,7 @@ def positive(text: str) -> float:
     return float(text)
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options that say how a test is read."""
     add = parser.add_argument_group("how the cone test is read").add_argument
     add(

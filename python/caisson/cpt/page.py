@@ -26,7 +26,7 @@ NAME = "report.html"
 def run_study(file: Path, directory: Path, jobs: int | None) -> int:
     """Run what is missing of a study, into a directory; return its status."""
     parser = argparse.ArgumentParser(prog="caisson study")
-    study_command.declare(parser)
+    study_command.add_arguments(parser)
     words = [str(file), "--results", str(directory)]
     words += ["--jobs", str(jobs)] if jobs else []
     return study_command.main(parser.parse_args(words))

@@ -70,14 +70,14 @@ def why_failed(run: StudyRun) -> str:
 def status_of(run: StudyRun) -> tuple[str, str]:
     """Return how a run ended, and why if it failed. A result of other entries, as of
     the study before a change, does not count."""
-    mark = run.run.mark()
-    if mark is None:
+    record = run.run.completion_record()
+    if record is None:
         if run.trouble is None and not (run.run.directory / "log").is_file():
             return "not run", ""
         return "no result", why_failed(run) or (run.trouble or "")
-    if mark.get("entries") != run.run.words():
+    if record.get("entries") != run.run.entry_texts():
         return "out of date", "the entries of the study have changed since"
-    if mark["status"] != Status.SUCCESS:
+    if record["status"] != Status.SUCCESS:
         return FAILED, why_failed(run)
     return COMPLETE, ""
 
@@ -93,7 +93,7 @@ def outcome_of(run: StudyRun) -> Outcome:
                 raise ResultsError("the body does not move")
         except ResultsError as error:
             status, why, history = FAILED, str(error), None
-    mark = run.run.mark() or {}
+    record = run.run.completion_record() or {}
     sample = run.settings.get("sample")
     return Outcome(
         run.name,
@@ -102,7 +102,7 @@ def outcome_of(run: StudyRun) -> Outcome:
         why,
         history,
         run,
-        mark.get("wall_s"),
+        record.get("wall_s"),
         is_reference=sample is None,
     )
 

@@ -34,7 +34,7 @@ def draw(directory: Path) -> list[Path]:
     return [picture for picture in pictures if picture is not None]
 
 
-def declare_cone(parser: argparse.ArgumentParser) -> None:
+def add_cone_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the option for a cone test."""
     parser.add_argument(
         "--cpt",
@@ -53,9 +53,9 @@ def keep_cone(file: Path | None, directory: Path) -> None:
         cone.adopt(file, directory)
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson plot`."""
-    declare_cone(parser)
+    add_cone_arguments(parser)
     parser.add_argument(
         "directories",
         nargs="+",

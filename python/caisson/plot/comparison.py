@@ -150,7 +150,7 @@ def positive(text: str) -> float:
     return value
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson compare`."""
     parser.usage = "%(prog)s [--interval M] [PICTURE.png] DIR..."
     parser.add_argument(

@@ -9,7 +9,7 @@ import sys
 import time
 from pathlib import Path
 
-from caisson.plot import declare_cone, draw, keep_cone
+from caisson.plot import add_cone_arguments, draw, keep_cone
 from caisson.results import Results, ResultsError
 
 NAME = "report.html"
@@ -71,9 +71,9 @@ def print_pdf(path: Path) -> Path:
     return pdf
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson report`."""
-    declare_cone(parser)
+    add_cone_arguments(parser)
     parser.add_argument("directories", nargs="+", type=Path, metavar="DIR")
     parser.add_argument("--pdf", action="store_true", help="print it to report.pdf too")
     parser.add_argument(

@@ -26,7 +26,7 @@ from caisson.cpt import interpretation, tables
 from caisson.cpt.interpretation import Interpretation
 from caisson.paths import INSTALLED
 from caisson.results import ResultsError
-from caisson.runner import RunError, ask, read_parameters
+from caisson.runner import RunError, query, read_parameters
 from caisson.suggest import cone
 from caisson.suggest.sizes import (
     LEVELS,
@@ -55,11 +55,11 @@ def length(text: str) -> float:
     return value
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options."""
     add = parser.add_argument
     add("file", type=Path, help="the scene to write, a .prm file")
-    declare_caisson(parser, required=True)
+    add_caisson_arguments(parser, required=True)
     add(
         "--layer",
         action="append",
@@ -75,10 +75,10 @@ def declare(parser: argparse.ArgumentParser) -> None:
     text = "write a study, too: of the friction angle, or of a cone test's estimates"
     add("--study", type=Path, metavar="FILE.toml", help=text)
     add("--overwrite", action="store_true", help="replace files that exist")
-    interpretation.declare(parser)
+    interpretation.add_arguments(parser)
 
 
-def declare_caisson(parser: argparse.ArgumentParser, required: bool) -> None:
+def add_caisson_arguments(parser: argparse.ArgumentParser, required: bool) -> None:
     """Add the options of the caisson and of its run."""
     add = parser.add_argument
     for name, what in {
@@ -272,7 +272,7 @@ def cost_of(file: Path, text: str) -> str:
         copy = Path(folder, file.name)
         copy.write_text(text, encoding="utf-8")
         try:
-            return ask([str(copy), "--validate"]).replace(str(copy), str(file))
+            return query([str(copy), "--validate"]).replace(str(copy), str(file))
         except RunError as error:
             said = str(error).replace(str(copy), str(file))
             raise SuggestError(f"the program refuses the scene:\n{said}") from error

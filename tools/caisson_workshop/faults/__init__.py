@@ -17,11 +17,11 @@ import os
 import shutil
 from pathlib import Path
 
-from caisson.developer.faults.campaign import Campaign, Part
-from caisson.developer.faults.damages import Damages
-from caisson.developer.faults.fuzz import Fuzz, FuzzedRuns
-from caisson.developer.faults.kills import Kills
 from caisson.paths import PROGRAM, RESULTS
+from caisson_workshop.faults.campaign import Campaign, Part
+from caisson_workshop.faults.damages import Damages
+from caisson_workshop.faults.fuzz import Fuzz, FuzzedRuns
+from caisson_workshop.faults.kills import Kills
 
 PARTS: dict[str, type[Part]] = {
     "fuzz": Fuzz,
@@ -33,8 +33,8 @@ COUNTS = {"fuzz": 3000, "fuzzed-runs": 200, "kills": 40, "damages": 400}
 SHORT = {"fuzz": 60, "fuzzed-runs": 6, "kills": 4, "damages": 20}
 
 
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson faults`."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `tools/workshop faults`."""
     parser.add_argument("parts", nargs="*", metavar="PART", help="default: all of them")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, help="trials of each part")

@@ -10,8 +10,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from caisson.developer.faults.process import Outcome
 from caisson.paths import short
+from caisson_workshop.faults.process import Outcome
 
 
 @dataclass(frozen=True)

@@ -6,11 +6,11 @@ import shutil
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from caisson.developer.faults.campaign import Part, Result
-from caisson.developer.faults.process import Outcome, call
-from caisson.developer.faults.states import CASES, COMPARED, contents, state_of
 from caisson.paths import PROGRAM
 from caisson.runner import Status, set_options
+from caisson_workshop.faults.campaign import Part, Result
+from caisson_workshop.faults.process import Outcome, call
+from caisson_workshop.faults.states import CASES, COMPARED, contents, state_of
 
 Random = random.Random
 DIGITS = b"0123456789"

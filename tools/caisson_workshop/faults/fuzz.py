@@ -5,11 +5,11 @@ import random
 import shutil
 from pathlib import Path
 
-from caisson.developer.faults.campaign import Part, Result
-from caisson.developer.faults.mutations import GENTLE, ROUGH, Material, mutate
-from caisson.developer.faults.process import call
 from caisson.paths import PROGRAM, ROOT
 from caisson.runner import Status, read_parameters, set_options
+from caisson_workshop.faults.campaign import Part, Result
+from caisson_workshop.faults.mutations import GENTLE, ROUGH, Material, mutate
+from caisson_workshop.faults.process import call
 
 WALL_TIME_LIMIT = 1.5  # s, of a run
 KINDS = {
@@ -27,6 +27,10 @@ LIMITS = {
 }
 
 
+# of the scenes
+FOLDERS = ("prm", "lab", "tests")
+
+
 class Fuzz(Part):
     """Scenes that are only validated."""
 
@@ -37,7 +41,9 @@ class Fuzz(Part):
         """Copy all scenes, so that those that they include are beside them."""
         self.tree = self.directory / "scenes"
         shutil.rmtree(self.tree, ignore_errors=True)
-        for file in sorted([*ROOT.glob("prm/**/*"), *ROOT.glob("tests/*.prm")]):
+        for file in sorted(
+            file for folder in FOLDERS for file in (ROOT / folder).rglob("*")
+        ):
             if file.suffix in (".prm", ".csv"):
                 copy = self.tree / file.relative_to(ROOT)
                 copy.parent.mkdir(parents=True, exist_ok=True)

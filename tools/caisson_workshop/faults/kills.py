@@ -4,11 +4,11 @@ the undisturbed run, to the last bit."""
 import shutil
 from pathlib import Path
 
-from caisson.developer.faults.campaign import Part, Result
-from caisson.developer.faults.process import Outcome, call
-from caisson.developer.faults.states import CASES, Case, difference, state_of
 from caisson.paths import PROGRAM
 from caisson.runner import Status, set_options
+from caisson_workshop.faults.campaign import Part, Result
+from caisson_workshop.faults.process import Outcome, call
+from caisson_workshop.faults.states import CASES, Case, difference, state_of
 
 MOST_RUNS = 30  # of a trial, then something is wrong with it
 KILL = -9
