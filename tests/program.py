@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Any
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "python"))
+sys.path[:0] = [str(HERE.parent / folder) for folder in ("python", "tools", ".")]
 
 from caisson.paths import BUILD, PROGRAM, SCENES  # noqa: E402
 from caisson.results import Results  # noqa: E402

@@ -10,7 +10,7 @@ from typing import Any
 
 from program import HERE, SUCCESS, ProgramTest, checks, summary
 
-from caisson.__main__ import COMMANDS, SOURCE_COMMANDS
+from caisson.__main__ import COMMANDS
 
 # what a login gives, and neither the sources nor another program
 ENVIRONMENT = {
@@ -20,12 +20,10 @@ ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
 }
 SHORT = ["--set", "Time/End time=0.05", "--set", "Verification/Checks="]
-STUDY = """kind = "verification"
-[[study]]
-id = "column"
+STUDY = """kind = "parameters"
 title = "A column under its own weight"
 scene = "column.prm"
-checks = [{check = "max stress_zz", what = "stress"}]
+[[runs]]
 """
 
 
@@ -131,14 +129,15 @@ class Prefix(ProgramTest):
         self.assertIn("nothing", said)
 
     def test_commands(self) -> None:
-        """Those that need the sources are not there."""
+        """All are there, and each has its help."""
         said = self.installed("caisson", "--help")
-        for name in set(COMMANDS) - set(SOURCE_COMMANDS):
+        for name in COMMANDS:
             self.assertRegex(said, rf"(?m)^  {name} ")
-        for name in SOURCE_COMMANDS:
-            self.assertNotRegex(said, rf"(?m)^  {name} ")
-        for name in set(COMMANDS) - set(SOURCE_COMMANDS):
             self.installed("caisson", name, "--help")
+
+    def test_neither_laboratory_nor_workshop(self) -> None:
+        names = {path.name for path in self.prefix.rglob("*")}
+        self.assertEqual(names & {"lab", "tools", "caisson_workshop"}, set())
 
 
 class Pages(ProgramTest):
@@ -159,10 +158,7 @@ class Pages(ProgramTest):
 
     def test_commands(self) -> None:
         named = re.findall(r"(?m)^\.TP\n\.BI? \"?([a-z-]+)", self.page("caisson.1"))
-        named += re.findall(
-            r'(?m)^\.BR ([a-z-]+) ", " ([a-z-]+)', self.page("caisson.1")
-        )[0]
-        self.assertEqual(set(named), set(COMMANDS) - set(SOURCE_COMMANDS))
+        self.assertEqual(set(named), set(COMMANDS))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The scenes of users, prm/*.prm."""
+"""The scenes of users, prm/*.prm, and of the laboratory."""
 import unittest
 
 from program import (
@@ -13,6 +13,8 @@ from program import (
     summary,
     user_scene,
 )
+
+from lab.paths import LAB
 
 WITHOUT_A_WARNING = ("jack", "jack_coarse", "jack_dense_sand", "column")
 VERTICAL_STRESS = "8829*z"
@@ -36,7 +38,7 @@ class UserScenes(ProgramTest):
 
     def test_every_user_scene_is_valid(self) -> None:
         """Those that users begin with have no likely mistake, and some no warning."""
-        for path in sorted(SCENES.rglob("*.prm")):
+        for path in sorted([*SCENES.rglob("*.prm"), *LAB.rglob("*.prm")]):
             if "subsection Installation" not in path.read_text():
                 with self.subTest(path.name):
                     options = ["--strict"] if path.parent == SCENES else []

@@ -9,10 +9,10 @@ from pathlib import Path
 
 from program import HERE, ProgramTest, scene, user_scene
 
-from caisson.paths import SCENES
 from caisson.runner import read_parameters
 from caisson.study import Options
 from caisson.study_command import module_of, reader_of
+from lab.study_command import KINDS, files
 
 CHECKS = '"Verification/Checks"'
 LADDER = f"""
@@ -45,14 +45,14 @@ VERDICTS = "pass FAIL short FAIL FAIL short pass FAIL short FAIL".split()
 
 
 class Ladder(ProgramTest):
-    """scripts/caisson study."""
+    """scripts/lab study."""
 
     def verify(self, path: Path, *options: str) -> "subprocess.CompletedProcess[str]":
         """Run the ladder above."""
         ladder = path / "ladder.toml"
         ladder.write_text(LADDER, encoding="utf-8")
         words = [
-            str(HERE.parent / "scripts/caisson"),
+            str(HERE.parent / "scripts/lab"),
             "study",
             str(ladder),
             "--program",
@@ -149,16 +149,14 @@ class Parameters(ProgramTest):
 
 
 class ShippedStudies(ProgramTest):
-    """The studies of prm/."""
+    """The studies of users and of the laboratory."""
 
     def test_entries_are_declared(self) -> None:
         """Each entry that a study sets is one of the program: a misspelled one
         would be refused only when the study runs."""
         declared = set(read_parameters([user_scene("jack")], self.program))
-        files = sorted(SCENES.rglob("*.toml"))
-        self.assertGreater(len(files), 0)
-        for file in files:
-            module = module_of(file)
+        for file in files():
+            module = module_of(file, KINDS)
             for quick in (False, True):
                 reader = reader_of(file, Options(quick=quick), module)
                 for run in (run for study in reader.studies() for run in study.runs):

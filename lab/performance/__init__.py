@@ -2,9 +2,9 @@
 """Studies of kind "speed": how fast kernels and program are, as ratios taken in one
 run. Variants take turns, and medians of the ratios in each round are shown.
 
-The studies of lab/performance/speed.toml make the sections of a report, by the first word of
-their id: kernels, step, size, ranks, agreement, needs, refinement, roofline. Keys
-beside the usual ones:
+The studies of speed.toml make the sections of a report, by the first word of their id:
+kernels, step, size, ranks, agreement, needs, refinement, roofline. Keys beside the
+usual ones:
 
     repeats      rounds
     base         the run that the others are compared with (section size)
@@ -13,7 +13,7 @@ beside the usual ones:
 
 Tables (table.md and a .csv each) and pictures go to results/speed. A section that
 is not run keeps what it had there. The machine must do nothing else, so runs are
-never made side by side, and always anew. `scripts/lab publish-speed` takes
+never made side by side, and always repeated. `scripts/lab publish-speed` copies
 table and pictures into doc/benchmarks.md and doc/pictures.
 """
 import time

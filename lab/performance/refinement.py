@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from caisson import curves
 from caisson.study import Study
+from lab.curves import relative_error
 from lab.performance.report import Report, panels
 from lab.performance.timed import Measured, execute
 
@@ -66,7 +67,7 @@ def curves_of(study: Study) -> tuple[dict[str, Curve], list[list[Any]]]:
             continue
         kind, mesh = run.name.rsplit(", ", 1)
         result = execute(run)
-        error = curves.relative_error(tip_forces(result), reference)
+        error = relative_error(tip_forces(result), reference)
         by_kind.setdefault(kind, []).append((result.seconds(), error, mesh))
         seconds, percent = result.seconds(), 100 * error
         rows.append([kind, mesh, result.points, result.steps, seconds, percent])

@@ -20,6 +20,7 @@ from caisson.paths import PROGRAM, RESULTS, ROOT, SCENES
 from caisson.results import Results, Table
 from caisson.runner import Entries, Run, RunError, Status
 from lab import machine
+from lab.curves import final_mean
 
 FILE = ROOT / "doc/scene_results.csv"
 PAGE = ROOT / "doc/results.md"
@@ -89,7 +90,7 @@ def short_numbers(history: Table) -> dict[tuple[str, float], float]:
     depth = history["penetration_m"]
     length = (depth[-1] - depth[0]) / 2
     return {
-        (quantity, float(depth[-1])): curves.final_mean(
+        (quantity, float(depth[-1])): final_mean(
             depth, history[quantity], length
         )
         for quantity in ("total_force_N", "tip_force_N")

@@ -4,7 +4,7 @@
 A study of this kind has two keys of its own,
 
     compare = "triaxial"       # the comparison, one of COMPARISONS
-    measured = "triaxial.csv"  # what was measured, if that is in a file beside the scene
+    measured = "triaxial.csv"  # what was measured, in a file beside the scene
 
 and its runs are made by that module. It writes a picture and rows of a table; each row
 is a quantity, what was computed, what is asked, and whether that is met. A shortfall

@@ -18,7 +18,7 @@ Each problem is a study; a row of the table is one of its
 or states the half-width of the error bar of an installation, over the quantity itself:
 
     error_bar = "../jack_error_bar.csv"   # of a study of kind "error bar"
-    quantity = "tip"                      # as caisson.error_bar names it
+    quantity = "tip"                      # as lab.studies.error_bar names it
     depth = 2                             # m
 """
 import math
@@ -27,11 +27,12 @@ from typing import Any
 
 import numpy as np
 
-from caisson import error_bar, table
+from caisson import table
 from caisson.results import ResultsError, read_table
 from caisson.study import Options, Study, StudyError, StudyRun
 from caisson.table import number
 from lab.machine import machine
+from lab.studies import error_bar
 
 NAME = "verification"
 STUDY_KEYS = {"checks"}
@@ -169,7 +170,8 @@ def evaluate(studies: Sequence[Study], options: Options, minutes: float) -> int:
     table.write_csv(options.results / "table.csv", COLUMNS, rows)
     text = table.markdown(COLUMNS, rows)
     (options.results / "table.md").write_text(
-        f"# Verification\n\n`scripts/lab verify`, {machine()}, {minutes:.0f} minutes.\n\n"
+        f"# Verification\n\n`scripts/lab verify`, {machine()}, {minutes:.0f} minutes."
+        "\n\n"
         f"{text}\n",
         encoding="utf-8",
     )

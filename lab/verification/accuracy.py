@@ -19,6 +19,7 @@ from caisson import curves, table
 from caisson.paths import short
 from caisson.results import ResultsError
 from caisson.study import Options, Study, StudyRun
+from lab.curves import relative_error
 
 NAME = "accuracy"
 STUDY_KEYS = set("measure check column depths".split())
@@ -49,7 +50,7 @@ def error_of(study: Study, run: StudyRun) -> float | None:
     try:
         if "check" not in study.keys:
             reference = forces(study, study.run(REFERENCE))
-            return curves.relative_error(forces(study, run), reference)
+            return relative_error(forces(study, run), reference)
         return float(run.results.checks[study.keys["check"]]["relative_error"])
     except (ResultsError, KeyError, TypeError):
         return None

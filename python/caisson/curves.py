@@ -73,10 +73,6 @@ def integral(position: np.ndarray, values: np.ndarray, to: np.ndarray) -> np.nda
     return at_rows[row] + (to - position[row]) * (values[row] + ends) / 2
 
 
-def final_mean(position: np.ndarray, values: np.ndarray, length: float) -> float:
-    """Return the mean of values [n] over the last length of the positions [n]."""
-    return float(values[position > position[-1] - length].mean())
-
 
 def means_to_the_ends(
     position: np.ndarray, values: np.ndarray, at: np.ndarray, width: float
@@ -149,12 +145,6 @@ def running_mean(position: np.ndarray, values: np.ndarray, width: float) -> np.n
     return window_means(path, values, path, width)
 
 
-def window_rms(position: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
-    """Return the root of the mean square of values [n] about each position [n];
-    at the ends over the part of the window that there is."""
-    near = [in_window(position, at, width) for at in position]
-    return np.array([np.sqrt(np.mean(values[rows] ** 2)) for rows in near])
-
 
 def roughness(position: np.ndarray, force: np.ndarray) -> float:
     """Return the standard deviation of a force about its running mean over the
@@ -180,8 +170,3 @@ def forces_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
     """Return the means of a force over FORCE_WINDOW about some depths [m] (m of
     penetration): [m]."""
     return window_means(history["penetration_m"], history[column], depths, FORCE_WINDOW)
-
-
-def relative_error(values: np.ndarray, reference: np.ndarray) -> float:
-    """Return the root of the mean square of values / reference - 1."""
-    return float(np.sqrt(np.mean((values / reference - 1) ** 2)))

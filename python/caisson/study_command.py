@@ -30,10 +30,7 @@ from caisson.study import (
 )
 
 # those of users; the laboratory has more
-KINDS = {
-    "error bar": "caisson.error_bar",
-    "parameters": "caisson.parameters",
-}
+KINDS = {"parameters": "caisson.parameters"}
 # runs for each core above which several ranks gain nothing that matters, and the
 # duration of a run (s) below which it is not worth to ask for its size
 FEW, LONG = 4, 20
@@ -90,10 +87,11 @@ def add_arguments(parser: argparse.ArgumentParser, file: Path | None = None) -> 
 
 def module_of(file: Path, kinds: Mapping[str, str] = KINDS) -> ModuleType:
     """Return the module of the kind of study. Raises StudyError."""
-    kind = read_toml(file).get("kind")
+    kind = read_toml(file).get("kind", "")
     if kind not in kinds:
         known = ", ".join(kinds)
-        raise StudyError(f"{file}: kind is {kind!r}, not one of {known}")
+        more = "" if len(kinds) > len(KINDS) else "; scripts/lab study knows others"
+        raise StudyError(f"{file}: kind is {kind!r}, not one of {known}{more}")
     try:
         return importlib.import_module(kinds[kind])
     except ModuleNotFoundError as error:

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 from synthetic import write_run
 
-from caisson import error_bar
 from caisson.results import ResultsError, Table, read_table
 from caisson.study import Options, Reader, Study, StudyError
 from lab import verification
+from lab.studies import error_bar
 
 STUDY = """
 kind = "error bar"
@@ -113,15 +113,6 @@ class ErrorBar(unittest.TestCase):
         bars, _ = self.bars(self.study((None, None, None)))
         self.assertEqual([name for name in bars if "suction" in name], [])
         np.testing.assert_allclose(bars["total_error"], 0.05)
-
-    def test_study_of_an_installation(self) -> None:
-        """Its error bar goes to the results: the prefix may be read-only."""
-        study, options = self.study(), Options(results=self.path / "results")
-        with unittest.mock.patch.object(error_bar, "SCENES", self.path.resolve()):
-            self.assertEqual(error_bar.file_of(study, options), self.path / "bar.csv")
-            with unittest.mock.patch.object(error_bar, "INSTALLED", True):
-                found = error_bar.file_of(study, options)
-        self.assertEqual(found, self.path / "results/bar.csv")
 
     def test_missing_run(self) -> None:
         study = self.study()

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""All modules can be imported, and the checks of the sources see what they must."""
+"""All modules can be imported, the user's package stands alone, and the checks of the
+sources see what they must."""
 import argparse
+import ast
 import importlib
 import os
 import pkgutil
@@ -11,7 +13,9 @@ import unittest
 from pathlib import Path
 
 import caisson
-from caisson.__main__ import COMMANDS
+import caisson.__main__
+import caisson_workshop.__main__
+import lab.__main__
 from caisson.paths import ROOT
 from caisson_workshop.lengths import cpp_functions
 
@@ -41,30 +45,81 @@ namespace N
 """
 
 
+# command line: its commands
+COMMANDS = {
+    "scripts/caisson": caisson.__main__.COMMANDS,
+    "scripts/lab": lab.__main__.COMMANDS,
+    "tools/workshop": caisson_workshop.__main__.COMMANDS,
+}
+MOST_COMMANDS, MOST_LINES = 10, 10_000  # of the user's package
+
+
+def modules() -> list[str]:
+    """Return the names of all modules of the three packages."""
+    packages = (caisson, lab, caisson_workshop)
+    names = [
+        m.name
+        for package in packages
+        for m in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
+    ]
+    # folders of cases are no packages
+    cases = (ROOT / "lab").glob("*/*/*.py")
+    names += [".".join(path.relative_to(ROOT).with_suffix("").parts) for path in cases]
+    return [name for name in names if not name.endswith("__main__")]
+
+
 class Imports(unittest.TestCase):
-    """The package."""
+    """The three packages."""
 
     def test_all_modules(self) -> None:
-        names = [m.name for m in pkgutil.walk_packages(caisson.__path__, "caisson.")]
-        self.assertGreater(len(names), 20)
+        names = modules()
+        self.assertGreater(len(names), 100)
         for name in names:
-            if not name.endswith("__main__"):
-                self.assertTrue(importlib.import_module(name).__doc__, name)
+            self.assertTrue(importlib.import_module(name).__doc__, name)
 
     def test_all_commands(self) -> None:
-        """Each declares its options and has a main()."""
-        for name, (module, _) in COMMANDS.items():
-            found = importlib.import_module(module)
-            found.add_arguments(argparse.ArgumentParser(prog=f"caisson {name}"))
-            self.assertTrue(callable(found.main))
+        """Each adds its options and has a main()."""
+        for program, commands in COMMANDS.items():
+            for name, (module, _) in commands.items():
+                found = importlib.import_module(module)
+                found.add_arguments(argparse.ArgumentParser(prog=f"{program} {name}"))
+                self.assertTrue(callable(found.main))
 
-    def test_command_line(self) -> None:
-        done = subprocess.run(
-            [str(ROOT / "scripts/caisson"), "--help"], text=True, capture_output=True
-        )
-        self.assertEqual(done.returncode, 0, done.stderr)
-        for name in COMMANDS:
-            self.assertIn(name, done.stdout)
+    def test_command_lines(self) -> None:
+        for program, commands in COMMANDS.items():
+            done = subprocess.run(
+                [str(ROOT / program), "--help"], text=True, capture_output=True
+            )
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for name in commands:
+                self.assertRegex(done.stdout, rf"(?m)^  {name} ")
+
+
+class Product(unittest.TestCase):
+    """The user's package: small, and without laboratory and workshop."""
+
+    files = sorted((ROOT / "python/caisson").rglob("*.py"))
+
+    def test_imports(self) -> None:
+        """It imports nothing of them."""
+        for path in self.files:
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                names = []
+                if isinstance(node, ast.Import):
+                    names = [alias.name for alias in node.names]
+                elif isinstance(node, ast.ImportFrom):
+                    names = [node.module or ""]
+                found = {name.split(".")[0] for name in names}
+                self.assertFalse(found & {"lab", "caisson_workshop"}, path)
+
+    def test_laboratory_needs_no_workshop(self) -> None:
+        for path in (ROOT / "lab").rglob("*.py"):
+            self.assertNotIn("caisson_workshop", path.read_text(encoding="utf-8"))
+
+    def test_size(self) -> None:
+        self.assertLessEqual(len(caisson.__main__.COMMANDS), MOST_COMMANDS)
+        lines = sum(len(path.read_bytes().splitlines()) for path in self.files)
+        self.assertLessEqual(lines, MOST_LINES)
 
 
 class Command(unittest.TestCase):

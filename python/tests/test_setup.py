@@ -53,18 +53,18 @@ LOCK = (
 )
 # scripts, and the group of which they say that it is missing
 OTHERS = {
-    "build": "build",
-    "caisson suggest": "build",
-    "caisson study": "build",
-    "docs": "docs",
-    "package": "build docs package",
-    "sanitize": "build pictures",
-    "benchmark verify": "build pictures",
+    "scripts/build": "build",
+    "scripts/caisson suggest": "build",
+    "scripts/caisson study": "build",
+    "scripts/lab verify": "build pictures",
+    "tools/docs": "docs",
+    "tools/package": "build docs package",
+    "tools/caisson_workshop/sanitize.sh": "build pictures",
 }
 
 
 class Setup(unittest.TestCase):
-    """A copy of the scripts on a system that is made up."""
+    """A copy of the scripts on a synthetic system."""
 
     def setUp(self) -> None:
         temporary = tempfile.TemporaryDirectory()
@@ -72,7 +72,8 @@ class Setup(unittest.TestCase):
         self.system = Path(temporary.name)
         self.packages, self.apt = self.system / "packages", self.system / "apt"
         self.root = self.system / "project"
-        shutil.copytree(ROOT / "scripts", self.root / "scripts")
+        for folder in ("scripts", "tools"):
+            shutil.copytree(ROOT / folder, self.root / folder)
         package = self.root / "python/caisson"
         package.mkdir(parents=True)
         (package / "__init__.py").touch()
@@ -95,8 +96,9 @@ class Setup(unittest.TestCase):
         self.packages.write_text("\n".join(packages.split()) + "\n", encoding="utf-8")
         self.apt.write_text("", encoding="utf-8")
         name, *options = words.split()
+        script = name if "/" in name else f"scripts/{name}"
         return subprocess.run(
-            [str(self.root / "scripts" / name), *options],
+            [str(self.root / script), *options],
             text=True,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
@@ -250,7 +252,12 @@ class Sources(unittest.TestCase):
 
     def test_no_remove(self) -> None:
         """Wherever apt is not asked about, it may not remove."""
-        files = [*(ROOT / "scripts").iterdir(), *(ROOT / "python").rglob("*.py")]
+        files = [
+            path
+            for folder in ("scripts", "tools", "python", "lab")
+            for path in (ROOT / folder).rglob("*")
+            if path.suffix in ("", ".py", ".sh")
+        ]
         found = 0
         for path in files:
             if path == Path(__file__).resolve() or not path.is_file():

@@ -131,18 +131,18 @@ quick = {seconds = 1, mine = "fast"}
 
 
 class OwnStudies(unittest.TestCase):
-    """The studies of prm/."""
+    """The studies of users and of the laboratory."""
 
     def studies(self, file: Path) -> list[Study]:
         """Return the studies of a file."""
-        module = study_command.module_of(file)
+        module = study_command.module_of(file, lab_studies.KINDS)
         options = Options(results=Path("results"))
         return study_command.reader_of(file, options, module).studies()
 
     def test_all_can_be_read(self) -> None:
         """And name scenes that there are, each run a directory of its own."""
-        files = sorted(SCENES.rglob("*.toml"))
-        self.assertLessEqual(set(study_command.OWN.values()), set(files))
+        files = lab_studies.files()
+        self.assertLessEqual(set(lab_studies.STUDIES.values()), set(files))
         for file in files:
             runs = [run for study in self.studies(file) for run in study.runs]
             for run in runs:
@@ -150,11 +150,15 @@ class OwnStudies(unittest.TestCase):
             places = {run.run.directory for run in runs}
             self.assertEqual(len(places), len(runs), file)
 
+    def test_those_of_users_need_no_laboratory(self) -> None:
+        for file in sorted(SCENES.rglob("*.toml")):
+            self.assertTrue(study_command.module_of(file).STUDY_KEYS, file)
+
     def test_every_stability_scene_is_judged(self) -> None:
-        file = study_command.OWN["stability"]
+        file = lab_studies.STUDIES["stability"]
         runs = [run for study in self.studies(file) for run in study.runs]
         scenes = {run.run.scene.name for run in runs}
-        self.assertEqual(scenes, {path.name for path in file.parent.glob("*.prm")})
+        self.assertEqual(scenes, {path.name for path in file.parent.rglob("*.prm")})
 
 
 class Verdicts(unittest.TestCase):

@@ -87,7 +87,7 @@ namespace CaissonMPM
       "Error bar",
       file,
       "The file with the errors of the forces, and of the suction where "
-      "there is one, as scripts/caisson study makes it, lies at this path "
+      "there is one, as scripts/lab study makes it, lies at this path "
       "relative to the scene's file, and leads to history_error.csv; "
       "without a path there is none. Units: none.");
   }
@@ -106,7 +106,7 @@ namespace CaissonMPM
     if (at == std::string::npos)
       throw BadInput("Output/Error bar = " + file + ": " + path +
                      " cannot be read, or has no line \"" + mark +
-                     "...\". Make it with scripts/caisson study, or leave the "
+                     "...\". Make it with scripts/lab study, or leave the "
                      "entry empty.");
     if (text.compare(at + mark.size(), fingerprint.size(), fingerprint) != 0)
       return "the error bar of " + path +
@@ -133,7 +133,7 @@ namespace CaissonMPM
         throw BadInput("Output/Error bar = " + file + ": " + path +
                        " must have the columns penetration_m, tip_error and "
                        "total_error, with numbers. Make it with "
-                       "scripts/caisson study.");
+                       "scripts/lab study.");
       }
     return "";
   }

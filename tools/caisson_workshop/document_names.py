@@ -22,7 +22,7 @@ FLOORS = "base kernels materials bodies domain operators output checks restart".
 # Pages that are generated, or that name what is gone.
 GENERATED_OR_PAST = {"parameters.md", "CHANGELOG.md"}
 SUFFIXES = {".h", ".cc", ".py", ".prm", ".toml", ".txt", ""}
-# Code, formulas, and the part of the benchmarks that `scripts/lab publish-speed` writes.
+# Code, formulas, and what `scripts/lab publish-speed` writes.
 NOT_WRAPPED = r"```.*?```|\$\$.*?\$\$|<!-- speed: begin.*speed: end -->"
 STATED_DEFAULT = re.compile(r"`([^`/]+/[^`]+)`\s+is\s+`?([^`\s]+)`?\s+by\s+default")
 GLOSSARY = "glossary.md"

@@ -4,7 +4,7 @@
 // history.csv.
 //
 // The errors come from a study of mesh, points, mass scaling and more
-// (scripts/caisson study), as a file beside the scene. They hold for the scene
+// (scripts/lab study), as a file beside the scene. They hold for the scene
 // of the study only, which the file names by its fingerprint.
 #ifndef caisson_mpm_output_error_bar_h
 #define caisson_mpm_output_error_bar_h

@@ -20,8 +20,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from caisson.curves import final_mean
 from caisson.study import Study, StudyRun
+from lab.curves import final_mean
 from lab.validation.verdict import Row
 
 STRENGTH = 10e3  # Pa, of lab/verification/cone_tresca/cone_tresca.prm

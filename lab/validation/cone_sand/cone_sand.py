@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from caisson.curves import final_mean
 from caisson.study import Study, StudyRun
+from lab.curves import final_mean
 from lab.validation.verdict import Row
 
 DIAMETER = 0.0357  # m

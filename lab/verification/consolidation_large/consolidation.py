@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Consolidation of a column that settles by a large part of its height.
 
-The reference of lab/verification/consolidation_large/consolidation_large.prm: the theory of Gibson,
-England & Hussey (1967, Geotechnique 17, 261-273) with the law that the program
-integrates in uniaxial strain. Let a be the initial height of a soil layer above
-the base, w = dz/da its stretch, M the modulus and q the load. Then
+The reference of consolidation_large.prm: the theory of Gibson, England & Hussey (1967,
+Geotechnique 17, 261-273) with the law that the program integrates in uniaxial strain.
+Let a be the initial height of a soil layer above the base, w = dz/da its stretch, M the
+modulus and q the load. Then
 
     sigma' = M ln w,   p = q + M ln w,   dw/dt = d/da (k / (gamma_w w) dp/da),
 
@@ -13,7 +13,10 @@ because that of a layer does not change while it is compressed. Lengths are in
 units of the height H, times in H^2 / c_v with c_v = k M / gamma_w, and stresses
 in M.
 
-    python3 -m lab.verification.consolidation_large.consolidation    prints the checks of the scene
+From the root of the project, with PYTHONPATH=python:. this prints the checks of the
+scene:
+
+    python3 -m lab.verification.consolidation_large.consolidation
 """
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from caisson import curves
-from caisson.error_bar import QUANTITIES
 from caisson.parameters.entry import Parameter, Sample, read_all
 from caisson.parameters.sampling import numbers_of, sampling_of
 from caisson.plot.suction import rest_of_run
@@ -26,6 +25,17 @@ OBSERVED = (
 )
 SHOWN = {"_N": ("kN", 1e-3), "_Pa": ("kPa", 1e-3), "_m": ("m", 1.0), "_m3": ("m³", 1.0)}
 COMPLETE, FAILED = "complete", "failed"
+# column of history.csv: that of its half-width in the file of an error bar, and whether
+# this is relative
+HALF_WIDTHS = {
+    "tip_force_N": ("tip_error", True),
+    "inner_friction_N": ("inner_error", True),
+    "outer_friction_N": ("outer_error", True),
+    "total_force_N": ("total_error", True),
+    "required_suction_Pa": ("required_suction_half_width_Pa", False),
+    "exit_gradient_axis": ("exit_gradient_axis_half_width", False),
+    "plug_heave_m": ("plug_heave_half_width_m", False),
+}
 
 
 @dataclass
@@ -237,15 +247,15 @@ class Outcomes:
     def half_width(self, depths: np.ndarray, values: np.ndarray) -> np.ndarray | None:
         """Return the half-width [n_depths] of the error bar that the scene names, for
         its numerics; None where there is none. values: of what is observed."""
-        quantity = {q.column: q for q in QUANTITIES.values()}.get(self.column)
+        column, is_relative = HALF_WIDTHS.get(self.column, ("", False))
         outcome = next(o for o in [*self.all, self.reference] if o and o.history)
-        if quantity is None:
+        if not column:
             return None
         try:
             file = outcome.run.results.summary["entries"]["Output/Error bar"]
             bar = read_table(outcome.run.run.scene.parent / file)
-            half = bar[quantity.half_width]
+            half = bar[column]
         except (ResultsError, KeyError):
             return None
         half = np.interp(depths, bar[DEPTH], half, left=math.nan, right=math.nan)
-        return half * np.abs(values) if quantity.is_relative else half
+        return half * np.abs(values) if is_relative else half

@@ -31,9 +31,10 @@ from typing import Any
 import numpy as np
 
 from caisson import curves, table
-from caisson.paths import INSTALLED, SCENES, short
+from caisson.paths import short
 from caisson.results import ResultsError, Table
 from caisson.study import Options, Study, StudyError, StudyRun
+from lab.curves import window_rms
 
 NAME = "error bar"
 STUDY_KEYS = {"output", "depths", "errors"}
@@ -116,7 +117,7 @@ def term_errors(term: dict[str, Any], study: Study, depths: np.ndarray) -> Error
         if quantity.is_relative:
             difference /= from_a
         errors[quantity.name] = np.zeros(len(depths))
-        errors[quantity.name][counts] = term["factor"] * curves.window_rms(
+        errors[quantity.name][counts] = term["factor"] * window_rms(
             at, difference, ERROR_WINDOW
         )
     return errors
@@ -162,7 +163,7 @@ def write_file(
     of = "forces and suction" if len(half) > len(FORCES) else "forces"
     lines = [
         f"# Errors of the {of} of {base.run.scene.name},"
-        f" by scripts/caisson study {short(study.file)}",
+        f" by scripts/lab study {short(study.file)}",
         f"# fingerprint: {base.results.summary['fingerprint']}",
         ",".join(columns),
         *map(",".join, zip(*columns.values())),
@@ -207,16 +208,7 @@ def print_tables(
             print_table(study, depths[at], list(zip(names, chosen)), q)
 
 
-def file_of(study: Study, options: Options) -> Path:
-    """Return where the error bar goes: beside the study, from where its scene takes
-    it, or to the results if the study is part of an installation."""
-    name = study.keys["output"]
-    if INSTALLED and study.file.resolve().is_relative_to(SCENES):
-        return options.results / Path(name).name
-    return study.file.parent / str(name)
-
-
-def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
+def evaluate(studies: Sequence[Study], _: Options, __: float) -> int:
     """Write the file of each study and print its tables. Raises StudyError where a
     run is missing."""
     for study in studies:
@@ -225,7 +217,7 @@ def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
         try:
             terms = [term_errors(t, study, depths) for t in study.keys["errors"]]
             half = combined(terms)
-            path = file_of(study, options)
+            path = study.file.parent / str(study.keys["output"])
             write_file(path, study, depths, half, terms)
             print_tables(study, depths, half, terms)
             print(f"error bar: {short(path)}")

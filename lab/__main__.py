@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command line of the laboratory: scripts/lab COMMAND ..."""
+from collections.abc import Sequence
+
+from caisson.command_line import Groups, commands_of, end_process, run_command
+
+STUDY = "lab.study_command"
+REFERENCES = "lab.verification"
+GROUPS: Groups = {
+    "verification": {
+        "verify": (STUDY, "run the verification ladder: problems with exact solutions"),
+        "accuracy": (STUDY, "measure error against time over meshes and methods"),
+        "capacity": (
+            f"{REFERENCES}.footing_sand.bearing_capacity",
+            "compute exact bearing capacities of strip and circular footings",
+        ),
+        "cavity-expansion": (
+            f"{REFERENCES}.cavity_mohr_coulomb.cavity_expansion",
+            "compare an expanding cavity with its exact pressure",
+        ),
+        "manufactured": (
+            f"{REFERENCES}.two_fields.manufactured",
+            "check the manufactured solutions against first principles",
+        ),
+        "element-tests": (
+            f"{REFERENCES}.element_tests.hypoplastic_sand",
+            "integrate element tests of hypoplastic sand independently",
+        ),
+    },
+    "validation": {
+        "validate": (STUDY, "compare runs with measurements"),
+    },
+    "stability": {
+        "stability": (STUDY, "run the hard scenes"),
+    },
+    "performance": {
+        "speed": (STUDY, "measure the speed of kernels and program, as ratios"),
+        "scaling": (
+            "lab.performance.scaling",
+            "estimate the time of a step on up to 1,000 ranks",
+        ),
+        "publish-speed": (
+            "lab.performance.publish",
+            "copy the measured speed into doc/benchmarks.md",
+        ),
+    },
+    "studies": {
+        "error-bar": (STUDY, "compute the error bar of prm/jack.prm"),
+        "suction-error-bar": (STUDY, "compute those of the scenes with suction"),
+        "tip": (STUDY, "study the tip force of prm/jack_coarse.prm"),
+        "drainage": (STUDY, "study the resistance between the limits of drainage"),
+        "study": (STUDY, "run and evaluate a study of any kind from its file"),
+        "scene-results": (
+            "lab.studies.scene_results",
+            "run the scenes of the README and compare them with the manual",
+        ),
+    },
+}
+COMMANDS = commands_of(GROUPS)
+
+
+def main(argv: Sequence[str]) -> int:
+    """Run one command."""
+    description = "Verification, validation, stability and speed of caisson_mpm."
+    return run_command(argv, "lab", description, GROUPS)
+
+
+if __name__ == "__main__":
+    end_process(main)

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A command line with subcommands in groups: that of the user, of the laboratory and
+of the workshop.
+
+Each subcommand is a module with add_arguments(parser) and main(options). Only the
+module of the subcommand that is called is loaded.
+"""
+import argparse
+import importlib
+import os
+import sys
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import NoReturn
+
+from caisson import needed
+
+# group: subcommand: its module, and what it does
+Groups = Mapping[str, Mapping[str, tuple[str, str]]]
+
+
+def commands_of(groups: Groups) -> dict[str, tuple[str, str]]:
+    """Return all subcommands."""
+    return {name: entry for group in groups.values() for name, entry in group.items()}
+
+
+def help_of(groups: Groups) -> str:
+    """Return the list of subcommands in their groups."""
+    width = max(map(len, commands_of(groups))) + 2
+    return "\n\n".join(
+        "\n".join(
+            [f"{group}:", *(f"  {name:{width}}{text}" for name, (_, text) in c.items())]
+        )
+        for group, c in groups.items()
+    )
+
+
+def run_command(
+    argv: Sequence[str],
+    program: str,
+    description: str,
+    groups: Groups,
+    late: Collection[str] = (),
+) -> int:
+    """Run one subcommand; return its exit status. late: those that import what they
+    need only after they have computed or read something."""
+    commands = commands_of(groups)
+    parser = argparse.ArgumentParser(
+        prog=program,
+        description=description,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=help_of(groups),
+    )
+    parser.add_argument("command", choices=commands, metavar="COMMAND ...")
+    if not argv:
+        parser.print_help()
+        return 1
+    name = parser.parse_args(argv[:1]).command
+    try:
+        if name in late and (complaint := needed.complaint()):
+            raise ModuleNotFoundError(complaint)
+        module = importlib.import_module(commands[name][0])
+    except ModuleNotFoundError as error:
+        print(f"{program} {name}: {needed.complaint() or error}", file=sys.stderr)
+        return 1
+    own = argparse.ArgumentParser(
+        prog=f"{program} {name}",
+        description=module.__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    module.add_arguments(own)
+    return int(module.main(own.parse_args(argv[1:])))
+
+
+def end_process(main: Callable[[Sequence[str]], int]) -> NoReturn:
+    """Run the command of this process, and end it."""
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except (BrokenPipeError, KeyboardInterrupt):  # as of `| head`
+        os._exit(1)
