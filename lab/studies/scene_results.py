@@ -90,9 +90,7 @@ def short_numbers(history: Table) -> dict[tuple[str, float], float]:
     depth = history["penetration_m"]
     length = (depth[-1] - depth[0]) / 2
     return {
-        (quantity, float(depth[-1])): final_mean(
-            depth, history[quantity], length
-        )
+        (quantity, float(depth[-1])): final_mean(depth, history[quantity], length)
         for quantity in ("total_force_N", "tip_force_N")
     }
 

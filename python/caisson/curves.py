@@ -73,7 +73,6 @@ def integral(position: np.ndarray, values: np.ndarray, to: np.ndarray) -> np.nda
     return at_rows[row] + (to - position[row]) * (values[row] + ends) / 2
 
 
-
 def means_to_the_ends(
     position: np.ndarray, values: np.ndarray, at: np.ndarray, width: float
 ) -> np.ndarray:
@@ -143,7 +142,6 @@ def running_mean(position: np.ndarray, values: np.ndarray, width: float) -> np.n
     first and the last half window are nan."""
     path = path_of(position)
     return window_means(path, values, path, width)
-
 
 
 def roughness(position: np.ndarray, force: np.ndarray) -> float:
