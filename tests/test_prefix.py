@@ -94,6 +94,29 @@ class Prefix(ProgramTest):
             "settles under its own weight", (results / "report.html").read_text()
         )
 
+    def test_completion(self) -> None:
+        """bash finds it in the prefix, and what it asks for."""
+        file = self.prefix / "share/bash-completion/completions/caisson"
+        self.assertEqual(self.installed("caisson", "--completion"), file.read_text())
+        self.assertEqual(self.installed("caisson", "--complete", "sug"), "suggest\n")
+
+    def test_package(self) -> None:
+        """Python finds the package, with its types, and it finds program and scenes."""
+        package = self.prefix / "share/caisson_mpm/python"
+        self.assertTrue((package / "caisson/py.typed").is_file())
+        code = (
+            "import caisson\nrun = caisson.run('column.prm', {'Time/End time': 0.05,"
+            " 'Verification/Checks': ''})\nprint(caisson.__version__, run.status)"
+        )
+        done = subprocess.run(
+            ["/usr/bin/python3", "-B", "-c", code],
+            cwd=self.here,
+            env={**ENVIRONMENT, "PYTHONPATH": str(package)},
+            text=True,
+            capture_output=True,
+        )
+        self.assertRegex(done.stdout, r"^\d+\.\d+\.\d+ finished$", done.stderr)
+
     def test_program(self) -> None:
         """The program itself, with a scene that includes another and an error bar."""
         scene = self.prefix / "share/caisson_mpm/prm/suction.prm"

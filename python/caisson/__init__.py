@@ -1,26 +1,75 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs, results, studies, pictures and checks of caisson_mpm.
+"""Runs, results, studies and pictures of caisson_mpm: what its users need.
 
-Everything around the program that is not the program itself. The modules, each
-above those that it uses:
+For scripts and notebooks (doc/how_to/python.md):
 
-    paths, table, machine   where things are, how tables look, what a number
-                            was measured on
-    scenes                  the scenes that come with the program
+    import caisson
+
+    run = caisson.run("jack_coarse.prm", set={"Time/Mass scaling": 25})
+    run = caisson.load("results/jack")  # or one that is there
+    run.history                         # a pandas.DataFrame; attrs["units"]
+    run.frame(penetration=2.5).mesh     # a mesh for VTK and PyVista
+
+The modules, each above those that it uses:
+
+    paths, table, units     where things are, how tables look, units in names
+    scenes, lock            the scenes that come with the program; the lock of a run
     runner                  Run: one call of the program with entries set
     results                 Results: what a run has left in its directory
     curves                  means over windows and other numbers of a curve
-    design                  solutions to compare with (no program needed)
-    plot                    pictures of a run
+    frame, loaded, api      what the names above are: meshes, tables, run() and load()
+    design                  design methods to compare with (no program needed)
+    plot, report            pictures of a run, and a page on it
+    progress                how far a study is
     study                   the format of all studies, and how they are run
-    verification, accuracy, error_bar, stability, forces, parameters, drainage,
-    speed                   what a study is for: each evaluates one kind
+    parameters              studies of uncertain or varied entries
     cpt, suggest            layers from a cone test, and scenes for one's own caisson
-    developer               checks of the sources
+    completion              what a shell completes
+    command_line            a command line with subcommands in groups
 
 scripts/caisson is the command line. Needed besides Python 3.11: numpy,
-SciPy, matplotlib, VTK and Jinja2, as Debian packages them.
+SciPy, matplotlib, VTK and Jinja2, as Debian packages them; pandas for history.
+The laboratory (lab) and the workshop (tools) import this package, which imports
+nothing of them.
 
 Units are SI, angles in degrees, unless a name says otherwise (wall_kN). Arrays
 are given with their shapes, as in [n_rows].
 """
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from caisson.api import run
+    from caisson.frame import Frame
+    from caisson.loaded import LoadedRun, load
+    from caisson.results import ResultsError
+    from caisson.runner import RunError
+
+    __version__: str
+
+__all__ = ["Frame", "LoadedRun", "ResultsError", "RunError", "load", "run"]
+
+# the module of each name, which is loaded when the name is used: commands, and an
+# import alone, need none of them
+MODULES = {
+    "run": "caisson.api",
+    "Frame": "caisson.frame",
+    "LoadedRun": "caisson.loaded",
+    "load": "caisson.loaded",
+    "ResultsError": "caisson.results",
+    "RunError": "caisson.runner",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Load what a name of __all__, or __version__, stands for."""
+    if name == "__version__":
+        return importlib.import_module("caisson.paths").version()
+    if name in MODULES:
+        return getattr(importlib.import_module(MODULES[name]), name)
+    raise AttributeError(f"module 'caisson' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """Return the names for completion in a notebook."""
+    return sorted([*globals(), *__all__, "__version__"])

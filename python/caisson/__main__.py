@@ -4,6 +4,7 @@ program is installed."""
 from collections.abc import Sequence
 from typing import NoReturn
 
+from caisson import completion
 from caisson.command_line import Groups, commands_of, end_process, run_command
 
 GROUPS: Groups = {
@@ -33,6 +34,8 @@ LATE = {"cpt", "plot", "report"}
 
 def main(argv: Sequence[str]) -> int:
     """Run one command."""
+    if argv and argv[0] in ("--complete", "--completion"):
+        return completion.main(argv, COMMANDS)
     description = "Set up, run and evaluate installations of suction caissons."
     return run_command(argv, "caisson", description, GROUPS, LATE)
 

@@ -168,3 +168,8 @@ def forces_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
     """Return the means of a force over FORCE_WINDOW about some depths [m] (m of
     penetration): [m]."""
     return window_means(history["penetration_m"], history[column], depths, FORCE_WINDOW)
+
+
+def depth_at(time: float, history: Table) -> float:
+    """Return the penetration at a time (m)."""
+    return float(np.interp(time, history["time_s"], history["penetration_m"]))

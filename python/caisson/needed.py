@@ -21,6 +21,8 @@ MODULES = {
     "vtkmodules.vtkIOXML": "python3-vtk9",
     "jinja2": "python3-jinja2",
 }
+# of tables in Python (caisson.load), which no command needs
+TABLES = {"pandas": "python3-pandas"}
 JAVASCRIPT = Path("/usr/share/javascript")
 # of a report, which has a copy of them
 SCRIPTS = {
@@ -45,15 +47,19 @@ def missing() -> dict[str, str]:
     return modules | scripts
 
 
+def sentence(found: dict[str, str], group: str) -> str:
+    """Return in one line what is missing, with its packages, and which command installs
+    it: that of a group of scripts/setup."""
+    packages = " ".join(sorted(set(found.values())))
+    how = f"apt-get install {packages}" if INSTALLED else f"scripts/setup {group}"
+    return f"{', '.join(found)} missing: `{how}` installs what is needed"
+
+
 def complaint() -> str:
     """Return in one line what is missing and which command installs it, nothing where
     all is there."""
     found = missing()
-    if not found:
-        return ""
-    packages = " ".join(sorted(set(found.values())))
-    how = f"apt-get install {packages}" if INSTALLED else "scripts/setup pictures"
-    return f"{', '.join(found)} missing: `{how}` installs what is needed"
+    return sentence(found, "pictures") if found else ""
 
 
 if __name__ == "__main__":

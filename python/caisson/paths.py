@@ -2,7 +2,10 @@
 """Where the parts of the project are: in its folder, or where `cmake --install` has
 put them, which is PREFIX/bin for the programs and PREFIX/share/caisson_mpm for this
 package and the scenes. An installation may be read-only."""
+import importlib.metadata
 import os
+import shutil
+import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -13,11 +16,29 @@ BUILD = ROOT / "build/release"
 WORK = Path.cwd() if INSTALLED else ROOT
 RESULTS = WORK / "results"
 PICTURES = ROOT / "doc/pictures"
-# another program for the tests
-PROGRAM = Path(
-    os.environ.get("CAISSON_MPM_PROGRAM")
-    or (ROOT.parent.parent / "bin" if INSTALLED else BUILD) / "caisson_mpm"
-)
+
+
+def find_program() -> Path:
+    """Return the program: that of CAISSON_MPM_PROGRAM, that of the build or of the
+    installation, or one on PATH. Without any, where the second one would be."""
+    if named := os.environ.get("CAISSON_MPM_PROGRAM"):
+        return Path(named)
+    own = (ROOT.parent.parent / "bin" if INSTALLED else BUILD) / "caisson_mpm"
+    on_path = None if own.is_file() else shutil.which("caisson_mpm")
+    return Path(on_path) if on_path else own
+
+
+PROGRAM = find_program()
+
+
+def version() -> str:
+    """Return the version of the project: pyproject.toml has it, also that of an
+    installation."""
+    file = ROOT / "pyproject.toml"
+    if file.is_file():
+        project = tomllib.loads(file.read_text(encoding="utf-8"))["project"]
+        return str(project["version"])
+    return importlib.metadata.version("caisson-mpm")
 
 
 def short(path: Path) -> str:

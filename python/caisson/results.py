@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a run has left in its directory: the only reader of its files."""
 import csv
-import fcntl
 import functools
 import json
 import xml.etree.ElementTree as ElementTree
@@ -9,6 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+
+from caisson.lock import is_locked
 
 Table = dict[str, np.ndarray]
 
@@ -112,16 +113,7 @@ class Results:
     @property
     def is_running(self) -> bool:
         """Whether the run has not ended yet, or has left no run.json at its end."""
-        if not (self.directory / "run.json").is_file():
-            return True
-        try:
-            with (self.directory / ".lock").open(encoding="utf-8") as lock:
-                fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        except FileNotFoundError:
-            return False
-        except OSError:  # the run has it
-            return True
-        return False
+        return not (self.directory / "run.json").is_file() or is_locked(self.directory)
 
     @property
     def has_frames(self) -> bool:

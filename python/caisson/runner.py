@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Calls of the program: the only place that knows its command line."""
+import collections
 import enum
-import fcntl
 import functools
 import hashlib
 import json
@@ -9,12 +9,14 @@ import os
 import re
 import shutil
 import subprocess
+import tempfile
 import threading
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from caisson.lock import is_locked
 from caisson.paths import PROGRAM, WORK
 from caisson.ranks import Size
 
@@ -38,7 +40,9 @@ class RunError(Exception):
 
 
 def in_words(value: object) -> str:
-    """Return the value of an entry as a .prm file has it."""
+    """Return the value of an entry as a .prm file has it; a list with commas."""
+    if isinstance(value, (list, tuple)):
+        return ", ".join(map(in_words, value))
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
@@ -221,16 +225,53 @@ class Run:
         except RunError:
             return False
 
-    def is_in_use(self) -> bool:
-        """Return whether the program runs in the directory, and so has its lock."""
-        try:
-            with (self.directory / ".lock").open(encoding="utf-8") as lock:
-                fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return True
-        except OSError:  # no such file, or a file system without locks
-            return False
-        return False
+    def call(self, overwrite: bool = False, echo: bool = False) -> None:
+        """Run the program as its user does: it keeps earlier results in the directory
+        unless it is to overwrite them.
+
+        echo: print its lines as they come. An interrupt (Ctrl-C) stops the run with a
+        checkpoint. Raises RunError with what the program says where it does not
+        succeed; a run that is stopped otherwise is no error.
+        """
+        words = [*self.command(), *(["--overwrite"] if overwrite else [])]
+        with (
+            tempfile.TemporaryFile("w+", encoding="utf-8") as errors,
+            subprocess.Popen(
+                words,
+                text=True,
+                errors="replace",
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=errors,
+                start_new_session=True,  # an interrupt comes to us alone
+                env=environment(),
+            ) as process,
+        ):
+            last = collections.deque[str](maxlen=1)
+            assert process.stdout
+            try:
+                for line in process.stdout:
+                    last.append(line)
+                    if echo:
+                        print(line, end="", flush=True)
+            except KeyboardInterrupt:
+                self.stop(process)
+                raise
+            status = process.wait()
+            errors.seek(0)
+            said = errors.read().strip() or "".join(last).strip()
+        if status not in (Status.SUCCESS, Status.STOPPED):
+            raise RunError(f"{said}\n(exit status {status}, results: {self.directory})")
+
+    def stop(self, process: "subprocess.Popen[str]") -> None:
+        """Stop a call with a checkpoint, and wait for its end: by the stop file, as
+        mpirun ends ranks that get a signal before they have written theirs."""
+        name = self.parameter("Run control/Stop file", self.program)
+        if name and self.directory.is_dir():
+            (self.directory / name).touch()
+        else:
+            process.terminate()
+        process.communicate()
 
     def execute(
         self, time_limit: float | None = None, ranks: int | None = None
@@ -242,7 +283,7 @@ class Run:
         was ended, or was ended by a signal. Raises RunError where another process
         computes in the directory.
         """
-        if self.is_in_use():
+        if is_locked(self.directory):
             raise RunError(f"another process computes in {self.directory}")
         shutil.rmtree(self.directory, ignore_errors=True)
         self.directory.mkdir(parents=True)

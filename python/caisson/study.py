@@ -60,6 +60,7 @@ from pathlib import Path
 from typing import Any
 
 from caisson.paths import PROGRAM
+from caisson.progress import Progress
 from caisson.ranks import Size
 from caisson.results import Results
 from caisson.runner import Entries, Run, RunError, Status
@@ -115,8 +116,9 @@ class StudyRun:
         again: bool = False,
         time_limit: float | None = None,
         ranks: int | None = None,
+        say: Callable[[str], None] = print,
     ) -> None:
-        """Run it unless it is complete; says what it cost."""
+        """Run it unless it is complete, and say what it cost."""
         if not again and self.run.is_complete():
             return
         status = self.run.execute(time_limit, ranks)
@@ -127,7 +129,7 @@ class StudyRun:
         cost = f"{record['wall_s']:.0f} s" if record else self.trouble
         if record and record["status"] == Status.FAILURE:
             cost = f"{cost}, ended with a failure"
-        print(f"{self.study} {self.name}".rstrip() + f": {cost}", flush=True)
+        say(f"{self.study} {self.name}".rstrip() + f": {cost}")
 
     @property
     def status(self) -> Status | None:
@@ -333,13 +335,21 @@ def execute(
     ranks: int | None = None,
 ) -> None:
     """Run all that are not complete, some at a time, the longest first; ranks: others
-    than those of the runs. A run that cannot be made says why in its trouble."""
+    than those of the runs. A run that cannot be made says why in its trouble. On a
+    terminal a bar shows how far they are."""
+    ordered = longest_first(runs)
+    with (
+        Progress([run.duration for run in ordered]) as progress,
+        concurrent.futures.ThreadPoolExecutor(jobs) as pool,
+    ):
 
-    def one(run: StudyRun) -> None:
-        try:
-            run.execute(again, time_limit, ranks)
-        except (RunError, OSError) as error:
-            run.trouble = f"{type(error).__name__}: {error}"
+        def one(number: int) -> None:
+            run = ordered[number]
+            progress.start(number)
+            try:
+                run.execute(again, time_limit, ranks, progress.say)
+            except (RunError, OSError) as error:
+                run.trouble = f"{type(error).__name__}: {error}"
+            progress.end(number)
 
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        list(pool.map(one, longest_first(runs)))
+        list(pool.map(one, range(len(ordered))))

@@ -16,6 +16,7 @@ from types import ModuleType
 
 from caisson import needed
 from caisson.paths import PROGRAM, RESULTS, scene_or_study
+from caisson.progress import duration
 from caisson.ranks import Size, cores, plan
 from caisson.runner import RunError, Status
 from caisson.study import (
@@ -56,13 +57,6 @@ def part_of(text: str) -> tuple[int, int]:
 def jobs_at_hand(runs: Sequence[StudyRun]) -> int:
     """Return how many runs with ranks of their own the cores bear at a time."""
     return max(1, cores() // max(run.run.ranks for run in runs))
-
-
-def duration(seconds: float) -> str:
-    """Return a time as an estimate, with two digits."""
-    if seconds < 90:
-        return f"{seconds:.2g} s"
-    return f"{seconds / 60:.2g} min" if seconds < 5400 else f"{seconds / 3600:.2g} h"
 
 
 def add_arguments(parser: argparse.ArgumentParser, file: Path | None = None) -> None:

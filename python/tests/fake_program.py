@@ -5,7 +5,7 @@ force, and a file `calls` beside the results that counts the runs.
 
 Entries: Soil/Friction angle (30), Soil/Stiffness (5e6), Soil/Kind (sand). It refuses an
 angle below 0 with --validate, and breaks off at 3 m where it is above 40. The variable
-STAND_IN_POINTS makes --validate report a number of points.
+FAKE_PROGRAM_POINTS makes --validate report a number of points.
 """
 import argparse
 import os
@@ -75,7 +75,7 @@ def main() -> int:
     if not words.validate:
         return run(entries, words.output_directory)
     print("a.prm is valid")
-    if points := os.environ.get("STAND_IN_POINTS"):
+    if points := os.environ.get("FAKE_PROGRAM_POINTS"):
         print(f"  points     {points}")
     print("  duration   about 1.5 min on one core at the speed of the first steps")
     return 0

@@ -201,7 +201,7 @@ class Commands(WithFiles):
         path = f"{tools}:{os.environ['PATH']}"
         self.write(PHI + "values = [30, 32, 34]")
         with mock.patch.object(study_command, "cores", return_value=2), mock.patch.dict(
-            os.environ, {"PATH": path, "STAND_IN_POINTS": "40000"}
+            os.environ, {"PATH": path, "FAKE_PROGRAM_POINTS": "40000"}
         ):
             status, said = self.study()
             self.assertEqual(status, 0, said)

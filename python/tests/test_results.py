@@ -11,10 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from caisson import curve, plot, table
+from caisson import curve, plot, table, units
 from caisson.plot.cells import CellMeans, cell_of
 from caisson.plot.fields import chosen, window_of
-from caisson.plot.vtu import without_unit
 from caisson.results import Results, ResultsError, read_table
 
 TINY = Path(__file__).resolve().parent / "tiny_run"
@@ -191,8 +190,10 @@ class Pictures(Directory):
         """Those of earlier versions have no units."""
         for name in ("stress_zz", "velocity", "displacement", "whole_volume"):
             unit = {"s": "Pa", "v": "m_s", "d": "m", "w": "m3"}[name[0]]
-            self.assertEqual(without_unit(f"{name}_{unit}"), name)
-            self.assertEqual(without_unit(name), name)
+            self.assertEqual(units.split(f"{name}_{unit}")[0], name)
+            self.assertEqual(units.split(name), (name, units.NONE))
+        self.assertEqual(units.unit_of("seepage_flow_m3_s"), "m3/s")
+        self.assertEqual(units.unit_of("max_speed_m_s"), "m/s")
 
     def test_curve(self) -> None:
         lines = list(curve.describe(TINY, [1.0, 9.0]))

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import EllipseCollection, PolyCollection
 from matplotlib.figure import Figure
 
+from caisson.curves import depth_at
 from caisson.plot.cells import CellMeans
 from caisson.plot.forces import penetration
 from caisson.plot.vtu import read_cells, read_points
@@ -52,11 +53,6 @@ class Frame:
         self.label = f"t = {time:.3g} s"
         if penetration(history) is not None:
             self.label = f"penetration {depth_at(time, history):.2f} m"
-
-
-def depth_at(time: float, history: Table) -> float:
-    """Return the penetration at a time (m)."""
-    return float(np.interp(time, history["time_s"], history["penetration_m"]))
 
 
 def chosen(series: Series, history: Table, wanted: Sequence[float]) -> Series:

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A run for those who work with its results in Python: tables with units and frames."""
+import functools
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from caisson import needed
+from caisson.curves import depth_at
+from caisson.frame import Frame, choose
+from caisson.lock import is_locked
+from caisson.results import Results, ResultsError, Table
+from caisson.units import unit_of
+
+if TYPE_CHECKING:
+    import pandas
+
+TOLERANCE = 0.01  # m or s, of the place of a frame
+
+
+def data_frame(table: Table) -> "pandas.DataFrame":
+    """Return a table with the column time_s as a DataFrame, whose index that is.
+
+    attrs["units"] has the unit of each column and of the index, "1" of numbers. Raises
+    ModuleNotFoundError where there is no pandas.
+    """
+    try:
+        import pandas
+    except ModuleNotFoundError as error:
+        raise ModuleNotFoundError(needed.sentence(needed.TABLES, "python")) from error
+    found = pandas.DataFrame(table).set_index("time_s")
+    found.attrs["units"] = {name: unit_of(name) for name in table}
+    return found
+
+
+class LoadedRun:
+    """What a run has left in its output directory.
+
+    A file is read when it is asked for, and once; load() again to see what a run that
+    goes on has written since. Values are in SI units, which the names of columns and
+    fields carry. Raises ResultsError where a file is missing or cannot be read.
+    """
+
+    def __init__(self, directory: Path) -> None:
+        """directory: the output directory of the run."""
+        self.directory = directory
+        self.results = Results(directory)
+
+    def __repr__(self) -> str:
+        """Say which run it is, and how far it is."""
+        return f"<run in {self.directory}: {self.status}, {len(self.frames)} frames>"
+
+    @property
+    def status(self) -> str:
+        """How the run has ended, as run.json has it: "finished", for example.
+        "running" while it goes on, "unfinished" where it has left no run.json."""
+        if is_locked(self.directory):
+            return "running"
+        if self.results.is_running:
+            return "unfinished"
+        return str(self.summary.get("status", "finished"))
+
+    @functools.cached_property
+    def history(self) -> "pandas.DataFrame":
+        """Forces, energies and counts, [n_rows, n_columns], over the time (time_s, s).
+
+        The columns are those of history.csv, such as penetration_m and tip_force_N;
+        the manual lists them (doc/how_to/results.md). attrs["units"] has their units.
+        Forces are those of the soil on the body, for the whole circumference, positive
+        upward, and each is the mean since the row before. Needs pandas.
+        """
+        return data_frame(self.results.history)
+
+    @functools.cached_property
+    def observations(self) -> "pandas.DataFrame":
+        """The series that the entry Verification/Observations asks for, [n_rows,
+        n_series], over the time (time_s, s). Needs pandas."""
+        return data_frame(self.results.observations)
+
+    @functools.cached_property
+    def summary(self) -> dict[str, Any]:
+        """Sizes, times, counts, energies and warnings of the whole run: run.json.
+
+        Raises ResultsError where the run has not come to its end.
+        """
+        if not (self.directory / "run.json").is_file():
+            raise ResultsError(
+                f"the run in {self.directory} is {self.status}, so that there is no"
+                " run.json: it is written at the end of a run; history and frames are"
+                " there before"
+            )
+        return self.results.summary
+
+    @functools.cached_property
+    def frames(self) -> list[Frame]:
+        """All frames in their order. Their files are read only when a frame is asked
+        for its fields."""
+        series = {name: dict(self.results.frames(name)) for name in ("grid", "points")}
+        series["body"] = dict(self.results.frames("body"))
+        times = sorted({time for files in series.values() for time in files})
+        found = []
+        for index, time in enumerate(times):
+            files = {name: at[time] for name, at in series.items() if time in at}
+            depth = self._penetration_at(time)
+            found.append(Frame(self.directory, index, time, depth, files))
+        return found
+
+    def _penetration_at(self, time: float) -> float:
+        """Return the penetration of the body at a time (m)."""
+        history = self.results.history
+        return depth_at(time, history) if "penetration_m" in history else math.nan
+
+    def frame(
+        self,
+        *,
+        penetration: float | None = None,
+        time: float | None = None,
+        index: int | None = None,
+        tolerance: float = TOLERANCE,
+    ) -> Frame:
+        """Return one frame: that at a penetration (m), at a time (s), or of an index,
+        which counts from 0, or from the end where it is negative.
+
+        Give exactly one of the three. A penetration or time must be that of a frame
+        within the tolerance (m or s); of several as near the first is taken. Raises
+        ResultsError, which names the nearest frames, where there is none.
+        """
+        if [penetration, time, index].count(None) != 2:
+            raise TypeError("give one of penetration, time and index")
+        frames = self.frames
+        if not frames:
+            raise ResultsError(
+                f"the run in {self.directory} has no frames: the entries Output/Frame"
+                " interval and Output/Frame penetrations of the scene ask for some"
+            )
+        if index is not None:
+            if not -len(frames) <= index < len(frames):
+                raise ResultsError(
+                    f"{self.directory} has no frame {index}: it has {len(frames)}, from"
+                    f" 0 to {len(frames) - 1}"
+                )
+            return frames[index]
+        if penetration is not None:
+            return choose(frames, "penetration", penetration, tolerance)
+        assert time is not None
+        return choose(frames, "time", time, tolerance)
+
+
+def load(directory: str | Path) -> LoadedRun:
+    """Return the run whose output directory this is; relative to the current folder.
+
+    A run that goes on, or was stopped, can be loaded too: its history and frames are
+    those that it has written so far. Raises ResultsError where there is no such
+    directory, or no run has written to it.
+    """
+    path = Path(directory)
+    if not path.is_dir():
+        raise ResultsError(
+            f"no directory {path}, seen from {Path.cwd()}: give the output directory"
+            " of a run, such as results/jack"
+        )
+    if not (path / "history.csv").is_file():
+        raise ResultsError(
+            f"no history.csv in {path}: it is not the output directory of a run, or"
+            " the run has not begun to compute"
+        )
+    return LoadedRun(path)

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Units at the end of names, as in tip_force_N and velocity_m_s: of the columns of
+tables and of the arrays of frames."""
+
+# the end of a name, and the unit; a longer end comes before one that ends like it
+UNITS = {
+    "m3_s": "m3/s",
+    "m_s": "m/s",
+    "kg_m3": "kg/m3",
+    "J_m3": "J/m3",
+    "N_m3": "N/m3",
+    "m3": "m3",
+    "m2": "m2",
+    "Pa": "Pa",
+    "kg": "kg",
+    "deg": "degree",
+    "J": "J",
+    "N": "N",
+    "m": "m",
+    "s": "s",
+}
+NONE = "1"  # of counts, ratios and numbers of materials
+
+
+def split(name: str) -> tuple[str, str]:
+    """Return the quantity and its unit: ("stress_zz", "Pa") from "stress_zz_Pa"; the
+    name and NONE where it has no unit."""
+    for end, unit in UNITS.items():
+        if name.endswith(f"_{end}"):
+            return name.removesuffix(f"_{end}"), unit
+    return name, NONE
+
+
+def unit_of(name: str) -> str:
+    """Return the unit at the end of a name, NONE where there is none."""
+    return split(name)[1]

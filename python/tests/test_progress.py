@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The bar of a study: on a terminal only, and never within a line of a log file."""
+import contextlib
+import io
+import time
+import unittest
+from unittest import mock
+
+from caisson import progress
+from caisson.progress import Progress
+
+
+class Terminal(io.StringIO):
+    """A stream that says that it is a terminal."""
+
+    def isatty(self) -> bool:
+        """It is."""
+        return True
+
+
+class Bars(unittest.TestCase):
+    """What is written where."""
+
+    def setUp(self) -> None:
+        for patch in (
+            mock.patch("caisson.progress.INTERVAL", 0.01),
+            mock.patch.dict("os.environ", {"TERM": "xterm", "COLUMNS": "70"}),
+        ):
+            patch.start()
+            self.addCleanup(patch.stop)
+
+    def run_two(self, stream: io.StringIO) -> str:
+        """Return the lines about two runs, whose bar goes to a stream."""
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            with Progress([1.0, 1.0], stream) as shown:
+                for number in range(2):
+                    shown.start(number)
+                    time.sleep(0.1)
+                    shown.end(number)
+                    shown.say(f"run {number}: 1 s")
+        return said.getvalue()
+
+    def test_terminal(self) -> None:
+        """The bar is cleared before each line and at the end."""
+        stream = Terminal()
+        self.assertEqual(self.run_two(stream), "run 0: 1 s\nrun 1: 1 s\n")
+        bars = stream.getvalue().split("\r\x1b[K")
+        self.assertIn("[............", bars[1])
+        self.assertIn("1 of 2 runs, 50 %", stream.getvalue())
+        self.assertEqual(bars[-1], "")
+
+    def test_log_file(self) -> None:
+        stream = io.StringIO()
+        self.assertEqual(self.run_two(stream), "run 0: 1 s\nrun 1: 1 s\n")
+        self.assertEqual(stream.getvalue(), "")
+        with mock.patch.dict("os.environ", {"TERM": "dumb"}):
+            self.run_two(terminal := Terminal())
+        self.assertEqual(terminal.getvalue(), "")
+
+    def test_share(self) -> None:
+        """By durations; one that is not known counts as the mean of the others, and one
+        that takes longer than expected is not done."""
+        shown = Progress([30.0, 10.0, 0.0])
+        shown.end(0)
+        self.assertAlmostEqual(shown.share, 0.5)
+        shown.start(2)
+        shown.begins[2] -= 1000.0
+        self.assertAlmostEqual(shown.share, (30 + 0.95 * 20) / 60)
+        shown.begin -= 60.0
+        self.assertEqual(
+            shown.line(80),
+            "[" + "#" * 19 + "....." + "] 1 of 3 runs, 82 %, about 13 s left",
+        )
+        self.assertEqual(len(shown.line(20)), 19)
+
+    def test_durations(self) -> None:
+        words = [progress.duration(x) for x in (4.56, 600, 7200)]
+        self.assertEqual(words, ["4.6 s", "10 min", "2 h"])
+
+
+if __name__ == "__main__":
+    unittest.main()

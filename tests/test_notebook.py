@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""caisson.run() and caisson.load() with the program, and the notebook of the manual,
+whose cells are executed in their order. No Jupyter is needed, and none is tested."""
+import contextlib
+import io
+import json
+import os
+import unittest
+from pathlib import Path
+from typing import Any
+
+from program import HERE, ProgramTest
+
+os.environ["MPLBACKEND"] = "Agg"  # no display is needed
+
+import caisson  # noqa: E402
+from caisson.paths import ROOT  # noqa: E402
+
+NOTEBOOK = ROOT / "doc/notebooks/caisson.ipynb"
+SHORT = {"Time/End penetration": 0.6, "Output/Frame penetrations": [0.55, 0.6]}
+
+
+def cells_of(notebook: Path) -> list[str]:
+    """Return the code of a notebook, cell by cell."""
+    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+    return ["".join(c["source"]) for c in cells if c["cell_type"] == "code"]
+
+
+class Notebook(ProgramTest):
+    """doc/notebooks."""
+
+    def test_all_cells(self) -> None:
+        names: dict[str, Any] = {}
+        with contextlib.chdir(self.made_directory()):
+            for number, cell in enumerate(cells_of(NOTEBOOK)):
+                exec(compile(cell, f"{NOTEBOOK.name}, cell {number}", "exec"), names)
+        run, frame = names["run"], names["frame"]
+        self.assertEqual(run.status, "finished")
+        self.assertAlmostEqual(run.history["penetration_m"].iloc[-1], 1.0, places=2)
+        self.assertAlmostEqual(frame.penetration, 1.0, places=2)
+        self.assertGreater(len(names["axes"].collections), 0)
+
+    def test_it_is_stored_without_outputs(self) -> None:
+        for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]:
+            self.assertEqual(cell.get("outputs", []), [])
+
+
+class Runs(ProgramTest):
+    """caisson.run()."""
+
+    scene = HERE / "jack.prm"
+
+    def run_short(self, path: Path, **options: Any) -> caisson.LoadedRun:
+        """Run the scene for 0.1 m."""
+        return caisson.run(self.scene, set=SHORT, output_directory=path, **options)
+
+    def test_results(self) -> None:
+        """Tables and meshes agree with each other."""
+        run = self.run_short(self.directory(), ranks=1)
+        self.assertEqual((run.status, run.summary["ranks"]), ("finished", 1))
+        history = run.history
+        self.assertEqual(history.attrs["units"]["tip_force_N"], "N")
+        self.assertEqual(history.index.name, "time_s")
+        frame = run.frame(penetration=0.55)
+        self.assertAlmostEqual(frame.penetration, 0.55, places=3)
+        stress = frame.cell_data["stress_zz_Pa"]
+        self.assertEqual(stress.shape, frame.corners.shape[:1])
+        self.assertEqual(len(frame.positions), run.summary["material_points"])
+        self.assertEqual(frame.point_data["velocity_m_s"].shape[1], 3)
+        self.assertLess(stress[frame.cell_data["material_points"] > 0].max(), 1e4)
+        self.assertGreater(frame.body.GetNumberOfCells(), 0)
+
+    def test_earlier_results(self) -> None:
+        path = self.directory()
+        self.run_short(path, ranks=1)
+        self.run_short(path, ranks=1)
+        self.assertTrue((path / "earlier_1/history.csv").is_file())
+        self.run_short(path, ranks=2, overwrite=True)
+        self.assertEqual(caisson.load(path).summary["ranks"], 2)
+
+    def test_echo(self) -> None:
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            self.run_short(self.directory(), ranks=1, echo=True)
+        self.assertIn("pen  0.6", said.getvalue())
+
+    def test_refusal(self) -> None:
+        """The message is the program's own."""
+        path = self.directory()
+        with self.assertRaisesRegex(caisson.RunError, "(?s)no entry.*Did you mean"):
+            caisson.run(self.scene, set={"Time/Mas scaling": 9}, output_directory=path)
+        with self.assertRaisesRegex(caisson.RunError, "none.prm"):
+            caisson.run("none.prm", output_directory=path)
+        self.assertFalse(path.exists())
+
+    def test_failure(self) -> None:
+        """A check that fails is one; the results are there."""
+        path = self.directory()
+        checks = {"Verification/Checks": "max speed : 0 : 1e-12"}
+        with self.assertRaisesRegex(caisson.RunError, "exit status 2, results: .*"):
+            caisson.run(self.scene, {**SHORT, **checks}, output_directory=path)
+        self.assertEqual(caisson.load(path).status, "verification failed")
+
+
+if __name__ == "__main__":
+    unittest.main()
