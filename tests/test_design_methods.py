@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from program import BAD_INPUT, SUCCESS, ProgramTest, history, scene, summary
 
-from caisson.design import houlsby_byrne
 from caisson.plot import theory
 from caisson.results import Results
+from caisson_design import houlsby_byrne
 
 SECTION = "Design methods"
 SHORT = {"Time/End penetration": 0.51}

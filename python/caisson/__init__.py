@@ -18,7 +18,6 @@ The modules, each above those that it uses:
     results                 Results: what a run has left in its directory
     curves                  means over windows and other numbers of a curve
     frame, loaded, api      what the names above are: meshes, tables, run() and load()
-    design                  design methods to compare with (no program needed)
     plot, report            pictures of a run, and a page on it
     progress                how far a study is
     study                   the format of all studies, and how they are run
@@ -29,8 +28,9 @@ The modules, each above those that it uses:
 
 scripts/caisson is the command line. Needed besides Python 3.11: numpy,
 SciPy, matplotlib, VTK and Jinja2, as Debian packages them; pandas for history.
-The laboratory (lab) and the workshop (tools) import this package, which imports
-nothing of them.
+The package caisson_design beside it has the design methods, and needs nothing of it.
+The laboratory (lab) and the workshop (tools) import both; neither imports anything of
+them.
 
 Units are SI, angles in degrees, unless a name says otherwise (wall_kN). Arrays
 are given with their shapes, as in [n_rows].

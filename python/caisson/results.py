@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 
 from caisson.lock import is_locked
+from caisson_design import InputError
 
 Table = dict[str, np.ndarray]
 
 
-class ResultsError(Exception):
+class ResultsError(InputError):
     """What is wrong with the files of a run; the text is for the user."""
 
 

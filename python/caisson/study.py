@@ -3,8 +3,8 @@
 
 All studies have one format. A file (TOML) says what it is for,
 
-    kind = "verification"   # or validation, accuracy, error bar, stability,
-                            # forces, parameters, drainage, speed
+    kind = "parameters"     # or one of the laboratory: verification, validation,
+                            # accuracy, error bar, stability, forces, drainage, speed
 
 and holds studies, or is one itself if it holds none (its id is then its name):
 
@@ -42,11 +42,10 @@ name of a run is made of its variant, mesh and own name, as far as it has them.
 
 A file that is one study takes all of its [variants].
 
-What a study is for takes further keys, of the study or its runs; each kind says
-which (lab.verification, validation, accuracy, error_bar, stability, forces,
-parameters, drainage, speed). A kind may make the runs of a study itself, from keys of
-its own. A key that nobody knows is an error, so that no misspelt one is left out in
-silence.
+What a study is for takes further keys, of the study or its runs; the module of each
+kind says which (caisson.study_command and lab.study_command name it). A kind may make
+the runs of a study itself, from keys of its own. A key that is not known is an error,
+so that no misspelled one is left out in silence.
 
 A run that is complete is not repeated while the program, all entries in effect
 and the ranks are the same (caisson.runner.Run).

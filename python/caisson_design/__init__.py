@@ -1,2 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Solutions that a run is compared with; none of them needs the program."""
+"""Design methods for the penetration of skirts and caissons, and cone tests as files.
+
+Nothing here needs the program caisson_mpm or the package caisson around it: a method
+takes the caisson, the soil or a cone test, and returns forces or suctions over depth.
+"""
+
+
+class InputError(Exception):
+    """A file or a number that cannot be used; the text is for the user."""

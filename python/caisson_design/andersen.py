@@ -11,7 +11,7 @@ capacity with friction angles from the laboratory agrees better with the measure
 The paper was not at hand: the three numbers are as others quote them, and have not
 been checked against it. Its bearing-capacity model is left out for that reason.
 """
-from caisson.design.cone import Coefficients, ConeMethod, Layer, Profile, Skirt
+from caisson_design.cone import Coefficients, ConeMethod, Layer, Profile, Skirt
 
 CASES = ("low", "high")
 TIP = {"low": 0.01, "high": 0.55}  # k_p

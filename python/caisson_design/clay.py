@@ -20,8 +20,8 @@ from collections.abc import Sequence
 from math import inf, pi
 from typing import NamedTuple
 
-from caisson.design.cone import Skirt
-from caisson.design.method import Forces
+from caisson_design.cone import Skirt
+from caisson_design.method import Forces
 
 CASES = ("strip", "circle")
 N_C = dict(zip(CASES, (7.5, 9.0)))

@@ -23,9 +23,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson.design import cone_file
-from caisson.design.method import Forces
-from caisson.results import ResultsError
+from caisson_design import InputError, cone_file
+from caisson_design.method import Forces
 
 NAME = "cone.csv"  # of the test in the directory of a run
 
@@ -136,18 +135,18 @@ class ConeMethod:
 
 
 def read(path: Path) -> Profile:
-    """Return depth and resistance of the test in a file (caisson.design.cone_file).
-    Raises ResultsError, with the rows that are wrong."""
+    """Return depth and resistance of the test in a file (caisson_design.cone_file).
+    Raises InputError, with the rows that are wrong."""
     test = cone_file.read(path, with_friction=False)
     return Profile(test.depth.tolist(), test.resistance.tolist())
 
 
 def adopt(path: Path, directory: Path) -> None:
     """Copy a test into the directory of a run, where pictures and report find it.
-    Raises ResultsError where it cannot be read."""
+    Raises InputError where it cannot be read."""
     read(path)
     if not directory.is_dir():
-        raise ResultsError(f"no directory {directory}")
+        raise InputError(f"no directory {directory}")
     target = directory / NAME
     if not (target.exists() and target.samefile(path)):
         shutil.copyfile(path, target)

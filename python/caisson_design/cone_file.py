@@ -17,7 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson.results import ResultsError
+from caisson_design import InputError
+
 
 PASCAL = {"pa": 1.0, "kpa": 1e3, "mpa": 1e6}
 UNITS: dict[str, Mapping[str, float]] = {
@@ -91,21 +92,21 @@ def columns_of(
         if quantity not in wanted:
             continue
         if unit not in UNITS[quantity] and quantity in NAMES and wanted[2:]:
-            raise ResultsError(
+            raise InputError(
                 f"{path}: the column {head!r} has no unit that is known; columns that"
                 f" are read are {HEADS}, {MORE_HEADS}"
             )
         if unit not in UNITS[quantity]:
             continue
         if quantity in found:
-            raise ResultsError(
+            raise InputError(
                 f"{path}: two columns of {quantity}; the first row must name one column"
                 f" of depth and one of cone resistance, {HEADS}; it is"
                 f" {', '.join(heads)!r}"
             )
         found[quantity] = Column(place, UNITS[quantity][unit])
     if not {"depth", "qc"} <= set(found):
-        raise ResultsError(
+        raise InputError(
             f"{path}: the first row must name one column of depth and one of cone"
             f" resistance, {HEADS}; it is {', '.join(heads)!r}"
         )
@@ -164,10 +165,10 @@ def check_stresses(values: Mapping[str, float]) -> None:
 
 def check_friction(path: Path, friction: np.ndarray, resistance: np.ndarray) -> None:
     """Refuse a sleeve friction (Pa) [n] that is 0, or in another unit than its column
-    says. Raises ResultsError."""
+    says. Raises InputError."""
     ratio = float(np.median(friction / np.maximum(resistance, 1.0)))
     if ratio < SMOOTHEST:
-        raise ResultsError(
+        raise InputError(
             f"{path}: the sleeve friction is {100 * ratio:.2g} % of the cone resistance"
             " in the median, less than in any soil; check its unit, or leave the column"
             " out and give --soil and --unit-weight"
@@ -197,18 +198,18 @@ def cells_of(path: Path) -> list[tuple[int, list[str]]]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
-        raise ResultsError(
+        raise InputError(
             f"{path} cannot be read as a cone test: it is not in UTF-8; save it so"
         ) from error
     except OSError as error:
-        raise ResultsError(f"{path} cannot be read as a cone test: {error}") from error
+        raise InputError(f"{path} cannot be read as a cone test: {error}") from error
     lines = [
         (row, line)
         for row, line in enumerate(text.splitlines(), 1)
         if line.strip(" \t,;") and not line.startswith("#")
     ]
     if len(lines) < 3:
-        raise ResultsError(
+        raise InputError(
             f"{path}: a cone test needs a row of heads, {HEADS}, and two rows of"
             " numbers"
         )
@@ -220,7 +221,7 @@ def cells_of(path: Path) -> list[tuple[int, list[str]]]:
 
 
 def refuse(path: Path, wrong: Sequence[tuple[int, str]]) -> None:
-    """Raise ResultsError with all rows that are wrong, if there are some."""
+    """Raise InputError with all rows that are wrong, if there are some."""
     if not wrong:
         return
     texts = [f"{path}, row {row}: {why}" for row, why in wrong[:MOST]]
@@ -228,12 +229,12 @@ def refuse(path: Path, wrong: Sequence[tuple[int, str]]) -> None:
         rows = ", ".join(str(row) for row, _ in wrong[MOST : 3 * MOST])
         more = ", ..." if len(wrong) > 3 * MOST else ""
         texts.append(f"{path}: {len(wrong) - MOST} more rows are wrong: {rows}{more}")
-    raise ResultsError("\n".join(texts))
+    raise InputError("\n".join(texts))
 
 
 def read(path: Path, with_friction: bool = True) -> Test:
     """Return the test of a file. Without friction only depth and q_c are read, and
-    nothing else is looked at. Raises ResultsError, with the rows."""
+    nothing else is looked at. Raises InputError, with the rows."""
     wanted = list(UNITS) if with_friction else ["depth", "qc"]
     heads, *rows = cells_of(path)
     columns = columns_of(path, heads[1], wanted)
@@ -251,7 +252,7 @@ def read(path: Path, with_friction: bool = True) -> Test:
     refuse(path, wrong)
     arrays = {name: np.array(values) for name, values in table.items()}
     if arrays["qc"].max() < WEAKEST:
-        raise ResultsError(
+        raise InputError(
             f"{path}: the largest cone resistance is {arrays['qc'].max():g} Pa, less"
             " than any soil has; check the unit in the first row"
         )

@@ -11,7 +11,7 @@ In other soils the method may be far off: skirts in soft clay have met much less
 """
 from collections.abc import Sequence
 
-from caisson.design.cone import Coefficients, ConeMethod, Layer, Profile, Skirt
+from caisson_design.cone import Coefficients, ConeMethod, Layer, Profile, Skirt
 
 CASES = ("most probable", "highest")
 # soil: (k_p, k_f) of each case

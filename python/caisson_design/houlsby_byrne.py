@@ -32,7 +32,7 @@ from dataclasses import dataclass
 from math import exp, inf, nan, pi, radians, tan
 from typing import NamedTuple
 
-from caisson.design.method import Forces
+from caisson_design.method import Forces
 
 # N_gamma of a rough strip footing by the method of characteristics (Martin
 # 2005, Exact bearing capacity calculations using the method of

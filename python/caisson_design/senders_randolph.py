@@ -21,7 +21,7 @@ What suction takes from these forces: suction_installation.
 """
 from math import sqrt
 
-from caisson.design.cone import Coefficients, ConeMethod, Layer, Profile, Skirt
+from caisson_design.cone import Coefficients, ConeMethod, Layer, Profile, Skirt
 
 CASES = ("low", "high")
 TIP = 0.2  # k_p

@@ -27,9 +27,9 @@ SI units; h is the embedment of the tip (m), forces are N, suctions are Pa.
 from collections.abc import Callable
 from math import inf, nan, pi
 
-from caisson.design.houlsby_byrne import Caisson, Seepage
-from caisson.design.method import Forces
-from caisson.design.seepage import houlsby_byrne, pressure_factor, senders_randolph
+from caisson_design.houlsby_byrne import Caisson, Seepage
+from caisson_design.method import Forces
+from caisson_design.seepage import houlsby_byrne, pressure_factor, senders_randolph
 
 
 def bisect(is_beyond: Callable[[float], bool], low: float, high: float) -> float:

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from caisson.design.cone import Profile
 from caisson.plot import theory
+from caisson_design.cone import Profile
 
 LINEAR = Profile([0, 10], [0, 20e6])  # 2 MPa per meter
 SCENE: dict[str, Any] = {

@@ -25,11 +25,11 @@ from caisson.cpt.ground import (
     normalize,
     unit_weight_of,
 )
-from caisson.design import cone_file
 from caisson.paths import SCENES
-from caisson.results import ResultsError
 from caisson.suggest import cone
 from caisson.suggest.soil import SuggestError
+from caisson_design import cone_file
+from caisson_design import InputError
 
 EXAMPLE = SCENES / "cpt_example.csv"
 HEAD = "depth_m,qc_MPa,fs_kPa,u2_kPa\n"
@@ -118,7 +118,7 @@ class Files(WithFiles):
             "2,5,30,0",
             "500,5,30,0",
         ]
-        with self.assertRaises(ResultsError) as caught:
+        with self.assertRaises(InputError) as caught:
             cone_file.read(self.written(HEAD + "\n".join(rows)))
         lines = str(caught.exception).splitlines()
         for row, words in {
@@ -139,7 +139,7 @@ class Files(WithFiles):
 
     def test_many_wrong_rows_are_counted(self) -> None:
         text = HEAD + "0,1,1,0\n" + "1,x,1,0\n" * 13
-        with self.assertRaisesRegex(ResultsError, "3 more rows are wrong: 13, 14, 15"):
+        with self.assertRaisesRegex(InputError, "3 more rows are wrong: 13, 14, 15"):
             cone_file.read(self.written(text))
 
     def test_wrong_heads(self) -> None:
@@ -149,27 +149,27 @@ class Files(WithFiles):
             "depth_m,qc_MPa,qc_kPa": "two columns of qc",
             "depth_ft,qc_MPa,fs_kPa": "one column of depth",
         }.items():
-            with self.assertRaisesRegex(ResultsError, words):
+            with self.assertRaisesRegex(InputError, words):
                 cone_file.read(self.written(head + "\n0,1,1\n1,2,1\n"))
 
     def test_a_test_in_the_wrong_unit(self) -> None:
         """Megapascals below a head of pascals."""
-        with self.assertRaisesRegex(ResultsError, "largest cone resistance is 12 Pa"):
+        with self.assertRaisesRegex(InputError, "largest cone resistance is 12 Pa"):
             cone_file.read(self.written("depth_m,qc_Pa\n0,1\n1,12\n"))
         for friction in (0, 0.02):
             rows = "".join(f"{z / 10:g},{z + 1},{friction},0\n" for z in range(9))
-            with self.assertRaisesRegex(ResultsError, "less than in any soil"):
+            with self.assertRaisesRegex(InputError, "less than in any soil"):
                 cone_file.read(self.written(HEAD + rows))
 
     def test_decimal_commas_among_commas(self) -> None:
-        with self.assertRaisesRegex(ResultsError, "row 3: 5 cells, and 4 in the first"):
+        with self.assertRaisesRegex(InputError, "row 3: 5 cells, and 4 in the first"):
             cone_file.read(self.written(HEAD + "0,1,5,0\n1,2,20,4,0\n"))
         # cells without a number at the end of rows, and rows of them, are no mistake
         test = cone_file.read(self.written(HEAD + "0,1,5,0,\n,,,\n1,2,20,4,,\n"))
         self.assertEqual(list(test.depth), [0, 1])
 
     def test_a_wrong_start_is_told_once(self) -> None:
-        with self.assertRaises(ResultsError) as caught:
+        with self.assertRaises(InputError) as caught:
             cone_file.read(self.written(HEAD + "3,1,5,0\n4,2,20,0\n5,2,20,0\n"))
         self.assertEqual(len(str(caught.exception).splitlines()), 1)
 
@@ -371,7 +371,7 @@ class Layers(WithFiles):
 
     def test_tops_below_the_test(self) -> None:
         """They are refused below its end, and do not count below what counts."""
-        with self.assertRaisesRegex(ResultsError, "--tops 50: the test ends at"):
+        with self.assertRaisesRegex(InputError, "--tops 50: the test ends at"):
             interpretation.interpret(EXAMPLE, options("--tops", "0,50"))
         found = interpretation.interpret(EXAMPLE, options("--tops", "0,2,9"), 6.0)
         self.assertEqual([e.layer.top for e in found.layers], [0, 2])
@@ -380,9 +380,9 @@ class Layers(WithFiles):
         found = interpretation.interpret(EXAMPLE, options("--tops", "0,1,5.5"))
         self.assertEqual([e.layer.top for e in found.layers], [0, 1, 5.5])
         sparse = self.written(HEAD + "0.1,2,20,0\n10,5,30,0\n20,9,40,0\n")
-        with self.assertRaisesRegex(ResultsError, "no row .* choose other --tops"):
+        with self.assertRaisesRegex(InputError, "no row .* choose other --tops"):
             interpretation.interpret(sparse, options("--tops", "0,3,7"))
-        with self.assertRaisesRegex(ResultsError, "no row .* give --tops of your own"):
+        with self.assertRaisesRegex(InputError, "no row .* give --tops of your own"):
             interpretation.interpret(sparse, options())
         many = ",".join(str(i) for i in range(21))
         for text in ("1,2", "0,3,2", many, "0,a"):
@@ -437,9 +437,9 @@ class Estimates(WithFiles):
             (["--soil", "sand", "--unit-weight", "9"], "wet soil in kN/m3"),
             ([*both, "--correlation", "robertson-2009"], "robertson-2009 needs"),
         ):
-            with self.assertRaisesRegex(ResultsError, said):
+            with self.assertRaisesRegex(InputError, said):
                 interpretation.interpret(path, options(*words))
-        with self.assertRaisesRegex(ResultsError, "--area-ratio 2 is not"):
+        with self.assertRaisesRegex(InputError, "--area-ratio 2 is not"):
             interpretation.interpret(EXAMPLE, options("--area-ratio", "2"))
 
 

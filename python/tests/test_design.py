@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson.design.houlsby_byrne import (
+from caisson_design.houlsby_byrne import (
     UNDISTURBED,
     Assumptions,
     Caisson,

@@ -29,7 +29,8 @@ class Install(unittest.TestCase):
         for name in FILES:
             (self.project / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.project / name)
-        shutil.copytree(ROOT / "python/caisson", self.project / "python/caisson")
+        for name in ("python/caisson", "python/caisson_design"):
+            shutil.copytree(ROOT / name, self.project / name)
 
     def call(self, *words: str | Path) -> str:
         """Return what a call says; there is no network, and no other package."""

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson.design import andersen, cone, dnv, senders_randolph
-from caisson.design import houlsby_byrne
-from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, Layer
-from caisson.design.method import Forces
-from caisson.results import ResultsError
+from caisson_design import andersen, cone, dnv, senders_randolph
+from caisson_design import houlsby_byrne
+from caisson_design import InputError
+from caisson_design.houlsby_byrne import UNDISTURBED, Assumptions, Layer
+from caisson_design.method import Forces
 
 # 6 m with a wall of 0.1 m: the tip has pi 5.9 0.1 = 1.853540 m2
 SKIRT = cone.Skirt(6, 0.1, 20, 20)
@@ -160,11 +160,11 @@ class Files(unittest.TestCase):
             ("1,2\n2,5000", 6, "5000 MPa.* check the unit"),
         ):
             expected = rf"mine.csv, row {row}: .*{words}"
-            with self.assertRaisesRegex(ResultsError, expected):
+            with self.assertRaisesRegex(InputError, expected):
                 self.read(head + rows)
-        with self.assertRaisesRegex(ResultsError, "row 2: the test begins at .* 3 m"):
+        with self.assertRaisesRegex(InputError, "row 2: the test begins at .* 3 m"):
             self.read("depth_m,qc_MPa\n3,1\n4,2")
-        with self.assertRaisesRegex(ResultsError, "row 2: .*begins at .* -1 m"):
+        with self.assertRaisesRegex(InputError, "row 2: .*begins at .* -1 m"):
             self.read("depth_m,qc_MPa\n-1,1\n-2,2")
 
     def test_wrong_heads_and_files(self) -> None:
@@ -173,20 +173,20 @@ class Files(unittest.TestCase):
             "depth_m,qc\n0,1\n1,2",
             "depth_ft,qc_MPa\n0,1\n1,2",
         ):
-            with self.assertRaisesRegex(ResultsError, "depth_m and qc_MPa.*; it is"):
+            with self.assertRaisesRegex(InputError, "depth_m and qc_MPa.*; it is"):
                 self.read(text)
-        with self.assertRaisesRegex(ResultsError, "needs a row of heads"):
+        with self.assertRaisesRegex(InputError, "needs a row of heads"):
             self.read("depth_m,qc_MPa\n0,1\n")
-        with self.assertRaisesRegex(ResultsError, "none.csv cannot be read"):
+        with self.assertRaisesRegex(InputError, "none.csv cannot be read"):
             cone.read(self.path.parent / "none.csv")
         self.path.write_bytes(b"\xff\xfe\x00")
-        with self.assertRaisesRegex(ResultsError, "cannot be read as a cone test"):
+        with self.assertRaisesRegex(InputError, "cannot be read as a cone test"):
             cone.read(self.path)
 
     def test_kept_with_a_run(self) -> None:
         """Only a good file is kept, and it may be the kept one itself."""
         directory = self.path.parent / "run"
-        with self.assertRaises(ResultsError):
+        with self.assertRaises(InputError):
             self.read("depth_m,qc_MPa\n0,1\n2,5\n")
             cone.adopt(self.path, directory)
         directory.mkdir()
@@ -197,7 +197,7 @@ class Files(unittest.TestCase):
         self.assertEqual(kept.at(1), 3e6)
         cone.adopt(directory / cone.NAME, directory)
         self.path.write_text("nothing", encoding="utf-8")
-        with self.assertRaises(ResultsError):
+        with self.assertRaises(InputError):
             cone.adopt(self.path, directory)
         self.assertIsNotNone(cone.of_run(directory))
 

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import caisson
 import caisson.__main__
+import caisson_design
 import caisson_workshop.__main__
 import lab.__main__
 from caisson.paths import ROOT
@@ -55,8 +56,8 @@ MOST_COMMANDS, MOST_LINES = 10, 10_000  # of the user's package
 
 
 def modules() -> list[str]:
-    """Return the names of all modules of the three packages."""
-    packages = (caisson, lab, caisson_workshop)
+    """Return the names of all modules of the packages."""
+    packages = (caisson, caisson_design, lab, caisson_workshop)
     names = [
         m.name
         for package in packages
@@ -69,7 +70,7 @@ def modules() -> list[str]:
 
 
 class Imports(unittest.TestCase):
-    """The three packages."""
+    """The packages."""
 
     def test_all_modules(self) -> None:
         names = modules()
@@ -101,8 +102,12 @@ class Product(unittest.TestCase):
     files = sorted((ROOT / "python/caisson").rglob("*.py"))
 
     def test_imports(self) -> None:
-        """It imports nothing of them."""
-        for path in self.files:
+        """It imports nothing of them, and the design methods nothing of it either."""
+        design = sorted((ROOT / "python/caisson_design").rglob("*.py"))
+        for path in self.files + design:
+            refused = {"lab", "caisson_workshop"}
+            if path in design:
+                refused.add("caisson")
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 names = []
                 if isinstance(node, ast.Import):
@@ -110,7 +115,7 @@ class Product(unittest.TestCase):
                 elif isinstance(node, ast.ImportFrom):
                     names = [node.module or ""]
                 found = {name.split(".")[0] for name in names}
-                self.assertFalse(found & {"lab", "caisson_workshop"}, path)
+                self.assertFalse(found & refused, path)
 
     def test_laboratory_needs_no_workshop(self) -> None:
         for path in (ROOT / "lab").rglob("*.py"):

@@ -213,14 +213,15 @@ class Needed(unittest.TestCase):
         """Each library that the package imports is looked for."""
         modules = [*needed.MODULES, *needed.TABLES]
         known = {module.split(".")[0] for module in modules}
-        for path in (ROOT / "python/caisson").rglob("*.py"):
+        own = {"caisson", "caisson_design"}
+        for path in (p for name in own for p in (ROOT / "python" / name).rglob("*.py")):
             found = set()
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.Import):
                     found |= {alias.name.split(".")[0] for alias in node.names}
                 elif isinstance(node, ast.ImportFrom) and node.module:
                     found.add(node.module.split(".")[0])
-            libraries = found - sys.stdlib_module_names - {"caisson"}
+            libraries = found - sys.stdlib_module_names - own
             self.assertEqual(libraries - known, set(), path)
 
     def test_packages_of_an_installation(self) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 from caisson import study_command
 from caisson.paths import SCENES
-from caisson.study import Options, Reader, Study, StudyError
+from caisson.study import Options, Reader, Study, StudyError, read_toml
 from lab import study_command as lab_studies
 from lab import verification
 
@@ -150,9 +150,13 @@ class OwnStudies(unittest.TestCase):
             places = {run.run.directory for run in runs}
             self.assertEqual(len(places), len(runs), file)
 
-    def test_those_of_users_need_no_laboratory(self) -> None:
+    def test_users_need_no_laboratory(self) -> None:
+        """Only a study that makes an error bar does, and the message says so."""
         for file in sorted(SCENES.rglob("*.toml")):
-            self.assertTrue(study_command.module_of(file).STUDY_KEYS, file)
+            if read_toml(file)["kind"] != "error bar":
+                self.assertTrue(study_command.module_of(file).STUDY_KEYS, file)
+        with self.assertRaisesRegex(StudyError, "error bar.*scripts/lab study"):
+            study_command.module_of(SCENES / "jack_study.toml")
 
     def test_every_stability_scene_is_judged(self) -> None:
         file = lab_studies.STUDIES["stability"]

@@ -13,13 +13,13 @@ from matplotlib.figure import Figure
 from synthetic import write_columns, write_run
 
 from caisson import plot
-from caisson.design import seepage
-from caisson.design import suction_installation as installation
-from caisson.design.cone import Profile
-from caisson.design.houlsby_byrne import Caisson, Layer
 from caisson.plot import design, suction, theory
 from caisson.plot import suction_methods as methods
 from caisson.results import Results
+from caisson_design import seepage
+from caisson_design import suction_installation as installation
+from caisson_design.cone import Profile
+from caisson_design.houlsby_byrne import Caisson, Layer
 
 GAMMA, WEIGHT, D = 8829.0, 1e6, 6.0
 SAND: dict[str, Any] = {

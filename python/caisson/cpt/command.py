@@ -18,11 +18,11 @@ from caisson.cpt import interpretation, page, picture, tables
 from caisson.cpt.correlations import EVERY
 from caisson.cpt.interpretation import Interpretation
 from caisson.paths import RESULTS, scene_or_study, short
-from caisson.results import ResultsError
 from caisson.runner import RunError
 from caisson.study import StudyError
 from caisson.suggest.cone import REACH
 from caisson.suggest.soil import SuggestError
+from caisson_design import InputError
 
 SIZES = ("diameter", "skirt", "wall")
 SCENE, STUDY = "scene.prm", "study.toml"
@@ -47,17 +47,17 @@ def list_correlations() -> None:
 
 
 def check(options: argparse.Namespace) -> bool:
-    """Return whether there is a caisson. Raises ResultsError."""
+    """Return whether there is a caisson. Raises InputError."""
     if options.cpt is None:
-        raise ResultsError("give the file of a cone test, or --list")
+        raise InputError("give the file of a cone test, or --list")
     given = [name for name in SIZES if getattr(options, name) is not None]
     if given and len(given) < len(SIZES):
         missing = [f"--{name}" for name in SIZES if name not in given]
-        raise ResultsError(f"of the caisson, {' and '.join(missing)} are missing")
+        raise InputError(f"of the caisson, {' and '.join(missing)} are missing")
     if options.run and not given:
-        raise ResultsError("--run needs a caisson: --diameter, --skirt and --wall")
+        raise InputError("--run needs a caisson: --diameter, --skirt and --wall")
     if options.jobs is not None and options.jobs < 1:
-        raise ResultsError("--jobs must be 1 or more")
+        raise InputError("--jobs must be 1 or more")
     return bool(given)
 
 
@@ -109,6 +109,6 @@ def main(options: argparse.Namespace) -> int:
         return work(options)
     except BrokenPipeError:  # as of `| head`
         raise
-    except (ResultsError, SuggestError, StudyError, RunError, OSError) as error:
+    except (InputError, SuggestError, StudyError, RunError, OSError) as error:
         print(f"cpt: {error}", file=sys.stderr)
         return 1

@@ -25,7 +25,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from caisson.design.cone_file import Test
+from caisson_design.cone_file import Test
 
 ATMOSPHERE = 100e3
 WATER = 9.81e3  # unit weight

@@ -8,9 +8,9 @@ from caisson.cpt import correlations, layers
 from caisson.cpt.correlations import BY_NAME
 from caisson.cpt.estimates import Estimates, estimates_of
 from caisson.cpt.ground import CLAY, SAND, SILT, WATER, Ground, ground_of
-from caisson.design import cone_file
-from caisson.design.cone_file import Test
-from caisson.results import ResultsError
+from caisson_design import cone_file
+from caisson_design import InputError
+from caisson_design.cone_file import Test
 
 AREA_RATIO = 0.8
 
@@ -95,7 +95,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def check(file: Path, test: Test, options: argparse.Namespace) -> None:
-    """Refuse what the options leave open or cannot mean. Raises ResultsError."""
+    """Refuse what the options leave open or cannot mean. Raises InputError."""
     if test.friction is None:
         missing = [
             word
@@ -106,32 +106,32 @@ def check(file: Path, test: Test, options: argparse.Namespace) -> None:
             if value is None
         ]
         if missing:
-            raise ResultsError(
+            raise InputError(
                 f"{file} has no sleeve friction (fs_kPa), from which the kind of soil"
                 f" and its unit weight follow; give it, or {' and '.join(missing)}"
             )
         if "robertson-2009" in options.correlation:
-            raise ResultsError(f"robertson-2009 needs a sleeve friction, not in {file}")
+            raise InputError(f"robertson-2009 needs a sleeve friction, not in {file}")
     weight = options.unit_weight
     if weight is not None and not WATER < 1e3 * weight < 25e3:
-        raise ResultsError(
+        raise InputError(
             f"--unit-weight {weight:g}: give the unit weight of the wet soil in kN/m3,"
             f" between {WATER / 1e3:g} and 25"
         )
     if options.tops and options.tops[-1] >= test.depth[-1]:
-        raise ResultsError(
+        raise InputError(
             f"--tops {options.tops[-1]:g}: the test ends at {test.depth[-1]:g} m; give"
             " tops above it"
         )
     if not 0 < options.area_ratio <= 1:
-        raise ResultsError(f"--area-ratio {options.area_ratio:g} is not from 0 to 1")
+        raise InputError(f"--area-ratio {options.area_ratio:g} is not from 0 to 1")
 
 
 def interpret(
     file: Path, options: argparse.Namespace, deepest: float | None = None
 ) -> Interpretation:
     """Return what a test says. deepest: below it (m) it does not count. Raises
-    ResultsError."""
+    InputError."""
     test = cone_file.read(file)
     check(file, test, options)
     if deepest is not None:
@@ -145,7 +145,7 @@ def interpret(
         found = layers.layers_of(ground, tops, options.soil or "")
     except ValueError as error:
         tops_are = "choose other --tops" if options.tops else "give --tops of your own"
-        raise ResultsError(f"{file}: {error}; {tops_are}") from error
+        raise InputError(f"{file}: {error}; {tops_are}") from error
     return Interpretation(
         file,
         ground,

@@ -45,14 +45,14 @@ import concurrent.futures
 from collections.abc import Sequence
 from pathlib import Path
 
-from caisson.design import cone
 from caisson.parameters import methods, pictures, tables
 from caisson.parameters.outcome import Outcomes
 from caisson.parameters.sampling import runs_of
 from caisson.paths import short
-from caisson.results import ResultsError
 from caisson.runner import RunError
 from caisson.study import Options, Study, StudyError, StudyRun, file_name
+from caisson_design import cone
+from caisson_design import InputError
 
 NAME = "parameters"
 STUDY_KEYS = set(
@@ -100,7 +100,7 @@ def cone_of(study: Study) -> Path | None:
     path = study.file.parent / str(study.keys["cone"])
     try:
         cone.read(path)
-    except ResultsError as error:
+    except InputError as error:
         raise StudyError(f"{study.file}: cone: {error}") from error
     return path
 

@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 from caisson.results import Results, ResultsError
+from caisson_design import InputError
 
 
 def draw(directory: Path) -> list[Path]:
@@ -48,7 +49,7 @@ def add_cone_arguments(parser: argparse.ArgumentParser) -> None:
 def keep_cone(file: Path | None, directory: Path) -> None:
     """Keep a cone test, if one is given, with a run. Raises ResultsError."""
     if file is not None:
-        from caisson.design import cone
+        from caisson_design import cone
 
         cone.adopt(file, directory)
 
@@ -73,7 +74,7 @@ def main(options: argparse.Namespace) -> int:
             keep_cone(options.cpt, directory)
             for picture in draw(directory):
                 print(f"plot: {picture}")
-        except (ResultsError, OSError) as error:
+        except (InputError, OSError) as error:
             print(f"plot: {error}", file=sys.stderr)
             status = 1
     return status

@@ -8,10 +8,6 @@ from math import nan
 
 import numpy as np
 
-from caisson.design import suction_installation as installation
-from caisson.design.houlsby_byrne import UNDISTURBED, Caisson, HoulsbyByrne
-from caisson.design.method import Method
-from caisson.design.seepage import feld, ibsen_thilsted
 from caisson.plot.theory import (
     NotApplicable,
     Scene,
@@ -19,6 +15,10 @@ from caisson.plot.theory import (
     houlsby_byrne_of,
     senders_randolph_of,
 )
+from caisson_design import suction_installation as installation
+from caisson_design.houlsby_byrne import UNDISTURBED, Caisson, HoulsbyByrne
+from caisson_design.method import Method
+from caisson_design.seepage import feld, ibsen_thilsted
 
 LOW, HIGH = "houlsby_byrne_low_Pa", "houlsby_byrne_high_Pa"
 LOWER_BOUND = "houlsby_byrne_undisturbed_Pa"

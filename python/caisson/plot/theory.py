@@ -10,16 +10,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from caisson.design import andersen, clay, dnv, houlsby_byrne, senders_randolph
-from caisson.design.cone import Profile, Skirt, of_run
-from caisson.design.houlsby_byrne import (
+from caisson.results import Results
+from caisson_design import andersen, clay, dnv, houlsby_byrne, senders_randolph
+from caisson_design.cone import Profile, Skirt, of_run
+from caisson_design.houlsby_byrne import (
     UNDISTURBED,
     Assumptions,
     HoulsbyByrne,
     Layer,
 )
-from caisson.design.method import Forces, Method
-from caisson.results import Results
+from caisson_design.method import Forces, Method
 
 Scene = Mapping[str, Any]
 # The laws whose strength is one friction angle; run.json names the law of a layer.

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from caisson.plot import add_cone_arguments, draw, keep_cone
 from caisson.results import Results, ResultsError
+from caisson_design import InputError
 
 NAME = "report.html"
 INTERVAL = 30.0  # s, in which a followed report is renewed
@@ -93,7 +94,7 @@ def main(options: argparse.Namespace) -> int:
             print(f"report: {path}")
             if options.pdf:
                 print(f"report: {print_pdf(path)}")
-        except (ResultsError, OSError, subprocess.CalledProcessError) as error:
+        except (InputError, OSError, subprocess.CalledProcessError) as error:
             print(f"report: {error}", file=sys.stderr)
             status = 1
     return status

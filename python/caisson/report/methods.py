@@ -7,12 +7,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson import curves
-from caisson.design import suction_installation as installation
-from caisson.design.houlsby_byrne import STILL, UNDISTURBED
-from caisson.design.method import Forces
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import penetration
 from caisson.results import Results
+from caisson_design import suction_installation as installation
+from caisson_design.houlsby_byrne import STILL, UNDISTURBED
+from caisson_design.method import Forces
 
 RAISED = 1.5  # K tan(delta) over that of undisturbed ground, beyond which a wall grips
 UNDISTURBED_IS = (

@@ -25,7 +25,6 @@ import jinja2
 from caisson.cpt import interpretation, tables
 from caisson.cpt.interpretation import Interpretation
 from caisson.paths import INSTALLED
-from caisson.results import ResultsError
 from caisson.runner import RunError, query, read_parameters
 from caisson.suggest import cone
 from caisson.suggest.sizes import (
@@ -38,6 +37,7 @@ from caisson.suggest.sizes import (
     start_of,
 )
 from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of, stiffens
+from caisson_design import InputError
 
 CHANGES = (-4, -2, 0, 2, 4)  # degrees, of a study of the friction angle
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "": 1.0}
@@ -280,7 +280,7 @@ def cost_of(file: Path, text: str) -> str:
 
 def write(options: argparse.Namespace) -> None:
     """Write the scene, and the study if there is to be one; say what the scene will
-    cost. Raises SuggestError, RunError, ResultsError or OSError."""
+    cost. Raises SuggestError, RunError, InputError or OSError."""
     check(options)
     found = None
     if options.cpt:
@@ -307,7 +307,7 @@ def main(options: argparse.Namespace) -> int:
     """Write the scene, and say what it will cost."""
     try:
         write(options)
-    except (SuggestError, RunError, ResultsError, OSError) as error:
+    except (SuggestError, RunError, InputError, OSError) as error:
         print(f"suggest: {error}", file=sys.stderr)
         return 1
     run, study = (
