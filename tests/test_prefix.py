@@ -21,9 +21,12 @@ ENVIRONMENT = {
 }
 SHORT = ["--set", "Time/End time=0.05", "--set", "Verification/Checks="]
 STUDY = """kind = "parameters"
-title = "A column under its own weight"
-scene = "column.prm"
-[[runs]]
+title = "Two friction angles"
+scene = "jack_coarse.prm"
+depths = [0.55]
+set = {"Time/End penetration" = 0.6, "Time/Mass scaling" = 100}
+[parameters."Soil/Layer 1/Friction angle"]
+values = [31, 33]
 """
 
 
@@ -138,14 +141,13 @@ class Prefix(ProgramTest):
     def test_study(self) -> None:
         """Its results go to the current directory; a second time nothing is run."""
         self.installed("caisson", "scenes", "--copy", "mine")
-        (self.here / "mine/column.toml").write_text(STUDY)
-        said = self.installed("caisson", "study", "mine/column.toml")
-        self.assertRegex(said, r"column: \d+ s")
-        self.assertIn(
-            "column", (self.here / "results/verification/table.md").read_text()
-        )
-        said = self.installed("caisson", "study", "mine/column.toml")
-        self.assertNotRegex(said, r"column: \d+ s")
+        (self.here / "mine/angles.toml").write_text(STUDY)
+        said = self.installed("caisson", "study", "mine/angles.toml")
+        self.assertRegex(said, r"angles Friction angle 33: \d+ s")
+        table = self.here / "results/parameters/angles/table.csv"
+        self.assertIn("Friction angle", table.read_text())
+        said = self.installed("caisson", "study", "mine/angles.toml")
+        self.assertNotRegex(said, r"Friction angle 33: \d+ s")
 
     def test_plot_without_results(self) -> None:
         said = self.installed("caisson", "plot", "nothing", status=1)
