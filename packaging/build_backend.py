@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""setuptools for pip, where possible that of Debian, so that `pip install -e .` needs no
+"""setuptools for pip, where possible that of Debian: `pip install -e .` then needs no
 network.
 
 pip builds in an environment of its own, which does not see the packages of the system,

@@ -6,6 +6,9 @@ import contextlib
 import io
 import json
 import os
+import signal
+import subprocess
+import sys
 import unittest
 from pathlib import Path
 from typing import Any
@@ -16,6 +19,7 @@ os.environ["MPLBACKEND"] = "Agg"  # no display is needed
 
 import caisson  # noqa: E402
 from caisson.paths import ROOT  # noqa: E402
+from caisson.runner import environment  # noqa: E402
 
 NOTEBOOK = ROOT / "doc/notebooks/caisson.ipynb"
 SHORT = {"Time/End penetration": 0.6, "Output/Frame penetrations": [0.55, 0.6]}
@@ -83,7 +87,7 @@ class Runs(ProgramTest):
         said = io.StringIO()
         with contextlib.redirect_stdout(said):
             self.run_short(self.directory(), ranks=1, echo=True)
-        self.assertIn("pen  0.6", said.getvalue())
+        self.assertIn("pen 0.6 m", said.getvalue())
 
     def test_refusal(self) -> None:
         """The message is the program's own."""
@@ -93,6 +97,32 @@ class Runs(ProgramTest):
         with self.assertRaisesRegex(caisson.RunError, "none.prm"):
             caisson.run("none.prm", output_directory=path)
         self.assertFalse(path.exists())
+
+    def test_interrupt(self) -> None:
+        """As of a notebook: the run stops with a checkpoint, on one rank and on two."""
+        code = (
+            "import sys, caisson; caisson.run(sys.argv[1], {'Time/End penetration': 2},"
+            " output_directory=sys.argv[2], ranks=int(sys.argv[3]), echo=True)"
+        )
+        for ranks in (1, 2):
+            path = self.directory(f"ranks_{ranks}")
+            words = ["-c", code, str(self.scene), str(path), str(ranks)]
+            with subprocess.Popen(
+                [sys.executable, "-B", *words],
+                cwd=ROOT / "python",
+                env={**environment(), "CAISSON_MPM_PROGRAM": str(self.program)},
+                text=True,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+            ) as process:
+                assert process.stdout
+                while "pen " not in process.stdout.readline():
+                    self.assertIsNone(process.poll())
+                process.send_signal(signal.SIGINT)
+                _, errors = process.communicate()
+            self.assertIn("KeyboardInterrupt", errors)
+            self.assertTrue((path / "checkpoint.info").is_file())
+            self.assertLess(caisson.load(path).history["penetration_m"].iloc[-1], 1.9)
 
     def test_failure(self) -> None:
         """A check that fails is one; the results are there."""

@@ -48,6 +48,8 @@ def run(
     check_program(Path(program))
     if ranks is not None and ranks < 1:
         raise RunError(f"ranks is {ranks}: a run needs 1 or more")
+    if (ranks or 1) > 1 and not cores.can_start_ranks():
+        raise RunError("mpirun is missing; the package mpi-default-bin has it")
     call = Run(
         scene_or_study(str(scene)),
         dict[str, Any](set or {}),

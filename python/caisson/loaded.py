@@ -153,11 +153,11 @@ def load(directory: str | Path) -> LoadedRun:
     those that it has written so far. Raises ResultsError where there is no such
     directory, or no run has written to it.
     """
-    path = Path(directory)
+    path = Path(directory).expanduser().absolute()  # the folder may change later
     if not path.is_dir():
         raise ResultsError(
-            f"no directory {path}, seen from {Path.cwd()}: give the output directory"
-            " of a run, such as results/jack"
+            f"no directory {path}: give the output directory of a run, such as"
+            " results/jack"
         )
     if not (path / "history.csv").is_file():
         raise ResultsError(

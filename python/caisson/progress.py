@@ -41,7 +41,7 @@ class Progress:
         self.stream = stream or sys.stderr
         self.begin = time.monotonic()
         self.begins: dict[int, float] = {}  # of the runs that are running
-        self.done: set[int] = set()
+        self.took: dict[int, float] = {}  # those that have ended (s)
         self.lock = threading.RLock()
         self.is_over = threading.Event()
         self.thread = threading.Thread(target=self._draw_repeatedly, daemon=True)
@@ -66,35 +66,42 @@ class Progress:
     def end(self, number: int) -> None:
         """Say that a run has ended."""
         with self.lock:
-            self.begins.pop(number, None)
-            self.done.add(number)
+            self.took[number] = time.monotonic() - self.begins.pop(number)
+            if self.thread.is_alive():
+                self._draw()
 
     def say(self, text: str) -> None:
-        """Print a line above the bar."""
+        """Print a line in the place of the bar, which comes back below it."""
         with self.lock:
             self._clear()
             print(text, flush=True)
-            if self.thread.is_alive():
-                self._draw()
+
+    @property
+    def scale(self) -> float:
+        """The time that runs take over the time that was expected of them; 1 before one
+        has ended."""
+        expected = sum(self.expected[i] for i in self.took)
+        return sum(self.took.values()) / expected if expected else 1.0
 
     @property
     def share(self) -> float:
         """The part of the work that is done, from 0 to 1."""
-        now, work = time.monotonic(), sum(self.expected[i] for i in self.done)
+        now, work = time.monotonic(), sum(self.expected[i] for i in self.took)
+        scale = max(self.scale, 1e-9)
         for number, begin in self.begins.items():
-            work += min(now - begin, ALMOST * self.expected[number])
+            work += min((now - begin) / scale, ALMOST * self.expected[number])
         return work / sum(self.expected)
 
     def line(self, width: int) -> str:
         """Return the bar for a terminal of so many characters."""
         with self.lock:
-            share, n_done = self.share, len(self.done)
+            share, n_done = self.share, len(self.took)
         full = int(BAR * share)
         text = f"[{'#' * full}{'.' * (BAR - full)}] {n_done} of {len(self.expected)}"
         text += f" runs, {100 * share:.0f} %"
-        passed = time.monotonic() - self.begin
-        if share > 0.02 and passed > 2:
-            text += f", about {duration(passed * (1 - share) / share)} left"
+        if n_done:  # before, nobody knows how good the expectations are
+            left = (time.monotonic() - self.begin) * (1 - share) / share
+            text += f", about {duration(left)} left"
         return text[: width - 1]
 
     def _clear(self) -> None:

@@ -92,10 +92,10 @@ class Load(Directory):
     """Directories, run.json and history.csv."""
 
     def test_no_run(self) -> None:
-        with self.assertRaisesRegex(caisson.ResultsError, "no directory none, seen"):
+        with self.assertRaisesRegex(caisson.ResultsError, "no directory .*/none: give"):
             caisson.load("none")
         Path("empty").mkdir()
-        with self.assertRaisesRegex(caisson.ResultsError, "no history.csv in empty"):
+        with self.assertRaisesRegex(caisson.ResultsError, "no history.csv in .*/empty"):
             caisson.load("empty")
 
     def test_history(self) -> None:
@@ -128,13 +128,13 @@ class Load(Directory):
     def test_summary(self) -> None:
         self.assertEqual(self.run_there.summary["steps"], 279)
         self.assertEqual(self.run_there.status, "finished")
-        self.assertRegex(repr(self.run_there), "<run in run: finished, 3 frames>")
+        self.assertRegex(repr(self.run_there), "<run in .*/run: finished, 3 frames>")
 
     def test_a_run_that_has_not_ended(self) -> None:
         """Its history can be read, and not its summary."""
         (self.path / "run.json").unlink()
         self.assertEqual(self.run_there.status, "unfinished")
-        words = "the run in run is unfinished, .* no run.json"
+        words = "the run in .*/run is unfinished, .* no run.json"
         with self.assertRaisesRegex(caisson.ResultsError, words):
             self.run_there.summary
         self.assertGreater(len(self.run_there.history), 10)
@@ -227,13 +227,13 @@ class Runs(Directory):
 
     def test_results(self) -> None:
         run = self.run_to("new", Friction_angle=35)
-        self.assertEqual(run.directory, Path("new"))
+        self.assertEqual(run.directory, Path("new").absolute())
         self.assertEqual(run.history["total_force_N"].iloc[0], 0.5 * (35e3 + 5e3))
 
     def test_directory_of_the_scene(self) -> None:
         Path("a.prm").touch()
         run = caisson.run("a.prm", program=FAKE_PROGRAM)
-        self.assertEqual(run.directory, Path("results"))
+        self.assertEqual(run.directory, Path("results").absolute())
 
     def test_what_the_program_says(self) -> None:
         with self.assertRaisesRegex(caisson.RunError, "there is no entry Soil/Stif"):

@@ -22,12 +22,13 @@ class Bars(unittest.TestCase):
     """What is written where."""
 
     def setUp(self) -> None:
-        for patch in (
-            mock.patch("caisson.progress.INTERVAL", 0.01),
-            mock.patch.dict("os.environ", {"TERM": "xterm", "COLUMNS": "70"}),
-        ):
-            patch.start()
-            self.addCleanup(patch.stop)
+        interval = mock.patch("caisson.progress.INTERVAL", 0.01)
+        interval.start()
+        self.addCleanup(interval.stop)
+        names = {"TERM": "xterm", "COLUMNS": "70"}
+        environment = mock.patch.dict("os.environ", names)
+        environment.start()
+        self.addCleanup(environment.stop)
 
     def run_two(self, stream: io.StringIO) -> str:
         """Return the lines about two runs, whose bar goes to a stream."""
@@ -62,17 +63,24 @@ class Bars(unittest.TestCase):
         """By durations; one that is not known counts as the mean of the others, and one
         that takes longer than expected is not done."""
         shown = Progress([30.0, 10.0, 0.0])
-        shown.end(0)
-        self.assertAlmostEqual(shown.share, 0.5)
         shown.start(2)
         shown.begins[2] -= 1000.0
-        self.assertAlmostEqual(shown.share, (30 + 0.95 * 20) / 60)
-        shown.begin -= 60.0
-        self.assertEqual(
-            shown.line(80),
-            "[" + "#" * 19 + "....." + "] 1 of 3 runs, 82 %, about 13 s left",
-        )
+        self.assertAlmostEqual(shown.share, 0.95 * 20 / 60)
+        self.assertEqual(shown.line(80), f"[{'#' * 7}{'.' * 17}] 0 of 3 runs, 32 %")
         self.assertEqual(len(shown.line(20)), 19)
+
+    def test_time_left(self) -> None:
+        """From the runs that have ended, which may take longer than expected."""
+        shown = Progress([30.0, 10.0, 20.0])
+        shown.begin -= 90.0
+        shown.start(0)
+        shown.begins[0] -= 60.0
+        shown.end(0)
+        shown.start(2)
+        shown.begins[2] -= 30.0
+        self.assertAlmostEqual(shown.scale, 2.0, places=2)
+        self.assertAlmostEqual(shown.share, (30 + 15) / 60, places=2)
+        self.assertRegex(shown.line(80), "] 1 of 3 runs, 75 %, about 30 s left$")
 
     def test_durations(self) -> None:
         words = [progress.duration(x) for x in (4.56, 600, 7200)]
