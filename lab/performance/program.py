@@ -242,10 +242,10 @@ def measure_agreement(studies: Studies, report: Report) -> None:
             ]
             rows.append([run.name, len(base["step"]) - 1, *differences])
     report.say(
-        "`tests/jack.prm` with a row for each step: the largest difference of any force"
-        f" and any energy in these steps from {sets[-1]} on one rank, over the largest"
-        " value of its column (asked: 1e-9). history.csv has ten digits: 0 means that"
-        " all of them agree. Four ranks share the cores: for agreement only."
+        "`tests/simulation/jack.prm` with a row for each step: the largest difference"
+        f" of any force and any energy in these steps from {sets[-1]} on one rank, over"
+        " the largest value of its column (allowed: 1e-9). history.csv has ten digits: 0"
+        " means that all of them agree. Four ranks share the cores: for agreement only."
     )
     report.table("agreement", ["run", "steps", "forces", "energies"], rows)
     if "agreement_coarse" in studies:

@@ -5,14 +5,14 @@ A rank pays where it has 2,500 points. Measured with scripts at a time that the 
 did nothing else (AMD EPYC with AVX-512, two cores, Open MPI 4.1), steps per second of
 two ranks over those of one, and what speed_up() gives:
 
-    scene                       points     two ranks     speed_up()
-    prm/column.prm                 640     0.9 to 1.0          0.7
-    tests/jack.prm               3,760     1.1 to 1.4          1.2
-    the same, Refinement = 2    13,800     1.5 to 1.6          1.6
-    prm/jack_refined.prm        27,100     1.5 to 1.7          1.7
-    prm/suction_coupled.prm     37,900     1.4 to 1.8          1.7
-    prm/jack.prm                42,000     1.6 to 1.8          1.7
-    tests/jack.prm, x 4         54,300     1.9                 1.8
+    scene                             points     two ranks     speed_up()
+    prm/column.prm                       640     0.9 to 1.0          0.7
+    tests/simulation/jack.prm          3,760     1.1 to 1.4          1.2
+    the same, Refinement = 2          13,800     1.5 to 1.6          1.6
+    prm/jack_refined.prm              27,100     1.5 to 1.7          1.7
+    prm/suction_coupled.prm           37,900     1.4 to 1.8          1.7
+    prm/jack.prm                      42,000     1.6 to 1.8          1.7
+    tests/simulation/jack.prm, x 4    54,300     1.9                 1.8
 
 Two ranks thus are faster than one from about 2,000 points on, and with 5,000 by a
 quarter. More than two ranks have not been measured. Results differ in the last digits.

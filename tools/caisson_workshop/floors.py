@@ -8,7 +8,7 @@
 - Every source names its license (SPDX) in the first lines.
 - A CMakeLists.txt names every source/**/*.cc.
 - Words that are not used in sources: BANNED.
-- A file has at most 600 lines, a function 60, a script 40 (developer.lengths).
+- A file has at most 600 lines, a function 60, a script 40 (lengths.py).
 """
 import argparse
 import re

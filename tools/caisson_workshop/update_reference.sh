@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
 # Builds, runs the regression tests whose name fits, and makes their outputs the
-# new references tests/NAME.output. A test that does not finish keeps its old
+# new references tests/ROOM/NAME.output. A test that does not finish keeps its old
 # one. Say in the commit why the numbers changed.
 #
 # Usage: tools/workshop update-reference REGEX
@@ -15,13 +15,14 @@ if [ $# -ne 1 ]; then
 fi
 
 # A test without a reference is not known to cmake.
-for source in tests/*.cc tests/*.prm; do
+for source in tests/*/*.cc tests/*/*.prm; do
+  case $source in tests/program/*) continue ;; esac
   reference=${source%.*}.output
   [ -e "$reference" ] || touch "$reference"
 done
 scripts/build build_tests
-rm -f build/release/tests/*/output
-ctest --test-dir build/release -j "$(nproc)" -R "$1" -E '^python/|/program_' || true
+rm -f build/release/tests/*/*/output
+ctest --test-dir build/release -j "$(nproc)" -R "$1" -E '^(python|program)/' || true
 
 status=0
 while read -r name; do
@@ -33,6 +34,6 @@ while read -r name; do
     cp "$output" "tests/$name.output"
     echo "new: tests/$name.output"
   fi
-done < <(ctest --test-dir build/release -N -R "$1" -E '^python/|/program_' |
-         sed -n 's|.*Test .*: tests/||p')
+done < <(ctest --test-dir build/release -N -R "$1" -E '^(python|program)/' |
+         sed -n 's|.*Test .*: ||p')
 exit $status

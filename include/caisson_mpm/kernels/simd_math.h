@@ -2,7 +2,7 @@
 //
 // exp, log, pow, sine and cosine on all lanes at once, by the same polynomials
 // on every instruction set. Relative errors are a few units of round-off where
-// the result is a normal number; the test is tests/kernels_math.cc.
+// the result is a normal number; the test is tests/kernels/vector_math.cc.
 //
 // exp(x) = 2^k exp(t) with |t| <= ln(2)/2, and log(x) = k ln 2 + log(m) with
 // 1/sqrt(2) <= m <= sqrt(2), log(m) = 2 artanh((m - 1) / (m + 1)); exp(t),

@@ -6,11 +6,11 @@ compression positive, is integrated by Runge-Kutta's fourth order with small
 steps; the lateral strain rate of a drained triaxial test solves a quadratic
 equation. Nothing is taken from the C++ kernels.
 
-`scripts/lab element-tests table` prints the values for tests/kernels_laws.cc,
-`scripts/lab element-tests cycles` those for tests/kernels_intergranular.cc, with
-the intergranular strain of Niemunis & Herle (1997), and
-`scripts/lab element-tests plot FILE` draws them with the results of the kernels
-in tests/kernels_laws.output.
+`scripts/lab element-tests table` prints the values for
+tests/kernels/hypoplastic_element_tests.cc, `scripts/lab element-tests cycles` those
+for tests/kernels/intergranular_cycles.cc, with the intergranular strain of Niemunis &
+Herle (1997), and `scripts/lab element-tests plot FILE` draws them with the results
+of the kernels in tests/kernels/hypoplastic_element_tests.output.
 
 Units: Pa, degrees; strains are compression positive.
 """
@@ -25,7 +25,7 @@ from matplotlib.figure import Figure
 
 from caisson.paths import ROOT
 
-KERNELS = ROOT / "tests/kernels_laws.output"
+KERNELS = ROOT / "tests/kernels/hypoplastic_element_tests.output"
 # phi_c, h_s, n, e_d0, e_c0, e_i0, alpha, beta
 SANDS = {
     # Herle & Gudehus (1999)
@@ -46,7 +46,7 @@ class Test(NamedTuple):
     end: float  # largest axial strain
 
     def title(self) -> str:
-        """Return the name that tests/kernels_laws.output gives it."""
+        """Return the name that hypoplastic_element_tests.output gives it."""
         return f"{self.sand} sand, {self.kind}, {self.name}"
 
 
@@ -219,7 +219,7 @@ def integrate(case: Test, n_steps: int = 6000) -> np.ndarray:
 
 
 def table() -> Iterator[str]:
-    """Yield the lines of kernels_laws.cc."""
+    """Yield the lines of hypoplastic_element_tests.cc."""
     for case in TESTS:
         rows = integrate(case)
         yield f"// {case.title()}"

@@ -30,18 +30,18 @@ class Case:
 
 
 CASES = (
-    Case("jacking", ROOT / "tests/jack.prm", 0.1, JACKING),
+    Case("jacking", ROOT / "tests/simulation/jack.prm", 0.1, JACKING),
     Case("column", SCENES / "column.prm", 0.1, COLUMN),
     # hardly a moment in which no checkpoint is being written
     Case(
         "continuous",
-        ROOT / "tests/jack.prm",
+        ROOT / "tests/simulation/jack.prm",
         1e-6,
         {**JACKING, "Time/End penetration": 0.6},
     ),
     Case(
         "coupled",
-        ROOT / "tests/suction.prm",
+        ROOT / "tests/water/suction.prm",
         0.1,
         {**JACKING, "Water/Level": "coupled"},
     ),

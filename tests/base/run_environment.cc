@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The base floor: expressions, numbers as text, the output directory, stop
+// requests, timing, and the console.
+
+#include <caisson_mpm/base/console.h>
+#include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/base/output_directory.h>
+#include <caisson_mpm/base/parameter_file.h>
+#include <caisson_mpm/base/stop_request.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/base/text_file.h>
+#include <caisson_mpm/base/timing.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <thread>
+
+#include "../shared/messages.h"
+
+using namespace CaissonMPM;
+using dealii::ParameterAcceptor;
+
+void
+test_expressions()
+{
+  title("expressions");
+  for (const std::string text :
+       {"r + z*t", "r+*z", "r + ", "", "sin(r", "2*x", "if(r > 1, 2)"})
+    print_error(text, [&]() {
+      const Expression expression(text, "Soil/Initial velocity");
+      std::cout << expression(dealii::Point<2>(1., 2.), 3.) << '\n';
+    });
+}
+
+
+
+void
+test_numbers()
+{
+  title("numbers");
+  for (const double x :
+       {0., 0.1, 1. / 3., 1.2e-7, -2500., 5e6, 1234567., 0.30000000000000004})
+    std::cout << to_text(x) << ' ';
+  std::cout << to_text(7u) << ' ' << to_text(1. / 3., 3) << '\n';
+}
+
+
+
+/** What an earlier run left in mesh/results is kept. */
+void
+test_put_aside()
+{
+  print_error("put aside", [&]() {
+    const OutputDirectory directory("mesh/results", MPI_COMM_WORLD);
+    for (const std::string rows : {"", "0\n", "0\n1\n", "0\n1\n2\n"})
+      {
+        std::ofstream("mesh/results/history.csv") << "time_s\n" << rows;
+        std::ofstream("mesh/results/report.html") << "drawn";
+        std::cout << '"' << directory.put_aside(MPI_COMM_WORLD) << "\" ";
+      }
+    std::cout << '\n'
+              << read_text("mesh/results/earlier_2/history.csv")
+              << read_text("mesh/results/earlier_2/report.html") << '\n'
+              << std::filesystem::exists("mesh/results/report.html") << '\n';
+  });
+  std::filesystem::remove_all("mesh/results/earlier_1");
+  std::filesystem::remove_all("mesh/results/earlier_2");
+}
+
+
+
+void
+test_output_directory()
+{
+  title("output directory");
+  const auto use = [](const std::string &path) {
+    const OutputDirectory directory(path, MPI_COMM_WORLD);
+    std::cout << "cleared of " << directory.clear() << " files\n";
+  };
+  print_error("new", [&]() { use("mesh/results"); });
+  for (const std::string name : {"points_0001.vtu",
+                                 "points_0001.2.vtu",
+                                 "points_0001.pvtu",
+                                 "grid.pvd",
+                                 "body.pvd",
+                                 "body_0001.vtu",
+                                 "history.csv",
+                                 "checkpoint-a.h5",
+                                 "checkpoint.info",
+                                 "run.json",
+                                 "forces.png",
+                                 "my_points_0001.vtu",
+                                 "history.csv.bak"})
+    std::ofstream("mesh/results/" + name) << name;
+  print_error("again", [&]() { use("mesh/results"); });
+  test_put_aside();
+  print_error("in use", [&]() {
+    const OutputDirectory directory("mesh/results", MPI_COMM_WORLD);
+    try
+      {
+        use("mesh/results");
+      }
+    catch (const BadInput &error)
+      {
+        // without the names of process and host
+        const std::string text = error.what();
+        const auto        name = text.find(", process ");
+        std::cout << text.substr(0, name) << " ..."
+                  << text.substr(text.find(". Choose")) << '\n';
+      }
+  });
+  std::ofstream("mesh/results/.lock") << "process 1 on a host of old";
+  print_error("a lock that was left", [&]() { use("mesh/results"); });
+  std::ofstream("mesh/file") << "";
+  print_error("a file", [&]() { use("mesh/file"); });
+  for (const auto &item : std::filesystem::directory_iterator("mesh/results"))
+    if (item.path().extension() != ".png" && item.path().extension() != ".bak")
+      std::cout << item.path().filename() << '\n';
+}
+
+
+
+void
+test_stop_request()
+{
+  title("stop request");
+  const auto ask = [](StopRequest &request) {
+    std::cout << '"' << request.reason() << "\" \"" << request.reason()
+              << "\"\n";
+  };
+  std::filesystem::create_directory("results");
+  {
+    StopRequest request;
+    request.arm("results");
+    ask(request);
+    std::raise(SIGTERM);
+    ask(request);
+  }
+  for (const int signal : {SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU})
+    {
+      StopRequest request;
+      request.arm("results");
+      std::raise(SIGPIPE);
+      ask(request);
+      std::raise(signal);
+      ask(request);
+    }
+  {
+    StopRequest request;
+    request.arm("results/");
+    ask(request);
+    std::raise(SIGINT);
+    ask(request);
+    // The second SIGINT would meet the default action.
+    struct sigaction now;
+    sigaction(SIGINT, nullptr, &now);
+    std::cout << (now.sa_handler == SIG_DFL) << '\n';
+  }
+  struct sigaction restored;
+  sigaction(SIGTERM, nullptr, &restored);
+  std::cout << (restored.sa_handler == SIG_DFL) << '\n';
+  {
+    StopRequest request;
+    request.arm("results");
+    std::ofstream("results/stop") << "";
+    ask(request);
+    std::cout << std::filesystem::exists("results/stop") << '\n';
+  }
+  {
+    // Entries of objects that are gone must not be set.
+    ParameterAcceptor::clear();
+    StopRequest request;
+    read_parameters(ParameterAcceptor::prm,
+                    "",
+                    {"Run control/Wall time limit=0.01"});
+    request.arm("results");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ask(request);
+  }
+}
+
+
+
+void
+test_timing()
+{
+  title("timing");
+  SectionTimer       timer;
+  const unsigned int stress   = timer.section("stress");
+  const unsigned int transfer = timer.section("points to grid");
+  for (unsigned int i = 0; i < 3; ++i)
+    {
+      SectionTimer::Scope scope(timer, transfer);
+      std::this_thread::sleep_for(std::chrono::milliseconds(4));
+    }
+  std::cout << stress << transfer << timer.section("stress") << '\n';
+  for (const auto &[name, seconds] : timer.seconds())
+    std::cout << name << ' ' << (seconds >= 0.012) << (seconds < 1e4) << '\n';
+  std::cout << (peak_memory_bytes() > 1e6) << (peak_memory_bytes() < 1e12)
+            << '\n';
+}
+
+
+
+void
+test_console()
+{
+  RecordLine body;
+  body.has_body      = true;
+  body.penetration   = 1.23456789;
+  body.tip           = 1234567.89;
+  body.inner         = 12345.6789;
+  body.outer         = -1e-12;
+  body.total         = body.tip + body.inner + body.outer;
+  body.fraction_done = 0.2345678;
+  body.eta_seconds   = 83.4;
+  RecordLine column;
+  column.time           = 0.0123456789;
+  column.kinetic_energy = 1.23456789e-5;
+  column.max_speed      = 0.0123456789;
+  column.eta_seconds    = std::numeric_limits<double>::quiet_NaN();
+
+  for (const auto verbosity : {Console::Verbosity::full,
+                               Console::Verbosity::plain,
+                               Console::Verbosity::silent})
+    {
+      title("console");
+      Console console(verbosity);
+      console.header({{"version", "1.2.3"}, {"output", "results"}});
+      console.summary({{"cells", "12"}, {"material points", "108"}});
+      console.record(body);
+      console.record(column);
+      console.message("checkpoint written");
+      console.warning("two points left their cell by more than a cell");
+      console.failure("1 of 2 checks failed");
+      console.table("Wall time",
+                    {{"points to grid", 12.3456, 61.2}, {"contact", 0.1, 0.5}});
+    }
+}
+
+
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  test_expressions();
+  test_numbers();
+  test_output_directory();
+  test_stop_request();
+  test_timing();
+  test_console();
+}

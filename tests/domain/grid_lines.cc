@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The grid lines, which need neither a mesh nor MPI: how they are spaced, how
+// they move, and what the mesh refuses.
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/domain/graded_lines.h>
+#include <caisson_mpm/domain/grid_lines.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "../shared/scene.h"
+
+/** Grid lines without a mesh. */
+struct Lines : EmptyParameters
+{
+  explicit Lines(const std::string &parameters,
+                 const double       travel = 0.,
+                 const double       uplift = 0.)
+  {
+    auto &prm = dealii::ParameterAcceptor::prm;
+    soil.declare_layers(3);
+    prm.parse_input_from_string(parameters);
+    dealii::ParameterAcceptor::parse_all_parameters(prm);
+    lines.check_parameters();
+    lines.place(body.shape(), soil, travel, uplift);
+  }
+
+  GridLines lines;
+  Soil      soil;
+  RigidBody body;
+};
+
+void
+check_lines()
+{
+  const auto uniform = graded_lines({0., 1., 2.5}, [](double) { return .3; });
+  bool       through = std::count(uniform.begin(), uniform.end(), 1.) == 1;
+  double     largest = 0.;
+  for (unsigned int i = 1; i < uniform.size(); ++i)
+    largest = std::max(largest, uniform[i] - uniform[i - 1]);
+  std::printf("lines: %d through 1: %d, largest %.4f\n",
+              int(uniform.size()),
+              through,
+              largest);
+  const auto graded =
+    graded_lines({0., 10.}, [](const double x) { return .1 + .2 * x; });
+  double smallest_ratio = 1e9, largest_ratio = 0.;
+  for (unsigned int i = 2; i < graded.size(); ++i)
+    {
+      const double ratio =
+        (graded[i] - graded[i - 1]) / (graded[i - 1] - graded[i - 2]);
+      smallest_ratio = std::min(smallest_ratio, ratio);
+      largest_ratio  = std::max(largest_ratio, ratio);
+    }
+  verdict("graded lines: spread of the ratio",
+          largest_ratio - smallest_ratio,
+          1e-2);
+  std::printf("ratio %.2f\n", largest_ratio);
+}
+
+/** The numbers of cells, the cells of the body, zones and sides. */
+void
+check_cells()
+{
+  const Lines s(caisson + "subsection Rigid body\nset Lid thickness = 0.25\n"
+                          "end\nsubsection Grid\nset Upper zone = extending\n"
+                          "end\n",
+                3.);
+  const GridLines &lines = s.lines;
+  unsigned int     wrong = 0, n_body = 0, n_lid = 0, n_zone[3] = {0, 0, 0};
+  for (unsigned int c = 0; c < lines.n_cells(); ++c)
+    {
+      const GlobalCell       cell{c};
+      const auto             g      = lines.initial_geometry(cell);
+      const dealii::Point<2> middle = to_position(g, dealii::Point<2>(.5, .5));
+      wrong += lines.is_body_cell(cell) != s.body.shape().contains(middle, 0.);
+      wrong += lines.row_of(cell) * lines.n_columns() + lines.column_of(cell) !=
+               index_of(cell);
+      n_body += lines.is_body_cell(cell);
+      n_lid += lines.is_lid_cell(cell);
+      ++n_zone[static_cast<unsigned int>(lines.zone_of(cell))];
+      const double left = lines.node_start(lines.column_of(cell), 0)[radial];
+      wrong += left != g.left;
+    }
+  verdict("cells: wrong numbers, places or body cells", wrong, 0.);
+  std::printf("cells %u x %u, body %u, of the lid %u, moving %u, "
+              "compressing %u, upper %u\n",
+              lines.n_columns(),
+              lines.n_rows(),
+              n_body,
+              n_lid,
+              n_zone[0],
+              n_zone[1],
+              n_zone[2]);
+  std::printf("sides of corners: %u %u %u %u, inside %u\n",
+              lines.sides_of(0, 0),
+              lines.sides_of(lines.n_columns(), 0),
+              lines.sides_of(0, lines.n_rows()),
+              lines.sides_of(lines.n_columns(), lines.n_rows()),
+              lines.sides_of(1, 1));
+}
+
+/** The mesh has the edges of a footing half a cell inside those of the box. */
+void
+check_inset_edges()
+{
+  for (const char *inset : {"false", "true"})
+    for (const char *left : {"0", "1"})
+      {
+        const Lines s(std::string("subsection Rigid body\nset Kind = box\n"
+                                  "set Box right = 2\nset Box bottom = 0\n"
+                                  "set Box top = 1\nset Box left = ") +
+                      left + "\nset Inset edges = " + inset +
+                      "\nend\nsubsection Grid\nset Outer radius = 4\n"
+                      "set Bottom = -2\nset Top = 2\nset Cell width = 0.5\n"
+                      "set Fine cell size = 0.25\nset Refinement = 2\n"
+                      "end\n");
+        double      from = 1e9, to = 0.;
+        for (unsigned int c = 0; c < s.lines.n_cells(); ++c)
+          if (s.lines.is_body_cell(GlobalCell{c}))
+            {
+              const auto g = s.lines.initial_geometry(GlobalCell{c});
+              from         = std::min(from, g.left);
+              to           = std::max(to, g.left + g.width);
+            }
+        std::printf("box from %s to 2, inset %s: cells from %.4f to %.4f\n",
+                    left,
+                    inset,
+                    from,
+                    to);
+      }
+}
+
+/** The heights of lines follow the travel, and what soil meets on the way. */
+void
+check_motion()
+{
+  const Lines  s(caisson, 3.);
+  const auto  &lines = s.lines;
+  const double d     = 1.5;
+  verdict("lines: motion error",
+          std::abs(lines.height_at(-7., d) + 7.) +
+            std::abs(lines.height_at(-2.5, d) + 4.) +
+            std::abs(lines.height_at(-4.75, d) + 5.5) +
+            std::abs(lines.height_at(1., d) + .5),
+          1e-14);
+  double       rate = 0., smallest = 1e9;
+  unsigned int taller = 0;
+  for (unsigned int j = 0; j <= lines.n_rows(); ++j)
+    {
+      const double z = lines.node_start(0, j)[vertical];
+      rate           = std::max(rate,
+                      std::abs(z + d * lines.node_rate(0, j)[vertical] -
+                               lines.height_at(z, d)));
+    }
+  for (unsigned int c = 0; c < lines.n_cells(); ++c)
+    {
+      const GlobalCell cell{c};
+      const auto       g   = lines.initial_geometry(cell);
+      const double     met = lines.smallest_height_met(cell);
+      taller += met > std::max(g.height_left, g.height_right) + 1e-12;
+      smallest = std::min(smallest, met);
+    }
+  verdict("lines: rate error", rate, 1e-12);
+  verdict("cells that meet only taller ones", taller, 0.);
+  // the lowest rows keep a third of their height
+  std::printf("smallest height met: %.3f\n", smallest);
+}
+
+/** What the mesh refuses, with the entry to change. */
+void
+check_refusals()
+{
+  const auto refuse = [](const std::string &parameters,
+                         const double       travel = 0.,
+                         const double       uplift = 0.) {
+    try
+      {
+        const Lines s(caisson + parameters, travel, uplift);
+        std::printf("accepted\n");
+      }
+    catch (const BadInput &error)
+      {
+        std::printf("%s\n", error.what());
+      }
+  };
+  refuse("subsection Grid\nset Inner radius = 8\nend\n");
+  refuse("subsection Grid\nset Bottom = 1\nend\n");
+  refuse("subsection Grid\nset Outer radius = 2.5\nend\n");
+  refuse("subsection Grid\nset Bottom = -0.4\nend\n");
+  refuse("subsection Grid\nset Distortion = 0.1\nend\n");
+  refuse("", 5.);
+  refuse("", 4.49);
+  refuse("subsection Grid\nset Moving zone below tip = 0.1\nend\n", 1.);
+  refuse("subsection Grid\nset Upper zone = extending\nend\n", 0., 1.49);
+  // a thin layer is named
+  refuse("subsection Soil\nset Number of layers = 3\n"
+         "subsection Layer 2\nset Top depth = 4\nend\n"
+         "subsection Layer 3\nset Top depth = 4.001\nend\nend\n",
+         1.);
+  // more cells than memory holds, by each of the entries that may be wrong
+  refuse("subsection Rigid body\nset Wall thickness = 1e-9\nset Tip = flat\n"
+         "end\n");
+  refuse("subsection Grid\nset Top = 1e9\nend\n");
+  refuse("subsection Grid\nset Bottom = -1e9\nend\n");
+  refuse("subsection Grid\nset Fine cell size = 1e-6\nend\n");
+  refuse("subsection Grid\nset Cell width = 1e-7\nend\n"
+         "subsection Rigid body\nset Kind = none\nend\n");
+  refuse("subsection Grid\nset Largest number of cells = 100\nend\n");
+}
+
+int
+main()
+{
+  check_lines();
+  check_cells();
+  check_inset_edges();
+  check_motion();
+  check_refusals();
+}

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The material points: as they are generated, split and merged.
+#include <caisson_mpm/base/text.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "../shared/scene.h"
+
+void
+check_points()
+{
+  Scene s(caisson + R"(
+    subsection Soil
+      set Number of layers = 2
+      subsection Layer 2
+        set Top depth     = 2
+        set Solid density = 2700
+        set Porosity      = 0.3
+      end
+    end
+    subsection Time
+      set Mass scaling = 4
+    end)");
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+  double volume = 0., mass = 0., mr = 0., mz = 0., stress = 0., wrong = 0.;
+  std::set<double> ids;
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    volume += p.volume;
+    mass += p.mass;
+    mr += p.mass * p.position[0];
+    mz += p.mass * p.position[1];
+    ids.insert(p.id);
+    wrong += s.body.shape().contains(p.position, 0.) || p.position[1] > 0. ||
+             p.material != (p.position[1] < -2. ? 1u : 0u);
+    const double z = p.position[1];
+    const double zz =
+      8829. * std::max(z, -2.) + .7 * 1700. * 9.81 * std::min(z + 2., 0.);
+    stress = std::max({stress,
+                       std::abs(p.stress[1] / zz - 1.),
+                       std::abs(p.stress[0] / zz - .5),
+                       std::abs(p.stress[2] / zz - .5)});
+  });
+  // the soil: a cylinder without the wall, per radian and with inertia times 4
+  const double h = s.body.shape().tip_height(), wall = .5 * (9. - 2.8 * 2.8),
+               rho[2] = {.6 * 2500. + .4 * 1000., .7 * 2700. + .3 * 1000.};
+  const double V      = 32. * 7. - wall * (.5 - .5 * h);
+  const double M      = 4. * (rho[0] * (V - 32. * 5.) + rho[1] * 32. * 5.);
+  const double r2     = (27. - 2.8 * 2.8 * 2.8) / 3.;
+  const double Mr     = 4. * (rho[0] * (512. / 3. * 2. - r2 * (.5 - .5 * h)) +
+                          rho[1] * 512. / 3. * 5.);
+  const double wedge =
+    -.5 + h + (h - 2. * h) / 3.; // of its volume, near enough
+  const double Mz =
+    4. *
+    (rho[0] * (-32. * 2. + wall * ((.5 - h) * (.5 - h) / 2. - .5 * h * wedge)) -
+     rho[1] * 32. * 5. * 4.5);
+  verdict("points: volume error", std::abs(volume / V - 1.), 1e-12);
+  verdict("points: mass error", std::abs(mass / M - 1.), 1e-12);
+  verdict("points: first moment in r, error", std::abs(mr / Mr - 1.), 1e-5);
+  verdict("points: first moment in z, error", std::abs(mz / Mz - 1.), 1e-4);
+  verdict("points: initial stress error", stress, 1e-12);
+  verdict("points in the body, above ground, or in the wrong layer", wrong, 0.);
+  verdict("points: ids used twice",
+          s.points.n_points() - double(ids.size()),
+          0.);
+}
+
+/** The spacing rule: soil at rest, and the mesh swept through it. In a column
+ * beside the body no cell that is full of soil may be without points. */
+void
+check_spacing()
+{
+  const double travel = 3.5;
+  Scene        s(caisson, travel);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+  std::vector<dealii::Point<2>> x;
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    x.push_back(p.position);
+  });
+  std::sort(x.begin(), x.end(), [](const auto &a, const auto &b) {
+    return a[0] < b[0];
+  });
+  unsigned int empty = 0, few = 0, n_cells = 0;
+  for (unsigned int k = 0; k <= 40; ++k)
+    {
+      s.grid.prepare_motion(travel * k / 40.);
+      s.grid.advance();
+      for (unsigned int c = 0; c < s.grid.n_cells(); ++c)
+        {
+          const auto &g = s.grid.geometry(c);
+          // whole cells below the surface, outside the path of the wall
+          if (s.grid.is_rigid(c) ||
+              std::max(g.bottom_left + g.height_left,
+                       g.bottom_right + g.height_right) > 0. ||
+              (g.left > 2.7 && g.left < 2.99))
+            continue;
+          unsigned int n     = 0;
+          const auto   first = std::lower_bound(
+            x.begin(), x.end(), g.left, [](const auto &p, const double r) {
+              return p[0] < r;
+            });
+          for (auto p = first; p != x.end() && (*p)[0] < g.left + g.width; ++p)
+            {
+              const double xi     = ((*p)[0] - g.left) / g.width,
+                           bottom = g.bottom_left +
+                                    xi * (g.bottom_right - g.bottom_left),
+                           height = g.height_left +
+                                    xi * (g.height_right - g.height_left);
+              n += (*p)[1] >= bottom && (*p)[1] < bottom + height;
+            }
+          ++n_cells;
+          empty += n == 0;
+          few += n < 2;
+        }
+    }
+  std::printf("cells swept: %s\n", n_cells > 1000 ? "many" : "few");
+  verdict("cells that ran empty", empty, 0.);
+  verdict("cells with less than two points", few, 0.);
+}
+
+/** Mass, its first moments, momentum, volume, and the integral of stress. */
+std::array<double, 10>
+resultants(const MaterialPoints &points)
+{
+  std::array<double, 10> sums = {};
+  points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    sums[0] += p.mass;
+    sums[1] += p.volume;
+    for (unsigned int d = 0; d < 2; ++d)
+      {
+        sums[2 + d] += p.mass * p.position[d];
+        sums[4 + d] += p.mass * p.velocity[d];
+      }
+    for (unsigned int c = 0; c < 4; ++c)
+      sums[6 + c] += p.volume * p.stress[c];
+  });
+  return sums;
+}
+
+double
+change(const std::array<double, 10> &a, const std::array<double, 10> &b)
+{
+  double worst = 0.;
+  for (unsigned int i = 0; i < a.size(); ++i)
+    worst = std::max(worst, std::abs(a[i] - b[i]) / (1. + std::abs(b[i])));
+  return worst;
+}
+
+/** Points split for cells of half their size, and merge for larger ones. */
+void
+check_split_and_merge()
+{
+  Scene s(caisson +
+          "subsection Soil\n set Initial velocity = r*z; z-2*r\nend\n");
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+  const auto n          = s.points.n_points();
+  const auto before     = resultants(s.points);
+  double     largest[2] = {0., 0.};
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    for (unsigned int d = 0; d < 2; ++d)
+      largest[d] = std::max(largest[d], p.size[d]);
+  });
+  // in steps: halves are halved again
+  for (unsigned int k = 0; k < 6; ++k)
+    s.points.adapt([&](const unsigned int) {
+      return std::array<double, 2>{{.5 * largest[0], .5 * largest[1]}};
+    });
+  const auto   split     = s.points.n_points();
+  unsigned int too_large = 0, outside = 0;
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
+    const auto x = to_reference(s.grid.geometry(cell), p.position);
+    outside += !(x[0] >= 0. && x[0] <= 1. && x[1] >= 0. && x[1] <= 1.) ||
+               s.grid.is_rigid(cell);
+    for (unsigned int d = 0; d < 2; ++d)
+      too_large += p.size[d] > .6 * largest[d];
+  });
+  RunTotals totals;
+  s.points.register_totals(totals);
+  const auto counts = totals.counts();
+  const auto n_split =
+    std::find_if(counts.begin(), counts.end(), [](const auto &count) {
+      return count.first == "points_split";
+    })->second;
+  std::printf("points split: %s\n", n_split > n / 10 ? "many" : "few");
+  verdict("halves of the largest points left whole", too_large, 0.);
+  verdict("halves outside their cell", outside, 0.);
+  verdict("splitting changes mass, moments, momentum, volume, stress by",
+          change(resultants(s.points), before),
+          1e-12);
+  for (unsigned int k = 0; k < 6; ++k)
+    s.points.adapt([&](const unsigned int) {
+      return std::array<double, 2>{{1e3 * largest[0], 1e3 * largest[1]}};
+    });
+  std::printf("points merged: %s\n",
+              s.points.n_points() < split / 2 ? "most" : "few");
+  verdict("merging changes mass, moments, momentum, volume, stress by",
+          change(resultants(s.points), before),
+          1e-12);
+  double volume = 0.;
+  for (unsigned int c = 0; c < s.grid.n_cells(); ++c)
+    volume += s.points.view().filled_volume[c];
+  verdict("volume kept by cell, error",
+          std::abs(volume / before[1] - 1.),
+          1e-12);
+}
+
+/** The largest size of all points in r and z. */
+std::array<double, 2>
+largest_size(const MaterialPoints &points)
+{
+  std::array<double, 2> largest = {{0., 0.}};
+  points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    for (unsigned int d = 0; d < 2; ++d)
+      largest[d] = std::max(largest[d], p.size[d]);
+  });
+  return largest;
+}
+
+/** The sizes of points follow their stretch, and points that it has made too
+ * long are split that way only. */
+void
+check_stretch()
+{
+  Scene s(caisson);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+  const auto largest = largest_size(s.points);
+  const auto stretch = [&](const double strain, const unsigned int n) {
+    for (unsigned int k = 0; k < n; ++k)
+      s.points.stretch(
+        [&](const unsigned int, const dealii::Point<2> &) {
+          return std::array<double, 2>{{strain, -strain}};
+        },
+        [&](const unsigned int) { return largest; });
+  };
+  stretch(.12, 5);
+  const auto now = largest_size(s.points);
+  verdict("five strains of 0.12 and -0.12: error of the size in r and z",
+          std::max(std::abs(now[0] / largest[0] - std::exp(.6)),
+                   std::abs(now[1] / largest[1] - std::exp(-.6))),
+          1e-12);
+  const auto before = resultants(s.points);
+  s.points.adapt([&](const unsigned int) {
+    return std::array<double, 2>{{largest[0], now[1]}};
+  });
+  double after[2] = {0., 0.};
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
+    const auto &g    = s.grid.geometry(cell);
+    const bool  side = p.position[0] < g.left + .3 * g.width ||
+                      p.position[0] > g.left + .7 * g.width;
+    for (unsigned int d = 0; d < 2 && !side; ++d)
+      after[d] = std::max(after[d], p.size[d]);
+  });
+  verdict("size after splitting over the wanted one, in r",
+          after[0] / largest[0],
+          1.05);
+  verdict("size after splitting over the wanted one, in z",
+          after[1] / now[1],
+          1.05);
+  verdict("splitting changes mass, moments, momentum, volume, stress by",
+          change(resultants(s.points), before),
+          1e-12);
+  stretch(1., 20);
+  stretch(-1., 20);
+  double bounded[2] = {1e300, 0.};
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    bounded[0] = std::min(bounded[0], p.size[0] / largest[0]);
+    bounded[1] = std::max(bounded[1], p.size[1] / largest[1]);
+  });
+  verdict("forth and back by 20: error of the bounds of the size",
+          std::max(std::abs(bounded[0] - .3), std::abs(bounded[1] - 2.)),
+          1e-12);
+}
+
+/** The sum over the points of what depends on which of them were merged, if a
+ * cell is given its points from the first or from the last one on. */
+double
+merged_sum(const bool reversed)
+{
+  Scene s("subsection Grid\nset Geometry = plane strain\nend\n"
+          "subsection Material points\nset Per direction far = 5\n"
+          "set Random positions = 0.3\nend\n");
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+  std::vector<std::pair<unsigned int, MaterialPoint>> all;
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
+    all.emplace_back(cell, p);
+  });
+  if (reversed)
+    std::reverse(all.begin(), all.end());
+  s.points.reset(std::vector<unsigned int>(s.grid.n_global_cells(), 25));
+  for (const auto &[cell, p] : all)
+    s.points.add(cell, p);
+  s.points.settle();
+  s.points.adapt([&](const unsigned int) {
+    return std::array<double, 2>{{1., 1.}};
+  });
+  double sum = 0.;
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+    sum += p.volume * p.volume * p.position[0] * p.position[1];
+  });
+  return sum;
+}
+
+/** A region, random positions, uniform stress, initial velocity. */
+void
+check_point_options()
+{
+  const std::string mesh = R"(
+    subsection Grid
+      set Geometry     = plane strain
+      set Outer radius = 4
+      set Bottom       = -4
+      set Top          = 1
+      set Cell width   = 0.25
+      set Cell height  = 0.25
+    end
+    subsection Soil
+      set Initial stress   = uniform
+      set Uniform stress   = -1, -2, -3, 4
+      set Initial velocity = r - 2*z ; 0.5*z*pi
+    end
+    )";
+  double            sums[3];
+  for (const unsigned int seed : {1, 1, 2})
+    {
+      static unsigned int run = 0;
+      Scene               s(mesh + R"(subsection Material points
+        set Region           = 1 - (r - 2)^2 - (z + 2)^2
+        set Random positions = 0.5
+        set Random seed      = )" +
+              to_text(seed) + "\nend\n");
+      s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+      double outside = 0., volume = 0., state = 0., farthest = 0., sum = 0.;
+      s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+        const double r = p.position[0], z = p.position[1];
+        outside += (r - 2.) * (r - 2.) + (z + 2.) * (z + 2.) >= 1.;
+        volume += p.volume;
+        state = std::max({state,
+                          std::abs(p.stress[0] + 1.),
+                          std::abs(p.stress[1] + 2.),
+                          std::abs(p.stress[2] + 3.),
+                          std::abs(p.stress[3] - 4.),
+                          std::abs(p.velocity[0] - (r - 2. * z)),
+                          std::abs(p.velocity[1] - .5 * z * pi)});
+        for (const double x : {r, z}) // parts are 0.125 wide
+          farthest =
+            std::max(farthest, std::abs(x / .125 - std::floor(x / .125) - .5));
+        sum += r * r + z;
+      });
+      sums[run++] = sum;
+      verdict("points outside the region", outside, 0.);
+      verdict("region: volume error", std::abs(volume / pi - 1.), 0.02);
+      verdict("uniform stress and initial velocity: error", state, 1e-14);
+      verdict("random positions: farthest from the lattice", farthest, .25);
+      std::printf("random positions reach the limit: %s\n",
+                  farthest > .24 ? "yes" : "no");
+    }
+  std::printf("equal seeds, equal points: %s; other seed: %s\n",
+              sums[0] == sums[1] ? "yes" : "no",
+              sums[0] == sums[2] ? "equal" : "others");
+}
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check_points();
+  check_spacing();
+  check_split_and_merge();
+  check_stretch();
+  verdict("merged points depend on the order in which they came by",
+          std::abs(merged_sum(true) / merged_sum(false) - 1.),
+          1e-13);
+  check_point_options();
+}

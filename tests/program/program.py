@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Calls the program as a user does: what all test_*.py share.
+
+Each class of a file test_GROUP.py, but for those that others are derived from and
+whose name ends in Test, is a test program/GROUP.CLASS of ctest. By hand, all tests of
+a group, or those that fit a word:
+
+    cd tests/program && python3 -B -m unittest -v test_stop_and_restart
+    cd tests/program && python3 -B -m unittest -v test_stop_and_restart -k file
+
+CAISSON_MPM_PROGRAM names another program than that of build/release, and
+CAISSON_MPM_TEST_DIRECTORY where the results go.
+"""
+import atexit
+import functools
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from typing import Any
+
+HERE = Path(__file__).resolve().parent.parent  # tests
+sys.path[:0] = [str(HERE.parent / folder) for folder in ("python", "tools", ".")]
+
+from caisson.paths import BUILD, PROGRAM, SCENES  # noqa: E402
+from caisson.results import Results  # noqa: E402
+from caisson.runner import Status, environment, mpi_command, set_options  # noqa: E402
+from caisson_workshop.faults.process import quick_environment  # noqa: E402
+
+SUCCESS = Status.SUCCESS
+BAD_INPUT = Status.BAD_INPUT
+FAILURE = Status.FAILURE
+STOPPED = Status.STOPPED
+Rows = list[dict[str, float]]
+Entries = dict[str, Any]
+SCRATCH = tempfile.TemporaryDirectory()
+ALONE = quick_environment(SCRATCH.name)  # of a program on one rank
+# program_server.cc, which ctest names; of use where it is not older than the
+# program
+SERVER = os.environ.get("CAISSON_MPM_TEST_SERVER")
+
+
+def scene(name: str) -> str:
+    """Return a scene of the tests, whose names are unique over all rooms."""
+    return str(next(HERE.glob(f"*/{name}.prm")))
+
+
+def user_scene(name: str) -> str:
+    """Return a scene of prm/."""
+    return str(SCENES / f"{name}.prm")
+
+
+def history(path: Path, name: str = "history") -> Rows:
+    """Return the rows of NAME.csv of a run."""
+    columns = Results(path).table(f"{name}.csv", "time_s")
+    rows = zip(*columns.values())
+    return [dict(zip(columns, map(float, row))) for row in rows]
+
+
+def summary(path: Path) -> dict[str, Any]:
+    """Return run.json of a run."""
+    return Results(path).summary
+
+
+def checks(path: Path) -> list[dict[str, Any]]:
+    """Return verification.json of a run."""
+    return Results(path).check_list
+
+
+def flip_a_bit(path: Path) -> None:
+    """Damage the checkpoint that is valid, in its middle; twice repairs it."""
+    info = (path / "checkpoint.info").read_text(encoding="utf-8")
+    found = re.search(r"^file (.*)$", info, re.M)
+    assert found, info
+    with open(path / found.group(1), "r+b") as file:
+        middle = file.seek(0, os.SEEK_END) // 2
+        file.seek(middle)
+        byte = file.read(1)[0]
+        file.seek(middle)
+        file.write(bytes([byte ^ 1]))
+
+
+@functools.cache
+def server() -> "subprocess.Popen[str] | None":
+    """Return the process that makes short calls cheap, if there is one."""
+    if not SERVER or os.path.getmtime(SERVER) < os.path.getmtime(PROGRAM):
+        return None
+    process = subprocess.Popen(
+        [SERVER],
+        text=True,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        env=ALONE,
+    )
+    assert process.stdin and process.stdout
+    for pipe in (process.stdout, process.stdin):
+        atexit.register(pipe.close)  # the end of its input is its end
+    return process
+
+
+def query_server(words: list[str]) -> "subprocess.CompletedProcess[str] | None":
+    """Let the server make a call; return nothing where it cannot."""
+    process = server()
+    if process is None:
+        return None
+    assert process.stdin and process.stdout
+    with tempfile.NamedTemporaryFile("r", encoding="utf-8") as output:
+        for word in (output.name, str(len(words) - 1), *words[1:]):
+            process.stdin.write(word + "\0")
+        process.stdin.flush()
+        status = int(process.stdout.readline())
+        return subprocess.CompletedProcess(words, status, output.read())
+
+
+class ProgramTest(unittest.TestCase):
+    """A test that runs the program, and what it asks of its results."""
+
+    maxDiff = None
+    program = PROGRAM.resolve()
+    results = Path(
+        os.environ.get("CAISSON_MPM_TEST_DIRECTORY", BUILD / "tests/program")
+    ).resolve()
+
+    def directory(self, name: str = "results") -> Path:
+        """Return the name of a directory of this test, which is not there yet."""
+        path = self.results / self.id().split(".")[-1] / name
+        shutil.rmtree(path, ignore_errors=True)
+        return path
+
+    def made_directory(self, name: str = "files") -> Path:
+        """Return an empty directory of this test."""
+        path = self.directory(name)
+        path.mkdir(parents=True)
+        return path
+
+    def command(
+        self, *options: Any, entries: Entries | None = None, ranks: int = 1
+    ) -> list[str]:
+        """Return the words of a call; options: a file and options."""
+        words = [*mpi_command(ranks), str(self.program), *map(str, options)]
+        return words + set_options(entries or {})
+
+    def call(
+        self, *options: Any, entries: Entries | None = None, ranks: int = 1
+    ) -> "subprocess.CompletedProcess[str]":
+        """Run the program to its end, whatever its status; with its words."""
+        words = self.command(*options, entries=entries, ranks=ranks)
+        done = query_server(words) if ranks == 1 else None
+        several = {**environment(), "OMPI_MCA_mpi_yield_when_idle": "1"}
+        return done or subprocess.run(
+            words,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            env=ALONE if ranks == 1 else several,
+        )
+
+    def run_program(
+        self,
+        status: Status,
+        *options: Any,
+        entries: Entries | None = None,
+        ranks: int = 1,
+    ) -> str:
+        """Run the program, ask for this status, and return its words."""
+        done = self.call(*options, entries=entries, ranks=ranks)
+        self.assertEqual(done.returncode, status, done.stdout)
+        return done.stdout
+
+    def start(
+        self, *options: Any, entries: Entries | None = None
+    ) -> "subprocess.Popen[str]":
+        """Start the program; its words can be read line by line."""
+        return subprocess.Popen(
+            self.command(*options, entries=entries),
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            env=ALONE,
+        )
+
+    def run_scene(
+        self,
+        name: str,
+        path: Path,
+        status: Status = SUCCESS,
+        *options: Any,
+        entries: Entries | None = None,
+        ranks: int = 1,
+    ) -> str:
+        """Run a scene of the tests with its results in path."""
+        return self.run_program(
+            status,
+            scene(name),
+            "--output-directory",
+            path,
+            *options,
+            entries=entries,
+            ranks=ranks,
+        )
+
+    def refused(self, words: list[str], name: str = "jack", **more: Any) -> str:
+        """Ask that the scene is refused with a message that has all the words,
+        whatever their case, and that it leaves no results.
+
+        more: entries, and status (default: bad input).
+        """
+        path = self.directory("refused")
+        text = self.run_scene(
+            name, path, more.get("status", BAD_INPUT), entries=more["entries"]
+        )
+        self.assert_words(words, text)
+        self.assertFalse((path / "history.csv").exists(), "there are results")
+        return text
+
+    def assert_invalid(self, words: list[str], name: str, entries: Entries) -> None:
+        """Ask that a scene of prm does not validate, with a message that has all the
+        words."""
+        text = self.run_program(
+            BAD_INPUT, user_scene(name), "--validate", entries=entries
+        )
+        self.assert_words(words, text)
+
+    def assert_told(self, words: list[str], name: str, entries: Entries) -> str:
+        """Ask that a run of a scene of prm says all the words; return all it says."""
+        text = self.run_program(
+            SUCCESS,
+            user_scene(name),
+            "--output-directory",
+            self.directory(),
+            entries=entries,
+        )
+        self.assert_words(words, text)
+        return text
+
+    def assert_words(self, words: list[str], text: str) -> None:
+        """Ask for all the words, whatever their case."""
+        for word in words:
+            self.assertIn(word.lower(), text.lower())
+
+    def assert_same_history(self, a: Rows, b: Rows, tolerance: float) -> None:
+        """Ask for the same rows, but for their last time step; tolerance:
+        relative, absolute below 1."""
+        self.assertEqual(len(a), len(b), "rows")
+        for x, y in zip(a, b):
+            for key in x.keys() - {"time_step_s"}:
+                self.assertLessEqual(
+                    abs(x[key] - y[key]),
+                    tolerance * max(1.0, abs(x[key])),
+                    f"{key} at t = {x['time_s']}: {x[key]} and {y[key]}",
+                )

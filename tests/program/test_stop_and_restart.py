@@ -1,0 +1,229 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs that are stopped and continued."""
+import fcntl
+import re
+import shutil
+import signal
+import subprocess
+import unittest
+from pathlib import Path
+
+from program import (
+    ALONE,
+    BAD_INPUT,
+    STOPPED,
+    SUCCESS,
+    Entries,
+    ProgramTest,
+    checks,
+    flip_a_bit,
+    history,
+    scene,
+    summary,
+)
+
+TWICE = {
+    "Output/Record interval": "every step",
+    "Time/End penetration": 0.7,
+    "Verification/Observations": "a = max position_z; b = point stress_zz at 3 -1",
+    "Verification/Checks": "average a to 1 : 0 : 0.2; drift b : 1;"
+    " drift penetration_m from 0.3 : 0.3",
+}
+PIPE_SIZE = 4096  # bytes, the smallest
+
+
+class Stop(ProgramTest):
+    """Signals, the stop file and --restart."""
+
+    def run_until(self, path: Path, n_records: int, *options: str) -> tuple[int, str]:
+        """Run simulation/jack.prm as TWICE, and send SIGTERM after some records. Return
+        the exit status and the words after the last record read.
+
+        All records are far more than the pipe holds, so that the program cannot
+        come to its end before it gets the signal, however slow this process is.
+        """
+        command = self.command(
+            scene("jack"), "--output-directory", path, *options, entries=TWICE
+        )
+        with subprocess.Popen(
+            command, bufsize=0, stdout=subprocess.PIPE, env=ALONE
+        ) as process:
+            assert process.stdout
+            fcntl.fcntl(process.stdout, fcntl.F_SETPIPE_SZ, PIPE_SIZE)
+            while n_records > 0:
+                line = process.stdout.readline()
+                self.assertTrue(line, "the program has ended")
+                n_records -= line.startswith(b"pen")
+            process.send_signal(signal.SIGTERM)
+            rest = process.stdout.read().decode()
+        return process.returncode, rest
+
+    def run_pieces(self, path: Path, entries: Entries) -> None:
+        """Run simulation/jack.prm to an earlier end than it has."""
+        self.run_scene("jack", path, entries={**entries, "Time/End penetration": 0.55})
+
+    def test_stopped_twice_is_one_run(self) -> None:
+        """The history of one run, its checks and its frames."""
+        whole, path = self.directory("whole"), self.directory("pieces")
+        self.run_scene("jack", whole, entries=TWICE)
+        for again in (False, True):
+            options = ["--restart"] if again else []
+            status, rest = self.run_until(path, 20, *options)
+            self.assertEqual(status, STOPPED, rest)
+            self.assert_words(["SIGTERM", "--restart"], rest)
+            self.assertEqual(summary(path)["status"], "stopped")
+        self.run_scene("jack", path, SUCCESS, "--restart", entries=TWICE)
+        for name in ("history", "observations"):
+            self.assert_same_history(history(whole, name), history(path, name), 1e-6)
+        for a, b in zip(checks(whole), checks(path)):
+            self.assertAlmostEqual(
+                a["computed"], b["computed"], delta=1e-6 * max(1.0, abs(a["computed"]))
+            )
+        for name in ("points.pvd", "grid.pvd", "body.pvd"):
+            frames = [
+                re.findall("<DataSet.*", (p / name).read_text()) for p in (whole, path)
+            ]
+            self.assertEqual(frames[0], frames[1], name)
+            self.assertGreater(len(frames[0]), 1, name)
+
+    def test_lost_rows(self) -> None:
+        """A restart is refused where history.csv has lost rows since the checkpoint,
+        unless the loss is accepted; where it is complete nothing is said."""
+        path = self.directory()
+        entries: Entries = {"Output/Record interval": 0.1, "Time/End penetration": 0.6}
+        self.run_pieces(path, entries)
+        rows = (path / "history.csv").read_text().splitlines(keepends=True)
+        for kept, words in ((2, "ends at t = 0 s"), (0, "has no rows"), (None, "")):
+            with self.subTest(kept=kept):
+                copy = self.directory("copy")
+                shutil.copytree(path, copy)
+                (copy / "history.csv").write_text("".join(rows[:kept]))
+                options = ["--restart"]
+                if words:
+                    refused = self.run_scene(
+                        "jack", copy, BAD_INPUT, *options, entries=entries
+                    )
+                    self.assert_words(
+                        ["rows between are lost", words, "--overwrite"], refused
+                    )
+                    self.assertEqual(
+                        (copy / "history.csv").read_text(), "".join(rows[:kept])
+                    )
+                    options.append("--overwrite")
+                said = self.run_scene("jack", copy, SUCCESS, *options, entries=entries)
+                self.assertEqual("lost" in said, bool(words), said)
+
+    def test_changed_files(self) -> None:
+        """A restart tells that a table, or a list of frames, is not as the run has
+        left it."""
+        path = self.directory()
+        entries: Entries = {
+            "Output/Record interval": 0.05,
+            "Verification/Observations": "a = max position_z",
+            "Time/End penetration": 0.6,
+        }
+        self.run_pieces(path, entries)
+        for name, old, new in (
+            ("history.csv", "\n0.1,", "\n0.11,"),
+            ("observations.csv", "\n0.05", "\n0.04"),
+            ("grid.pvd", 'file="grid_0000.vtu"', 'file="grid_0001.vtu"'),
+            ("body.pvd", 'file="body_0000.vtu"', 'file="body_0001.vtu"'),
+        ):
+            with self.subTest(name=name):
+                copy = self.directory("copy")
+                shutil.copytree(path, copy)
+                text = (copy / name).read_text(encoding="utf-8")
+                changed = re.sub(old, new, text)
+                self.assertNotEqual(changed, text)
+                (copy / name).write_text(changed, encoding="utf-8")
+                said = self.run_scene(
+                    "jack", copy, SUCCESS, "--restart", entries=entries
+                )
+                self.assert_words(["warning", name, "been changed since"], said)
+        said = self.run_scene("jack", path, SUCCESS, "--restart", entries=entries)
+        self.assertNotIn("changed since", said)
+
+    def test_stop_file(self) -> None:
+        path = self.made_directory()
+        process = self.start(
+            scene("jack"),
+            "--output-directory",
+            path,
+            entries={
+                "Output/Record interval": 0.05,
+                # hours: the file is looked for twice a second
+                "Time/Courant number": 1e-4,
+            },
+        )
+        assert process.stdout
+        with process.stdout as words:
+            for line in words:
+                if line.startswith("pen"):
+                    break
+            (path / "stop").touch()
+            text = words.read()
+        self.assertEqual(process.wait(), STOPPED, text)
+        self.assertFalse((path / "stop").exists(), "the file is left")
+
+    def test_finished_run_is_pushed_deeper(self) -> None:
+        """A finished run goes on to a later end, in the same files."""
+        whole, path = self.directory("whole"), self.directory("pieces")
+        depth = "Time/End penetration"
+        entries: Entries = {"Output/Record interval": 0.25}
+        self.run_scene("jack", whole, entries={**entries, depth: 0.7})
+        self.run_scene("jack", path, entries={**entries, depth: 0.6})
+        text = self.run_scene(
+            "jack", path, SUCCESS, "--restart", entries={**entries, depth: 0.7}
+        )
+        self.assertNotIn("warning: the error", text)
+        self.assertEqual(summary(path)["status"], "finished")
+        a, b = history(whole), history(path)
+        times = [row["time_s"] for row in b]
+        self.assertEqual(times, sorted(set(times)))
+        self.assertLessEqual({row["time_s"] for row in a}, set(times))
+        for key in ("penetration_m", "external_work_J"):
+            self.assertAlmostEqual(a[-1][key] / b[-1][key], 1.0, delta=0.01)
+
+    def test_finished_run_has_nothing_left(self) -> None:
+        path = self.directory()
+        entries: Entries = {"Time/End penetration": 0.52}
+        self.run_scene("jack", path, entries=entries)
+        before = summary(path), history(path)
+        text = self.run_scene("jack", path, SUCCESS, "--restart", entries=entries)
+        self.assertIn("nothing is left to compute", text)
+        self.assertEqual((summary(path), history(path)), before)
+
+    def test_restart_without_checkpoint(self) -> None:
+        text = self.run_scene("jack", self.directory(), BAD_INPUT, "--restart")
+        self.assertIn("no checkpoint", text)
+
+    def test_restart_is_refused(self) -> None:
+        """Of another scene, and from a damaged checkpoint."""
+        path = self.directory()
+        self.run_pieces(path, {})
+        text = self.run_scene(
+            "jack",
+            path,
+            BAD_INPUT,
+            "--restart",
+            entries={"Soil/Layer 1/Friction angle": 31},
+        )
+        self.assertIn("Friction angle", text)
+        info = path / "checkpoint.info"
+        words = info.read_text(encoding="utf-8")
+        info.write_text(words.replace("_travel ", "_travel 1", 1))
+        text = self.run_scene("jack", path, BAD_INPUT, "--restart")
+        self.assertIn("is damaged", text)
+        info.write_text(words, encoding="utf-8")
+        flip_a_bit(path)
+        text = self.run_scene("jack", path, BAD_INPUT, "--restart")
+        self.assertIn("is damaged", text)
+        self.assertNotIn("HDF5", text)
+        flip_a_bit(path)
+        entries = {"Time/End penetration": 0.56}
+        self.run_scene("jack", path, SUCCESS, "--restart", entries=entries)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Checkpoints: every digit of the points comes back, in the same order; damage
+// and a file that cannot be written are noticed, and what was there is kept.
+#include <caisson_mpm/base/text_file.h>
+#include <caisson_mpm/restart/checkpoint.h>
+#include <caisson_mpm/restart/point_file.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "../shared/scene.h"
+
+/** A square box with this size of cells, with 25 points each. */
+std::string
+box(const std::string &size)
+{
+  return R"(
+  subsection Rigid body
+    set Kind = none
+  end
+  subsection Grid
+    set Outer radius = 3
+    set Bottom       = -3
+    set Top          = 0.5
+    set Cell width   = )" +
+         size + R"(
+    set Cell height  = )" +
+         size + R"(
+  end
+  subsection Soil
+    set Number of layers = 2
+    subsection Layer 2
+      set Top depth = 1.25
+    end
+  end
+  subsection Material points
+    set Per direction far = 5
+  end)";
+}
+
+const std::string directory  = "checkpoint_files";
+const std::string parameters = "a = 1\nb = 2\n";
+
+std::string
+path(const std::string &name)
+{
+  return directory + "/" + name;
+}
+
+/** Numbers with digits that no two members share. */
+void
+fill(MaterialPoint &p)
+{
+  double     number = p.id;
+  const auto next   = [&number]() { return std::sin(++number) / 3.; };
+  for (unsigned int d = 0; d < 2; ++d)
+    {
+      p.velocity[d] = next();
+      p.size[d]     = next();
+    }
+  for (double &s : p.stress)
+    s = 1e5 * next();
+  for (double &s : p.state)
+    s = next();
+  p.plastic_deviatoric = next();
+  p.plastic_volumetric = -0.;
+  p.mass               = next();
+  p.initial_volume     = next();
+  p.initial_position   = dealii::Point<2>(next(), 1e-310);
+}
+
+std::vector<std::vector<double>>
+numbers_of(const Scene &s)
+{
+  std::vector<std::vector<double>> result;
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
+    std::vector<double> n = {static_cast<double>(
+                               index_of(s.grid.global_number(cell))),
+                             p.id,
+                             static_cast<double>(p.material),
+                             p.position[0],
+                             p.position[1],
+                             p.velocity[0],
+                             p.velocity[1],
+                             p.mass,
+                             p.volume,
+                             p.plastic_deviatoric,
+                             p.plastic_volumetric,
+                             p.initial_position[0],
+                             p.initial_position[1],
+                             p.initial_volume,
+                             p.size[0],
+                             p.size[1]};
+    n.insert(n.end(), p.stress.begin(), p.stress.end());
+    n.insert(n.end(), p.state.begin(), p.state.end());
+    result.push_back(n);
+  });
+  return result;
+}
+
+std::string
+valid_file()
+{
+  const std::string text  = read_text(path("checkpoint.info")),
+                    entry = "\nfile ";
+  const auto begin        = text.find(entry) + entry.size();
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+/** What reading leads to: "read", or the message. */
+std::string
+read(Scene &s, const std::string &current = parameters)
+{
+  try
+    {
+      const Checkpoint checkpoint(directory);
+      checkpoint.check_fingerprint(current);
+      checkpoint.read_points(s.grid, s.points);
+      return "read";
+    }
+  catch (const BadInput &error)
+    {
+      return error.what();
+    }
+}
+
+void
+write(Scene &s, const double time)
+{
+  write_checkpoint(directory,
+                   s.grid,
+                   s.points,
+                   {{"time", time}, {"third", 1. / 3.}, {"large", 1e300}},
+                   parameters);
+}
+
+void
+check_contents(Scene &s)
+{
+  const auto before = numbers_of(s);
+  std::printf("more than one piece: %s\n",
+              before.size() > 20000 ? "yes" : "no");
+  write(s, .1);
+  std::printf("written: %s\n", valid_file().c_str());
+  write(s, .7);
+  std::printf("written: %s\n", valid_file().c_str());
+  s.points.take_all();
+  const Checkpoint checkpoint(directory);
+  checkpoint.read_points(s.grid, s.points);
+  std::printf("the same points: %s\n",
+              numbers_of(s) == before && s.points.n_points() == before.size() ?
+                "yes" :
+                "no");
+  std::printf("the same state: %s\n",
+              checkpoint.state() == NamedNumbers{{"time", .7},
+                                                 {"third", 1. / 3.},
+                                                 {"large", 1e300}} ?
+                "yes" :
+                "no");
+  std::printf("%s\n", read(s, "a = 1\nb = 3\n").c_str());
+}
+
+void
+flip(const std::string &file, const std::size_t place)
+{
+  std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
+  stream.seekg(place);
+  const char byte = stream.get();
+  stream.seekp(place);
+  stream.put(byte ^ 1);
+}
+
+/** One bit is changed, at many places: every so many bytes of the rows, and of
+ * what is before them, where there are bytes without a meaning. */
+void
+check_damage(Scene            &s,
+             const std::size_t step_before,
+             const std::size_t step_in_rows)
+{
+  const auto        before = numbers_of(s);
+  const std::string file   = path(valid_file());
+  const std::size_t size   = std::filesystem::file_size(file),
+                    begin  = size - before.size() * before[0].size() * 8;
+  unsigned int n_noticed = 0, n_without_effect = 0, n_wrong = 0;
+  for (std::size_t place = 0; place < size;
+       place += place < begin ? step_before : step_in_rows)
+    {
+      flip(file, place);
+      const std::string result = read(s);
+      flip(file, place);
+      if (result.find("is damaged") != std::string::npos)
+        ++n_noticed;
+      else if (place < begin && result == "read" && numbers_of(s) == before)
+        ++n_without_effect;
+      else
+        ++n_wrong;
+    }
+  std::printf("damage noticed: %s, without effect: %s, neither: %u\n",
+              n_noticed > 10 ? "often" : "not often",
+              n_without_effect > 0 ? "some" : "none",
+              n_wrong);
+  std::filesystem::resize_file(file, size - 8);
+  std::printf("cut off: %s\n", read(s).c_str());
+}
+
+/** Any bit of the text is changed. */
+void
+check_damaged_text(Scene &s)
+{
+  const std::string file   = path("checkpoint.info");
+  unsigned int      n_read = 0;
+  for (std::size_t place = 0; place < std::filesystem::file_size(file); ++place)
+    {
+      flip(file, place);
+      n_read += read(s).find("is damaged") == std::string::npos;
+      flip(file, place);
+    }
+  std::printf("damage of the text not noticed: %u\n", n_read);
+  std::printf("as it was: %s\n", read(s).c_str());
+}
+
+/** The file system refuses what is too large. */
+void
+check_full_disk(Scene &s)
+{
+  write(s, .3);
+  const auto        before = numbers_of(s);
+  const std::string file   = valid_file();
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit;
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const auto former = limit.rlim_cur;
+  limit.rlim_cur    = 3000000;
+  setrlimit(RLIMIT_FSIZE, &limit);
+  try
+    {
+      write(s, .4);
+      std::printf("written to a full disk\n");
+    }
+  catch (const RunFailure &error)
+    {
+      std::printf("full disk: %s\n", error.what());
+    }
+  limit.rlim_cur = former;
+  setrlimit(RLIMIT_FSIZE, &limit);
+  std::printf("the one before is valid: %s\n",
+              valid_file() == file && read(s) == "read" &&
+                  numbers_of(s) == before ?
+                "yes" :
+                "no");
+  write(s, .5);
+  std::printf("there is room again: %s\n",
+              valid_file() != file && read(s) == "read" ? "yes" : "no");
+}
+
+/** A file of points on its own. */
+void
+check_point_file(const Scene &s)
+{
+  std::vector<TravelingPoint> points;
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
+    if (points.size() < 10)
+      points.push_back({s.grid.global_number(cell), p});
+  });
+  const auto write = [&](const std::string  &name,
+                         const unsigned long n,
+                         const unsigned long first) {
+    PointFile file(path(name), PointFile::Access::create, n, MPI_COMM_SELF);
+    file.write(first, points);
+    return std::make_pair(file.close(), file.checksum());
+  };
+  const auto read = [&](const std::string &name, const unsigned long n) {
+    PointFile file(path(name), PointFile::Access::read, n, MPI_COMM_SELF);
+    file.read(0, 3);
+    file.read(3, n - 3);
+    return std::make_pair(file.close(), file.checksum());
+  };
+  const auto written = write("points.h5", 10, 0);
+  std::printf("written and read in parts: %s\n",
+              written.first && read("points.h5", 10) == written ? "yes" : "no");
+  const std::string text = read_text(path("points.h5"));
+  std::printf("columns are named: %s\n",
+              text.find("cell material position_r position_z velocity_r") !=
+                  std::string::npos ?
+                "yes" :
+                "no");
+  std::printf("more rows than it has: %s\n",
+              read("points.h5", 11).first ? "read" : "refused");
+  std::printf("beyond the end: %s\n",
+              write("other.h5", 10, 1).first ? "written" : "refused");
+  const auto late = write("other.h5", 12, 2);
+  std::printf("rows that were not written: %s\n",
+              late.first && read("other.h5", 12).second == late.second ?
+                "not noticed" :
+                "noticed");
+  std::printf("another place, the same checksum: %s\n",
+              late.second == written.second ? "yes" : "no");
+  std::printf("no such file: %s\n",
+              read("none.h5", 10).first ? "read" : "refused");
+  std::printf("no such directory: %s\n",
+              write("none/points.h5", 10, 0).first ? "written" : "refused");
+}
+
+void
+generate(Scene &s)
+{
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+  auto all = s.points.take_all();
+  for (TravelingPoint &p : all)
+    fill(p.point);
+  s.points.redistribute(all);
+}
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  std::filesystem::remove_all(directory);
+  std::filesystem::create_directory(directory);
+  {
+    Scene s(box("0.1"));
+    generate(s);
+    check_point_file(s);
+    check_contents(s);
+    check_damage(s, 499, 499979);
+    check_full_disk(s);
+  }
+  Scene s(box("1"));
+  generate(s);
+  write(s, .1);
+  check_damaged_text(s);
+  check_damage(s, 7, 997);
+}
