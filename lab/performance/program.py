@@ -244,8 +244,9 @@ def measure_agreement(studies: Studies, report: Report) -> None:
     report.say(
         "`tests/simulation/jack.prm` with a row for each step: the largest difference"
         f" of any force and any energy in these steps from {sets[-1]} on one rank, over"
-        " the largest value of its column (allowed: 1e-9). history.csv has ten digits: 0"
-        " means that all of them agree. Four ranks share the cores: for agreement only."
+        " the largest value of its column (allowed: 1e-9). history.csv has ten digits:"
+        " 0 means that all of them agree. Four ranks share the cores: for agreement"
+        " only."
     )
     report.table("agreement", ["run", "steps", "forces", "energies"], rows)
     if "agreement_coarse" in studies:
