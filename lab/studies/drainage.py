@@ -66,7 +66,7 @@ def resistance(study: Study, run: StudyRun) -> float:
 
 
 def group_of(study: Study, run: StudyRun) -> float:
-    """Return v D / c_v, with the c_v that the program tells at the beginning."""
+    """Return v D / c_v, with the c_v that the program prints at the beginning."""
     log = (run.run.directory / "log").read_text(encoding="utf-8")
     found = COEFFICIENT.search(log)
     if found is None:

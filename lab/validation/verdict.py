@@ -26,7 +26,7 @@ class Row:
 
     @property
     def fails(self) -> bool:
-        """Whether it falls short, and nobody knows why."""
+        """Whether it falls short, and the reason is not known."""
         return not self.is_met and not self.known
 
     def asked(self) -> str:

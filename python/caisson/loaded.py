@@ -53,7 +53,7 @@ class LoadedRun:
     @property
     def status(self) -> str:
         """How the run has ended, as run.json has it: "finished", for example.
-        "running" while it goes on, "unfinished" where it has left no run.json."""
+        "running" until it ends, "unfinished" where it has left no run.json."""
         if is_locked(self.directory):
             return "running"
         if self.results.is_running:
@@ -149,8 +149,8 @@ class LoadedRun:
 def load(directory: str | Path) -> LoadedRun:
     """Return the run whose output directory this is; relative to the current folder.
 
-    A run that goes on, or was stopped, can be loaded too: its history and frames are
-    those that it has written so far. Raises ResultsError where there is no such
+    A run that has not ended, or was stopped, can be loaded too: its history and frames
+    are those that it has written so far. Raises ResultsError where there is no such
     directory, or no run has written to it.
     """
     path = Path(directory).expanduser().absolute()  # the folder may change later

@@ -99,7 +99,7 @@ class Progress:
         full = int(BAR * share)
         text = f"[{'#' * full}{'.' * (BAR - full)}] {n_done} of {len(self.expected)}"
         text += f" runs, {100 * share:.0f} %"
-        if n_done:  # before, nobody knows how good the expectations are
+        if n_done:  # before, it is not known how good the expectations are
             left = (time.monotonic() - self.begin) * (1 - share) / share
             text += f", about {duration(left)} left"
         return text[: width - 1]

@@ -21,8 +21,9 @@ from caisson.paths import PROGRAM, WORK
 from caisson.ranks import Size
 
 Entries = Mapping[str, Any]
-# what growing stiffness makes of the duration that the first steps tell: a caisson of
-# 10 m in sand of a cone test, down to 7.5 m, took 4 to 6 times as long
+# the factor by which growing stiffness lengthens a run beyond what its first steps
+# suggest: a caisson of 10 m in sand of a cone test, down to 7.5 m, took 4 to 6 times
+# as long
 STIFFENING = 4
 
 

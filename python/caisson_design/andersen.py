@@ -19,6 +19,6 @@ WALL = 0.0015  # k_f
 
 
 def method(skirt: Skirt, profile: Profile) -> ConeMethod:
-    """Return the method for dense sand, whose layers q_c tells."""
+    """Return the method for dense sand, whose layers follow from q_c."""
     k = {case: Coefficients(TIP[case], WALL, WALL) for case in CASES}
     return ConeMethod(CASES, skirt, profile, [Layer(0.0, k)])

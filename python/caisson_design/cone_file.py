@@ -5,7 +5,7 @@ A file is a table. Its first row names quantity and unit of each column: depth_m
 (cone resistance), fs_kPa (sleeve friction) and u2_kPa (pore pressure behind the cone),
 also as "depth (m)" or "qc [MPa]"; stresses may be in Pa, kPa or MPa. Cells are divided
 by commas, semicolons or tabs. Rows that are empty or begin with "#" are left out, but
-count. What is wrong is told of each row.
+count. What is wrong is reported for each row.
 """
 import csv
 import io

@@ -16,7 +16,7 @@ it. K0 tan(delta), of ground that no wall has disturbed, is a lower bound. A smo
 has no friction.
 
 The paper has one layer. With several, gamma' and K are those of the layer at the
-depth, and the stress goes on from layer to layer without a jump. The tip is a
+depth, and the stress continues from layer to layer without a jump. The tip is a
 strip footing, in the layer in which it is, under the (unequal) stress of both
 sides.
 
@@ -246,7 +246,7 @@ class Caisson:
 
 
 class Assumptions(NamedTuple):
-    """What the method assumes, which no ground investigation tells. K tan(delta) is
+    """What the method assumes, which no ground investigation gives. K tan(delta) is
     (low, high)."""
 
     k_tan_delta_inside: tuple[float, float] = (0.45, 0.8)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What all methods for the penetration resistance of a caisson have in common.
 
-A method knows the caisson and the layers of the soil, and tells the forces at each
+A method knows the caisson and the layers of the soil, and returns the forces at each
 embedment for two cases: a lower one, which is the first, and an upper one. What the
 cases mean is the method's own: without and with stress enhancement, most probable and
 highest, or the ends of a range of coefficients.

@@ -35,7 +35,7 @@ def wall_coefficient(skirt: Skirt, case: str, tan_delta: float) -> float:
 
 
 def method(skirt: Skirt, profile: Profile) -> ConeMethod:
-    """Return the method for sand, whose layers q_c tells."""
+    """Return the method for sand, whose layers follow from q_c."""
     k = {
         case: Coefficients(
             TIP,

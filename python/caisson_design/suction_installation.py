@@ -104,7 +104,7 @@ def required_suction(
 
     It is 0 where the weight suffices, and nan where no suction up to piping does.
     The resistance less the pull is a concave function of the suction up to piping,
-    so that its sign at piping tells which is the case, and the root is the only
+    so that its sign at piping shows which is the case, and the root is the only
     one. permeability_ratio: of the sand inside to that outside.
     """
     if caisson.resistance(h, enhanced) <= weight:

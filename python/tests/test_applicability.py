@@ -101,7 +101,7 @@ class Applicability(unittest.TestCase):
         self.assertIn("layer 2 has no friction", self.why(site, 3.1)[0])
 
     def test_bodies(self) -> None:
-        """A cone or a cylinder is no caisson; a run that goes on does not tell."""
+        """A cone or a cylinder is no caisson; a run that continues does not say."""
         found = theory.answers_to(theory.Site({}, cone=LINEAR), 2)
         self.assertEqual(
             theory.reasons(found),

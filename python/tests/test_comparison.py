@@ -94,7 +94,7 @@ class Files(unittest.TestCase):
         self.assertEqual(len(columns), 3, "a force that is 0 throughout")
 
     def test_suction_and_names(self) -> None:
-        """Runs of the same name are told apart; the suction is there for that run
+        """Runs of the same name are distinguished; the suction is there for that run
         which has one."""
         depth = np.linspace(0, 1, 11)
         table = {"time_s": depth, "penetration_m": depth, "total_force_N": 5 + depth}

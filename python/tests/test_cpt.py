@@ -89,7 +89,7 @@ class Files(WithFiles):
     """Columns and rows of a file."""
 
     def test_units(self) -> None:
-        """Each column in its own unit; what is not read is told."""
+        """Each column in its own unit; what is not read is reported."""
         test = cone_file.read(
             self.written(
                 "# mine\ndepth [m];fs (MPa);tilt_deg;qc_kPa;u2_Pa\n"
@@ -168,7 +168,7 @@ class Files(WithFiles):
         test = cone_file.read(self.written(HEAD + "0,1,5,0,\n,,,\n1,2,20,4,,\n"))
         self.assertEqual(list(test.depth), [0, 1])
 
-    def test_a_wrong_start_is_told_once(self) -> None:
+    def test_a_wrong_start_is_reported_once(self) -> None:
         with self.assertRaises(InputError) as caught:
             cone_file.read(self.written(HEAD + "3,1,5,0\n4,2,20,0\n5,2,20,0\n"))
         self.assertEqual(len(str(caught.exception).splitlines()), 1)
@@ -339,7 +339,7 @@ class Layers(WithFiles):
         self.assertTrue({ANGLE, STRENGTH} <= set(silt))
 
     def test_bands(self) -> None:
-        """Cemented and soft sand in sand are told, though they are no lens."""
+        """Cemented and soft sand in sand are reported, though they are no lens."""
         path = self.layered((4, 12, 0.5), (4.3, 90, 0.5), (8, 12, 0.5), (8.3, 2.5, 0.3))
         found = interpretation.interpret(path, options("--tops", "0"))
         self.assertEqual(found.layers[0].layer.lenses, [])
@@ -358,16 +358,18 @@ class Layers(WithFiles):
         found = interpretation.interpret(
             self.written(HEAD + "\n".join(rows)), options()
         )
-        told = [r for r in tables.remarks(found) if r.startswith("no row lies")]
+        remarks = [r for r in tables.remarks(found) if r.startswith("no row lies")]
         wanted = "no row lies between 2.95 and 4.5 m: the soil there is unknown"
-        self.assertEqual(told, [wanted])
+        self.assertEqual(remarks, [wanted])
 
     def test_given_soil(self) -> None:
-        """Another kind than the test says is told."""
+        """Another kind than the test says is reported."""
         found = interpretation.interpret(EXAMPLE, options("--soil", "clay"))
-        told = [r for r in tables.remarks(found) if "is taken as clay by --soil" in r]
-        self.assertEqual(len(told), len(found.layers))
-        self.assertTrue(all(r.endswith("is that of sand") for r in told))
+        remarks = [
+            r for r in tables.remarks(found) if "is taken as clay by --soil" in r
+        ]
+        self.assertEqual(len(remarks), len(found.layers))
+        self.assertTrue(all(r.endswith("is that of sand") for r in remarks))
 
     def test_tops_below_the_test(self) -> None:
         """They are refused below its end, and do not count below what counts."""

@@ -96,7 +96,7 @@ class ErrorBar(unittest.TestCase):
         self.assertEqual(row.split("|")[2].strip(), "5.0 %")
 
     def test_a_term_counts_at_its_depths(self) -> None:
-        """Outside them the other term is left; a run that ends before is told."""
+        """Outside them the other term is left; a run that ends before is reported."""
         study = self.study()
         study.keys["errors"][0]["depths"] = [1.0, 2.0]
         bars, _ = self.bars(study)

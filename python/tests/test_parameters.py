@@ -128,7 +128,7 @@ class Runs(unittest.TestCase):
         self.assertEqual([run.run.directory for run in more.runs[1:]], places)
 
     def test_entries_of_the_same_name(self) -> None:
-        """Layers are told apart."""
+        """Layers are distinguished."""
         layers = [f'[parameters."Soil/Layer {i}/E"]\nvalues = [{i}]' for i in (1, 2)]
         (run,) = self.study('sampling = "grid"\n' + "\n".join(layers)).runs
         self.assertEqual(run.name, "Layer 1/E 1, Layer 2/E 2")

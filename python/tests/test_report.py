@@ -84,7 +84,7 @@ setTimeout(() => {
 
 def leave_run(path: Path, summary: dict[str, Any] | None) -> None:
     """Leave what a run of a caisson with suction leaves; without run.json, and with
-    its lock, it still goes on."""
+    its lock, it still runs."""
     depth = np.linspace(0.5, 4.5, 401)
     table = {"time_s": depth, "penetration_m": depth}
     for name, share in (("total", 1.0), ("tip", 0.5)):
@@ -313,7 +313,7 @@ class Report(unittest.TestCase):
         self.assertIn("force: 4 % in", content.error_remark(Results(self.path)))
 
     def test_run_that_goes_on(self) -> None:
-        """Its page loads itself anew, also where an old run.json is left."""
+        """Its page reloads itself, also where an old run.json is left."""
         self.assertIn('http-equiv="refresh"', self.page())
         with (self.path / ".lock").open("w", encoding="utf-8") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)

@@ -94,7 +94,7 @@ class MadeUpRun(unittest.TestCase):
 
     def write(self, history: dict[str, np.ndarray], **change: Any) -> Results:
         """Write a run whose scene has some entries changed."""
-        summary = {"title": "made up", "scene": {**SCENE, **change}}
+        summary = {"title": "synthetic", "scene": {**SCENE, **change}}
         write_run(self.path, history, summary)
         return Results(self.path)
 
@@ -325,7 +325,7 @@ class MadeUpRun(unittest.TestCase):
         self.assertTrue(np.isnan(high[1]) and np.isfinite(high[0]))
         self.assertEqual(upper[0], high[0])
         self.assertEqual(upper[1], answers.suctions[methods.PIPING][1])
-        self.assertIn("goes on to the critical", suction.caption(answers, SITE))
+        self.assertIn("continues to the critical", suction.caption(answers, SITE))
 
     def test_entries_of_the_scene(self) -> None:
         """Those of the section Design methods, in pictures and words."""

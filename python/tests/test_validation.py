@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What runs are held against, and how."""
+"""What runs are compared with, and how."""
 import math
 import unittest
 

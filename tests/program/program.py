@@ -225,7 +225,7 @@ class ProgramTest(unittest.TestCase):
         )
         self.assert_words(words, text)
 
-    def assert_told(self, words: list[str], name: str, entries: Entries) -> str:
+    def assert_reported(self, words: list[str], name: str, entries: Entries) -> str:
         """Ask that a run of a scene of prm says all the words; return all it says."""
         text = self.run_program(
             SUCCESS,

@@ -337,14 +337,14 @@ class BadInput(ProgramTest):
     """Scenes without an answer."""
 
     def test_warnings(self) -> None:
-        """What is known to be wrong is told, and only where it is."""
+        """What is known to be wrong is reported, and only where it is."""
         cases: list[tuple[Entries, list[str]]] = [
             ({"Water/Bottom pressure": "1e4"}, ["Drained bottom is false"]),
             ({"Water/Suction table": "0:0, 1:1"}, ["no caisson"]),
         ]
         for entries, words in cases:
             with self.subTest(entries=entries):
-                self.assert_told(
+                self.assert_reported(
                     words,
                     "verification/consolidation",
                     {

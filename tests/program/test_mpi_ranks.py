@@ -76,7 +76,7 @@ class Ranks(ProgramTest):
 
     def test_agree(self) -> None:
         """The caisson travels over several rows, so that points change their
-        ranks, and the parts are cut anew."""
+        ranks, and the mesh is partitioned again."""
         self.compare_ranks((2,), 2, {"Time/End penetration": 1})
 
     def test_more_ranks_than_cores(self) -> None:

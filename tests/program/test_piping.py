@@ -39,7 +39,7 @@ class Piping(ProgramTest):
         text = self.run_scene("suction", path, entries={**AT_REST, **table, **entries})
         return text, history(path)[-1]
 
-    def assert_told_from(self, withstood: float, entries: Entries) -> None:
+    def assert_reported_from(self, withstood: float, entries: Entries) -> None:
         """Ask for the warning just above this gradient, and for none just below."""
         per_pascal = self.raised(1e3, entries)[1]["exit_gradient_wall"] / 1e3
         for share, is_told in ((0.9, False), (1.1, True)):
@@ -51,7 +51,7 @@ class Piping(ProgramTest):
             self.assertEqual("piping" in text.lower(), is_told, text)
 
     def test_sand(self) -> None:
-        self.assert_told_from(WEIGHT, {})
+        self.assert_reported_from(WEIGHT, {})
         text, last = self.raised(3e4, {})
         self.assert_words(["exit gradient", "90 % of the critical one"], text)
         self.assertGreater(last["exit_gradient_wall"], last["critical_gradient"])
@@ -68,7 +68,7 @@ class Piping(ProgramTest):
             with self.subTest(cohesion=cohesion):
                 strength = 2 * cohesion / EMBEDMENT / GAMMA_W
                 entries: Entries = {f"{LAYER}/Cohesion": cohesion}
-                self.assert_told_from(WEIGHT + strength, entries)
+                self.assert_reported_from(WEIGHT + strength, entries)
         text, last = self.raised(3e4, {f"{LAYER}/Cohesion": 1e4})
         self.assertGreater(last["exit_gradient_wall"], 2 * WEIGHT)
         self.assertNotIn("piping", text.lower())
@@ -77,15 +77,15 @@ class Piping(ProgramTest):
         """The soil below the deepest block bears its tension, at most c cot(phi)."""
         entries: Entries = {f"{LAYER}/Cohesion": 500, f"{LAYER}/Tension cut-off": 300}
         strength = (2 * 500 + 300) / EMBEDMENT / GAMMA_W
-        self.assert_told_from(WEIGHT + strength, entries)
+        self.assert_reported_from(WEIGHT + strength, entries)
 
     def test_layers(self) -> None:
         """A weak layer is lifted off a strong one, however thin it is; a strong one
         holds what is beneath it as far as its own strength goes."""
-        self.assert_told_from(WEIGHT, layers(0.1, 0, 1e4))
+        self.assert_reported_from(WEIGHT, layers(0.1, 0, 1e4))
         mean = 0.1 / EMBEDMENT * 2e3
         strength = 2 * mean / EMBEDMENT / GAMMA_W
-        self.assert_told_from(WEIGHT + strength, layers(0.1, 2e3, 0))
+        self.assert_reported_from(WEIGHT + strength, layers(0.1, 2e3, 0))
 
     def test_coupled_water(self) -> None:
         """The flow out of clay is noise, and cohesion holds it together."""

@@ -108,7 +108,7 @@ class RunReview(ProgramTest):
 
     def test_volume_of_points(self) -> None:
         """Without a mean volume change, stiff volume is warned of."""
-        for nu, told in ((0.3, False), (0.45, True)):
+        for nu, is_warned in ((0.3, False), (0.45, True)):
             text = self.run_program(
                 SUCCESS,
                 user_scene("jack_coarse"),
@@ -118,7 +118,7 @@ class RunReview(ProgramTest):
                     "Method/Mean volume change": False,
                 },
             )
-            self.assertEqual("Set Mean volume change = true" in text, told, nu)
+            self.assertEqual("Set Mean volume change = true" in text, is_warned, nu)
 
     def test_lost_work(self) -> None:
         """A viscous transfer takes more than a tenth of the work."""

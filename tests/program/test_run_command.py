@@ -49,7 +49,7 @@ class Run(ProgramTest):
             self.assert_drawn(path)
 
     def test_report_has_the_warnings(self) -> None:
-        """What has no effect is told in the terminal, run.json and the page."""
+        """What has no effect is reported in the terminal, run.json and the page."""
         path = self.directory()
         unused = ["--set", "Water/Renewal=0.125", "--output-directory", path]
         text = self.run_scene_and_draw(SUCCESS, scene("jack"), *SHORT, *unused)
@@ -71,7 +71,7 @@ class Run(ProgramTest):
         self.assert_drawn(path)
 
     def test_several_ranks_are_stopped(self) -> None:
-        """mpirun does not make a failure of it, where it can be told not to."""
+        """mpirun does not make a failure of it, where it has an option for it."""
         path = self.directory()
         words = ["--ranks", 2, scene("jack"), "--output-directory", path]
         words += ["--set", "Run control/Wall time limit=0.01"]

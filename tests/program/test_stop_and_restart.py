@@ -115,7 +115,7 @@ class Stop(ProgramTest):
                 self.assertEqual("lost" in said, bool(words), said)
 
     def test_changed_files(self) -> None:
-        """A restart tells that a table, or a list of frames, is not as the run has
+        """A restart reports that a table, or a list of frames, is not as the run has
         left it."""
         path = self.directory()
         entries: Entries = {

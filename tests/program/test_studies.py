@@ -139,7 +139,7 @@ class Parameters(ProgramTest):
             self.assertGreater((path / "angles" / picture).stat().st_size, 10000)
 
     def test_refused(self) -> None:
-        """A value that the program refuses is told, with its words, before a run."""
+        """A value that the program refuses is reported in its words before a run."""
         path = self.made_directory()
         done = self.study(path, "26, 75")
         self.assertEqual(done.returncode, 1, done.stdout)

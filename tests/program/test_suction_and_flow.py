@@ -255,7 +255,7 @@ class Suction(ProgramTest):
             self.assertAlmostEqual(rows[1][name] / rows[0][name], 1, 6, name)
 
     def test_restart(self) -> None:
-        """The flow is found anew, so that digits change, but not the curve."""
+        """The flow is computed again, so that digits change, but not the curve."""
         whole, parts = self.directory("whole"), self.directory("parts")
         self.run_scene("suction", whole)
         self.run_scene("suction", parts, entries={"Time/End penetration": 0.6})

@@ -49,7 +49,7 @@ class Sizes(SuggestTest):
     """Caissons of all sizes."""
 
     def test_scenes_are_accepted(self) -> None:
-        """By the program, without a likely mistake; the cost is told."""
+        """By the program, without a likely mistake; the cost is reported."""
         cases = [
             ("4", "4", "20mm", "10"),
             ("8", "12", "0.03", "5"),

@@ -177,7 +177,7 @@ class Caisson(ProgramTest):
         whole, of_one, of_two = rows
         for name in ("tip_water_force_N", "tip_force_N"):
             self.assertAlmostEqual(of_two[name] / of_one[name], 1, 6, msg=name)
-        # that of the last step; the steps are chosen anew
+        # that of the last step; the steps are chosen again
         name = "tip_water_force_N"
         self.assertAlmostEqual(of_one[name] / whole[name], 1, 3, msg=name)
 
@@ -208,7 +208,7 @@ class BadInput(ProgramTest):
         ]
         for entries, words in cases:
             with self.subTest(entries=entries):
-                self.assert_told(
+                self.assert_reported(
                     words,
                     "verification/consolidation",
                     {

@@ -239,7 +239,7 @@ def draw_steps(axes: Axes, x: float, y: float) -> None:
         x + 5.8,
         y - 2.05,
         "moments for the next step, made while the points are in the cache;\n"
-        "anew in points to grid only for cells that points have left or "
+        "again in points to grid only for cells that points have left or "
         "entered",
         ha="center",
         fontsize=8,

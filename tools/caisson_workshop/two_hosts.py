@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs a scene on two hosts and counts what they tell each other.
+"""Runs a scene on two hosts and counts what they send each other.
 
 The hosts are two network namespaces of this machine, joined by a cable of their own
 (veth). Each has its own name, its own System V memory and its own /dev/shm, and Open
@@ -7,7 +7,7 @@ MPI may use nothing but TCP. The output directory is the same for both, as on a
 cluster.
 
 The history of the run is compared with that of the same ranks on one host, and a
-longer run tells the volume of a step: the difference of both runs, over that of
+longer run gives the volume of a step: the difference of both runs, over that of
 their steps, is free of what is sent once. Bytes and packets of the cable contain
 everything, headers and acknowledgments, too; messages and bytes of MPI are counted
 by Open MPI's component "monitoring".

@@ -119,7 +119,7 @@ def factor_of(run: StudyRun) -> float:
 
 
 def limit_of(study: Study, case: Case) -> tuple[float, list[float]]:
-    """Return the factor for cells of no size, and those of the meshes."""
+    """Return the factor at zero cell size, and those of the meshes."""
     meshes = meshes_of(case)
     found = [factor_of(study.run(f"{case.name}_R{n}")) for n in meshes]
     line = np.polyfit([1 / n for n in meshes], found, 1)

@@ -2,7 +2,7 @@
 """A model caisson pushed into sand at 1 g: measured and computed force over depth.
 
 The friction of the wall was not measured; two runs bound it. With the smoother wall the
-force is extrapolated, from three meshes, to cells of no size.
+force is extrapolated, from three meshes, to zero cell size.
 """
 from pathlib import Path
 from typing import Any
@@ -68,8 +68,8 @@ def force_at(run: StudyRun, depth: np.ndarray) -> np.ndarray:
 
 
 def limit_of(study: Study, depth: np.ndarray) -> np.ndarray:
-    """Return the total force (N) at depths (m), [n], with the smoother wall, for cells
-    of no size: the line in the size of the cells through three meshes."""
+    """Return the total force (N) at depths (m), [n], with the smoother wall,
+    extrapolated to zero cell size: the line in the size through three meshes."""
     names = [name_of(min(ANGLES), cells) for cells in MESHES]
     forces = np.array([force_at(study.run(name), depth) for name in names])
     return np.asarray(np.polyfit([1 / cells for cells in MESHES], forces, 1)[1])

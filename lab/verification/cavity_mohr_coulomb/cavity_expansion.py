@@ -17,7 +17,7 @@ from caisson.results import Table, read_table
 
 
 class Cavity(Protocol):
-    """A soil that can tell the pressure in the cavity."""
+    """A soil with the exact pressure in the cavity."""
 
     def pressure(self, ratio: float) -> float:
         """Return the pressure at this a / a0."""

@@ -73,7 +73,7 @@ def write(found: Interpretation, directory: Path) -> list[Path]:
     ]
 
 
-def tell(files: list[Path]) -> None:
+def report(files: list[Path]) -> None:
     """Say what has been written."""
     for file in files:
         print(f"cpt: {short(file)}")
@@ -87,16 +87,16 @@ def work(options: argparse.Namespace) -> int:
     directory: Path = options.out or RESULTS / "cpt" / options.cpt.stem
     if not has_caisson:
         print(tables.text_of_test(found))
-    tell(write(found, directory))
+    report(write(found, directory))
     if has_caisson:
         options.file, options.study = directory / SCENE, directory / STUDY
         options.layer, options.overwrite = None, True
         suggest.write(options)  # which prints the table
-        tell([options.file, options.study])
+        report([options.file, options.study])
     if not options.run:
         return 0
     status = page.run_study(options.study, directory, options.jobs)
-    tell([page.write(found, options.study, directory)])
+    report([page.write(found, options.study, directory)])
     return status
 
 

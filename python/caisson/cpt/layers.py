@@ -120,7 +120,7 @@ def bands_of(ground: Ground, rows: np.ndarray) -> list[tuple[float, float, str]]
 
 def layers_of(ground: Ground, tops: list[float], given_kind: str = "") -> list[Layer]:
     """Return the layers with these tops. given_kind: of all soil, where the test does
-    not tell it. Raises ValueError where a layer has no row."""
+    not show it. Raises ValueError where a layer has no row."""
     kinds = np.array([given_kind or kind_of(index) for index in ground.index])
     bottoms = [*tops[1:], float(ground.depth[-1])]
     found = []

@@ -29,7 +29,7 @@ from caisson.cpt.interpretation import Interpretation
 from caisson.cpt.layers import BAND
 from caisson.table import markdown, write_csv
 
-WIDEST_GAP = 1.0  # m between rows; a wider one is told
+WIDEST_GAP = 1.0  # m between rows; a wider one is reported
 
 
 class Shown(NamedTuple):

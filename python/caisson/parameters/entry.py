@@ -196,7 +196,7 @@ def read_all(tables: object) -> list[Parameter]:
 
 
 def labels_of(parameters: list[Parameter]) -> list[str]:
-    """Return the last part of each name, or as many parts as tell it from others."""
+    """Return the last part of each name, or as many parts as distinguish it."""
     parts = [parameter.name.split("/") for parameter in parameters]
     for length in range(1, max(map(len, parts)) + 1):
         labels = ["/".join(part[-length:]) for part in parts]

@@ -37,7 +37,7 @@ def per_point_length(
     points: np.ndarray, area: np.ndarray, radius: np.ndarray
 ) -> np.ndarray:
     """Return what a point's volume is divided by to give its area in the (r, z)
-    plane: 2 pi r, or 1 m in plane strain. Cells full of points tell which.
+    plane: 2 pi r, or 1 m in plane strain. Cells full of points show which.
 
     points: volume in each cell; area and radius of each cell; all [n_cells].
     """
@@ -104,16 +104,16 @@ class CellMeans:
     def of(self, values: np.ndarray) -> np.ndarray:
         """Return the means of a field [n_points] over the polygons, by volume. Points
         at which it is nan are left out; nan where there is no other."""
-        n, told = len(self.total), np.isfinite(values)
-        if told.all():
+        n, known = len(self.total), np.isfinite(values)
+        if known.all():
             return self._sum(self.volume * values, n)[self.used] / self.total[self.used]
-        sums = self._sum(np.where(told, self.volume * values, 0), n)[self.used]
-        total = self._sum(np.where(told, self.volume, 0), n)[self.used]
+        sums = self._sum(np.where(known, self.volume * values, 0), n)[self.used]
+        total = self._sum(np.where(known, self.volume, 0), n)[self.used]
         return np.divide(sums, total, out=np.full(len(sums), np.nan), where=total > 0)
 
     def gradients(self, values: np.ndarray) -> np.ndarray:
         """Return the gradients [n_used, 2] of the affine fit of a field [n_points] to
-        the points of each cell; nan where too few of them, or a line, tell none."""
+        the points of each cell; nan where too few of them, or a line, give none."""
         place = [self.of(x)[self.row] for x in self.position.T]
         off_r, off_z = (x - mean for x, mean in zip(self.position.T, place))
         rr, rz, zz, fr, fz = (
@@ -124,8 +124,8 @@ class CellMeans:
             )
         )
         determinant = rr * zz - rz * rz
-        told = determinant > 1e-6 * rr * zz
-        determinant[~told] = np.nan
+        known = determinant > 1e-6 * rr * zz
+        determinant[~known] = np.nan
         return np.column_stack([zz * fr - rz * fz, rr * fz - rz * fr]) / (
             determinant[:, np.newaxis]
         )

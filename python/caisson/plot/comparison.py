@@ -45,7 +45,7 @@ def pushing_force(history: Table) -> np.ndarray:
 
 def names_of(directories: Sequence[Path]) -> list[str]:
     """Return a name for each directory: its last part, or as many of its last parts
-    as tell it from the others."""
+    as distinguish it from the others."""
     parts = [directory.resolve().parts for directory in directories]
     for length in range(1, max(map(len, parts)) + 1):
         names = ["/".join(part[-length:]) for part in parts]

@@ -181,7 +181,7 @@ def draw_gradients(axes: Axes, run: Results) -> None:
 
 
 def draw_heave(axes: Axes, run: Results) -> None:
-    """Draw the heave of the plug and tell the volumes of water at the end."""
+    """Draw the heave of the plug and write the volumes of water at the end."""
     history = run.history
     axes.plot(
         history["plug_heave_m"],
@@ -233,7 +233,7 @@ def caption(answers: methods.Answers, site: theory.Site) -> str:
         )
     elif ends_early(answers, required, site):
         lines.append(
-            "A line ends where no suction suffices; the band then goes on to the"
+            "A line ends where no suction suffices; the band then continues to the"
             " critical suction of the same method."
         )
     return "\n".join(lines)

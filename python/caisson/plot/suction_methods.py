@@ -59,7 +59,7 @@ class Answers:
 def weight_of(scene: Scene) -> float:
     """Return the submerged weight of the caisson in N. Raises NotApplicable."""
     if scene.get("submerged_weight_N") is None:
-        raise NotApplicable("run.json does not tell submerged_weight_N")
+        raise NotApplicable("run.json has no submerged_weight_N")
     return float(scene["submerged_weight_N"])
 
 

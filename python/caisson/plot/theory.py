@@ -125,7 +125,7 @@ def wall_friction(scene: Scene, side: str) -> float:
     both = scene.get("wall_friction_angle_deg")
     value = scene.get(f"{side}_wall_friction_angle_deg", both)
     if value is None:
-        raise NotApplicable(f"run.json does not tell the friction of the {side} wall")
+        raise NotApplicable(f"run.json does not have the friction of the {side} wall")
     return float(value)
 
 
@@ -183,7 +183,7 @@ def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
     try:
         layers = [layer_of(entry, i) for i, entry in site.layers(deepest)]
     except KeyError as error:
-        raise NotApplicable(f"run.json does not tell {error.args[0]}") from error
+        raise NotApplicable(f"run.json has no {error.args[0]}") from error
     refuse_undrained(site)
     return houlsby_byrne.method(
         skirt.outer_diameter,

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """One page on a run, report.html in its directory: curves, tables, pictures, and what
-the program warned of. It needs no other file and no network. While the run goes on, the
-page loads itself anew; `--follow` renews it until the run ends."""
+the program warned of. It needs no other file and no network. Until the run ends, the
+page reloads itself; `--follow` renews it until the run ends."""
 import argparse
 import shutil
 import subprocess

@@ -14,7 +14,7 @@ from caisson.report import content, methods
 from caisson.results import Results
 
 HERE = Path(__file__).parent
-REFRESH = 30  # s, of the page of a run that goes on
+REFRESH = 30  # s, of the page of a run that has not ended
 # name of a picture without its suffix: what it shows
 PICTURES = {
     "stress": "Vertical effective stress",
@@ -75,7 +75,9 @@ def facts_of(run: Results) -> list[tuple[str, str]]:
 def status_of(run: Results) -> str:
     """Return how the run ended, in words."""
     if run.is_running:
-        return f"The run goes on; this page loads itself anew every {REFRESH} seconds."
+        return (
+            f"The run has not ended; this page reloads itself every {REFRESH} seconds."
+        )
     if failure := run.summary.get("failure"):
         return f"Failed: {failure}"
     reason = run.scene.get("end_reason")

@@ -168,4 +168,4 @@ class Damages(Part):
         silent = [f for f in changed if not any(f in line for line in warnings)]
         if silent:
             return "", f"differs silently in {', '.join(silent)}"
-        return "told" if changed else "the same", ""
+        return "reported" if changed else "the same", ""

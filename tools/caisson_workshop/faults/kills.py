@@ -69,7 +69,7 @@ class Kills(Part):
                 break
             if last.status != Status.BAD_INPUT or state_of(path):
                 return Result("", f"exit status {last.status}", tuple(calls))
-            kind, restart = "begun anew, without a checkpoint", False
+            kind, restart = "begun again, without a checkpoint", False
             n_kills = 0
         if not any(c.status == KILL for c in calls):
             kind = "finished before"
