@@ -98,10 +98,9 @@ def measure_refinement(studies: dict[str, Study], report: Report) -> None:
         f" 5 m), pushed from {START} to {end} m. Halved at the tip: lines are wider"
         " apart, cells around the tip are halved once or twice, and points split and"
         " merge. Uniform: cells of one size and 3 x 3 points in each, in the same"
-        " domain. Error: rms"
-        " over four parts of the way, of the tip forces averaged over a fifth of it,"
-        f" against the graded mesh t/{across}. One run each; the forces scatter by some"
-        " percent."
+        " domain. Error: rms over four parts of the way, of the tip forces averaged"
+        f" over a fifth of it, against the graded mesh t/{across}. One run each; the"
+        " forces scatter by some percent."
     )
     heads = "mesh,cells,points,steps,seconds of all steps,error (%)".split(",")
     report.table("refinement", heads, rows)

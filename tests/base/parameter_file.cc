@@ -1,218 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The base floor: the command line, and the parameter file with every message
-// that it can give.
-
-#include <caisson_mpm/base/choice.h>
-#include <caisson_mpm/base/command_line.h>
-#include <caisson_mpm/base/declared_entries.h>
-#include <caisson_mpm/base/nearest_names.h>
-#include <caisson_mpm/base/parameter_file.h>
+// The parameter file, included files and --set, with every message that they
+// can give.
 #include <caisson_mpm/base/stop_request.h>
-#include <caisson_mpm/base/text.h>
-
-#include <deal.II/base/parameter_acceptor.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <limits>
-#include <memory>
-#include <optional>
 
-#include "../shared/messages.h"
-
-using namespace CaissonMPM;
-using dealii::ParameterAcceptor;
-using dealii::ParameterHandler;
-namespace Patterns = dealii::Patterns;
-
-
-
-// Command line -------------------------------------------------------------
-
-CommandLine
-parse(std::vector<const char *> arguments)
-{
-  arguments.insert(arguments.begin(), "caisson_mpm");
-  return parse_command_line(arguments.size(), arguments.data());
-}
-
-
-
-void
-print(const CommandLine &command_line)
-{
-  std::cout << "file \"" << command_line.parameter_file << "\" directory \""
-            << command_line.output_directory << "\" flags "
-            << command_line.print_parameters << command_line.validate
-            << command_line.restart << command_line.version
-            << command_line.help;
-  if (!command_line.explain.empty())
-    std::cout << " explain " << command_line.explain;
-  for (const std::string &text : command_line.overrides)
-    std::cout << " [" << text << ']';
-  std::cout << '\n';
-}
-
-
-
-void
-test_command_line()
-{
-  title("command line");
-  print(parse({"prm/jack.prm"}));
-  print(parse({"--set",
-               "Soil/Friction angle = -3",
-               "a.prm",
-               "--set=Run control/Stop file=a=b",
-               "--output-directory",
-               "my results",
-               "--restart",
-               "--validate"}));
-  print(parse({"--print-parameters"}));
-  print(parse({"a.prm", "--print-parameters"}));
-  print(parse({"--explain", "friction"}));
-  print(parse({"--version"}));
-  print(parse({"--help"}));
-  print(parse({"-h"}));
-  for (const std::vector<const char *> &arguments :
-       std::vector<std::vector<const char *>>{
-         {},
-         {"a.prm", "b.prm"},
-         {"a.prm", "--ouput-directory", "x"},
-         {"a.prm", "--out=x"},
-         {"a.prm", "--verbose"},
-         {"a.prm", "-x"},
-         {"a.prm", "--set"},
-         {"a.prm", "--restart=yes"},
-         {"a.prm", "--output-directory=x", "--output-directory=y"}})
-    {
-      std::string line;
-      for (const char *const argument : arguments)
-        line += std::string(argument) + ' ';
-      print_error(line, [&]() { print(parse(arguments)); });
-    }
-  std::cout << usage();
-}
-
-
-
-// Parameter file -----------------------------------------------------------
-
-/** Entries as the classes of the program declare them. */
-struct Soil : public ParameterAcceptor
-{
-  Soil()
-    : ParameterAcceptor("Soil")
-  {
-    add_parameter("Friction angle",
-                  friction_angle,
-                  "Angle of internal friction of the sand. Units: degree",
-                  prm,
-                  Patterns::Double(0., 90.));
-    add_parameter("Youngs modulus",
-                  youngs_modulus,
-                  "Stiffness of the skeleton. Units: Pa",
-                  prm,
-                  Patterns::Double(0.));
-    add_parameter("Model",
-                  model,
-                  "The constitutive model. Units: none",
-                  prm,
-                  Patterns::Selection("elastic|Mohr-Coulomb|Tresca"));
-    prm.enter_subsection("Soil");
-    prm.declare_alias("Youngs modulus", "Stiffness", true);
-    prm.leave_subsection();
-  }
-
-  double      friction_angle = 31.;
-  double      youngs_modulus = 1e7;
-  std::string model          = "Mohr-Coulomb";
-};
-
-
-
-struct Grid : public ParameterAcceptor
-{
-  Grid()
-    : ParameterAcceptor("Grid/Fine zone")
-  {
-    add_parameter("Points per cell",
-                  n_points,
-                  "Material points per cell and direction. Units: none");
-    add_parameter("Columns",
-                  n_columns,
-                  "Cells from the axis to the rim. Units: none",
-                  prm,
-                  Patterns::Integer(1, 1000));
-    add_parameter("Rows",
-                  rows,
-                  "Height of each row. Units: m",
-                  prm,
-                  Patterns::List(Patterns::Double(0.), 1, 4));
-    add_parameter("Moves",
-                  moves,
-                  "Whether the zone moves with the body. Units: none");
-  }
-
-  unsigned int        n_points  = 3;
-  int                 n_columns = 8;
-  std::vector<double> rows      = {0.1, 0.2};
-  bool                moves     = true;
-};
-
-
-
-/** A choice, and words in the place of numbers. */
-struct Method : public ParameterAcceptor
-{
-  enum class Transfer
-  {
-    flip,
-    pic
-  };
-
-  Method()
-    : ParameterAcceptor("/Method")
-  {
-    add_choice(*this,
-               "Velocity transfer",
-               transfer,
-               {{"FLIP", Transfer::flip}, {"PIC", Transfer::pic}},
-               "How points take the velocity of the grid. Units: none.");
-    add_word_or_number(*this,
-                       "Record interval",
-                       interval,
-                       "every step",
-                       0.,
-                       "Time between records. Units: s.",
-                       Patterns::Double(0.));
-    add_word_or_number(*this,
-                       "K0",
-                       k0,
-                       "auto",
-                       {},
-                       "Ratio of stresses. Units: none.",
-                       Patterns::Double(0., 10.));
-  }
-
-  Transfer              transfer = Transfer::pic;
-  std::optional<double> interval = 0.1;
-  std::optional<double> k0;
-};
-
-
-
-ParameterOrigins
-read_text(const std::string              &text,
-          const std::vector<std::string> &overrides = {})
-{
-  std::ofstream("jack.prm", std::ios::binary) << text;
-  return read_parameters(ParameterAcceptor::prm, "jack.prm", overrides);
-}
-
-
+#include "sample_entries.h"
 
 void
 test_good_file(const Soil &soil, const Grid &grid)
@@ -386,64 +182,6 @@ test_include(const Soil &soil, const Grid &grid)
 
 
 void
-test_choices(const Method &method)
-{
-  title("choices, and words for numbers");
-  const auto print = [&]() {
-    std::cout << (method.transfer == Method::Transfer::pic ? "PIC" : "FLIP")
-              << ' ' << (method.interval ? to_text(*method.interval) : "-")
-              << ' ' << (method.k0 ? to_text(*method.k0) : "-") << '\n';
-  };
-  const auto read = [&](const std::string &text) {
-    print_error(text, [&]() {
-      const ParameterOrigins origins =
-        read_text("subsection Method\n" + text + "\nend\n");
-      for (const std::string &warning : origins.warnings())
-        std::cout << warning << '\n';
-      print();
-    });
-  };
-  print();
-  read("set Velocity transfer = FLIP");
-  read("set Velocity transfer = flip");
-  read("set Record interval = every step");
-  read("set Record interval = 0.5");
-  read("set Record interval = 0.0");
-  read("set Record interval = never");
-  read("set Record interval = -1");
-  read("set K0 = 0");
-  read("set K0 = auto");
-}
-
-
-
-void
-test_places()
-{
-  title("places and entries that are not used");
-  std::ofstream("sand.prm") << "subsection Soil\n  set Model = Tresca\nend\n";
-  ParameterOrigins origins =
-    read_text("include sand.prm\nsubsection Soil\n  set Youngs modulus = 1\n"
-              "end\nsubsection Grid\nsubsection Fine zone\n"
-              "  set Rows = 1\n  set Columns = 2\nend\nend\n",
-              {"Soil/Friction angle=3"});
-  std::cout << origins.places_of_entries_in(
-                 "Soil/Friction angle = 3 does not fit Soil/Youngs modulus = 1 "
-                 "and Soil/Model, Soil/Youngs moduli; Method/K0 = 2.")
-            << '\n';
-  std::cout << '"' << origins.places_of_entries_in("no entry at all") << "\"\n";
-  origins.add_unused({"Grid"}, "there is no mesh");
-  origins.add_unused({"Grid/Fine zone"},
-                     "Grid/Fine zone/Columns is less than 3");
-  origins.add_unused({"Soil/Model", "Method"}, "this is never said");
-  origins.add_unused({"Soil"}, "Soil/Youngs modulus is 1");
-  for (const std::string &text : origins.warnings())
-    std::cout << text << '\n';
-}
-
-
-
-void
 test_bad_overrides()
 {
   title("overrides");
@@ -466,78 +204,16 @@ test_bad_overrides()
 
 
 
-void
-test_descriptions()
-{
-  title("patterns in words");
-  const std::vector<std::shared_ptr<Patterns::PatternBase>> patterns = {
-    std::make_shared<Patterns::Integer>(),
-    std::make_shared<Patterns::Integer>(0),
-    std::make_shared<Patterns::Integer>(std::numeric_limits<int>::min(), 5),
-    std::make_shared<Patterns::Double>(),
-    std::make_shared<Patterns::Double>(-1., 1e-3),
-    std::make_shared<Patterns::Double>(-std::numeric_limits<double>::max(), 5.),
-    std::make_shared<Patterns::Bool>(),
-    std::make_shared<Patterns::Selection>("a|b | c"),
-    std::make_shared<Patterns::MultipleSelection>("a|b|c"),
-    std::make_shared<Patterns::List>(Patterns::Double(0.), 1, 1),
-    std::make_shared<Patterns::List>(Patterns::Anything()),
-    std::make_shared<Patterns::List>(Patterns::Integer(), 2),
-    std::make_shared<Patterns::List>(
-      Patterns::List(Patterns::Double(), 2, 2), 0, 4, ";"),
-    std::make_shared<Patterns::Map>(Patterns::Anything(), Patterns::Double(0.)),
-    std::make_shared<Patterns::Anything>(),
-    std::make_shared<Patterns::FileName>(),
-    std::make_shared<Patterns::DirectoryName>(),
-    std::make_shared<WordOrNumber>("auto", -1., Patterns::Double(0., 10.)),
-    std::make_shared<WordOrNumber>("never", std::nullopt, Patterns::Double())};
-  for (const auto &pattern : patterns)
-    std::cout << allowed_values(pattern->description()) << '\n';
-
-  title("all entries, readable as a parameter file");
-  const std::string text = describe_parameters(ParameterAcceptor::prm);
-  std::cout << text;
-  read_text(text);
-  std::cout << "read again: "
-            << (describe_parameters(ParameterAcceptor::prm) == text) << '\n';
-
-  title("entries with a word");
-  for (const char *word : {"friction", "INTERNAL friction", "Frcition angle"})
-    print_error(word, [&]() {
-      std::cout << describe_parameters(ParameterAcceptor::prm, word);
-    });
-}
-
-
-
-void
-test_nearest_names()
-{
-  title("edit distance");
-  std::cout << edit_distance("", "abc") << edit_distance("kitten", "sitting")
-            << edit_distance("Angle", "angel") << edit_distance("a", "a")
-            << '\n';
-}
-
-
-
 int
 main()
 {
-  test_command_line();
-  {
-    Soil        soil;
-    Grid        grid;
-    Method      method;
-    StopRequest stop_request;
-    test_good_file(soil, grid);
-    test_bad_files();
-    test_bad_statements();
-    test_include(soil, grid);
-    test_choices(method);
-    test_places();
-    test_bad_overrides();
-    test_descriptions();
-  }
-  test_nearest_names();
+  Soil        soil;
+  Grid        grid;
+  Method      method;
+  StopRequest stop_request;
+  test_good_file(soil, grid);
+  test_bad_files();
+  test_bad_statements();
+  test_include(soil, grid);
+  test_bad_overrides();
 }

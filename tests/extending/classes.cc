@@ -9,10 +9,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "../shared/scene.h"
 #include "sinking.h"
 #include "slab.h"
 #include "updraft.h"
-#include "../shared/scene.h"
 
 using dealii::ParameterAcceptor;
 

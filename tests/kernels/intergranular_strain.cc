@@ -1,125 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The intergranular strain of hypoplastic sand: strain cycles against an
-// independent integration (scripts/lab element-tests cycles), and what
-// Niemunis & Herle (1997) imply: straight on the law is the one without it,
-// after a reversal and at rest its linear part is m_R times as stiff, after a
-// turn by 90 degrees m_T times; its length grows by a closed form for
-// beta_r = 1; small cycles accumulate next to nothing; and it turns with the
-// soil.
-#include <caisson_mpm/kernels/hypoplastic.h>
-#include <caisson_mpm/kernels/hypoplastic_intergranular.h>
+// The intergranular strain of hypoplastic sand, against what Niemunis & Herle
+// (1997) imply: straight on the law is the one without it, after a reversal and
+// at rest its linear part is m_R times as stiff, after a turn by 90 degrees m_T
+// times; its length grows by a closed form for beta_r = 1; and it turns with
+// the soil.
 #include <caisson_mpm/kernels/update_stress.h>
 
 #include <random>
-#include <vector>
 
-#include "law_test.h"
-
-using Law    = HypoplasticIntergranular;
-using Stress = StressState<Scalar>;
-
-constexpr double range = 1e-4, m_R = 5., m_T = 2.;
-
-struct Point
-{
-  Stress stress{-5e4, -1e5, -6e4, 1e4}, memory{0., 0., 0., 0.};
-  double void_ratio = .6;
-};
-
-Law::Parameters
-parameters(const double evolution = .5)
-{
-  const double values[] = {30.,
-                           5.8e9,
-                           .28,
-                           .53,
-                           .84,
-                           1.,
-                           .13,
-                           1.05,
-                           1.,
-                           range,
-                           m_R,
-                           m_T,
-                           evolution,
-                           6.,
-                           0.};
-  return Law::make(values);
-}
-
-Stress
-times(const double factor, const Stress &a)
-{
-  return {factor * a.rr, factor * a.zz, factor * a.tt, factor * a.rz};
-}
-
-Stress
-minus(const Stress &a, const Stress &b)
-{
-  return {a.rr - b.rr, a.zz - b.zz, a.tt - b.tt, a.rz - b.rz};
-}
-
-double
-product(const Stress &a, const Stress &b)
-{
-  return (a.rr * b.rr + a.zz * b.zz + a.tt * b.tt + 2. * (a.rz * b.rz))[0];
-}
-
-double
-norm(const Stress &a)
-{
-  return std::sqrt(product(a, a));
-}
-
-double
-difference(const Stress &a, const Stress &b)
-{
-  return norm(minus(a, b)) / norm(b);
-}
-
-template <typename AnyLaw>
-void
-strain(Point &point, const Stress &D, const typename AnyLaw::Parameters &p)
-{
-  LawState<Scalar> state;
-  state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
-  state.void_ratio         = Scalar(point.void_ratio);
-  const Stress &h          = point.memory;
-  const Scalar  variable[] = {h.rr, h.zz, h.tt, h.rz};
-  for (int i = 0; i < 4; ++i)
-    state.variable[i] = variable[i];
-  AnyLaw::update(point.stress, {D.rr, D.zz, D.tt, D.rz}, state, p);
-  point.void_ratio += (1. + point.void_ratio) * (D.rr + D.zz + D.tt)[0];
-  point.memory = {state.variable[0],
-                  state.variable[1],
-                  state.variable[2],
-                  state.variable[3]};
-}
-
-/** The stress increment for a tiny strain @p D, over its length. */
-template <typename AnyLaw>
-Stress
-stiffness(const Point                       &at,
-          const Stress                      &D,
-          const typename AnyLaw::Parameters &p)
-{
-  constexpr double tiny  = 1e-11;
-  Point            point = at;
-  strain<AnyLaw>(point, times(tiny, D), p);
-  return times(1. / tiny, minus(point.stress, at.stress));
-}
-
-/** The same of the linear part L alone, without intergranular strain. */
-Stress
-linear_stiffness(const Point &at, const Stress &D, const Law::Parameters &p)
-{
-  return times(.5,
-               minus(stiffness<HypoplasticSand>(at, D, p),
-                     stiffness<HypoplasticSand>(at, times(-1., D), p)));
-}
+#include "intergranular_test.h"
 
 const Stress forward{.3 / 1.1, -1. / 1.1, .1 / 1.1, .2 / 1.1};
+
+
 
 void
 test_stiffness()
@@ -153,6 +47,8 @@ test_stiffness()
          1e-3);
 }
 
+
+
 /** With beta_r = 1, |h| = R (1 - exp(-e / R)) on a straight path. */
 void
 test_growth()
@@ -174,74 +70,7 @@ test_growth()
   report("error of |h| / R, any steps", step, 3e-2);
 }
 
-/** Oedometric cycles of strain; amplitude from peak to peak. */
-template <typename AnyLaw>
-std::vector<double>
-cycles(const double amplitude, const int n_cycles, const int n_steps)
-{
-  const auto          p = parameters();
-  std::vector<double> axial;
-  Point               point;
-  point.stress = {-5e4, -1e5, -5e4, 0.};
-  for (int half = 0; half < 2 * n_cycles; ++half)
-    {
-      const double sign = half % 2 == 0 ? -1. : 1.;
-      for (int i = 0; i < n_steps; ++i)
-        strain<AnyLaw>(point, {0., sign * amplitude / n_steps, 0., 0.}, p);
-      axial.push_back(-point.stress.zz[0]);
-    }
-  return axial;
-}
 
-void
-test_cycles()
-{
-  // scripts/lab element-tests cycles: axial stress at each reversal
-  struct Case
-  {
-    double amplitude, axial[6];
-  };
-  const Case cases[] = {{1e-05,
-                         {1.027956e+05,
-                          1.000000e+05,
-                          1.027956e+05,
-                          1.000000e+05,
-                          1.027956e+05,
-                          1.000000e+05}},
-                        {0.0001,
-                         {1.304394e+05,
-                          9.993318e+04,
-                          1.304289e+05,
-                          9.992723e+04,
-                          1.304254e+05,
-                          9.992503e+04}},
-                        {0.001,
-                         {3.089106e+05,
-                          5.705540e+04,
-                          2.512108e+05,
-                          4.112245e+04,
-                          2.023140e+05,
-                          2.921860e+04}}};
-  std::printf("Cycles of strain\n");
-  for (const Case &c : cases)
-    {
-      double error = 0.;
-      for (const int n_steps : {1, 20, 1000})
-        {
-          const auto found = cycles<Law>(c.amplitude, 3, n_steps);
-          for (int i = 0; i < 6; ++i)
-            raise(error, std::fabs(found[i] / c.axial[i] - 1.));
-        }
-      char name[80];
-      std::snprintf(name, sizeof(name), "amplitude %g, error", c.amplitude);
-      report(name, error, 5e-3);
-    }
-  const double with    = cycles<Law>(2e-5, 50, 10).back(),
-               without = cycles<HypoplasticSand>(2e-5, 50, 10).back();
-  std::printf("axial stress after 50 cycles of 2e-5: %.1f kPa, without %.1f\n",
-              with / 1e3,
-              without / 1e3);
-}
 
 /** Turning stress, strain and memory turns the answer. */
 void
@@ -286,6 +115,8 @@ test_rotation()
   report("difference after turning back", error, 1e-12);
   report("memory that turns with the soil", turn, 1e-6);
 }
+
+
 
 /** Any state and step: finite, |h| <= R, and the bound of wave stiffness. */
 void
@@ -337,12 +168,13 @@ test_any_state()
   report("excess over the bound", excess - 1., 1e-3);
 }
 
+
+
 int
 main()
 {
   test_stiffness();
   test_growth();
-  test_cycles();
   test_rotation();
   test_any_state();
 }

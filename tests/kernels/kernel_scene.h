@@ -6,92 +6,15 @@
 #define caisson_mpm_tests_kernel_scene_h
 
 #include <caisson_mpm/kernels/dispatch.h>
-#include <caisson_mpm/kernels/grid_to_points.h>
-#include <caisson_mpm/kernels/points_to_grid.h>
-
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
-#include <random>
 #include <vector>
 
 #include "../shared/verdict.h"
-
-using namespace CaissonMPM::Kernels;
-using Scalar = Lanes<1>;
-
-inline std::mt19937 generator(42);
-
-inline double
-uniform(const double a, const double b)
-{
-  return a + (b - a) * (generator() / 4294967296.);
-}
-
-/** N_I and grad N_I at a place of a cell. */
-struct Shape
-{
-  double value[4], d_dr[4], d_dz[4];
-
-  Shape(const CellGeometry &g, const double r, const double z)
-  {
-    const CellMap<>          map(g);
-    const LocalPoint<Scalar> p = map.at_position(Scalar(r), Scalar(z));
-    for (int i = 0; i < 4; ++i)
-      {
-        double corner[4] = {0., 0., 0., 0.}, c[4];
-        corner[i]        = 1.;
-        coefficients(corner, c);
-        Scalar dr, dz;
-        gradient(c, p, map.inverse_width, dr, dz);
-        value[i] = evaluate(c, p)[0];
-        d_dr[i]  = dr[0];
-        d_dz[i]  = dz[0];
-      }
-  }
-};
-
-
-
-/** A place of a cell and the volume that it stands for. */
-struct QuadraturePoint
-{
-  double r, z, volume;
-};
-
-/** The 2 x 2 Gauss points of a cell. */
-inline std::vector<QuadraturePoint>
-gauss_points(const CellGeometry &g, const double axisymmetric)
-{
-  const dealii::QGauss<2>      gauss(2);
-  std::vector<QuadraturePoint> points;
-  for (unsigned int q = 0; q < gauss.size(); ++q)
-    {
-      const double xi = gauss.point(q)[0], r = g.left + g.width * xi;
-      const double height =
-        g.height_left + (g.height_right - g.height_left) * xi;
-      const double z = g.bottom_left + (g.bottom_right - g.bottom_left) * xi +
-                       height * gauss.point(q)[1];
-      points.push_back({r,
-                        z,
-                        gauss.weight(q) * g.width * height *
-                          (axisymmetric * r + 1. - axisymmetric)});
-    }
-  return points;
-}
-
-// ------------------------------------------------------------ the scene
-
-constexpr unsigned int n_cells = 6, n_nodes = 12; // 3 x 2 cells
-
-struct Point
-{
-  unsigned int cell;
-  double       r, z, v[2], s[4], mass, volume;
-};
+#include "kernel_cell.h"
 
 struct Scene
 {
@@ -146,8 +69,6 @@ struct Scene
             filled_at_node.data()};
   }
 };
-
-constexpr double E = 1e6, nu = .3;
 
 // full from 0.9 of the volume on, here the cells 0, 2 and 4
 const IntegrationSettings gauss      = {.9, .9, true, PressureSlope::acts},

@@ -3,17 +3,12 @@
 // Single steps of the nodal motion of soil without a body and without sides:
 // momentum, the work of nodal forces, equilibrium under a surrounding pressure,
 // the nodal force that doc/extending.md adds, and the order of the calls.
-#include <caisson_mpm/operators/nodal_motion.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <vector>
+#include <string>
 
-#include "../extending/excess_pressure.h"
-#include "../shared/scene.h"
-
-constexpr double dt = 1e-3;
+#include "stepper.h"
 
 const std::string soil_text = R"(
   subsection Soil
@@ -43,6 +38,8 @@ const std::string soil_text = R"(
     set Top    = free
   end
   )";
+
+
 
 /** A bar above a plate, which flies against it. */
 const std::string bar_text = R"(
@@ -89,89 +86,7 @@ const std::string bar_text = R"(
   end
   )";
 
-/** A scene that can take steps. */
-struct Stepper
-{
-  Scene                          scene;
-  NodalMotion                    motion;
-  NodalForces                    forces;
-  Contact                        contact;
-  NodalConstraints               constraints;
-  std::vector<Kernels::Material> materials;
 
-  Stepper(const std::string &soil, const std::string &method)
-    : scene(soil)
-    , constraints{contact,
-                  scene.boundary_conditions,
-                  scene.grid.hanging_nodes()}
-  {
-    forces.add(std::make_unique<ExcessPressure>());
-    auto &prm = dealii::ParameterAcceptor::prm;
-    prm.parse_input_from_string(method);
-    dealii::ParameterAcceptor::parse_all_parameters(prm);
-    scene.generator.generate(scene.grid,
-                             scene.body.shape(),
-                             scene.soil,
-                             scene.points);
-    materials = scene.soil.kernel_materials();
-    contact.initialize(scene.grid, scene.body.surface());
-    scene.boundary_conditions.initialize(scene.grid);
-    motion.initialize(scene.grid);
-    forces.initialize(1.);
-    scene.grid.prepare_motion(0.);
-  }
-
-  void
-  collect()
-  {
-    motion.collect({*Kernels::select_kernels("auto"),
-                    scene.points,
-                    scene.grid,
-                    materials,
-                    nullptr},
-                   forces,
-                   0.);
-  }
-
-  /** Take a step without relocation; returns its works. */
-  NodalWork
-  step()
-  {
-    collect();
-    motion.accelerate({dt, StepSize::reference_courant},
-                      forces,
-                      Vector2(),
-                      contact);
-    motion.constrain(Vector2(), constraints);
-    motion.prepare_transfer(constraints);
-    const NodalWork work = motion.work_of_step(forces, constraints);
-    motion.update_points(scene.grid.next(),
-                         nullptr,
-                         scene.points.update_result());
-    return work;
-  }
-
-  struct Sums
-  {
-    double  mass = 0., max_speed = 0.;
-    Vector2 momentum;
-  };
-
-  Sums
-  sums() const
-  {
-    Sums result;
-    scene.points.for_each_motion([&](const dealii::Point<2> &,
-                                     const Vector2 &velocity,
-                                     const double   mass,
-                                     const unsigned int) {
-      result.mass += mass;
-      result.momentum += mass * velocity;
-      result.max_speed = std::max(result.max_speed, velocity.norm());
-    });
-    return result;
-  }
-};
 
 /** Momentum is that of the start and of the body force, in all transfers. */
 void
@@ -202,6 +117,8 @@ check_momentum(const std::string &mass_floor)
       }
 }
 
+
+
 /** The mass floor acts at the edge of the disc, and takes energy. */
 void
 check_mass_floor()
@@ -212,6 +129,8 @@ check_mass_floor()
   std::printf("mass floor: its energy: %s\n",
               work.mass_floor > 0. ? "taken" : "created");
 }
+
+
 
 /** A bar that hits a plate exchanges its momentum with it: the impulse of the
  * body is what the points lose, and the bar leaves no faster than it came. */
@@ -245,6 +164,8 @@ check_impact(const std::string &transfer, const std::string &mass_floor)
   std::printf("  mass was added: %s\n", added_mass > 0. ? "yes" : "no");
 }
 
+
+
 /** A pressure around soil with the same stress moves no node. */
 void
 check_equilibrium()
@@ -258,6 +179,8 @@ check_equilibrium()
   other.step();
   verdict("without it, no speed", 1e-6 / other.sums().max_speed, 1.);
 }
+
+
 
 /** Soil without stress bears the same pressure inside and around it, and is
  * driven apart by one that is inside only. */
@@ -282,6 +205,8 @@ check_excess_pressure()
           open.sums().momentum.norm() / open.sums().mass,
           1e-13);
 }
+
+
 
 /** A call out of turn is refused. */
 void
@@ -318,17 +243,25 @@ check_order()
               }));
 }
 
+
+
 int
 main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  heading("momentum and work of a body force");
   check_momentum("false");
   check_momentum("true");
+  heading("mass floor");
   check_mass_floor();
+  heading("impact on a body");
   for (const std::string transfer : {"blend", "XPIC"})
     for (const std::string mass_floor : {"false", "true"})
       check_impact(transfer, mass_floor);
+  heading("surrounding pressure");
   check_equilibrium();
+  heading("excess pore pressure");
   check_excess_pressure();
+  heading("order of the calls");
   check_order();
 }

@@ -45,8 +45,10 @@ SERVER = os.environ.get("CAISSON_MPM_TEST_SERVER")
 
 
 def scene(name: str) -> str:
-    """Return a scene of the tests, whose names are unique over all rooms."""
-    return str(next(HERE.glob(f"*/{name}.prm")))
+    """Return a scene of the tests, whose names are unique over all rooms, or one by
+    its path from tests."""
+    found = HERE.glob(f"{name}.prm" if "/" in name else f"*/{name}.prm")
+    return str(next(found))
 
 
 def user_scene(name: str) -> str:

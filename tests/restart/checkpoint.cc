@@ -4,7 +4,6 @@
 // and a file that cannot be written are noticed, and what was there is kept.
 #include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/restart/checkpoint.h>
-#include <caisson_mpm/restart/point_file.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,66 +15,11 @@
 #include <fstream>
 #include <vector>
 
-#include "../shared/scene.h"
+#include "saved_scene.h"
 
-/** A square box with this size of cells, with 25 points each. */
-std::string
-box(const std::string &size)
-{
-  return R"(
-  subsection Rigid body
-    set Kind = none
-  end
-  subsection Grid
-    set Outer radius = 3
-    set Bottom       = -3
-    set Top          = 0.5
-    set Cell width   = )" +
-         size + R"(
-    set Cell height  = )" +
-         size + R"(
-  end
-  subsection Soil
-    set Number of layers = 2
-    subsection Layer 2
-      set Top depth = 1.25
-    end
-  end
-  subsection Material points
-    set Per direction far = 5
-  end)";
-}
-
-const std::string directory  = "checkpoint_files";
 const std::string parameters = "a = 1\nb = 2\n";
 
-std::string
-path(const std::string &name)
-{
-  return directory + "/" + name;
-}
 
-/** Numbers with digits that no two members share. */
-void
-fill(MaterialPoint &p)
-{
-  double     number = p.id;
-  const auto next   = [&number]() { return std::sin(++number) / 3.; };
-  for (unsigned int d = 0; d < 2; ++d)
-    {
-      p.velocity[d] = next();
-      p.size[d]     = next();
-    }
-  for (double &s : p.stress)
-    s = 1e5 * next();
-  for (double &s : p.state)
-    s = next();
-  p.plastic_deviatoric = next();
-  p.plastic_volumetric = -0.;
-  p.mass               = next();
-  p.initial_volume     = next();
-  p.initial_position   = dealii::Point<2>(next(), 1e-310);
-}
 
 std::vector<std::vector<double>>
 numbers_of(const Scene &s)
@@ -106,6 +50,8 @@ numbers_of(const Scene &s)
   return result;
 }
 
+
+
 std::string
 valid_file()
 {
@@ -114,6 +60,8 @@ valid_file()
   const auto begin        = text.find(entry) + entry.size();
   return text.substr(begin, text.find('\n', begin) - begin);
 }
+
+
 
 /** What reading leads to: "read", or the message. */
 std::string
@@ -132,6 +80,8 @@ read(Scene &s, const std::string &current = parameters)
     }
 }
 
+
+
 void
 write(Scene &s, const double time)
 {
@@ -141,6 +91,8 @@ write(Scene &s, const double time)
                    {{"time", time}, {"third", 1. / 3.}, {"large", 1e300}},
                    parameters);
 }
+
+
 
 void
 check_contents(Scene &s)
@@ -168,6 +120,8 @@ check_contents(Scene &s)
   std::printf("%s\n", read(s, "a = 1\nb = 3\n").c_str());
 }
 
+
+
 void
 flip(const std::string &file, const std::size_t place)
 {
@@ -177,6 +131,8 @@ flip(const std::string &file, const std::size_t place)
   stream.seekp(place);
   stream.put(byte ^ 1);
 }
+
+
 
 /** One bit is changed, at many places: every so many bytes of the rows, and of
  * what is before them, where there are bytes without a meaning. */
@@ -211,6 +167,8 @@ check_damage(Scene            &s,
   std::printf("cut off: %s\n", read(s).c_str());
 }
 
+
+
 /** Any bit of the text is changed. */
 void
 check_damaged_text(Scene &s)
@@ -226,6 +184,8 @@ check_damaged_text(Scene &s)
   std::printf("damage of the text not noticed: %u\n", n_read);
   std::printf("as it was: %s\n", read(s).c_str());
 }
+
+
 
 /** The file system refuses what is too large. */
 void
@@ -261,63 +221,7 @@ check_full_disk(Scene &s)
               valid_file() != file && read(s) == "read" ? "yes" : "no");
 }
 
-/** A file of points on its own. */
-void
-check_point_file(const Scene &s)
-{
-  std::vector<TravelingPoint> points;
-  s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
-    if (points.size() < 10)
-      points.push_back({s.grid.global_number(cell), p});
-  });
-  const auto write = [&](const std::string  &name,
-                         const unsigned long n,
-                         const unsigned long first) {
-    PointFile file(path(name), PointFile::Access::create, n, MPI_COMM_SELF);
-    file.write(first, points);
-    return std::make_pair(file.close(), file.checksum());
-  };
-  const auto read = [&](const std::string &name, const unsigned long n) {
-    PointFile file(path(name), PointFile::Access::read, n, MPI_COMM_SELF);
-    file.read(0, 3);
-    file.read(3, n - 3);
-    return std::make_pair(file.close(), file.checksum());
-  };
-  const auto written = write("points.h5", 10, 0);
-  std::printf("written and read in parts: %s\n",
-              written.first && read("points.h5", 10) == written ? "yes" : "no");
-  const std::string text = read_text(path("points.h5"));
-  std::printf("columns are named: %s\n",
-              text.find("cell material position_r position_z velocity_r") !=
-                  std::string::npos ?
-                "yes" :
-                "no");
-  std::printf("more rows than it has: %s\n",
-              read("points.h5", 11).first ? "read" : "refused");
-  std::printf("beyond the end: %s\n",
-              write("other.h5", 10, 1).first ? "written" : "refused");
-  const auto late = write("other.h5", 12, 2);
-  std::printf("rows that were not written: %s\n",
-              late.first && read("other.h5", 12).second == late.second ?
-                "not noticed" :
-                "noticed");
-  std::printf("another place, the same checksum: %s\n",
-              late.second == written.second ? "yes" : "no");
-  std::printf("no such file: %s\n",
-              read("none.h5", 10).first ? "read" : "refused");
-  std::printf("no such directory: %s\n",
-              write("none/points.h5", 10, 0).first ? "written" : "refused");
-}
 
-void
-generate(Scene &s)
-{
-  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
-  auto all = s.points.take_all();
-  for (TravelingPoint &p : all)
-    fill(p.point);
-  s.points.redistribute(all);
-}
 
 int
 main(int argc, char *argv[])
@@ -328,14 +232,18 @@ main(int argc, char *argv[])
   {
     Scene s(box("0.1"));
     generate(s);
-    check_point_file(s);
+    heading("contents");
     check_contents(s);
+    heading("damaged points");
     check_damage(s, 499, 499979);
+    heading("full disk");
     check_full_disk(s);
   }
   Scene s(box("1"));
   generate(s);
   write(s, .1);
+  heading("damaged text");
   check_damaged_text(s);
+  heading("damaged points of a small scene");
   check_damage(s, 7, 997);
 }

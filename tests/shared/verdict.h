@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The line that a C++ test prints for each thing that it checks.
+// What a C++ test prints: a heading for each topic, and a line for each check.
 #ifndef caisson_mpm_tests_verdict_h
 #define caisson_mpm_tests_verdict_h
 
 #include <cstdio>
+
+/** Print what the following lines are about. */
+inline void
+heading(const char *what)
+{
+  std::printf("\n=== %s\n", what);
+}
 
 /** Print whether an error is small enough; if not, also the error. */
 inline void

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The same transfer and the same update with all instruction sets of this CPU.
+#include "kernel_scene.h"
+
+// ------------------------------------------------------- instruction sets
+
+/** The largest difference of what the instruction sets of this CPU make of the
+ * same soil, relative to 1 plus its size. */
+double
+difference_of_instruction_sets(const double    axisymmetric,
+                               const Material &material)
+{
+  double worst = 0.;
+  Scene  s     = make_scene(axisymmetric, false);
+  fill_blocks(s);
+  s.material   = material;
+  const auto v = [](const double r, const double z) {
+    return std::array<double, 2>{{.3 * r * z, -.5 * z + r}};
+  };
+  Scene      base = s;
+  const Sums a    = collect(base, *select_kernels("SSE2"), gauss);
+  update(base, *select_kernels("SSE2"), {1e-3, .5, true, .7, .1}, v, a.moments);
+  for (const char *name : {"AVX2", "AVX-512"})
+    if (const KernelTable *kernels = select_kernels(name))
+      {
+        Scene      other = s;
+        const Sums b     = collect(other, *kernels, gauss);
+        worst            = std::max(worst, difference(a, b));
+        update(other, *kernels, {1e-3, .5, true, .7, .1}, v, b.moments);
+        for (unsigned int i = 0; i < base.blocks.size(); ++i)
+          {
+            const double *x = reinterpret_cast<double *>(&base.blocks[i]),
+                         *y = reinterpret_cast<double *>(&other.blocks[i]);
+            for (unsigned int j = 0; j < sizeof(PointBlock) / 8; ++j)
+              if (j % 8 < static_cast<unsigned int>(base.headers[i].count))
+                worst = std::max(worst,
+                                 std::abs(x[j] - y[j]) / (1. + std::abs(x[j])));
+          }
+      }
+  return worst;
+}
+
+
+
+void
+check_instruction_sets()
+{
+  const auto worst = [](const Material &material) {
+    return std::max(difference_of_instruction_sets(0., material),
+                    difference_of_instruction_sets(1., material));
+  };
+  Material material = make_scene(0., false).material; // linear elastic
+  verdict("all instruction sets of this CPU: difference",
+          worst(material),
+          1e-12);
+  // blocks that yield may wait for others: some of them, and all
+  for (const double cohesion : {9e3, 1e2})
+    {
+      set_law<MohrCoulomb>(
+        material,
+        MohrCoulomb::Parameters::make(E, nu, .5, .1, cohesion, cohesion));
+      const std::string name =
+        "the same with the cohesion " + std::to_string(int(cohesion));
+      verdict(name.c_str(), worst(material), 1e-12);
+    }
+  auto sand = MohrCoulomb::Parameters::make(E, nu, .5, .1, 1e2, 1e2);
+  sand.largest_void_ratio = .7;
+  set_law<MohrCoulomb>(material, sand);
+  verdict("the same with some soil in its loosest state",
+          worst(material),
+          1e-12);
+  std::printf("unknown instruction set: %s\n",
+              select_kernels("NEON") == nullptr ? "refused" : "accepted");
+}
+
+
+
+int
+main()
+{
+  heading("instruction sets");
+  check_instruction_sets();
+}
