@@ -8,7 +8,7 @@ equation. Nothing is taken from the C++ kernels.
 
 `scripts/lab element-tests table` prints the values for
 tests/kernels/hypoplastic_element_tests.cc, `scripts/lab element-tests cycles` those
-for tests/kernels/intergranular_strain.cc, with the intergranular strain of Niemunis &
+for tests/kernels/intergranular_cycles.cc, with the intergranular strain of Niemunis &
 Herle (1997), and `scripts/lab element-tests plot FILE` draws them with the results
 of the kernels in tests/kernels/hypoplastic_element_tests.output.
 
