@@ -61,8 +61,8 @@ def choose_ranks(arguments: list[str]) -> int:
         return 1
     chosen, why = ranks.choose(points)
     plural = "" if chosen == 1 else "s"
-    words = f"run: {chosen} rank{plural} ({why}); --ranks N overrules"
-    print(words, file=sys.stderr, flush=True)
+    text = f"run: {chosen} rank{plural} ({why}); --ranks N overrules"
+    print(text, file=sys.stderr, flush=True)
     return chosen
 
 
@@ -86,16 +86,16 @@ def wait_for(process: "subprocess.Popen[bytes]") -> int:
             continue
 
 
-def run_alone(words: list[str]) -> int:
+def run_alone(command: list[str]) -> int:
     """Run the program on one rank; return its exit status. Ctrl-C reaches it without
     our help; other signals are handed on."""
-    process = subprocess.Popen(words, env=environment())
+    process = subprocess.Popen(command, env=environment())
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda caught, _: process.send_signal(caught))
     return wait_for(process)
 
 
-def run_on_ranks(words: list[str], stop_file: Path | None) -> int:
+def run_on_ranks(command: list[str], stop_file: Path | None) -> int:
     """Run the program on several ranks; return its exit status.
 
     mpirun ends ranks a few seconds after a signal, whether or not they have written
@@ -103,7 +103,7 @@ def run_on_ranks(words: list[str], stop_file: Path | None) -> int:
     file that stops a run in order, and the second one is handed on.
     """
     process = subprocess.Popen(
-        words, env=environment(), stdin=subprocess.DEVNULL, start_new_session=True
+        command, env=environment(), stdin=subprocess.DEVNULL, start_new_session=True
     )
     is_asked = False
 
@@ -141,11 +141,11 @@ def main(options: argparse.Namespace) -> int:
         print(f"run: {complaint}, for pictures and report", file=sys.stderr)
     n_ranks = options.ranks or choose_ranks(arguments)
     begin = time.time()
-    words = [*mpi_command(n_ranks), str(PROGRAM), *arguments]
+    command = [*mpi_command(n_ranks), str(PROGRAM), *arguments]
     if n_ranks == 1:
-        status = run_alone(words)
+        status = run_alone(command)
     else:
-        status = run_on_ranks(words, stop_file)
+        status = run_on_ranks(command, stop_file)
     if status not in list(Status):
         print(
             f"run: the program did not end in order (exit status {status}; above 128,"

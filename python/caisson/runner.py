@@ -101,15 +101,15 @@ def query(arguments: Sequence[str], program: Path = PROGRAM) -> str:
     return done.stdout.strip()
 
 
-def size_in(words: str) -> Size:
+def size_in(output: str) -> Size:
     """Return the size of a run of which --validate has said this: its time is that at
     the speed of the first steps, STIFFENING times as long where soil grows stiffer."""
-    points = re.search(r"^ *points +(\d+)$", words, re.M)
-    found = re.search(r"^ *duration +about ([\d.]+) (s|min|h)\b", words, re.M)
+    points = re.search(r"^ *points +(\d+)$", output, re.M)
+    found = re.search(r"^ *duration +about ([\d.]+) (s|min|h)\b", output, re.M)
     seconds = 0.0
     if found is not None:
         seconds = float(found[1]) * {"s": 1, "min": 60, "h": 3600}[found[2]]
-        seconds *= STIFFENING if "grows stiffer under a tip" in words else 1
+        seconds *= STIFFENING if "grows stiffer under a tip" in output else 1
     return Size(int(points[1]) if points else 0, seconds)
 
 
@@ -123,9 +123,9 @@ def read_parameters(
     count as they do in a run. Raises RunError with what the program says where
     it refuses the input.
     """
-    words = query([*arguments, "--print-parameters"], program)
+    output = query([*arguments, "--print-parameters"], program)
     entries, sections = {}, list[str]()
-    for line in map(str.strip, words.splitlines()):
+    for line in map(str.strip, output.splitlines()):
         if line.startswith("subsection "):
             sections.append(line.split(maxsplit=1)[1])
         elif line == "end":
@@ -180,7 +180,7 @@ class Run:
         ]
 
     def command(self, ranks: int | None = None) -> list[str]:
-        """Return the words of the call; ranks: others than those of the run."""
+        """Return the command line; ranks: others than those of the run."""
         return [
             *mpi_command(ranks or self.ranks, self.binding),
             str(self.program),
@@ -234,11 +234,11 @@ class Run:
         checkpoint. Raises RunError with what the program says where it does not
         succeed; a run that is stopped otherwise is no error.
         """
-        words = [*self.command(), *(["--overwrite"] if overwrite else [])]
+        command = [*self.command(), *(["--overwrite"] if overwrite else [])]
         with (
             tempfile.TemporaryFile("w+", encoding="utf-8") as errors,
             subprocess.Popen(
-                words,
+                command,
                 text=True,
                 errors="replace",
                 stdin=subprocess.DEVNULL,
@@ -277,7 +277,7 @@ class Run:
     def execute(
         self, time_limit: float | None = None, ranks: int | None = None
     ) -> Status | None:
-        """Run the program into an emptied directory, its words in the file log; ranks:
+        """Run the program into an emptied directory, its output in the file log; ranks:
         lent to it, others than those of the run.
 
         Returns the exit status, None if it took longer than time_limit (s) and

@@ -89,16 +89,16 @@ def make_tree(release: str, tree: Path, url: str) -> None:
     if finished.exists():
         return
     print(f"bare_debian: {release} from {url} into {tree}", flush=True)
-    words = ["debootstrap", "--variant=minbase", f"--include={INCLUDED}"]
-    subprocess.run([*words, release, str(tree), url], check=True)
+    command = ["debootstrap", "--variant=minbase", f"--include={INCLUDED}"]
+    subprocess.run([*command, release, str(tree), url], check=True)
     finished.write_text(release, encoding="utf-8")
 
 
 def clone(place: Path) -> None:
     """Put a fresh clone of the last commit there."""
     shutil.rmtree(place, ignore_errors=True)
-    words = ["git", "clone", "--quiet", "--no-hardlinks", str(ROOT), str(place)]
-    subprocess.run(words, check=True)
+    command = ["git", "clone", "--quiet", "--no-hardlinks", str(ROOT), str(place)]
+    subprocess.run(command, check=True)
     changes = subprocess.run(
         ["git", "status", "--porcelain"], cwd=ROOT, capture_output=True, text=True
     )
@@ -175,10 +175,19 @@ def environment() -> dict[str, str]:
 
 def run_inside(tree: Path, command: str, log: Path) -> int:
     """Run a command of root in the tree; return its status."""
-    words = ["unshare", "--mount", "--propagation", "private", "sh", "-c", MOUNT, "sh"]
+    start = [
+        "unshare",
+        "--mount",
+        "--propagation",
+        "private",
+        "sh",
+        "-c",
+        MOUNT,
+        "sh",
+    ]
     with open(log, "w", encoding="utf-8") as file:
         return subprocess.run(
-            [*words, str(tree), command], stdout=file, stderr=file, env=environment()
+            [*start, str(tree), command], stdout=file, stderr=file, env=environment()
         ).returncode
 
 

@@ -70,12 +70,13 @@ def wrong_defaults(page: Path, defaults: dict[str, str]) -> list[str]:
 
 
 def exists(name: str) -> bool:
-    """Whether a path of the tree or of the C++ sources exists."""
-    places = [ROOT / name, ROOT / "source" / name, ROOT / "include/caisson_mpm" / name]
-    return any(
-        place.exists() or any(place.parent.glob(re.sub("NAME|GROUP", "*", place.name)))
-        for place in places
-    )
+    """Whether a path of the tree or of the C++ sources exists. NAME, GROUP and ROOM in
+    it stand for any name."""
+    if (ROOT / name).exists():
+        return True
+    pattern = re.sub("NAME|GROUP|ROOM", "*", name).rstrip("/")
+    places = (ROOT, ROOT / "source", ROOT / "include/caisson_mpm")
+    return any(any(place.glob(pattern)) for place in places)
 
 
 def is_path(word: str) -> bool:

@@ -2,7 +2,7 @@
 """Runs all parts of the test, as scripts/test does, and prints one table at the end.
 
 A part that fails does not keep the others from being run, but for those that need
-what it makes; these are left out. The words of each part are kept in build/test. The
+what it makes; these are left out. The output of each part is kept in build/test. The
 exit status is 1 if anything failed.
 """
 import argparse
@@ -23,7 +23,7 @@ CORES = str(len(os.sched_getaffinity(0)))
 
 @dataclass(frozen=True)
 class Part:
-    """A command, and how its words say what it has checked."""
+    """A command, and how its output says what it has checked."""
 
     name: str
     command: Sequence[str]
@@ -90,11 +90,11 @@ PARTS = (
 )
 
 
-def count(part: Part, status: int, words: str) -> Result:
-    """Return what a part with this exit status and these words has checked."""
+def count(part: Part, status: int, output: str) -> Result:
+    """Return what a part with this exit status and this output has checked."""
     sums = {"all": 0, "failed": 0, "skipped": 0}
     for pattern in part.counts:
-        for match in re.finditer(pattern, words, re.M):
+        for match in re.finditer(pattern, output, re.M):
             for key, value in match.groupdict().items():
                 sums[key] += int(value or 1)
     if not sums["all"]:  # it is one check, or has not come to an end
@@ -105,8 +105,8 @@ def count(part: Part, status: int, words: str) -> Result:
 
 
 def run(part: Part, directory: Path, is_silent: bool = False) -> Result:
-    """Run a part; its words go to directory/NAME.log, and are printed."""
-    begin, words = time.monotonic(), list[str]()
+    """Run a part; its output goes to directory/NAME.log and is printed."""
+    begin, output = time.monotonic(), list[str]()
     with (
         open(directory / f"{part.name}.log", "w", encoding="utf-8") as log,
         subprocess.Popen(
@@ -121,12 +121,12 @@ def run(part: Part, directory: Path, is_silent: bool = False) -> Result:
     ):
         assert process.stdout
         for line in process.stdout:
-            words.append(line)
+            output.append(line)
             log.write(line)
             log.flush()
             if not is_silent:
                 print(line, end="", flush=True)
-    result = count(part, process.returncode, "".join(words))
+    result = count(part, process.returncode, "".join(output))
     result.seconds = time.monotonic() - begin
     return result
 
@@ -141,11 +141,13 @@ def run_all(parts: Sequence[Part], directory: Path) -> dict[str, Result]:
         results[part.name] = run(part, directory, is_silent)
 
     for part in parts:
-        words = f"test: after {time.monotonic() - begin:.0f} s: "
+        prefix = f"test: after {time.monotonic() - begin:.0f} s: "
         if part.needs and (results[part.needs].failed or results[part.needs].skipped):
-            print(f"{words}without {part.name}, for want of: {part.needs}", flush=True)
+            print(
+                f"{prefix}left out {part.name}, which needs: {part.needs}", flush=True
+            )
             continue
-        print(f"{words}{shlex.join(part.command)}", flush=True)
+        print(f"{prefix}{shlex.join(part.command)}", flush=True)
         if part.is_beside:
             thread = threading.Thread(target=run_one, args=(part, True))
             thread.start()

@@ -67,10 +67,10 @@ class Traffic:
     collectives: Counter[int] = field(default_factory=Counter)  # calls, by rank
 
 
-def ip(*words: str) -> str:
+def ip(*arguments: str) -> str:
     """Call ip. Raises CalledProcessError."""
     return subprocess.run(
-        ["ip", *words], check=True, stdout=subprocess.PIPE, text=True
+        ["ip", *arguments], check=True, stdout=subprocess.PIPE, text=True
     ).stdout
 
 
@@ -116,7 +116,7 @@ def read_profile(text: str, rank: int, traffic: Traffic) -> None:
 
 
 def run_on_two(
-    namespaces: tuple[str, str], words: Sequence[str], per_host: int, scratch: Path
+    namespaces: tuple[str, str], command: Sequence[str], per_host: int, scratch: Path
 ) -> tuple[int, int, list[str]]:
     """Run the program; return packets, bytes, and Open MPI's counts of each rank.
     Raises CalledProcessError."""
@@ -133,7 +133,7 @@ def run_on_two(
     start += ["--mca", "pml_monitoring_filename", str(scratch / "count")]
     start += ["--mca", "mpi_yield_when_idle", "1"]
     before = cable_counts(namespaces[0])
-    subprocess.run([*start, *words], check=True, env=environment())
+    subprocess.run([*start, *command], check=True, env=environment())
     after = cable_counts(namespaces[0])
     counts = [
         (scratch / f"count.{rank}.prof").read_text(encoding="utf-8")
@@ -143,12 +143,12 @@ def run_on_two(
 
 
 def traffic_of_run(
-    namespaces: tuple[str, str], words: Sequence[str], per_host: int, directory: Path
+    namespaces: tuple[str, str], command: Sequence[str], per_host: int, directory: Path
 ) -> Traffic:
     """Run the program on two hosts; return what was sent."""
     with tempfile.TemporaryDirectory() as scratch:
         packets, n_bytes, counts = run_on_two(
-            namespaces, words, per_host, Path(scratch)
+            namespaces, command, per_host, Path(scratch)
         )
     steps = int(Results(directory).history["step"][-1])
     traffic = Traffic(steps, packets, n_bytes)
@@ -224,29 +224,31 @@ def missing() -> str:
     return f"missing: {', '.join(tools)}" if tools else ""
 
 
-def words_of_run(options: argparse.Namespace, end: float, directory: Path) -> list[str]:
+def command_of_run(
+    options: argparse.Namespace, end: float, directory: Path
+) -> list[str]:
     """Return the program and what it is called with."""
     shutil.rmtree(directory, ignore_errors=True)
     entries: dict[str, object] = {**QUIET, "Time/End penetration": end}
-    words = [str(PROGRAM), str(options.scene.resolve())]
-    words += ["--output-directory", str(directory), *set_options(entries)]
+    command = [str(PROGRAM), str(options.scene.resolve())]
+    command += ["--output-directory", str(directory), *set_options(entries)]
     for more in options.set:
-        words += ["--set", more]
-    return words
+        command += ["--set", more]
+    return command
 
 
 def compare_and_count(options: argparse.Namespace) -> bool:
     """Make the runs and print what they show; return whether they agree."""
     n, top = options.ranks_per_host, options.directory.resolve()
     single = top / "one_host"
-    words = words_of_run(options, options.ends[0], single)
-    subprocess.run([*mpi_command(2 * n), *words], check=True, env=environment())
+    command = command_of_run(options, options.ends[0], single)
+    subprocess.run([*mpi_command(2 * n), *command], check=True, env=environment())
     with two_namespaces() as namespaces:
         runs = []
         for name, end in zip(("short", "long"), options.ends):
             path = top / name
-            words = words_of_run(options, end, path)
-            runs.append(traffic_of_run(namespaces, words, n, path))
+            command = command_of_run(options, end, path)
+            runs.append(traffic_of_run(namespaces, command, n, path))
     worst = largest_difference(single, top / "short")
     cells, points = (Results(single).summary[k] for k in ("cells", "material_points"))
     print(f"two_hosts: {2 * n} ranks, {n} on each host, TCP only")
