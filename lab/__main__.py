@@ -41,7 +41,7 @@ GROUPS: Groups = {
         ),
         "publish-speed": (
             "lab.performance.publish",
-            "copy the measured speed into doc/benchmarks.md",
+            "copy the measured speed into lab/performance/speed.md",
         ),
     },
     "studies": {

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Takes table and pictures of results/speed into doc/benchmarks.md and
-doc/pictures."""
+"""Copies the table of results/speed into lab/performance/speed.md, and the pictures
+into doc/pictures."""
 import argparse
 import shutil
 
 from caisson.paths import PICTURES, RESULTS, ROOT
 
-DOCUMENT = ROOT / "doc/benchmarks.md"
+DOCUMENT = ROOT / "lab/performance/speed.md"
 BEGIN, END = "<!-- speed: begin -->", "<!-- speed: end -->"
 
 
@@ -19,6 +19,7 @@ def main(_: argparse.Namespace) -> int:
     before, rest = DOCUMENT.read_text(encoding="utf-8").split(BEGIN)
     after = rest.split(END)[1]
     table = (RESULTS / "speed/table.md").read_text(encoding="utf-8")
+    table = table.replace("](pictures/", "](../../doc/pictures/")
     DOCUMENT.write_text(f"{before}{BEGIN}\n{table}\n{END}{after}", encoding="utf-8")
     for picture in (RESULTS / "speed").glob("speed_*.png"):
         shutil.copy(picture, PICTURES)
