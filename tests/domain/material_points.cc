@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The material points as they are generated.
+// The material points as they are generated, also in a mesh that is distorted.
 #include <caisson_mpm/base/text.h>
 
 #include <deal.II/base/mpi.h>
@@ -188,6 +188,67 @@ check_point_options()
 
 
 
+/** Refinement and distortion: sides, surface and layers stay where they are. */
+void
+check_distortion()
+{
+  const std::string mesh = R"(
+    subsection Grid
+      set Outer radius = 4
+      set Bottom       = -4
+      set Top          = 1
+      set Refinement   = 2
+    end
+    subsection Soil
+      set Number of layers = 2
+      subsection Layer 2
+        set Top depth = 2
+      end
+    end
+    )";
+  Scene             regular(mesh);
+  Scene             s(mesh + "subsection Grid\nset Distortion = 0.3\nend\n");
+  double            width = 0., straight = 0., shift_r = 0., shift_z = 0.;
+  for (unsigned int c = 0; c < regular.grid.n_cells(); ++c)
+    width = std::max(width,
+                     std::abs(regular.grid.geometry(c).width - .5) +
+                       std::abs(regular.grid.geometry(c).height_left - .5));
+  std::set<double> heights;
+  for (unsigned int n = 0; n < s.grid.n_nodes(); ++n)
+    {
+      const double r = regular.grid.r_of(n), z = regular.grid.z_of(n);
+      const double dr = std::abs(s.grid.r_of(n) - r),
+                   dz = std::abs(s.grid.z_of(n) - z);
+      shift_r         = std::max(shift_r, dr);
+      shift_z         = std::max(shift_z, dz);
+      if (r == 0. || r == 4.)
+        straight = std::max({straight, dr, dz});
+      if (z == -4. || std::abs(z + 2.) < 1e-9 || std::abs(z) < 1e-9 || z == 1.)
+        straight = std::max(straight, dz);
+      if (std::abs(z + 3.) < 1e-9)
+        heights.insert(dz);
+    }
+  std::printf("refined: %d x %d cells\n",
+              int(s.lines.n_columns()),
+              int(s.lines.n_rows()));
+  verdict("refined cells: size error", width, 1e-12);
+  verdict("distorted: shift of sides, surface and layers", straight, 0.);
+  verdict("distorted: largest shift over its limit",
+          std::max(shift_r, shift_z) / .15,
+          1.);
+  std::printf("distorted: rows bend: %s, shifts reach the limit: %s\n",
+              heights.size() == 8 ? "yes" : "no",
+              std::min(shift_r, shift_z) > .08 ? "yes" : "no");
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+  double volume = 0.;
+  s.points.for_each(
+    [&](const MaterialPoint &p, const unsigned int) { volume += p.volume; });
+  std::printf("distorted: %d points\n", int(s.points.n_points()));
+  verdict("distorted: volume error", std::abs(volume / 32. - 1.), 1e-12);
+}
+
+
+
 int
 main(int argc, char *argv[])
 {
@@ -198,4 +259,6 @@ main(int argc, char *argv[])
   check_spacing();
   heading("regions and random positions");
   check_point_options();
+  heading("points in a refined and distorted mesh");
+  check_distortion();
 }

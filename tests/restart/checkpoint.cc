@@ -4,6 +4,7 @@
 // and a file that cannot be written are noticed, and what was there is kept.
 #include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/restart/checkpoint.h>
+#include <caisson_mpm/restart/point_file.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -20,8 +21,6 @@
 #include "saved_scene.h"
 
 const std::string parameters = "a = 1\nb = 2\n";
-
-
 
 std::vector<std::vector<double>>
 numbers_of(const Scene &s)
@@ -52,8 +51,6 @@ numbers_of(const Scene &s)
   return result;
 }
 
-
-
 std::string
 valid_file()
 {
@@ -62,8 +59,6 @@ valid_file()
   const auto begin        = text.find(entry) + entry.size();
   return text.substr(begin, text.find('\n', begin) - begin);
 }
-
-
 
 /** What reading leads to: "read", or the message. */
 std::string
@@ -82,8 +77,6 @@ read(Scene &s, const std::string &current = parameters)
     }
 }
 
-
-
 void
 write(Scene &s, const double time)
 {
@@ -94,8 +87,6 @@ write(Scene &s, const double time)
                    {{"time", time}, {"third", 1. / 3.}, {"large", 1e300}},
                    parameters);
 }
-
-
 
 void
 check_contents(Scene &s)
@@ -123,8 +114,6 @@ check_contents(Scene &s)
   std::printf("%s\n", read(s, "a = 1\nb = 3\n").c_str());
 }
 
-
-
 void
 flip(const std::string &file, const std::size_t place)
 {
@@ -134,8 +123,6 @@ flip(const std::string &file, const std::size_t place)
   stream.seekp(place);
   stream.put(byte ^ 1);
 }
-
-
 
 /** One bit is changed, at many places: every so many bytes of the rows, and of
  * what is before them, where there are bytes without a meaning. */
@@ -170,8 +157,6 @@ check_damage(Scene            &s,
   std::printf("cut off: %s\n", read(s).c_str());
 }
 
-
-
 /** Any bit of the text is changed. */
 void
 check_damaged_text(Scene &s)
@@ -187,7 +172,6 @@ check_damaged_text(Scene &s)
   std::printf("damage of the text not noticed: %u\n", n_read);
   std::printf("as it was: %s\n", read(s).c_str());
 }
-
 
 /** Fields come back to the last bit, and their damage is noticed. */
 void
@@ -229,8 +213,6 @@ check_fields(Scene &s)
     }
 }
 
-
-
 /** The file system refuses what is too large. */
 void
 check_full_disk(Scene &s)
@@ -265,7 +247,53 @@ check_full_disk(Scene &s)
               valid_file() != file && read(s) == "read" ? "yes" : "no");
 }
 
-
+/** A file of points on its own. */
+void
+check_point_file(const Scene &s)
+{
+  std::vector<TravelingPoint> points;
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
+    if (points.size() < 10)
+      points.push_back({s.grid.global_number(cell), p});
+  });
+  const auto write = [&](const std::string  &name,
+                         const unsigned long n,
+                         const unsigned long first) {
+    PointFile file(path(name), PointFile::Access::create, n, MPI_COMM_SELF);
+    file.write(first, points);
+    return std::make_pair(file.close(), file.checksum());
+  };
+  const auto read = [&](const std::string &name, const unsigned long n) {
+    PointFile file(path(name), PointFile::Access::read, n, MPI_COMM_SELF);
+    file.read(0, 3);
+    file.read(3, n - 3);
+    return std::make_pair(file.close(), file.checksum());
+  };
+  const auto written = write("points.h5", 10, 0);
+  std::printf("written and read in parts: %s\n",
+              written.first && read("points.h5", 10) == written ? "yes" : "no");
+  const std::string text = read_text(path("points.h5"));
+  std::printf("columns are named: %s\n",
+              text.find("cell material position_r position_z velocity_r") !=
+                  std::string::npos ?
+                "yes" :
+                "no");
+  std::printf("more rows than it has: %s\n",
+              read("points.h5", 11).first ? "read" : "refused");
+  std::printf("beyond the end: %s\n",
+              write("other.h5", 10, 1).first ? "written" : "refused");
+  const auto late = write("other.h5", 12, 2);
+  std::printf("rows that were not written: %s\n",
+              late.first && read("other.h5", 12).second == late.second ?
+                "not noticed" :
+                "noticed");
+  std::printf("another place, the same checksum: %s\n",
+              late.second == written.second ? "yes" : "no");
+  std::printf("no such file: %s\n",
+              read("none.h5", 10).first ? "read" : "refused");
+  std::printf("no such directory: %s\n",
+              write("none/points.h5", 10, 0).first ? "written" : "refused");
+}
 
 int
 main(int argc, char *argv[])
@@ -276,6 +304,8 @@ main(int argc, char *argv[])
   {
     Scene s(box("0.1"));
     generate(s);
+    heading("file of points");
+    check_point_file(s);
     heading("contents");
     check_contents(s);
     heading("damaged points");
