@@ -53,7 +53,7 @@ class Notebook(ProgramTest):
 class Runs(ProgramTest):
     """caisson.run()."""
 
-    scene = HERE / "jack.prm"
+    scene = HERE / "simulation/jack.prm"
 
     def run_short(self, path: Path, **options: Any) -> caisson.LoadedRun:
         """Run the scene for 0.1 m."""
