@@ -327,11 +327,28 @@ namespace CaissonMPM
     const CellPressureSolver::Known before = known_;
     begin_with(known);
 
-    // 2. The right side, per cell: dt sum_f I_f (p'_c - p'_f) for the force of
-    // p'
-    //    that v* has had already, less the volume change of the soil below the
-    //    mudline, and what the solver left of the last step. In hardly filled
-    //    cells it fades out: their pressure follows from those around them.
+    // 2. Solve sum_f (F_f + dt I_f) (p_c - p_f) = right side.
+    compute_source(before);
+    source *= 1. / scale;
+    solver_.solve(source, known_, accuracy, pressure_);
+
+    // 3. Carry what the solver left of each equation into the next step, with
+    //    the share of a whole step that this one was.
+    CellData &left_now = source;
+    left_now.zero_out_ghost_values();
+    left_now.copy_locally_owned_data_from(solver_.residual());
+    shift_pressures(left_now);
+    remainder_.zero_out_ghost_values();
+    remainder_.sadd(1. - step / long_step, scale * step, left_now);
+    pressure_.update_ghost_values();
+    find_acting();
+    find_flow(left_now);
+  }
+
+  void
+  PressureProjection::compute_source(const CellPressureSolver::Known &before)
+  {
+    // dt sum_f I_f (p'_c - p'_f): v* has had the force of p' already
     source = 0.;
     source.zero_out_ghost_values();
     const auto &faces = solver_.faces();
@@ -347,6 +364,9 @@ namespace CaissonMPM
         if (face.beyond == Beyond::cell)
           source.local_element(face.other_place) -= drive;
       }
+    // Less the volume change of the soil below the mudline, and what the solver
+    // left of the last step. In hardly filled cells it fades out: their
+    // pressure follows from those around them.
     for (const unsigned int cell : solver_.cells())
       {
         const unsigned int i = solver_.place(cell);
@@ -356,37 +376,24 @@ namespace CaissonMPM
         source.local_element(i) *= share_of_own(x);
       }
     source.zero_out_ghost_values();
-    // 3. Solve sum_f (F_f + dt I_f) (p_c - p_f) = right side.
-    source *= 1. / scale;
-    solver_.solve(source, known_, accuracy, pressure_);
+  }
 
-    // 4. What the solver left of each equation is small, but adds up. One shift
-    //    of all pressures, whose flow through the open faces is the sum of what
-    //    was left, takes the sum away.
+  void
+  PressureProjection::shift_pressures(CellData &left_now)
+  {
     double sum = 0.;
     for (const unsigned int cell : solver_.cells())
       sum += solver_.residual().local_element(solver_.place(cell));
-    sum                = Utilities::MPI::sum(sum, grid->communicator());
-    CellData &left_now = source;
-    left_now.zero_out_ghost_values();
-    left_now.copy_locally_owned_data_from(solver_.residual());
-    if (open_conductance > 0.)
-      {
-        const double rise = sum * scale / open_conductance;
-        for (const unsigned int cell : solver_.cells())
-          pressure_.local_element(solver_.place(cell)) += rise;
-        for (std::size_t f = 0; f < faces.size(); ++f)
-          if (faces[f].beyond != Beyond::cell)
-            left_now.local_element(faces[f].place) -=
-              rise * solver_.conductances()[f];
-      }
-    // 5. Carry the rest of each cell into the next step, with the share of a
-    //    whole step that this one was.
-    remainder_.zero_out_ghost_values();
-    remainder_.sadd(1. - step / long_step, scale * step, left_now);
-    pressure_.update_ghost_values();
-    find_acting();
-    find_flow(left_now);
+    sum = Utilities::MPI::sum(sum, grid->communicator());
+    if (open_conductance <= 0.)
+      return;
+    const double rise = sum * scale / open_conductance;
+    for (const unsigned int cell : solver_.cells())
+      pressure_.local_element(solver_.place(cell)) += rise;
+    for (std::size_t f = 0; f < solver_.faces().size(); ++f)
+      if (solver_.faces()[f].beyond != Beyond::cell)
+        left_now.local_element(solver_.faces()[f].place) -=
+          rise * solver_.conductances()[f];
   }
 
   void

@@ -102,8 +102,7 @@ namespace CaissonMPM
                   gas,
                   "The volume of gas beneath the lid at the pressure of the "
                   "open water on the mudline. It expands under suction at "
-                  "constant temperature, and the pump takes this volume, too. "
-                  "Units: m3.",
+                  "constant temperature; the pump takes it, too. Units: m3.",
                   prm,
                   Patterns::Double(0.));
     parse_parameters_call_back.connect([this]() { fill_tables(); });

@@ -50,6 +50,14 @@ def follow_system(style: Path) -> None:
         style.write_text(f"{text}\n@media (prefers-color-scheme: dark) {{{rule}}}\n")
 
 
+def name_files(_: Any, page: str, source: list[str]) -> None:
+    """Name files beside the manual, to which its sources link, in the pages."""
+    if page:
+        source[0] = re.sub(
+            r"\[([^]]*)\]\((?:\.\./)+(lab/[^)]+)\)", r"\1 (`\2`)", source[0]
+        )
+
+
 def complete(app: Any, failure: Exception | None) -> None:
     """Complete the pages after they have been written."""
     if failure is None and app.builder.format == "html":
@@ -61,5 +69,6 @@ def complete(app: Any, failure: Exception | None) -> None:
 
 def setup(app: Any) -> dict[str, bool]:
     """Register with Sphinx."""
+    app.connect("source-read", name_files)
     app.connect("build-finished", complete)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -18,11 +18,12 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** Whether blocks of a law may be deferred. Narrow lanes keep the processor busy
-       * without it. */
+      /** Whether blocks of a law may be deferred. Narrow lanes keep the
+       * processor busy without it. */
       template <typename Law, typename Number>
-      constexpr bool may_be_deferred = __is_same(Law, MohrCoulomb) && Number::width
-                                                                 == block_size;
+      constexpr bool
+        may_be_deferred = __is_same(Law, MohrCoulomb) && Number::width
+                                                           == block_size;
 
       /** A block whose stress and volume are still to be updated: what its
        * step needs besides the stress in the middle of the turn, which the
@@ -105,7 +106,7 @@ namespace CaissonMPM
         [[gnu::always_inline]] static inline void
         update_two(const DeferredBlock &v,
                    const DeferredBlock &w,
-                   const Sums          sums)
+                   const Sums           sums)
         {
           using Two         = Twice<Number>;
           PointBlock     &b = *v.block, &c = *w.block;
@@ -163,8 +164,8 @@ namespace CaissonMPM
           sums[3][w.cell] += Number::load(w.block->volume) * work;
         }
 
-        int          n       = 0;
-        unsigned int n_added = 0;
+        int           n       = 0;
+        unsigned int  n_added = 0;
         DeferredBlock blocks[capacity];
       };
     } // namespace CAISSON_KERNEL_ISA

@@ -187,6 +187,16 @@ namespace CaissonMPM
     /** Find the pressure of each cell with that of the free water in it. */
     void
     find_acting();
+    /** Compute the right side of the equations per cell, with the known
+     * pressures of the step @p before. m3/s per radian */
+    void
+    compute_source(const CellPressureSolver::Known &before);
+    /** What the solver left of each equation is small, but adds up. Shift all
+     * pressures by the one value whose flow through the open faces takes the
+     * sum
+     * of it away, from @p left_now, too. Collective. */
+    void
+    shift_pressures(CellData &left_now);
     /** Find flow(), with what the solver left of the equations. */
     void
     find_flow(const CellData &left_now);
