@@ -13,6 +13,7 @@
 // Usage: kernel_benchmark [POINTS [REPETITIONS]]
 #include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/kernels/laws.h>
+#include <caisson_mpm/kernels/layout.h>
 
 #include <algorithm>
 #include <chrono>

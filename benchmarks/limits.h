@@ -5,7 +5,7 @@
 #ifndef caisson_mpm_benchmarks_limits_h
 #define caisson_mpm_benchmarks_limits_h
 
-#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/kernels/blocks.h>
 
 namespace CaissonMPM
 {

@@ -3,6 +3,7 @@
 // Single steps of the nodal motion of soil without a body and without sides:
 // momentum, the work of nodal forces, equilibrium under a surrounding pressure,
 // the nodal force that doc/extending.md adds, and the order of the calls.
+#include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 
 #include <deal.II/base/mpi.h>

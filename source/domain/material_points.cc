@@ -2,6 +2,7 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_fields.h>
+#include <caisson_mpm/kernels/views.h>
 
 #include <algorithm>
 #include <cmath>

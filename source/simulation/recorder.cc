@@ -4,6 +4,7 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/version.h>
 #include <caisson_mpm/domain/all_points.h>
+#include <caisson_mpm/kernels/kernel_table.h>
 #include <caisson_mpm/output/result_lines.h>
 #include <caisson_mpm/simulation/recorder.h>
 #include <caisson_mpm/simulation/run_review.h>

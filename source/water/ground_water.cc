@@ -2,6 +2,8 @@
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
+#include <caisson_mpm/kernels/nodal_sums.h>
+#include <caisson_mpm/kernels/views.h>
 #include <caisson_mpm/water/ground_water.h>
 
 #include <deal.II/base/mpi.h>

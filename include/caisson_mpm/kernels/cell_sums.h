@@ -12,6 +12,7 @@
 #ifndef caisson_mpm_kernels_cell_sums_h
 #define caisson_mpm_kernels_cell_sums_h
 
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/moments.h>
 
 namespace CaissonMPM

@@ -4,7 +4,7 @@
 #ifndef caisson_mpm_kernels_dispatch_h
 #define caisson_mpm_kernels_dispatch_h
 
-#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/kernels/kernel_table.h>
 
 namespace CaissonMPM
 {

@@ -10,6 +10,7 @@
 
 #include <caisson_mpm/kernels/cell_pressure.h>
 #include <caisson_mpm/kernels/cell_sums.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/loosest_state.h>
 #include <caisson_mpm/kernels/volume_change.h>
 #include <caisson_mpm/kernels/waiting_blocks.h>

@@ -15,6 +15,7 @@
 #define caisson_mpm_kernels_pressure_gradient_force_h
 
 #include <caisson_mpm/kernels/cell_map.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/moments.h>
 
 namespace CaissonMPM

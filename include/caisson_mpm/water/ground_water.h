@@ -9,6 +9,8 @@
 #include <caisson_mpm/base/named_numbers.h>
 #include <caisson_mpm/bodies/rest.h>
 #include <caisson_mpm/bodies/rigid_body.h>
+#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/materials/soil.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/water/plug_balance.h>

@@ -5,6 +5,8 @@
 #ifndef caisson_mpm_water_pore_pressure_force_h
 #define caisson_mpm_water_pore_pressure_force_h
 
+#include <caisson_mpm/kernels/kernel_table.h>
+#include <caisson_mpm/kernels/nodal_sums.h>
 #include <caisson_mpm/operators/nodal_force.h>
 #include <caisson_mpm/water/ground_water.h>
 
