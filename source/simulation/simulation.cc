@@ -64,7 +64,8 @@ namespace CaissonMPM
                   "The kernels use this instruction set; with auto, the widest "
                   "of this processor. Units: none.",
                   prm,
-                  Patterns::Selection("auto|SSE2|AVX2|AVX-512"));
+                  Patterns::Selection(std::string("auto|") +
+                                      Kernels::instruction_sets));
     leave_subsection();
     enter_subsection("Output");
     add_word_or_number(*this,
