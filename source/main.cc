@@ -2,6 +2,7 @@
 #include <caisson_mpm/base/command_line.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/failure_report.h>
+#include <caisson_mpm/base/version.h>
 #include <caisson_mpm/simulation/run_scene.h>
 
 #include <deal.II/base/mpi.h>
@@ -26,8 +27,8 @@ namespace
     if (command_line.help)
       out << usage();
     else if (command_line.version)
-      out << "caisson_mpm " CAISSON_MPM_VERSION
-             " (deal.II " DEAL_II_PACKAGE_VERSION ")\n";
+      out << "caisson_mpm " << program_version()
+          << " (deal.II " DEAL_II_PACKAGE_VERSION ")\n";
     else
       return run_scene(command_line, out);
     return ExitStatus::success;

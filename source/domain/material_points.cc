@@ -3,6 +3,7 @@
 #include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_fields.h>
+#include <caisson_mpm/kernels/views.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,6 +5,8 @@
 #include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_fields.h>
+#include <caisson_mpm/kernels/cells.h>
+#include <caisson_mpm/kernels/update_result.h>
 
 #include <algorithm>
 #include <cmath>

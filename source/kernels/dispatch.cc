@@ -7,6 +7,7 @@ namespace CaissonMPM
 {
   namespace Kernels
   {
+#ifdef CAISSON_X86_64
     const KernelTable *
     select_kernels(const char *instruction_set)
     {
@@ -28,5 +29,14 @@ namespace CaissonMPM
         return &kernels_x86_64();
       return nullptr;
     }
+#else
+    const KernelTable *
+    select_kernels(const char *instruction_set)
+    {
+      const bool is_known = std::strcmp(instruction_set, "auto") == 0 ||
+                            std::strcmp(instruction_set, "generic") == 0;
+      return is_known ? &kernels_generic() : nullptr;
+    }
+#endif
   } // namespace Kernels
 } // namespace CaissonMPM

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/kernels/kernel_table.h>
 #include <caisson_mpm/operators/consistent_mass.h>
 #include <caisson_mpm/operators/point_transfer.h>
 

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/kernels/kernel_table.h>
+#include <caisson_mpm/kernels/nodal_sums.h>
+#include <caisson_mpm/kernels/step_context.h>
 #include <caisson_mpm/operators/surrounding_pressure.h>
 
 namespace CaissonMPM

@@ -2,7 +2,9 @@
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
+#include <caisson_mpm/base/version.h>
 #include <caisson_mpm/domain/all_points.h>
+#include <caisson_mpm/kernels/kernel_table.h>
 #include <caisson_mpm/output/result_lines.h>
 #include <caisson_mpm/simulation/recorder.h>
 #include <caisson_mpm/simulation/run_review.h>
@@ -278,7 +280,8 @@ namespace CaissonMPM
     const std::string n_points      = sum(parts.points.n_points()),
                       n_body_points = sum(parts.body_points.size());
     Console::Lines first            = {
-                 {"caisson_mpm", CAISSON_MPM_VERSION ", deal.II " DEAL_II_PACKAGE_VERSION},
+                 {"caisson_mpm",
+                  std::string(program_version()) + ", deal.II " DEAL_II_PACKAGE_VERSION},
                  {"scene", scene},
                  {"output", directory},
                  {"kernels",

@@ -2,6 +2,7 @@
 #include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
+#include <caisson_mpm/base/version.h>
 #include <caisson_mpm/output/json.h>
 #include <caisson_mpm/simulation/run_report.h>
 
@@ -32,7 +33,7 @@ namespace CaissonMPM
     Json::Members
     about_program(const RunFacts &facts)
     {
-      return {{"version", Json::text(CAISSON_MPM_VERSION)},
+      return {{"version", Json::text(program_version())},
               {"dealii_version", Json::text(DEAL_II_PACKAGE_VERSION)},
               {"scene_file", Json::text(facts.scene_file)},
               {"title", Json::text(facts.title)},

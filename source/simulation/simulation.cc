@@ -4,6 +4,7 @@
 #include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/domain/cell_geometry.h>
+#include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/simulation/physics_text.h>
 #include <caisson_mpm/simulation/simulation.h>
@@ -60,7 +61,8 @@ namespace CaissonMPM
                   "The kernels use this instruction set; with auto, the widest "
                   "of this processor. Units: none.",
                   prm,
-                  Patterns::Selection("auto|SSE2|AVX2|AVX-512"));
+                  Patterns::Selection(std::string("auto|") +
+                                      Kernels::instruction_sets));
     leave_subsection();
     enter_subsection("Output");
     add_word_or_number(*this,

@@ -4,6 +4,7 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/fingerprint.h>
 #include <caisson_mpm/base/text.h>
+#include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/simulation/physics_text.h>
 #include <caisson_mpm/simulation/scene_review.h>

@@ -3,6 +3,8 @@
 // The shape, the motion, the nodal force and the counter that doc/extending.md
 // adds.
 #include <caisson_mpm/base/run_totals.h>
+#include <caisson_mpm/kernels/dispatch.h>
+#include <caisson_mpm/kernels/step_context.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -9,7 +9,9 @@
 #include <caisson_mpm/domain/material_point.h>
 #include <caisson_mpm/domain/point_exchange.h>
 #include <caisson_mpm/domain/size_range.h>
-#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/kernels/blocks.h>
+#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/update_result.h>
 
 #include <array>
 #include <functional>

@@ -12,6 +12,7 @@
 #ifndef caisson_mpm_kernels_cell_pressure_h
 #define caisson_mpm_kernels_cell_pressure_h
 
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/pressure_integrals.h>
 #include <caisson_mpm/kernels/update_stress.h>
 

@@ -9,6 +9,7 @@
 #ifndef caisson_mpm_kernels_deferred_blocks_h
 #define caisson_mpm_kernels_deferred_blocks_h
 
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/simd_twice.h>
 #include <caisson_mpm/kernels/update_stress.h>
 

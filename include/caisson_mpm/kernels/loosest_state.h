@@ -22,6 +22,7 @@
 #ifndef caisson_mpm_kernels_loosest_state_h
 #define caisson_mpm_kernels_loosest_state_h
 
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/update_stress.h>
 
 namespace CaissonMPM

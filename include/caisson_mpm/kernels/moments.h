@@ -10,6 +10,7 @@
 #define caisson_mpm_kernels_moments_h
 
 #include <caisson_mpm/kernels/cell_map.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/stress_state.h>
 
 namespace CaissonMPM

@@ -15,6 +15,7 @@
 
 #include <caisson_mpm/kernels/cell_pressure.h>
 #include <caisson_mpm/kernels/laws.h>
+#include <caisson_mpm/kernels/layout.h>
 
 namespace CaissonMPM
 {

@@ -14,6 +14,7 @@
 #ifndef caisson_mpm_kernels_pressure_force_h
 #define caisson_mpm_kernels_pressure_force_h
 
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/pressure_integrals.h>
 
 namespace CaissonMPM

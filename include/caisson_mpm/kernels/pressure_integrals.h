@@ -6,6 +6,7 @@
 #define caisson_mpm_kernels_pressure_integrals_h
 
 #include <caisson_mpm/kernels/cell_sums.h>
+#include <caisson_mpm/kernels/layout.h>
 
 namespace CaissonMPM
 {

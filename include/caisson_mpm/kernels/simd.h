@@ -9,11 +9,18 @@
 // template, compiled with other flags, must not be merged by the linker), all
 // kernel code lives in a namespace named by CAISSON_KERNEL_ISA.
 //
+// The instructions of x86-64 are named where the compiler does not find them by
+// itself; every operation has a generic form beside, for all other processors.
+//
 // No deal.II and no std containers may be included from here.
 #ifndef caisson_mpm_kernels_simd_h
 #define caisson_mpm_kernels_simd_h
 
-#include <immintrin.h>
+#include <caisson_mpm/kernels/instruction_set.h>
+
+#ifdef CAISSON_X86_64
+#  include <immintrin.h>
+#endif
 
 #ifndef CAISSON_KERNEL_ISA
 #  define CAISSON_KERNEL_ISA isa_default
@@ -33,7 +40,7 @@ namespace CaissonMPM
         typedef long long bits __attribute__((vector_size(n * sizeof(double))));
       };
 
-#ifdef __AVX512DQ__
+#ifdef CAISSON_AVX512DQ
       /** With AVX-512 a mask is a register of its own, with a bit for each
        * lane. */
       template <>
@@ -87,12 +94,14 @@ namespace CaissonMPM
           {
             if constexpr (sizeof(Bits) == 1)
               return a.bits;
-#ifdef __AVX__
+#ifdef CAISSON_AVX
             else if constexpr (n == 4)
               return _mm256_movemask_pd(reinterpret_cast<__m256d>(a.bits));
 #endif
+#ifdef CAISSON_X86_64
             else if constexpr (n == 2)
               return _mm_movemask_pd(reinterpret_cast<__m128d>(a.bits));
+#endif
             else
               {
                 unsigned int result = 0;
@@ -180,7 +189,7 @@ namespace CaissonMPM
         [[gnu::always_inline]] friend inline Mask
         operator<(const Lanes a, const Lanes b)
         {
-#ifdef __AVX512DQ__
+#ifdef CAISSON_AVX512DQ
           if constexpr (n == 8)
             return {_mm512_cmp_pd_mask(__m512d(a.values),
                                        __m512d(b.values),
@@ -192,7 +201,7 @@ namespace CaissonMPM
         [[gnu::always_inline]] friend inline Mask
         operator>(const Lanes a, const Lanes b)
         {
-#ifdef __AVX512DQ__
+#ifdef CAISSON_AVX512DQ
           if constexpr (n == 8)
             return {_mm512_cmp_pd_mask(__m512d(a.values),
                                        __m512d(b.values),
@@ -204,7 +213,7 @@ namespace CaissonMPM
         [[gnu::always_inline]] friend inline Mask
         operator<=(const Lanes a, const Lanes b)
         {
-#ifdef __AVX512DQ__
+#ifdef CAISSON_AVX512DQ
           if constexpr (n == 8)
             return {_mm512_cmp_pd_mask(__m512d(a.values),
                                        __m512d(b.values),
@@ -216,7 +225,7 @@ namespace CaissonMPM
         [[gnu::always_inline]] friend inline Mask
         operator>=(const Lanes a, const Lanes b)
         {
-#ifdef __AVX512DQ__
+#ifdef CAISSON_AVX512DQ
           if constexpr (n == 8)
             return {_mm512_cmp_pd_mask(__m512d(a.values),
                                        __m512d(b.values),
@@ -228,7 +237,7 @@ namespace CaissonMPM
         [[gnu::always_inline]] friend inline Lanes
         select(const Mask m, const Lanes a, const Lanes b)
         {
-#ifdef __AVX512DQ__
+#ifdef CAISSON_AVX512DQ
           if constexpr (n == 8)
             return Lanes(Values(_mm512_mask_blend_pd(m.bits,
                                                      __m512d(b.values),
@@ -240,7 +249,7 @@ namespace CaissonMPM
         [[gnu::always_inline]] friend inline Lanes
         max(const Lanes a, const Lanes b)
         {
-#ifdef __AVX512F__
+#ifdef CAISSON_AVX512F
           if constexpr (n == 8)
             return Lanes(
               Values(_mm512_max_pd(__m512d(a.values), __m512d(b.values))));
@@ -251,7 +260,7 @@ namespace CaissonMPM
         [[gnu::always_inline]] friend inline Lanes
         min(const Lanes a, const Lanes b)
         {
-#ifdef __AVX512F__
+#ifdef CAISSON_AVX512F
           if constexpr (n == 8)
             return Lanes(
               Values(_mm512_min_pd(__m512d(a.values), __m512d(b.values))));
@@ -267,16 +276,18 @@ namespace CaissonMPM
         [[gnu::always_inline]] friend inline Lanes
         sqrt(const Lanes a)
         {
-#ifdef __AVX512F__
+#ifdef CAISSON_AVX512F
           if constexpr (n == 8)
             return Lanes(Values(_mm512_sqrt_pd(__m512d(a.values))));
 #endif
-#ifdef __AVX__
+#ifdef CAISSON_AVX
           if constexpr (n == 4)
             return Lanes(Values(_mm256_sqrt_pd(__m256d(a.values))));
 #endif
+#ifdef CAISSON_X86_64
           if constexpr (n == 2)
             return Lanes(Values(_mm_sqrt_pd(__m128d(a.values))));
+#endif
           Lanes result;
           for (int i = 0; i < n; ++i)
             result.values[i] = __builtin_sqrt(a.values[i]);
@@ -286,7 +297,7 @@ namespace CaissonMPM
         [[gnu::always_inline]] friend inline double
         sum(const Lanes a)
         {
-#ifdef __AVX512F__
+#ifdef CAISSON_AVX512F
           if constexpr (n == 8)
             return _mm512_reduce_add_pd(__m512d(a.values));
 #endif
@@ -561,10 +572,11 @@ namespace CaissonMPM
           return a[0];
       }
 
-      /** The widest number type of the instruction set being compiled for. */
-#if defined(__AVX512F__)
+      /** The widest number type of the instruction set being compiled for; the
+       * registers of most other processors have two lanes, as those of SSE2. */
+#if defined(CAISSON_AVX512F)
       using NativeLanes = Lanes<8>;
-#elif defined(__AVX__)
+#elif defined(CAISSON_AVX)
       using NativeLanes = Lanes<4>;
 #else
       using NativeLanes = Lanes<2>;

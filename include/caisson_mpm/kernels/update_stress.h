@@ -12,6 +12,7 @@
 #define caisson_mpm_kernels_update_stress_h
 
 #include <caisson_mpm/kernels/laws.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/moments.h>
 #include <caisson_mpm/kernels/overstress.h>
 

@@ -6,6 +6,7 @@
 #define caisson_mpm_kernels_volume_change_h
 
 #include <caisson_mpm/kernels/cell_sums.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/update_stress.h>
 
 namespace CaissonMPM

@@ -6,6 +6,7 @@
 #define caisson_mpm_materials_soil_h
 
 #include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/materials/soil_layer.h>
 
 #include <memory>

@@ -7,6 +7,7 @@
 #define caisson_mpm_operators_body_force_h
 
 #include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/kernels/forward.h>
 #include <caisson_mpm/operators/nodal_force.h>
 
 #include <deal.II/base/parameter_acceptor.h>

@@ -8,6 +8,7 @@
 #include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/domain/background_grid.h>
+#include <caisson_mpm/kernels/forward.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

@@ -6,7 +6,7 @@
 #define caisson_mpm_operators_method_settings_h
 
 #include <caisson_mpm/base/parameter_origins.h>
-#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/kernels/settings.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

@@ -5,6 +5,7 @@
 #define caisson_mpm_operators_nodal_data_h
 
 #include <caisson_mpm/domain/background_grid.h>
+#include <caisson_mpm/kernels/forward.h>
 
 namespace CaissonMPM
 {

@@ -8,7 +8,8 @@
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_points.h>
-#include <caisson_mpm/kernels/dispatch.h>
+#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/nodal_sums.h>
 
 #include <string>
 #include <vector>

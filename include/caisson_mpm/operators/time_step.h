@@ -13,6 +13,7 @@
 
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_points.h>
+#include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/materials/soil.h>
 
 #include <deal.II/base/parameter_acceptor.h>

@@ -10,7 +10,7 @@
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/body_points.h>
 #include <caisson_mpm/domain/material_points.h>
-#include <caisson_mpm/kernels/dispatch.h>
+#include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/materials/soil.h>
 #include <caisson_mpm/operators/energy_balance.h>
 #include <caisson_mpm/operators/nodal_motion.h>

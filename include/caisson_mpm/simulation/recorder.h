@@ -7,6 +7,7 @@
 #include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/checks/verification.h>
+#include <caisson_mpm/kernels/forward.h>
 #include <caisson_mpm/output/design_methods.h>
 #include <caisson_mpm/output/error_bar.h>
 #include <caisson_mpm/output/observations.h>

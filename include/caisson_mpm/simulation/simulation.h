@@ -15,7 +15,8 @@
 #include <caisson_mpm/domain/body_points.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_generator.h>
-#include <caisson_mpm/kernels/dispatch.h>
+#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/materials/soil.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/operators/contact.h>

@@ -5,7 +5,7 @@
 #ifndef caisson_mpm_water_cell_integrals_h
 #define caisson_mpm_water_cell_integrals_h
 
-#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/kernels/cells.h>
 #include <caisson_mpm/water/pressure_solver.h>
 
 #include <array>

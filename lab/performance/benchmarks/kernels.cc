@@ -13,6 +13,7 @@
 // Usage: kernel_benchmark [POINTS [REPETITIONS]]
 #include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/kernels/laws.h>
+#include <caisson_mpm/kernels/layout.h>
 
 #include <algorithm>
 #include <chrono>
@@ -235,9 +236,13 @@ namespace
 const Limits &
 CaissonMPM::Kernels::limits_of(const char *instruction_set)
 {
+#ifdef CAISSON_X86_64
   return std::strcmp(instruction_set, "SSE2") == 0 ? limits_x86_64() :
          std::strcmp(instruction_set, "AVX2") == 0 ? limits_x86_64_v3() :
                                                      limits_x86_64_v4();
+#else
+  return limits_generic();
+#endif
 }
 
 int
@@ -247,7 +252,7 @@ main(const int argc, char **argv)
                      repetitions = argc > 2 ? std::atoi(argv[2]) : 100;
   std::printf("instruction_set,points,points_per_cell,shear_rate_per_s,kernel,"
               "million_points_per_s\n");
-  for (const char *const set : {"SSE2", "AVX2", "AVX-512"})
+  for (const char *const set : {"SSE2", "AVX2", "AVX-512", "generic"})
     {
       for (const unsigned int per_direction : {2, 3, 4, 5})
         for (const double rate : {0., 1e4})

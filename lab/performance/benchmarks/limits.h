@@ -5,7 +5,8 @@
 #ifndef caisson_mpm_benchmarks_limits_h
 #define caisson_mpm_benchmarks_limits_h
 
-#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/kernels/blocks.h>
+#include <caisson_mpm/kernels/instruction_set.h>
 
 namespace CaissonMPM
 {
@@ -22,12 +23,17 @@ namespace CaissonMPM
       double (*multiply_and_add)(unsigned long n);
     };
 
+#ifdef CAISSON_X86_64
     const Limits &
     limits_x86_64();
     const Limits &
     limits_x86_64_v3();
     const Limits &
     limits_x86_64_v4();
+#else
+    const Limits &
+    limits_generic();
+#endif
 
     /** Those of select_kernels(@p instruction_set), which must not be null. */
     const Limits &

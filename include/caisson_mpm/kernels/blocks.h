@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The memory layout of the material points (MPs), shared by the kernels and the
+// class MaterialPoints.
+//
+// MPs lie in blocks of eight per cell (structure of arrays): a block belongs to
+// one cell and one material, and the blocks of a cell form a singly linked
+// list. Lanes beyond the count of a block are padding: they repeat a valid
+// point with mass and volume zero, so that kernels may compute on all lanes.
+// What a step of most laws leaves alone lies apart, in the PointHistory of the
+// same number.
+#ifndef caisson_mpm_kernels_blocks_h
+#define caisson_mpm_kernels_blocks_h
+
+#include <caisson_mpm/kernels/material.h>
+#include <caisson_mpm/kernels/point_fields.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    constexpr int block_size = 8;
+
+// the members of a block, from the list of fields
+#define CAISSON_LANES(name, ...) double name[block_size];
+#define CAISSON_LISTED_LANES(name, n, ...) double name[n][block_size];
+
+    /** The state of up to eight MPs. SI units; volume and mass per radian. */
+    struct alignas(64) PointBlock
+    {
+      CAISSON_BLOCK_FIELDS(CAISSON_LANES, CAISSON_LISTED_LANES, CAISSON_LANES)
+    };
+
+    /** What a block keeps of the past of its MPs. SI units, volume per
+     * radian. */
+    struct alignas(64) PointHistory
+    {
+      CAISSON_HISTORY_FIELDS(CAISSON_LANES, CAISSON_LISTED_LANES, CAISSON_LANES)
+    };
+#undef CAISSON_LANES
+#undef CAISSON_LISTED_LANES
+
+    /** What is known of a block without touching it. */
+    struct BlockHeader
+    {
+      int   next; // the next block of the cell, -1 at the end
+      short count;
+      short material;
+    };
+  } // namespace Kernels
+} // namespace CaissonMPM
+
+#endif
