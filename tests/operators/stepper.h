@@ -4,6 +4,7 @@
 #ifndef caisson_mpm_tests_stepper_h
 #define caisson_mpm_tests_stepper_h
 
+#include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 
 #include <memory>
