@@ -568,8 +568,6 @@ namespace CaissonMPM
     });
   }
 
-
-
   void
   MaterialPoints::settle()
   {
