@@ -25,8 +25,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   void
   add_entry(ParameterAcceptor                              &owner,
             const std::string                              &entry,
@@ -44,8 +42,6 @@ namespace CaissonMPM
     owner.leave_my_subsection(prm);
   }
 
-
-
   WordOrNumber::WordOrNumber(const std::string          &word,
                              const std::optional<double> old_value,
                              const PatternBase          &number)
@@ -54,8 +50,6 @@ namespace CaissonMPM
     , number(number.clone())
   {}
 
-
-
   WordOrNumber::WordOrNumber(const WordOrNumber &other)
     : PatternBase(other)
     , word(other.word)
@@ -63,16 +57,12 @@ namespace CaissonMPM
     , number(other.number->clone())
   {}
 
-
-
   bool
   WordOrNumber::match(const std::string &text) const
   {
     return text == word || number->match(text) ||
            (old_value && number_in(text) == old_value);
   }
-
-
 
   std::string
   WordOrNumber::description(const OutputStyle style) const
@@ -82,15 +72,11 @@ namespace CaissonMPM
            number->description(style) + "]";
   }
 
-
-
   std::unique_ptr<PatternBase>
   WordOrNumber::clone() const
   {
     return std::make_unique<WordOrNumber>(*this);
   }
-
-
 
   std::optional<double>
   WordOrNumber::value_of(const std::string &text) const
@@ -98,8 +84,6 @@ namespace CaissonMPM
     const std::optional<double> value = number_in(text);
     return value == old_value ? std::nullopt : value;
   }
-
-
 
   void
   add_word_or_number(ParameterAcceptor          &owner,
@@ -120,8 +104,6 @@ namespace CaissonMPM
                 value = pattern.value_of(setting);
               });
   }
-
-
 
   std::optional<WordDescription>
   read_word_description(const std::string &pattern)

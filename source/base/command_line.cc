@@ -148,8 +148,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   CommandLine
   parse_command_line(const int argc, const char *const *argv)
   {
@@ -168,8 +166,6 @@ namespace CaissonMPM
           ".\n  \"caisson_mpm --help\" lists the options.");
       }
   }
-
-
 
   std::string
   usage()

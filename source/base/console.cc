@@ -110,14 +110,10 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   Console::Console(const Verbosity verbosity, std::ostream &out)
     : verbosity(verbosity)
     , out(out)
   {}
-
-
 
   void
   Console::header(const Lines &lines)
@@ -126,15 +122,11 @@ namespace CaissonMPM
       print(aligned(lines, width_of_scene));
   }
 
-
-
   void
   Console::summary(const Lines &lines)
   {
     print(aligned(lines));
   }
-
-
 
   void
   Console::record(const RecordLine &line)
@@ -142,8 +134,6 @@ namespace CaissonMPM
     print(verbosity == Verbosity::full ? full_record(line) :
                                          plain_record(line));
   }
-
-
 
   void
   Console::table(const std::string &title, const std::vector<TableRow> &rows)
@@ -160,15 +150,11 @@ namespace CaissonMPM
     print(text);
   }
 
-
-
   void
   Console::message(const std::string &text)
   {
     print(text + "\n");
   }
-
-
 
   void
   Console::warning(const std::string &text)
@@ -177,23 +163,17 @@ namespace CaissonMPM
     print("warning: " + text + "\n");
   }
 
-
-
   void
   Console::failure(const std::string &text)
   {
     out << text << std::endl;
   }
 
-
-
   Console::Verbosity
   Console::get_verbosity() const
   {
     return verbosity;
   }
-
-
 
   void
   Console::print(const std::string &text)

@@ -169,16 +169,12 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   DeclaredEntries::DeclaredEntries(const ParameterHandler &prm)
   {
     EntryArchive archive;
     prm.save(archive, 0);
     collect(archive.tree, {});
   }
-
-
 
   void
   DeclaredEntries::collect(const Tree                     &tree,
@@ -215,16 +211,12 @@ namespace CaissonMPM
       }
   }
 
-
-
   const DeclaredEntry *
   DeclaredEntries::find(const std::string &path) const
   {
     const auto found = index.find(path);
     return found == index.end() ? nullptr : &entries[found->second];
   }
-
-
 
   std::vector<std::string>
   DeclaredEntries::entry_paths() const
@@ -236,8 +228,6 @@ namespace CaissonMPM
     return result;
   }
 
-
-
   std::vector<std::string>
   choices_of(const std::string &pattern)
   {
@@ -247,8 +237,6 @@ namespace CaissonMPM
       return {};
     return dealii::Utilities::split_string_list(part[1], '|');
   }
-
-
 
   // deal.II has words of its own, but writes the bounds of unbounded numbers
   // ("-MAX_DOUBLE <= v"), and pattern_factory() misreads a list of lists.
@@ -288,8 +276,6 @@ namespace CaissonMPM
     return names.empty() ? pattern : names;
   }
 
-
-
   std::string
   describe_parameters(const ParameterHandler &prm)
   {
@@ -297,8 +283,6 @@ namespace CaissonMPM
            describe_entries(DeclaredEntries(prm),
                             [](const DeclaredEntry &) { return true; });
   }
-
-
 
   std::string
   describe_parameters(const ParameterHandler &prm, const std::string &word)

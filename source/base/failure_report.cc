@@ -14,14 +14,10 @@ namespace CaissonMPM
     MPI_Comm_dup(communicator, &this->communicator);
   }
 
-
-
   FailureReport::~FailureReport()
   {
     MPI_Comm_free(&communicator);
   }
-
-
 
   int
   FailureReport::end(const ExitStatus status, const std::string &text)
@@ -33,8 +29,6 @@ namespace CaissonMPM
       MPI_Abort(MPI_COMM_WORLD, static_cast<int>(status));
     return static_cast<int>(status);
   }
-
-
 
   bool
   FailureReport::all_have_failed()

@@ -12,8 +12,6 @@ namespace CaissonMPM
       hash = (hash ^ c) * 1099511628211u;
   }
 
-
-
   std::string
   Fingerprint::digits() const
   {
@@ -25,15 +23,11 @@ namespace CaissonMPM
     return digits;
   }
 
-
-
   double
   Fingerprint::number() const
   {
     return static_cast<double>(hash & ((std::uint64_t(1) << 52) - 1));
   }
-
-
 
   std::string
   fingerprint_of(const std::string &text)

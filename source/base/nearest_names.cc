@@ -67,8 +67,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   unsigned int
   edit_distance(const std::string &first, const std::string &second)
   {
@@ -97,8 +95,6 @@ namespace CaissonMPM
     return row[b.size()];
   }
 
-
-
   std::vector<std::string>
   nearest_names(const std::string              &name,
                 const std::vector<std::string> &known_names)
@@ -119,8 +115,6 @@ namespace CaissonMPM
         result.push_back(candidate.name);
     return result;
   }
-
-
 
   std::vector<std::string>
   names_of_symbol(const std::string              &path,
@@ -159,8 +153,6 @@ namespace CaissonMPM
       }
     return result;
   }
-
-
 
   std::string
   did_you_mean(const std::vector<std::string> &names)

@@ -139,8 +139,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   void
   OutputDirectory::check(const std::string &path, const MPI_Comm communicator)
   {
@@ -148,8 +146,6 @@ namespace CaissonMPM
       dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
     refuse(path, is_first ? obstacle_to(fs::absolute(path)) : "", communicator);
   }
-
-
 
   void
   OutputDirectory::refuse(const std::string &path,
@@ -164,8 +160,6 @@ namespace CaissonMPM
                      "--output-directory.");
   }
 
-
-
   OutputDirectory::OutputDirectory(const std::string &path,
                                    const MPI_Comm     communicator)
     : path_(path)
@@ -175,8 +169,6 @@ namespace CaissonMPM
     refuse(path, is_first ? prepare() : "", communicator);
   }
 
-
-
   OutputDirectory::~OutputDirectory()
   {
     if (lock_file < 0)
@@ -185,8 +177,6 @@ namespace CaissonMPM
     fs::remove(path_ + "/.lock", error);
     close(lock_file); // and thereby unlock
   }
-
-
 
   std::string
   OutputDirectory::prepare()
@@ -198,8 +188,6 @@ namespace CaissonMPM
       return obstacle;
     return error ? "cannot be created: " + error.message() : lock();
   }
-
-
 
   std::string
   OutputDirectory::lock()
@@ -231,8 +219,6 @@ namespace CaissonMPM
     return "";
   }
 
-
-
   unsigned int
   OutputDirectory::clear() const
   {
@@ -242,8 +228,6 @@ namespace CaissonMPM
       n_removed += fs::remove(file, error) ? 1 : 0;
     return n_removed;
   }
-
-
 
   std::string
   OutputDirectory::put_aside(const MPI_Comm communicator) const

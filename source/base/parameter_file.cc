@@ -150,8 +150,6 @@ namespace CaissonMPM
       std::map<std::string, std::string> place_of_include;
     };
 
-
-
     std::string
     Reader::at(const unsigned int line) const
     {
@@ -161,15 +159,11 @@ namespace CaissonMPM
                                          ", included by " + file.included_at);
     }
 
-
-
     std::string
     Reader::full_path(const std::string &name) const
     {
       return open().empty() ? name : open().back().path + "/" + name;
     }
-
-
 
     void
     Reader::check_new(const std::string &name, const std::string &place)
@@ -188,8 +182,6 @@ namespace CaissonMPM
                      ".\n  It would undo the settings made since then. Remove "
                      "one of the two.");
     }
-
-
 
     void
     Reader::read_file(const std::string &name, const std::string &place)
@@ -212,8 +204,6 @@ namespace CaissonMPM
       files.pop_back();
     }
 
-
-
     void
     Reader::include(const std::string &name, const unsigned int line)
     {
@@ -231,8 +221,6 @@ namespace CaissonMPM
                 place);
       files.back().has_included = true;
     }
-
-
 
     void
     Reader::read_line(const Line &line)
@@ -261,8 +249,6 @@ namespace CaissonMPM
                        "a comment after \"#\".");
     }
 
-
-
     void
     Reader::read_set(const std::string &assignment, const unsigned int line)
     {
@@ -285,8 +271,6 @@ namespace CaissonMPM
       set(path, trim(assignment.substr(equal_sign + 1)), at(line));
     }
 
-
-
     void
     Reader::enter_subsection(const std::string &name, const unsigned int line)
     {
@@ -305,8 +289,6 @@ namespace CaissonMPM
       open().push_back({path, line});
     }
 
-
-
     bool
     Reader::has_subsection(const std::string &path)
     {
@@ -318,8 +300,6 @@ namespace CaissonMPM
       origins.set_paths(entries.entry_paths());
       return true;
     }
-
-
 
     void
     Reader::leave_subsection(const std::string &rest, const unsigned int line)
@@ -335,8 +315,6 @@ namespace CaissonMPM
       open().pop_back();
     }
 
-
-
     std::string
     Reader::unknown_entry(const std::string &path,
                           const std::string &place) const
@@ -350,8 +328,6 @@ namespace CaissonMPM
       return place + ": there is no entry " + quote(path) + "." +
              did_you_mean(names);
     }
-
-
 
     std::string
     Reader::missing_end_hint(const std::string &name) const
@@ -368,8 +344,6 @@ namespace CaissonMPM
         }
       return "";
     }
-
-
 
     void
     Reader::read_overrides(const std::vector<std::string> &overrides)
@@ -394,8 +368,6 @@ namespace CaissonMPM
       files.pop_back();
     }
 
-
-
     void
     Reader::set(const std::string &path,
                 const std::string &value,
@@ -416,8 +388,6 @@ namespace CaissonMPM
                      is_included || present == entry.default_value);
     }
 
-
-
     const DeclaredEntry &
     Reader::resolve_alias(const DeclaredEntry &entry, const std::string &place)
     {
@@ -429,8 +399,6 @@ namespace CaissonMPM
                             "; the old name will be removed.");
       return *entries.find(entry.alias_of);
     }
-
-
 
     std::string
     Reader::present_value(const DeclaredEntry &entry,
@@ -449,8 +417,6 @@ namespace CaissonMPM
                           "; the number will no longer be accepted.");
       return description->word;
     }
-
-
 
     void
     Reader::set_value(const DeclaredEntry &entry,
@@ -495,8 +461,6 @@ namespace CaissonMPM
              "\n  Meaning: " + entry.documentation));
     }
   } // namespace
-
-
 
   ParameterOrigins
   read_parameters(dealii::ParameterHandler       &prm,

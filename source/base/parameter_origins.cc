@@ -37,21 +37,15 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   ParameterOrigins::ParameterOrigins(const std::vector<std::string> &paths)
     : paths(paths)
   {}
-
-
 
   void
   ParameterOrigins::set_paths(const std::vector<std::string> &all_paths)
   {
     paths = all_paths;
   }
-
-
 
   void
   ParameterOrigins::record(const std::string &path,
@@ -61,8 +55,6 @@ namespace CaissonMPM
     places[path] = {place, may_be_unused};
   }
 
-
-
   void
   ParameterOrigins::add_warning(const std::string &text)
   {
@@ -70,15 +62,11 @@ namespace CaissonMPM
     doubts.push_back(text);
   }
 
-
-
   void
   ParameterOrigins::add_limit(const std::string &text)
   {
     notes.push_back(text);
   }
-
-
 
   void
   ParameterOrigins::add_unused(const std::vector<std::string> &paths,
@@ -107,8 +95,6 @@ namespace CaissonMPM
     add_warning(first + others + " set but not used: " + reason + ".");
   }
 
-
-
   std::string
   ParameterOrigins::origin(const std::string &path) const
   {
@@ -121,15 +107,11 @@ namespace CaissonMPM
                                                "set in " + text;
   }
 
-
-
   bool
   ParameterOrigins::is_set(const std::string &path) const
   {
     return places.count(path) > 0;
   }
-
-
 
   std::vector<std::string>
   ParameterOrigins::entries_named_in(const std::string &text) const
@@ -147,8 +129,6 @@ namespace CaissonMPM
         result.push_back(path);
     return result;
   }
-
-
 
   std::string
   ParameterOrigins::places_of_entries_in(const std::string &message) const

@@ -46,15 +46,11 @@ namespace CaissonMPM
       }
     } // namespace
 
-
-
     bool
     is_space(const char c)
     {
       return std::isspace(static_cast<unsigned char>(c)) != 0;
     }
-
-
 
     std::string
     trim(const std::string &text)
@@ -66,8 +62,6 @@ namespace CaissonMPM
         --end;
       return text.substr(begin, end - begin);
     }
-
-
 
     std::string
     condense(const std::string &text)
@@ -81,8 +75,6 @@ namespace CaissonMPM
       return result;
     }
 
-
-
     std::string
     quote(const std::string &text)
     {
@@ -91,8 +83,6 @@ namespace CaissonMPM
         result += std::iscntrl(static_cast<unsigned char>(c)) ? '?' : c;
       return "\"" + result + (text.size() > 60 ? "..." : "") + "\"";
     }
-
-
 
     std::string
     with_plain_spaces(const std::string &text)
@@ -104,8 +94,6 @@ namespace CaissonMPM
       return result;
     }
 
-
-
     std::string
     normalize_path(const std::string &path)
     {
@@ -115,8 +103,6 @@ namespace CaissonMPM
         result += (result.empty() ? "" : "/") + condense(part);
       return result;
     }
-
-
 
     std::string
     read_text(const std::string &file_name, const std::string &place)
@@ -153,8 +139,6 @@ namespace CaissonMPM
       text = with_replaced(with_replaced(text, "\r\n", "\n"), "\r", "\n");
       return with_plain_spaces(text);
     }
-
-
 
     std::vector<Line>
     read_lines(const std::string &content)

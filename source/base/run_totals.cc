@@ -18,8 +18,6 @@ namespace CaissonMPM
     totals.push_back(total);
   }
 
-
-
   std::vector<std::string>
   RunTotals::count_names() const
   {
@@ -30,8 +28,6 @@ namespace CaissonMPM
     return names;
   }
 
-
-
   NamedNumbers
   RunTotals::counts() const
   {
@@ -41,8 +37,6 @@ namespace CaissonMPM
         result.emplace_back(total.name, total.get());
     return result;
   }
-
-
 
   void
   RunTotals::bring_to_first_rank(const MPI_Comm communicator)
@@ -62,8 +56,6 @@ namespace CaissonMPM
         total.set(is_first ? *value++ : 0.);
   }
 
-
-
   NamedNumbers
   RunTotals::state() const
   {
@@ -72,8 +64,6 @@ namespace CaissonMPM
       result.emplace_back(total.name, total.get());
     return result;
   }
-
-
 
   std::string
   RunTotals::resume(const NamedNumbers &state, const bool is_first_rank)
@@ -87,8 +77,6 @@ namespace CaissonMPM
       }
     return "";
   }
-
-
 
   void
   RunTotals::take_over(const NamedNumbers &state)

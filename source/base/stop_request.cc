@@ -48,8 +48,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   StopRequest::StopRequest()
     : ParameterAcceptor("/Run control")
     , start_time(Clock::now())
@@ -72,8 +70,6 @@ namespace CaissonMPM
                   dealii::Patterns::Anything());
   }
 
-
-
   StopRequest::~StopRequest()
   {
     if (!is_armed)
@@ -82,8 +78,6 @@ namespace CaissonMPM
       sigaction(caught_signals[i], &previous_actions[i], nullptr);
     sigaction(SIGPIPE, &previous_pipe_action, nullptr);
   }
-
-
 
   void
   StopRequest::arm(const std::string &output_directory)
@@ -114,8 +108,6 @@ namespace CaissonMPM
     is_armed = true;
   }
 
-
-
   std::string
   StopRequest::reason()
   {
@@ -123,8 +115,6 @@ namespace CaissonMPM
       found_reason = find_reason();
     return found_reason;
   }
-
-
 
   std::string
   StopRequest::find_reason()
@@ -146,8 +136,6 @@ namespace CaissonMPM
       }
     return "";
   }
-
-
 
   bool
   StopRequest::take_stop_file() const

@@ -19,8 +19,6 @@ namespace CaissonMPM
     return to_text(value, 6);
   }
 
-
-
   std::string
   to_text(const double value, const int significant_digits)
   {

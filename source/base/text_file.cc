@@ -21,8 +21,6 @@ namespace CaissonMPM
                      (consequence.empty() ? "" : "; " + consequence));
   }
 
-
-
   // C streams: errno is reliable with them, and the data can be synchronized
   AtomicFile::AtomicFile(const std::string &path)
     : path(path)
@@ -33,8 +31,6 @@ namespace CaissonMPM
       error = errno;
   }
 
-
-
   AtomicFile::~AtomicFile()
   {
     if (file == nullptr)
@@ -43,8 +39,6 @@ namespace CaissonMPM
     std::remove(temporary.c_str());
   }
 
-
-
   void
   AtomicFile::append(const std::string &text)
   {
@@ -52,8 +46,6 @@ namespace CaissonMPM
         std::fwrite(text.data(), 1, text.size(), file) != text.size())
       error = errno;
   }
-
-
 
   int
   AtomicFile::finish()
@@ -72,8 +64,6 @@ namespace CaissonMPM
     return error;
   }
 
-
-
   int
   try_to_write(const std::string &path, const std::string &text)
   {
@@ -82,16 +72,12 @@ namespace CaissonMPM
     return file.finish();
   }
 
-
-
   void
   write_atomically(const std::string &path, const std::string &text)
   {
     if (const int error = try_to_write(path, text))
       report_unwritable(path, error);
   }
-
-
 
   std::string
   read_text(const std::string &path)

@@ -16,8 +16,6 @@ namespace CaissonMPM
     return sections.size() - 1;
   }
 
-
-
   std::vector<std::pair<std::string, double>>
   SectionTimer::seconds() const
   {
@@ -26,8 +24,6 @@ namespace CaissonMPM
       result.emplace_back(name, std::chrono::duration<double>(time).count());
     return result;
   }
-
-
 
   double
   peak_memory_bytes()

@@ -18,8 +18,6 @@ namespace CaissonMPM
                   Patterns::Double(1e-9));
   }
 
-
-
   void
   BodyShape::add_skirt_length(double &length)
   {
@@ -31,8 +29,6 @@ namespace CaissonMPM
                   Patterns::Double(1e-9));
   }
 
-
-
   void
   BodyShape::add_initial_penetration(double &depth)
   {
@@ -43,8 +39,6 @@ namespace CaissonMPM
                   prm,
                   Patterns::Double(0.));
   }
-
-
 
   void
   BodyShape::add_cells_across(unsigned int &n)

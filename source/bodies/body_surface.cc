@@ -19,8 +19,6 @@ namespace CaissonMPM
     return names[surface];
   }
 
-
-
   BodySurface::BodySurface()
     : ParameterAcceptor("/Rigid body")
   {
@@ -55,8 +53,6 @@ namespace CaissonMPM
                       Patterns::Double(0.));
       }
   }
-
-
 
   double
   BodySurface::friction_coefficient(const Surface surface) const

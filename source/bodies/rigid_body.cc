@@ -166,8 +166,6 @@ namespace CaissonMPM
                        Patterns::Double(0.));
   }
 
-
-
   void
   RigidBody::compute_weight(const double mass, const Soil &soil)
   {
@@ -176,8 +174,6 @@ namespace CaissonMPM
                                         (soil.is_submerged() ? buoyancy : 0.));
     motion().set_mass(mass);
   }
-
-
 
   void
   RigidBody::check_parameters() const
@@ -200,8 +196,6 @@ namespace CaissonMPM
                      "expanding cylinder changes, adhesion on it is not "
                      "possible. Set it to 0.");
   }
-
-
 
   void
   RigidBody::name_unused_entries(ParameterOrigins &origins) const

@@ -77,8 +77,6 @@ namespace CaissonMPM
       });
     }
 
-
-
     // ---------------------------------------------------------- of points
 
     Comparison
@@ -121,8 +119,6 @@ namespace CaissonMPM
         width = std::isnan(value) ? value : width;
       return {width, 0., over(mean_of(s.computed, s.volume), width)};
     }
-
-
 
     // ---------------------------------------------------------- of series
 
@@ -199,8 +195,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   const PointModes &
   point_modes()
   {
@@ -212,8 +206,6 @@ namespace CaissonMPM
       {"spread", {spread, CheckForm::tolerance}}};
     return modes;
   }
-
-
 
   const SeriesModes &
   series_modes()

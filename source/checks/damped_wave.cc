@@ -102,15 +102,11 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   double
   DampedWave::left_after_two_periods() const
   {
     return std::exp(-damping * 4. * pi / frequency);
   }
-
-
 
   DampedWave
   fit_damped_wave(const Series &series)

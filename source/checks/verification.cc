@@ -50,8 +50,6 @@ namespace CaissonMPM
       return name_of_entry + ": \"" + text + "\": ";
     }
 
-
-
     // ---------------------------------------------------------- reading
 
     std::vector<std::string>
@@ -183,8 +181,6 @@ namespace CaissonMPM
       return result;
     }
 
-
-
     // ---------------------------------------------------------- comparing
 
     [[noreturn]] void
@@ -288,8 +284,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   Verification::Verification()
     : ParameterAcceptor("/Verification")
   {
@@ -320,8 +314,6 @@ namespace CaissonMPM
       Patterns::Anything());
   }
 
-
-
   void
   Verification::check_parameters(const std::vector<std::string> &series) const
   {
@@ -329,15 +321,11 @@ namespace CaissonMPM
       parse_check(text, series);
   }
 
-
-
   bool
   Verification::empty() const
   {
     return texts_of(entry).empty();
   }
-
-
 
   bool
   Verification::run(const AllPoints   &points,

@@ -571,8 +571,6 @@ namespace CaissonMPM
     });
   }
 
-
-
   void
   MaterialPoints::settle()
   {

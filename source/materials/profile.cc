@@ -51,8 +51,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   Profile::Profile(const double number, const PatternBase &pattern)
     : pattern(pattern.clone())
     , number(number)
@@ -105,8 +103,6 @@ namespace CaissonMPM
     return value;
   }
 
-
-
   ProfilePattern::ProfilePattern(const PatternBase &number)
     : number(number.clone())
   {}
@@ -134,8 +130,6 @@ namespace CaissonMPM
     return std::make_unique<ProfilePattern>(*this);
   }
 
-
-
   void
   add_profile(ParameterAcceptor &owner,
               const std::string &entry,
@@ -152,8 +146,6 @@ namespace CaissonMPM
                 profile.set(setting, path);
               });
   }
-
-
 
   void
   add_word_or_profile(ParameterAcceptor          &owner,

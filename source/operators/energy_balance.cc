@@ -33,8 +33,6 @@ namespace CaissonMPM
     return result;
   }
 
-
-
   void
   EnergyBalance::start(const PointEnergies &points)
   {
@@ -44,8 +42,6 @@ namespace CaissonMPM
     // soil at rest moves by round-off, and its works mean nothing
     largest = std::max(points.kinetic, 1e-9 * points.weight);
   }
-
-
 
   void
   EnergyBalance::add(const NodalWork &nodes, const double stress)
@@ -58,8 +54,6 @@ namespace CaissonMPM
     floor += nodes.mass_floor;
     stress_work += stress;
   }
-
-
 
   void
   EnergyBalance::close(const PointEnergies &points)
@@ -77,8 +71,6 @@ namespace CaissonMPM
     relative = largest > 0. ? residual / largest : 0.;
   }
 
-
-
   void
   EnergyBalance::register_totals(RunTotals &totals)
   {
@@ -93,8 +85,6 @@ namespace CaissonMPM
     totals.keep("initial_potential_energy", initial_potential);
     totals.keep("largest_work", largest);
   }
-
-
 
   const std::vector<EnergyBalance::Term> &
   EnergyBalance::terms()
@@ -112,8 +102,6 @@ namespace CaissonMPM
       {"energy_residual", &E::relative}};
     return all;
   }
-
-
 
   std::vector<std::pair<std::string, double>>
   EnergyBalance::entries() const

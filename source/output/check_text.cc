@@ -21,8 +21,6 @@ namespace CaissonMPM
     return value;
   }
 
-
-
   void
   check_known(const std::string              &name,
               const std::vector<std::string> &known,

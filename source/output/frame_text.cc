@@ -345,8 +345,6 @@ namespace CaissonMPM
     };
   } // namespace
 
-
-
   std::string
   FrameText::of_points(const unsigned long long begin,
                        const unsigned long long end) const
@@ -358,8 +356,6 @@ namespace CaissonMPM
     return vtu_text(data_out, time);
   }
 
-
-
   std::string
   FrameText::of_cells() const
   {
@@ -368,8 +364,6 @@ namespace CaissonMPM
     auto data_out = cells.patches();
     return vtu_text(data_out, time);
   }
-
-
 
   std::string
   FrameText::of_body(const RigidBody &body) const

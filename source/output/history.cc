@@ -50,8 +50,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   std::vector<std::string>
   history_names(const std::vector<std::string> &counts)
   {
@@ -61,8 +59,6 @@ namespace CaissonMPM
     names.insert(names.end(), counts.begin(), counts.end());
     return names;
   }
-
-
 
   std::vector<double>
   history_values(const HistoryRow &row)

@@ -32,8 +32,6 @@ namespace CaissonMPM
       return result + "\"";
     }
 
-
-
     std::string
     number(const double value)
     {
@@ -44,23 +42,17 @@ namespace CaissonMPM
       return std::string(buffer, end.ptr);
     }
 
-
-
     std::string
     integer(const unsigned long value)
     {
       return to_text(value);
     }
 
-
-
     std::string
     boolean(const bool value)
     {
       return value ? "true" : "false";
     }
-
-
 
     namespace
     {
@@ -76,8 +68,6 @@ namespace CaissonMPM
         return result + close;
       }
 
-
-
       std::vector<std::string>
       lines(const Members &members)
       {
@@ -87,8 +77,6 @@ namespace CaissonMPM
         return result;
       }
     } // namespace
-
-
 
     std::string
     object(const Members &members, const unsigned int indent)
@@ -100,23 +88,17 @@ namespace CaissonMPM
       return join("{" + inner, lines(members), "," + inner, outer + "}");
     }
 
-
-
     std::string
     list(const std::vector<std::string> &items)
     {
       return items.empty() ? "[]" : join("[\n  ", items, ",\n  ", "\n]");
     }
 
-
-
     std::string
     flat_object(const Members &members)
     {
       return join("{", lines(members), ", ", "}");
     }
-
-
 
     Members
     numbers(const std::vector<std::pair<std::string, double>> &values)

@@ -167,8 +167,6 @@ namespace CaissonMPM
       {"quantile", {quantile, Operand::share}},
       {"projection", {projection, Operand::shape}}};
 
-
-
     // ---------------------------------------------------------- reading
 
     /** The text behind the word @p word, cut off; empty where it is absent. */
@@ -278,8 +276,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   Observations::Observations()
     : ParameterAcceptor("/Verification")
   {
@@ -300,8 +296,6 @@ namespace CaissonMPM
       Patterns::Anything());
   }
 
-
-
   void
   Observations::initialize(const std::vector<std::string> &taken)
   {
@@ -315,8 +309,6 @@ namespace CaissonMPM
         }
   }
 
-
-
   std::vector<std::string>
   Observations::names() const
   {
@@ -325,8 +317,6 @@ namespace CaissonMPM
       result.push_back(o.name);
     return result;
   }
-
-
 
   std::vector<double>
   Observations::values(const AllPoints &points, const double time) const

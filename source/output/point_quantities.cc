@@ -112,8 +112,6 @@ namespace CaissonMPM
               [](P p) { return double(p.material); })};
   } // namespace
 
-
-
   std::string
   with_unit(const std::string &name, const std::string &unit)
   {
@@ -123,8 +121,6 @@ namespace CaissonMPM
     std::replace(result.begin() + name.size(), result.end(), '/', '_');
     return result;
   }
-
-
 
   const std::vector<NamedQuantity> &
   all_point_quantities()
@@ -138,8 +134,6 @@ namespace CaissonMPM
     }();
     return quantities;
   }
-
-
 
   const std::map<std::string, PointQuantity> &
   point_quantities()
@@ -155,8 +149,6 @@ namespace CaissonMPM
     }();
     return by_name;
   }
-
-
 
   std::string
   point_quantities_text()

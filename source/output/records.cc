@@ -20,8 +20,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   Records::Records(const std::string              &directory,
                    const Observations             &observations,
                    const std::vector<std::string> &counts)
@@ -36,8 +34,6 @@ namespace CaissonMPM
                                                 17);
   }
 
-
-
   void
   Records::create()
   {
@@ -46,16 +42,12 @@ namespace CaissonMPM
       observed_file->create();
   }
 
-
-
   double
   Records::last_time_until(const double time) const
   {
     const auto found = history.rows_until(time);
     return found.empty() ? -1. : found.back()[0];
   }
-
-
 
   void
   Records::resume(const double time)
@@ -74,8 +66,6 @@ namespace CaissonMPM
       rows[i].insert(rows[i].end(), others[i].begin() + 1, others[i].end());
   }
 
-
-
   void
   Records::append(const HistoryRow &row, const std::vector<double> &observed)
   {
@@ -91,8 +81,6 @@ namespace CaissonMPM
     rows.push_back(values);
   }
 
-
-
   std::vector<std::string>
   Records::names(const std::vector<std::string> &counts,
                  const std::vector<std::string> &observed)
@@ -103,15 +91,11 @@ namespace CaissonMPM
     return result;
   }
 
-
-
   std::vector<std::string>
   Records::names() const
   {
     return names(counts, observations.names());
   }
-
-
 
   Series
   Records::series(const std::string &name,

@@ -100,8 +100,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   namespace
   {
     Console::Lines
@@ -130,8 +128,6 @@ namespace CaissonMPM
       return lines;
     }
   } // namespace
-
-
 
   Console::Lines
   result_lines(const Records &records, const ErrorBar &error_bar)

@@ -37,8 +37,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   RowFile::RowFile(const std::string              &path,
                    const std::vector<std::string> &columns,
                    const int                       digits)
@@ -48,15 +46,11 @@ namespace CaissonMPM
     , digits(digits)
   {}
 
-
-
   void
   RowFile::create()
   {
     start_with(header);
   }
-
-
 
   RowFile::Rows
   RowFile::resume(const double time)
@@ -66,8 +60,6 @@ namespace CaissonMPM
     start_with(kept);
     return rows;
   }
-
-
 
   RowFile::Rows
   RowFile::rows_until(const double time, std::string *const kept) const
@@ -95,8 +87,6 @@ namespace CaissonMPM
     return rows;
   }
 
-
-
   void
   RowFile::append(const std::vector<double> &values)
   {
@@ -119,8 +109,6 @@ namespace CaissonMPM
     size += line.size();
     written.add(line);
   }
-
-
 
   void
   RowFile::start_with(const std::string &text)

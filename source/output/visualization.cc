@@ -29,8 +29,6 @@ namespace CaissonMPM
       return name + buffer;
     }
 
-
-
     /** The value of name="..." in an element, or nothing. */
     std::string
     attribute(const std::string &element, const std::string &name)
@@ -43,16 +41,12 @@ namespace CaissonMPM
       return element.substr(value, element.find('"', value) - value);
     }
 
-
-
     /** Times differ by rounding where they come from a file. */
     bool
     before(const double a, const double b)
     {
       return a < b - 1e-9 * std::abs(b);
     }
-
-
 
     /** The frames that a .pvd file lists. */
     std::vector<std::pair<double, std::string>>
@@ -83,14 +77,10 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   Visualization::Visualization(const std::string &directory)
     : directory(directory)
     , all_series{{{"points", {}}, {"grid", {}}, {"body", {}}}}
   {}
-
-
 
   void
   Visualization::resume(const double time)
@@ -104,8 +94,6 @@ namespace CaissonMPM
       }
   }
 
-
-
   double
   Visualization::fingerprint() const
   {
@@ -115,8 +103,6 @@ namespace CaissonMPM
         result.add(to_text(time, 10) + " " + file + "\n"); // as in the file
     return result.number();
   }
-
-
 
   void
   Visualization::write_frame(BackgroundGrid       &grid,
@@ -162,8 +148,6 @@ namespace CaissonMPM
         write_series(series);
   }
 
-
-
   void
   Visualization::drop_frames_from(const double time)
   {
@@ -172,8 +156,6 @@ namespace CaissonMPM
              !before(series.frames.back().first, time))
         series.frames.pop_back();
   }
-
-
 
   unsigned int
   Visualization::next_number() const
@@ -188,8 +170,6 @@ namespace CaissonMPM
         }
     return next;
   }
-
-
 
   void
   Visualization::write_series(const Series &series) const

@@ -60,8 +60,6 @@ namespace CaissonMPM
       std::string head, tail;
     };
 
-
-
     void
     send_to_first(const std::string &text, const MPI_Comm communicator)
     {
@@ -73,8 +71,6 @@ namespace CaissonMPM
                                  communicator);
       AssertThrowMPI(error);
     }
-
-
 
     std::string
     receive_from(const int rank, const MPI_Comm communicator)
@@ -97,8 +93,6 @@ namespace CaissonMPM
       return text;
     }
 
-
-
     /** Write the pieces of all ranks; return 0 or an errno. For the first rank.
      */
     int
@@ -118,8 +112,6 @@ namespace CaissonMPM
       return file.finish();
     }
   } // namespace
-
-
 
   void
   write_vtu_file(const std::string                              &path,

@@ -10,7 +10,6 @@
 
 #include <deal.II/base/patterns.h>
 
-
 namespace CaissonMPM
 {
   /**

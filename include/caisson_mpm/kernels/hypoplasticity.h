@@ -347,8 +347,6 @@ namespace CaissonMPM
         }
       };
 
-
-
       inline bool
       Hypoplasticity::check(const double     *values,
                             const LawContext &context,
@@ -411,8 +409,6 @@ namespace CaissonMPM
         return true;
       }
 
-
-
       template <typename Number>
       [[gnu::always_inline]] inline Hypoplasticity::Factors<Number>
       Hypoplasticity::factors(const StressState<Number> &T,
@@ -460,8 +456,6 @@ namespace CaissonMPM
         return f;
       }
 
-
-
       template <typename Number>
       [[gnu::always_inline]] inline void
       Hypoplasticity::hold_in_bounds(StressState<Number> &T,
@@ -487,8 +481,6 @@ namespace CaissonMPM
         T.tt = held(T.tt);
         T.rz = select(parted, Number(0.), share * T.rz);
       }
-
-
 
       inline double
       Hypoplasticity::p_wave_modulus(const StressState<Lanes<1>> &stress,

@@ -307,8 +307,6 @@ namespace CaissonMPM
         using type = MohrCoulomb;
       };
 
-
-
       /** What check() of a law with these three entries looks at. */
       inline bool
       check_strength(const double      friction,

@@ -196,8 +196,6 @@ namespace CaissonMPM
                    const MohrCoulombElasticity &elastic);
       };
 
-
-
       [[gnu::always_inline]] inline double
       smaller(const double a, const double b)
       {
@@ -268,8 +266,6 @@ namespace CaissonMPM
         return p;
       }
 
-
-
       template <typename Number, typename Strength>
       [[gnu::always_inline]] inline void
       MohrCoulombReturn<Number, Strength>::update(
@@ -298,8 +294,6 @@ namespace CaissonMPM
         accumulate(state, trial, s, elastic);
         sigma = frame.with_principal_stresses(s);
       }
-
-
 
       template <typename Number, typename Strength>
       [[gnu::always_inline]] inline PrincipalStresses<Number>
@@ -340,8 +334,6 @@ namespace CaissonMPM
                       Stress{major, middle, minor});
       }
 
-
-
       template <typename Number, typename Strength>
       [[gnu::always_inline]] inline PrincipalStresses<Number>
       MohrCoulombReturn<Number, Strength>::to_cutoff(
@@ -373,8 +365,6 @@ namespace CaissonMPM
                        min(plane_middle, T)),
                 max(minor, t)};
       }
-
-
 
       template <typename Number, typename Strength>
       [[gnu::always_inline]] inline void
