@@ -8,6 +8,7 @@
 # Usage: tools/workshop update-reference REGEX
 #   e.g. tools/workshop update-reference jack
 set -euo pipefail
+if [[ ${1:-} == --help || ${1:-} == -h ]]; then sed -n '4,/^set/s/^# \{0,1\}//p' "$0" && exit; fi
 cd "$(dirname "$0")/../.."
 if [ $# -ne 1 ]; then
   sed -n '4,10s/^# \{0,1\}//p' "$0" >&2
