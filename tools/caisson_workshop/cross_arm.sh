@@ -6,7 +6,7 @@
 # Debian has no deal.II for ARM: a test that needs it is left out and named, and so is
 # one that compares the instruction sets of x86-64 with each other.
 #
-# Usage: tools/caisson_workshop/cross_arm.sh [--host] [NAME]...    (default: all tests)
+# Usage: tools/workshop cross-arm [--host] [NAME]...    (default: all tests)
 #   --host     with the compiler of this machine, without its intrinsics, and run as it is
 #   CXX        the compiler, as in CXX=clang++ with --host
 #   JOBS       tests at a time (default: one per core)
