@@ -9,7 +9,7 @@ HEAD = """# Parameter reference
 
 This page is generated from the output of `caisson_mpm --print-parameters`. It lists
 every entry that a parameter file may set, by section, with its default value. The
-[tutorial](tutorial.md) introduces the entries that every scene needs. The same list,
+[tutorial](../tutorial.md) introduces the entries that every scene needs. The same list,
 with the values of a scene, is printed by
 
 ```
