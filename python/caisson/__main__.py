@@ -30,6 +30,10 @@ GROUPS: Groups = {
 COMMANDS = commands_of(GROUPS)
 # those that import what they need only after they have computed or read something
 LATE = {"cpt", "plot", "report"}
+ELSEWHERE = (
+    "Verification, validation, stability and speed are commands of scripts/lab, and"
+    " tools for developers of tools/workshop."
+)
 
 
 def main(argv: Sequence[str]) -> int:
@@ -37,7 +41,7 @@ def main(argv: Sequence[str]) -> int:
     if argv and argv[0] in ("--complete", "--completion"):
         return completion.main(argv, COMMANDS)
     description = "Set up, run and evaluate installations of suction caissons."
-    return run_command(argv, "caisson", description, GROUPS, LATE)
+    return run_command(argv, "caisson", description, GROUPS, LATE, ELSEWHERE)
 
 
 def run() -> NoReturn:

@@ -6,6 +6,7 @@ Each subcommand is a module with add_arguments(parser) and main(options). Only t
 module of the subcommand that is called is loaded.
 """
 import argparse
+import difflib
 import importlib
 import os
 import sys
@@ -40,10 +41,20 @@ def run_command(
     description: str,
     groups: Groups,
     late: Collection[str] = (),
+    elsewhere: str = "",
 ) -> int:
     """Run one subcommand; return its exit status. late: those that import what they
-    need only after they have computed or read something."""
+    need only after they have computed or read something; elsewhere: where other
+    commands are, for who asks for one of them."""
     commands = commands_of(groups)
+    if argv and argv[0] not in commands and not argv[0].startswith("-"):
+        near = difflib.get_close_matches(argv[0], commands, n=1)
+        hint = f" Did you mean {near[0]}?" if near else f" {elsewhere}".rstrip()
+        print(
+            f"{program}: there is no command {argv[0]}.{hint} --help lists all.",
+            file=sys.stderr,
+        )
+        return 1
     parser = argparse.ArgumentParser(
         prog=program,
         description=description,

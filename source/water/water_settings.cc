@@ -106,8 +106,12 @@ namespace CaissonMPM
   {
     const std::vector<const Section *> groups = {
       &undrained, &seepage, &coupled, &open_sides, &sea, &suction};
+    std::vector<std::string> unused;
     for (const Section *const group : groups)
       if (std::find(used.begin(), used.end(), group) == used.end())
-        origins.add_unused(group->entries(), why);
+        unused.insert(unused.end(),
+                      group->entries().begin(),
+                      group->entries().end());
+    origins.add_unused(unused, why);
   }
 } // namespace CaissonMPM
