@@ -83,7 +83,10 @@ namespace CaissonMPM
       solver_.reinit(*v);
     for (NodalData *v : {&outflow_, &nodal_pressure, &nodal_conductance})
       grid->reinit(*v, 1);
-    of_cell.assign(grid->n_cells(), {});
+    shapes.assign(grid->n_cells(), {});
+    divergence.assign(grid->n_cells(), {});
+    force_of.assign(grid->n_cells(), {});
+    volumes.assign(grid->n_cells(), 0.);
     wet_ = -1.;
     wet_.update_ghost_values();
     acting.assign(grid->n_cells(), 0.);
@@ -170,15 +173,14 @@ namespace CaissonMPM
   PressureProjection::find_integrals(const unsigned int cell)
   {
     const Kernels::CellGeometry &now = grid->geometry(cell);
-    if (have_same_shape(now, of_cell[cell].shape))
+    if (have_same_shape(now, shapes[cell]))
       return;
-    OfCell &of = of_cell[cell];
-    of.shape   = now;
+    shapes[cell] = now;
     const CellIntegrals integrals(now, grid->axisymmetric() ? 1. : 0.);
-    of.volume     = integrals.volume();
-    of.divergence = integrals.divergence();
-    of.force      = of.divergence;
-    subtract_pressure_of_body(cell, of.force);
+    volumes[cell]    = integrals.volume();
+    divergence[cell] = integrals.divergence();
+    force_of[cell]   = divergence[cell];
+    subtract_pressure_of_body(cell, force_of[cell]);
   }
 
   void
@@ -309,7 +311,7 @@ namespace CaissonMPM
     for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
       if (acting[cell] != 0. && grid->is_owned(cell))
         {
-          const OfCorners &of = of_cell[cell].force;
+          const OfCorners &of = force_of[cell];
           for (unsigned int j = 0; j < 4; ++j)
             for (unsigned int d = 0; d < 2; ++d)
               force[grid->cell_nodes(cell).node[j]].value[d] +=
@@ -371,9 +373,8 @@ namespace CaissonMPM
       {
         const unsigned int i = solver_.place(cell);
         const double       x = mudline->filled()[cell];
-        source.local_element(i) +=
-          remainder_.local_element(i) / long_step -
-          x * of_cell[cell].volume * volume_rates_[cell];
+        source.local_element(i) += remainder_.local_element(i) / long_step -
+                                   x * volumes[cell] * volume_rates_[cell];
         source.local_element(i) *= share_of_own(x);
       }
     source.zero_out_ghost_values();
@@ -552,22 +553,22 @@ namespace CaissonMPM
                          std::numeric_limits<double>::quiet_NaN());
     for (const unsigned int cell : solver_.cells())
       {
-        const OfCorners          &of   = of_cell[cell].divergence;
+        const OfCorners          &of   = divergence[cell];
         const unsigned int *const node = grid->cell_nodes(cell).node;
         double                    sum  = 0.;
         for (unsigned int j = 0; j < 4; ++j)
           sum += of[2 * j] * velocity[node[j]].value[0] +
                  of[2 * j + 1] * velocity[node[j]].value[1];
-        volume_rates_[cell] = sum / of_cell[cell].volume;
+        volume_rates_[cell] = sum / volumes[cell];
       }
     for (const Kernels::CornerView &corner : corners)
       {
         const auto change = change_at(
           corner, velocity[grid->cell_nodes(corner.cell).node[corner.corner]]);
-        const OfCorners &of = of_cell[corner.cell].divergence;
+        const OfCorners &of = divergence[corner.cell];
         volume_rates_[corner.cell] += (of[2 * corner.corner] * change[0] +
                                        of[2 * corner.corner + 1] * change[1]) /
-                                      of_cell[corner.cell].volume;
+                                      volumes[corner.cell];
       }
     return volume_rates_;
   }

@@ -90,7 +90,7 @@ namespace CaissonMPM
     {
       Vector2 force;
       for (unsigned int d = 0; d < 2; ++d)
-        force[d] = acting[cell] * of_cell[cell].force[2 * corner + d];
+        force[d] = acting[cell] * force_of[cell][2 * corner + d];
       return force;
     }
 
@@ -170,14 +170,6 @@ namespace CaissonMPM
   private:
     using OfCorners = std::array<double, 8>; // r and z in turn
     using Beyond    = CellPressureSolver::Beyond;
-    /** Integrals over a cell, for the shape that it had then. */
-    struct OfCell
-    {
-      Kernels::CellGeometry shape = {};
-      OfCorners divergence = {}, force = {}; // int div N_j; the same
-                                             // less faces of the body
-      double volume = 0.;                    // m3 per radian
-    };
     /** Find the nodes at open faces. */
     void
     find_known_nodes(const PressureSolver::OpenSides &open);
@@ -225,9 +217,11 @@ namespace CaissonMPM
     double                    step = 0., long_step = 0., scale = 1.;
     Flow                      flow_;
     CellPressureSolver::Known known_ = {};
-    // [n_cells]
-    std::vector<OfCell> of_cell;
-    std::vector<double> acting, volume_rates_;
+    // [n_cells]: the shape for which there are the integrals, int div N_j, the
+    // same less the faces of the body, the volume
+    std::vector<Kernels::CellGeometry> shapes;
+    std::vector<OfCorners>             divergence, force_of;
+    std::vector<double>                volumes, acting, volume_rates_;
     std::vector<Beyond> beyond_node; // [n_nodes], cell: nothing is known
     // [n_faces]
     std::vector<double>             seepage, inertia;
