@@ -81,7 +81,8 @@ namespace CaissonMPM
                         &mobility[1],
                         &inverse_density})
       solver_.reinit(*v);
-    for (NodalData *v : {&outflow_, &nodal_pressure, &nodal_conductance})
+    for (NodalData *v :
+         {&at_nodes.outflow, &at_nodes.pressure, &at_nodes.conductance})
       grid->reinit(*v, 1);
     shapes.assign(grid->n_cells(), {});
     divergence.assign(grid->n_cells(), {});
@@ -111,9 +112,9 @@ namespace CaissonMPM
   void
   PressureProjection::find_known_nodes(const PressureSolver::OpenSides &open)
   {
-    beyond_node.assign(grid->n_nodes(), Beyond::cell);
+    at_nodes.beyond.assign(grid->n_nodes(), Beyond::cell);
     const auto know = [this](const unsigned int node, const Beyond beyond) {
-      Beyond &other = beyond_node[node];
+      Beyond &other = at_nodes.beyond[node];
       if (other == Beyond::cell || beyond == Beyond::plug)
         other = beyond;
     };
@@ -466,8 +467,8 @@ namespace CaissonMPM
   const NodalData &
   PressureProjection::find_outflow()
   {
-    outflow_ = 0.;
-    outflow_.zero_out_ghost_values();
+    at_nodes.outflow = 0.;
+    at_nodes.outflow.zero_out_ghost_values();
     const auto &faces = solver_.faces();
     for (std::size_t f = 0; f < faces.size(); ++f)
       {
@@ -479,8 +480,8 @@ namespace CaissonMPM
         const auto  &n   = grid->cell_nodes(face.cell).node;
         if (!face.is_horizontal)
           {
-            outflow_.local_element(n[1]) += .5 * out;
-            outflow_.local_element(n[3]) += .5 * out;
+            at_nodes.outflow.local_element(n[1]) += .5 * out;
+            at_nodes.outflow.local_element(n[3]) += .5 * out;
             continue;
           }
         const unsigned int first = face.beyond == Beyond::bottom ? 0 : 2;
@@ -488,18 +489,18 @@ namespace CaissonMPM
           grid->axisymmetric() ?
                   (3. * g.left + g.width) / (3. * (2. * g.left + g.width)) :
                   .5;
-        outflow_.local_element(n[first]) += left * out;
-        outflow_.local_element(n[first + 1]) += (1. - left) * out;
+        at_nodes.outflow.local_element(n[first]) += left * out;
+        at_nodes.outflow.local_element(n[first + 1]) += (1. - left) * out;
       }
-    grid->hanging_nodes().distribute(outflow_, 1);
-    outflow_.compress(VectorOperation::add);
-    return outflow_;
+    grid->hanging_nodes().distribute(at_nodes.outflow, 1);
+    at_nodes.outflow.compress(VectorOperation::add);
+    return at_nodes.outflow;
   }
 
   std::optional<double>
   PressureProjection::known_at(const unsigned int node) const
   {
-    const Beyond beyond = beyond_node[node];
+    const Beyond beyond = at_nodes.beyond[node];
     if (beyond == Beyond::cell)
       return std::nullopt;
     return known_[static_cast<int>(beyond)];
@@ -508,7 +509,7 @@ namespace CaissonMPM
   const NodalData &
   PressureProjection::find_nodal_pressure()
   {
-    for (NodalData *v : {&nodal_pressure, &nodal_conductance})
+    for (NodalData *v : {&at_nodes.pressure, &at_nodes.conductance})
       {
         *v = 0.;
         v->zero_out_ghost_values();
@@ -525,23 +526,23 @@ namespace CaissonMPM
           (mudline->filled()[cell] * size);
         for (const unsigned int node : grid->cell_nodes(cell).node)
           {
-            nodal_pressure.local_element(node) +=
+            at_nodes.pressure.local_element(node) +=
               conductance * pressure_in(cell);
-            nodal_conductance.local_element(node) += conductance;
+            at_nodes.conductance.local_element(node) += conductance;
           }
       }
-    for (NodalData *v : {&nodal_pressure, &nodal_conductance})
+    for (NodalData *v : {&at_nodes.pressure, &at_nodes.conductance})
       v->compress(VectorOperation::add);
     for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
       {
-        double &p = nodal_pressure.local_element(node);
-        if (nodal_conductance.local_element(node) > 0.)
-          p /= nodal_conductance.local_element(node);
+        double &p = at_nodes.pressure.local_element(node);
+        if (at_nodes.conductance.local_element(node) > 0.)
+          p /= at_nodes.conductance.local_element(node);
         p = known_at(node).value_or(p);
       }
-    nodal_pressure.update_ghost_values();
-    grid->hanging_nodes().interpolate(nodal_pressure, 1);
-    return nodal_pressure;
+    at_nodes.pressure.update_ghost_values();
+    grid->hanging_nodes().interpolate(at_nodes.pressure, 1);
+    return at_nodes.pressure;
   }
 
   const std::vector<double> &

@@ -170,6 +170,12 @@ namespace CaissonMPM
   private:
     using OfCorners = std::array<double, 8>; // r and z in turn
     using Beyond    = CellPressureSolver::Beyond;
+    /** What is known at the nodes, [n_nodes]. */
+    struct AtNodes
+    {
+      std::vector<Beyond> beyond; // cell: no pressure is known
+      NodalData           outflow, pressure, conductance;
+    };
     /** Find the nodes at open faces. */
     void
     find_known_nodes(const PressureSolver::OpenSides &open);
@@ -222,13 +228,12 @@ namespace CaissonMPM
     std::vector<Kernels::CellGeometry> shapes;
     std::vector<OfCorners>             divergence, force_of;
     std::vector<double>                volumes, acting, volume_rates_;
-    std::vector<Beyond> beyond_node; // [n_nodes], cell: nothing is known
     // [n_faces]
     std::vector<double>             seepage, inertia;
     std::vector<std::array<int, 2>> faces_below; // -1: none, as at most faces
     double                          open_conductance = 0.;
-    CellData  pressure_, remainder_, wet_, source, mobility[2], inverse_density;
-    NodalData outflow_, nodal_pressure, nodal_conductance;
+    CellData pressure_, remainder_, wet_, source, mobility[2], inverse_density;
+    AtNodes  at_nodes;
   };
 } // namespace CaissonMPM
 
