@@ -11,22 +11,7 @@
 #include <vector>
 
 #include "../shared/scene.h"
-
-double
-volume_of(const BackgroundGrid &grid, const bool rigid_only)
-{
-  double volume = 0.;
-  for (unsigned int c = 0; c < grid.n_cells(); ++c)
-    if (grid.is_rigid(c) || !rigid_only)
-      {
-        const auto  &g = grid.geometry(c);
-        const double r = g.left + .5 * g.width;
-        volume += 2. * pi * g.width *
-                  (r * .5 * (g.height_left + g.height_right) +
-                   g.width * (g.height_right - g.height_left) / 12.);
-      }
-  return volume;
-}
+#include "grid_volume.h"
 
 /** The volumes of a caisson and of its mesh, at the start. */
 void

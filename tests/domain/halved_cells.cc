@@ -12,6 +12,7 @@
 
 #include "../shared/messages.h"
 #include "../shared/scene.h"
+#include "grid_volume.h"
 
 const std::string halved = R"(
   subsection Rigid body
@@ -23,22 +24,6 @@ const std::string halved = R"(
     set Refinement levels along wall = 1
   end
   )";
-
-double
-volume_of(const BackgroundGrid &grid, const bool rigid_only)
-{
-  double volume = 0.;
-  for (unsigned int c = 0; c < grid.n_cells(); ++c)
-    if (grid.is_rigid(c) || !rigid_only)
-      {
-        const auto  &g = grid.geometry(c);
-        const double r = g.left + .5 * g.width;
-        volume += 2. * pi * g.width *
-                  (r * .5 * (g.height_left + g.height_right) +
-                   g.width * (g.height_right - g.height_left) / 12.);
-      }
-  return volume;
-}
 
 /** Neighbors: they name each other, differ by a level at most, and not at all
  * at the body. */
