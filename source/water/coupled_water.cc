@@ -284,14 +284,11 @@ namespace CaissonMPM
   CoupledWater::take_warnings()
   {
     std::vector<std::string> warnings;
-    const std::string        open_lid =
-      warning_of_open_lid(suction(),
-                          "Give the suction beneath a sealed one with Water/"
-                          "Suction control = table");
-    if (holds_first(has_warned_of_open_lid, !open_lid.empty()))
-      warnings.push_back(open_lid);
-    if (holds_first(has_warned_of_boiling, extremes.boils()))
-      warnings.push_back(extremes.warning(time, place_in_words()));
+    warn_of_open_lid(suction(),
+                     "Give the suction beneath a sealed one with Water/"
+                     "Suction control = table",
+                     warnings);
+    extremes.warn(time, place_in_words(), warnings);
     const auto of_plug = FlowingWater::take_warnings();
     warnings.insert(warnings.end(), of_plug.begin(), of_plug.end());
     return warnings;

@@ -94,18 +94,20 @@ namespace CaissonMPM
     (void)fields;
   }
 
-  std::string
-  PoreWater::warning_of_open_lid(const double       suction,
-                                 const std::string &advice) const
+  void
+  PoreWater::warn_of_open_lid(const double              suction,
+                              const std::string        &advice,
+                              std::vector<std::string> &warnings)
   {
-    const BodyMotion &motion = scene.body.motion();
-    if (!is_caisson() || motion.follows_loads() ||
-        motion.mean_velocity() >= 0. || suction != 0.)
-      return "";
-    return "the caisson is pulled up, and water flows freely beneath its lid: "
-           "the force is that of an open lid, and not what a sealed one "
-           "bears. " +
-           advice;
+    const BodyMotion &motion  = scene.body.motion();
+    const bool        is_open = is_caisson() && !motion.follows_loads() &&
+                         motion.mean_velocity() < 0. && suction == 0.;
+    if (holds_first(has_warned_of_open_lid, is_open))
+      warnings.push_back(
+        "the caisson is pulled up, and water flows freely beneath its lid: "
+        "the force is that of an open lid, and not what a sealed one "
+        "bears. " +
+        advice);
   }
 
   std::string

@@ -6,6 +6,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace CaissonMPM
 {
@@ -60,16 +61,20 @@ namespace CaissonMPM
             {"cavitation_margin_Pa", lowest[0]}};
   }
 
-  std::string
-  PressureExtremes::warning(const double time, const std::string &place) const
+  void
+  PressureExtremes::warn(const double              time,
+                         const std::string        &place,
+                         std::vector<std::string> &warnings)
   {
-    return "the pore water falls below its vapor pressure at t = " +
-           to_text(time, 5) + " s" + place +
-           ", first at r = " + to_text(lowest[1], 4) +
-           " m, z = " + to_text(lowest[2], 4) +
-           " m. It would boil there (cavitation), which the program does not "
-           "compute: from here on, soil that is drawn apart or dilates carries "
-           "more suction than water can, and its resistance is too large. "
-           "Check Water/Water depth; see cavitation_margin_Pa in history.csv";
+    if (lowest[0] >= 0. || std::exchange(has_warned, true))
+      return;
+    warnings.push_back(
+      "the pore water falls below its vapor pressure at t = " +
+      to_text(time, 5) + " s" + place + ", first at r = " +
+      to_text(lowest[1], 4) + " m, z = " + to_text(lowest[2], 4) +
+      " m. It would boil there (cavitation), which the program does not "
+      "compute: from here on, soil that is drawn apart or dilates carries "
+      "more suction than water can, and its resistance is too large. "
+      "Check Water/Water depth; see cavitation_margin_Pa in history.csv");
   }
 } // namespace CaissonMPM

@@ -123,13 +123,10 @@ namespace CaissonMPM
   UndrainedWater::take_warnings()
   {
     std::vector<std::string> warnings;
-    const std::string        open_lid =
-      warning_of_open_lid(0.,
-                          "Water/Level = undrained has no suction beneath it");
-    if (holds_first(has_warned_of_open_lid, !open_lid.empty()))
-      warnings.push_back(open_lid);
-    if (holds_first(has_warned_of_boiling, extremes.boils()))
-      warnings.push_back(extremes.warning(time, place_in_words()));
+    warn_of_open_lid(0.,
+                     "Water/Level = undrained has no suction beneath it",
+                     warnings);
+    extremes.warn(time, place_in_words(), warnings);
     return warnings;
   }
 

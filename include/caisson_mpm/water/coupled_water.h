@@ -104,7 +104,6 @@ namespace CaissonMPM
     double             step = 0.;
     // of the equations at unknown nodes, and the flow, all steps; m3
     double unbalanced = 0., through_surfaces = 0.;
-    bool   has_warned_of_open_lid = false, has_warned_of_boiling = false;
   };
 } // namespace CaissonMPM
 

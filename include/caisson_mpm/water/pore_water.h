@@ -217,11 +217,13 @@ namespace CaissonMPM
       return scene.body.shape().name() == "caisson";
     }
 
-    /** Return the warning of a caisson that is pulled from soil whose water
-     * cannot follow at once, while water flows freely beneath its lid; empty
-     * where there is no such lid. @p advice: what to do, a clause. */
-    std::string
-    warning_of_open_lid(const double suction, const std::string &advice) const;
+    /** Append a warning when a caisson is first pulled from soil whose water
+     * cannot follow at once, while water flows freely beneath its lid. @p
+     * advice: what to do, a clause. */
+    void
+    warn_of_open_lid(const double              suction,
+                     const std::string        &advice,
+                     std::vector<std::string> &warnings);
 
     /** Return " at a penetration of x m", or an empty text without a body. */
     std::string
@@ -229,6 +231,9 @@ namespace CaissonMPM
 
     const WaterScene scene;
     WaterTraits      traits_;
+
+  private:
+    bool has_warned_of_open_lid = false;
   };
 
   /** Return whether a condition holds for the first time, and remember it. */

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace CaissonMPM
 {
@@ -44,21 +45,18 @@ namespace CaissonMPM
     NamedNumbers
     columns() const;
 
-    /** Return whether water would boil. */
-    bool
-    boils() const
-    {
-      return lowest[0] < 0.;
-    }
-
-    /** Return the warning of this. @p place: of the body, in words. Units: s. */
-    std::string
-    warning(const double time, const std::string &place) const;
+    /** Append a warning when the water would boil for the first time. @p place:
+     * of the body, in words. Units: s. */
+    void
+    warn(const double              time,
+         const std::string        &place,
+         std::vector<std::string> &warnings);
 
   private:
     double                unit_weight = 0., at_rest = 0.;
     double                smallest = 0., largest = 0.; // Pa
-    std::array<double, 3> lowest = {{0., 0., 0.}};     // margin, r, z; Pa, m
+    std::array<double, 3> lowest     = {{0., 0., 0.}}; // margin, r, z; Pa, m
+    bool                  has_warned = false;
   };
 } // namespace CaissonMPM
 

@@ -77,7 +77,6 @@ namespace CaissonMPM
     TipIntegral         tip;      // N
     PressureExtremes    extremes; // of the last record
     double              time = 0., last_force_on_body = 0.; // s, N
-    bool has_warned_of_open_lid = false, has_warned_of_boiling = false;
   };
 } // namespace CaissonMPM
 
