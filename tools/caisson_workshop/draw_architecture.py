@@ -27,6 +27,12 @@ FLOORS = [
         "Records, Visualization, Observations",
     ),
     (
+        "water",
+        "#a2c4e0",
+        "models of the pore water",
+        "PoreWater, SteadySeepage, CoupledWater,\nLidCompartment",
+    ),
+    (
         "operators",
         "#f6bd60",
         "what happens at the nodes",
@@ -63,10 +69,12 @@ COLORS = {name: color for name, color, *_ in FLOORS}
 # A step: the floor that works, what it does, the function and what it touches.
 STEP = [
     ("operators", "choose the step", "TimeStep, Schedule"),
+    ("water", "begin the step of the pore water", "PoreWater::begin_step"),
     ("bodies", "move the body", "BodyMotion::advance"),
     ("kernels", "points to grid", "sums of each cell: mass, momentum, force"),
     ("operators", "add the nodal forces", "NodalForces"),
     ("operators", "equation of motion", "v = p / m,   v+ = v + dt f / m"),
+    ("water", "correct v+ by implicit forces", "NodalForce::solve"),
     ("operators", "contact, boundary conditions", "constrain v+"),
     ("operators", "prepare the transfer", "fields of FLIP, XPIC and MUSL; works"),
     ("domain", "move the mesh", "BackgroundGrid::prepare_motion"),
@@ -121,7 +129,8 @@ def draw_step(axes: Axes) -> None:
         "color": "#444444",
         "connectionstyle": "bar,fraction=0.05",
     }
-    axes.annotate("", (13.65, 11.5), (13.65, 0.5), arrowprops=back)
+    last = 12.5 - len(STEP)
+    axes.annotate("", (13.65, 11.5), (13.65, last), arrowprops=back)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -131,11 +140,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(_: argparse.Namespace) -> int:
     """Write the picture."""
     matplotlib.rcParams["svg.hashsalt"] = "caisson_mpm"
-    figure = Figure(figsize=(12, 10.2))
+    figure = Figure(figsize=(12, 11.7))
     axes = figure.add_subplot()
     draw_floors(axes)
     draw_step(axes)
-    axes.set(xlim=(-0.1, 14.5), ylim=(-0.1, 12.7))
+    axes.set(xlim=(-0.1, 14.5), ylim=(11.9 - len(STEP), 12.7))
     axes.axis("off")
     picture = PICTURES / "architecture.svg"
     figure.savefig(picture, bbox_inches="tight", metadata={"Date": None})
