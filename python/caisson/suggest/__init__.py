@@ -147,6 +147,12 @@ def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
         raise SuggestError(
             "not all layers have a friction angle: give --wall-friction"
         ) from error
+    if least == 0 < max(map(float, angles)):
+        raise SuggestError(
+            "clay and sand have no common wall friction: give each layer 'Friction"
+            " angle of the walls' and 'Adhesion factor of the walls', or all of them"
+            " --wall-friction"
+        )
     return Entry(
         "", f"{2 / 3 * least:.3g}", " # ASSUMED: 2/3 of the smallest of the soil"
     )
