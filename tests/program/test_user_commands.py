@@ -123,6 +123,17 @@ class Suggest(CommandTest):
         before = path.read_text(encoding="utf-8")
         self.assertTrue(before)
 
+    def test_clay_beside_sand(self) -> None:
+        """The smallest friction angle, 0, is not given to the walls in sand."""
+        path = self.made_directory() / "own.prm"
+        sand = "0: Friction angle = 33, Youngs modulus = 20e6"
+        clay = "3: Friction angle = 0, Cohesion = 40e3, Youngs modulus = 8e6"
+        sizes = ["--diameter", "10", "--skirt", "8", "--wall", "40mm", "--layer", sand]
+        words = ["suggest", str(path), *sizes, "--layer", clay]
+        said = self.caisson(*words, status=1)[1]
+        self.assertIn("Friction angle of the walls", said)
+        self.caisson(*words, "--wall-friction", "20")
+
     def test_mass_scaling(self) -> None:
         """No warning of the one that suggest has chosen; another one is warned of, and
         so is the same in soil of constant stiffness."""
