@@ -33,8 +33,10 @@ namespace CaissonMPM
 
     /** The consistent mass matrix of a cell, from its moments. */
     std::array<std::array<double, 4>, 4>
-    mass_matrix(const double *m)
+    mass_matrix(const Kernels::StepContext &step, const unsigned int cell)
     {
+      const double *const m       = step.moments[cell].mass;
+      const double        inertia = inertia_in(step, cell);
       // columns: the integrals of {1, xi, eta, xi eta} times each of them
       constexpr int table[4][4] = {{0, 1, 2, 3},
                                    {1, 4, 3, 6},
@@ -50,7 +52,8 @@ namespace CaissonMPM
         for (unsigned int j = 0; j < 4; ++j)
           for (unsigned int a = 0; a < 4; ++a)
             for (unsigned int b = 0; b < 4; ++b)
-              result[i][j] += shape[i][a] * shape[j][b] * m[table[a][b]];
+              result[i][j] +=
+                inertia * shape[i][a] * shape[j][b] * m[table[a][b]];
       return result;
     }
   } // namespace
@@ -494,9 +497,9 @@ namespace CaissonMPM
           {
             // 1. the cell sees the corner with Q w, not with w: the change
             //    (Q - 1) w times the column of the corner in its mass matrix
-            const auto  matrix   = mass_matrix(step.moments[cell.cell].mass);
-            const auto &nodes    = step.grid.nodes[cell.cell].node;
-            const unsigned int k = cell.corner;
+            const auto         matrix = mass_matrix(step, cell.cell);
+            const auto        &nodes  = step.grid.nodes[cell.cell].node;
+            const unsigned int k      = cell.corner;
             const Vector2      w = vector_of(from[corner.node].value) - of_body;
             const Vector2      change = cell.see(w) - w;
             Vector2            at_corner;

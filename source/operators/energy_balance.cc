@@ -13,17 +13,20 @@ namespace CaissonMPM
   PointEnergies
   compute_point_energies(const MaterialPoints                 &points,
                          const std::vector<Kernels::Material> &materials,
-                         const BackgroundGrid                 &grid)
+                         const BackgroundGrid                 &grid,
+                         const double                         *inertia)
   {
     PointEnergies result;
     points.for_each_motion([&](const Point<2>    &position,
                                const Vector2     &velocity,
                                const double       mass,
-                               const unsigned int material) {
+                               const unsigned int material,
+                               const unsigned int cell) {
       const double *const force   = materials[material].body_force;
       const double        rise[2] = {-mass * force[0] * position[0],
                                      -mass * force[1] * position[1]};
-      result.kinetic += .5 * mass * velocity.norm_square();
+      const double        factor  = inertia != nullptr ? inertia[cell] : 1.;
+      result.kinetic += .5 * factor * mass * velocity.norm_square();
       result.potential += rise[0] + rise[1];
       result.weight += std::abs(rise[0]) + std::abs(rise[1]);
     });

@@ -45,7 +45,8 @@ namespace CaissonMPM
                momentum.filled(),
                nullptr,
                0,
-               soil.pore_pressure};
+               soil.pore_pressure,
+               soil.inertia};
     momentum.collect({*kernels, step, soil.points, soil.grid, time}, forces);
   }
 

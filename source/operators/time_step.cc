@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
-#include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/kernels/cells.h>
 #include <caisson_mpm/operators/time_step.h>
@@ -33,6 +32,31 @@ namespace CaissonMPM
                        "The time step has this length; with auto it follows "
                        "from the Courant number. Units: s.",
                        Patterns::Double(0.));
+    add_word_or_number(*this,
+                       "Inertia tolerance",
+                       tolerance,
+                       "none",
+                       0.,
+                       "The inertia of the cell that limits the step, mass "
+                       "scaling times density times the square of the velocity "
+                       "of the body, is this share of the initial vertical "
+                       "effective stress at the tip. The scaling follows the "
+                       "penetration, and larger cells get less of it. Mass "
+                       "scaling must then be 1. Units: none.",
+                       Patterns::Double(1e-6, 10.));
+  }
+
+  void
+  TimeStep::tolerate_inertia(const double stress,
+                             const double density,
+                             const double speed)
+  {
+    constexpr double largest = 1e6; // as for a number
+    if (tolerance)
+      largest_inertia_ =
+        std::clamp(*tolerance * stress / (density * speed * speed),
+                   1.,
+                   largest);
   }
 
   void
@@ -153,6 +177,37 @@ namespace CaissonMPM
   } // namespace
 
   void
+  TimeStep::update_inertia(const BackgroundGrid      &grid,
+                           const MaterialPoints      &points,
+                           const std::vector<double> &squares,
+                           const double               worst)
+  {
+    const auto set = [&](const unsigned int cell, const double square) {
+      inertia_[cell] =
+        std::max(largest_inertia_ * square *
+                   inverse_square_of_size(grid.geometry(cell)) / worst,
+                 1.);
+    };
+    // 1. cells that points may enter until the next time: of the fastest wave
+    const double fastest = *std::max_element(squares.begin(), squares.end());
+    inertia_.resize(grid.n_cells());
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (!grid.is_rigid(cell))
+        set(cell,
+            std::min(fastest,
+                     worst / inverse_square_of_size(grid.geometry(cell))));
+    // 2. cells with points: of the fastest wave in them
+    for (const unsigned int cell : points.cells_with_points())
+      {
+        double square = 0.;
+        points.for_each_material(cell, [&](const unsigned int material) {
+          square = std::max(square, squares[material]);
+        });
+        set(cell, square);
+      }
+  }
+
+  void
   TimeStep::update_limit(const BackgroundGrid                 &grid,
                          const MaterialPoints                 &points,
                          const Soil                           &soil,
@@ -193,8 +248,16 @@ namespace CaissonMPM
             speed    = std::sqrt(square);
           }
       }
-    // 3. the limits, 1 / sqrt of the largest value on all ranks
+    // 3. the limits, 1 / sqrt of the largest value on all ranks, over the
+    //    inertia; those of the zones stay without it
     const MPI_Comm communicator = grid.communicator();
+    if (tolerance)
+      update_inertia(grid,
+                     points,
+                     squares,
+                     Utilities::MPI::max(worst, communicator));
+    worst /= largest_inertia_;
+    worst_of_soil /= largest_inertia_;
     Utilities::MPI::max(worst_of_zone, communicator, worst_of_zone);
     for (unsigned int zone = 0; zone < GridLines::n_zones; ++zone)
       limit_of_zone[zone] = 1. / std::sqrt(worst_of_zone[zone]);

@@ -303,7 +303,8 @@ namespace CaissonMPM
       {"method", parts.nodal_motion.settings().description()},
       {"time step",
        to_text(parts.clock.step_size, 6) + " s, mass scaling " +
-         to_text(parts.soil.mass_scaling(), 6)},
+         to_text(parts.soil.mass_scaling() * parts.time_step.largest_inertia(),
+                 6)},
       {"end", parts.schedule.end_description()}};
     const auto more = parts.water->report(parts.materials).lines;
     lines.insert(lines.end(), more.begin(), more.end());

@@ -105,6 +105,7 @@ namespace CaissonMPM
     parts.points.for_each_motion([&](const Point<2> &position,
                                      const Vector2  &velocity,
                                      const double,
+                                     const unsigned int,
                                      const unsigned int) {
       max_square = std::max(max_square, velocity.norm_square());
       row.points_in_body += parts.body.shape().contains(position, travel);
@@ -114,8 +115,8 @@ namespace CaissonMPM
     row.points_in_body = Utilities::MPI::sum(row.points_in_body, communicator);
     max_in_body        = std::max(max_in_body, row.points_in_body);
 
-    const PointEnergies energies =
-      compute_point_energies(parts.points, parts.materials, parts.grid);
+    const PointEnergies energies = compute_point_energies(
+      parts.points, parts.materials, parts.grid, parts.time_step.inertia());
     parts.energy.close(energies);
     row.kinetic_energy = energies.kinetic;
     row.external_work  = parts.energy.work_of_body;

@@ -54,6 +54,7 @@ namespace CaissonMPM
       contact.initialize(grid, body.surface());
       boundary_conditions.initialize(grid);
       nodal_motion.initialize(grid);
+      time_step.forget_cells();
     });
     enter_subsection("Method");
     add_parameter("Instruction set",
@@ -143,8 +144,21 @@ namespace CaissonMPM
   }
 
   void
+  Simulation::tolerate_inertia()
+  {
+    if (!time_step.has_inertia_tolerance())
+      return;
+    const Point<2>     tip(0., -std::max(body.penetration(), 0.));
+    const unsigned int material = soil.material_at(tip[vertical]);
+    time_step.tolerate_inertia(-soil.initial_stress(tip)[zz],
+                               soil.inertial_density(material),
+                               body.motion().usual_velocity());
+  }
+
+  void
   Simulation::choose_step()
   {
+    tolerate_inertia();
     clock.step_size =
       schedule.shorten(time_step.choose(grid, points, soil, materials));
     boundary_conditions.prepare(grid, clock.time, clock.step_size);
@@ -278,7 +292,12 @@ namespace CaissonMPM
   SoilOnGrid
   Simulation::soil_on_grid()
   {
-    return {*kernels, points, grid, materials, water->cell_pressure()};
+    return {*kernels,
+            points,
+            grid,
+            materials,
+            water->cell_pressure(),
+            time_step.inertia()};
   }
 
   void
@@ -395,6 +414,7 @@ namespace CaissonMPM
     grid.rebuild();
     grid.move_to(body.motion().travel());
     points.rebuild_sums();
+    tolerate_inertia();
     time_step.initialize(grid, points, soil, materials);
   }
 

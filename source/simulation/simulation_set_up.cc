@@ -64,6 +64,7 @@ namespace CaissonMPM
     water->check_parameters();
     nodal_forces.check_parameters();
     nodal_motion.settings().check_parameters();
+    check_inertia_tolerance();
     const WaterTraits &traits = water->traits();
     if ((traits.follows_soil || traits.bulk_modulus > 0.) &&
         !nodal_motion.settings().uses_mean_volume())
@@ -83,6 +84,22 @@ namespace CaissonMPM
         "walls from the layers in Soil.");
     recorder.check_parameters();
     kernels = Kernels::select_kernels(instruction_set.c_str());
+  }
+
+  void
+  Simulation::check_inertia_tolerance() const
+  {
+    if (!time_step.has_inertia_tolerance())
+      return;
+    if (soil.mass_scaling() > 1.)
+      throw BadInput("Time/Inertia tolerance chooses the mass scaling of each "
+                     "cell. Remove Time/Mass scaling, or set the tolerance to "
+                     "none.");
+    if (body.shape().expands() || body.motion().usual_velocity() == 0.)
+      throw BadInput(
+        "Time/Inertia tolerance refers to the speed of a body that "
+        "is pushed into the soil with a given velocity. Set it to "
+        "none, and choose Time/Mass scaling.");
   }
 
   void
@@ -181,7 +198,8 @@ namespace CaissonMPM
     const double             scaling = soil.mass_scaling();
     const auto               cells   = body.shape().cells_across_wall();
     if (body.shape().exists() && !body.motion().follows_loads() &&
-        !water->traits().follows_soil && scaling < usual_scaling)
+        !water->traits().follows_soil && scaling < usual_scaling &&
+        !time_step.has_inertia_tolerance())
       result.push_back("Time/Mass scaling = " + to_text(usual_scaling) +
                        " takes " +
                        to_text(std::sqrt(scaling / usual_scaling), 2) +
@@ -234,6 +252,7 @@ namespace CaissonMPM
       resume();
     else
       start();
+    tolerate_inertia();
     time_step.initialize(grid, points, soil, materials);
     check_initial_speed();
     recorder.try_observations();
@@ -250,6 +269,7 @@ namespace CaissonMPM
     points.for_each_motion([&](const Point<2> &,
                                const Vector2 &velocity,
                                const double,
+                               const unsigned int,
                                const unsigned int) {
       fastest_point = std::max(fastest_point, velocity.norm());
     });

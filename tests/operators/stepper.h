@@ -98,6 +98,7 @@ struct Stepper
     scene.points.for_each_motion([&](const dealii::Point<2> &,
                                      const Vector2 &velocity,
                                      const double   mass,
+                                     const unsigned int,
                                      const unsigned int) {
       result.mass += mass;
       result.momentum += mass * velocity;

@@ -164,8 +164,8 @@ namespace CaissonMPM
     void
     level_volume_ratio(std::vector<double> &ratio);
 
-    /** Call action(position, velocity, mass, material) for every point: less
-     * work than for_each(). */
+    /** Call action(position, velocity, mass, material, cell) for every point:
+     * less work than for_each(). */
     template <typename Action>
     void
     for_each_motion(const Action &action) const
@@ -176,7 +176,8 @@ namespace CaissonMPM
           action(dealii::Point<2>(p.r[lane], p.z[lane]),
                  dealii::Tensor<1, 2>({p.velocity_r[lane], p.velocity_z[lane]}),
                  p.mass[lane],
-                 headers[b].material);
+                 headers[b].material,
+                 cell);
         });
     }
 

@@ -31,7 +31,8 @@ namespace CaissonMPM
 
         [[gnu::always_inline]] inline CellContribution(
           const LaneSums<Number, 17> &sums,
-          const Number               *body_force)
+          const Number               *body_force,
+          const Number                inertia)
         {
           moments_to_corners(sums.sum, mass);
           for (int c = 0; c < 2; ++c)
@@ -39,8 +40,13 @@ namespace CaissonMPM
               moments_to_corners(sums.sum + PointSums<Number>::momentum + 4 * c,
                                  momentum[c]);
               for (int i = 0; i < 4; ++i)
-                force[c][i] = mass[i] * body_force[c];
+                {
+                  force[c][i] = mass[i] * body_force[c];
+                  momentum[c][i] *= inertia;
+                }
             }
+          for (Number &m : mass)
+            m *= inertia;
         }
 
         [[gnu::always_inline]] inline void
@@ -428,7 +434,10 @@ namespace CaissonMPM
               group.lanes([&](const unsigned int c) {
                 return step.materials[step.moments[c].material].body_force[1];
               })};
-            CellContribution<Number> contribution(sums, body_force);
+            CellContribution<Number> contribution(
+              sums, body_force, group.lanes([&](const unsigned int c) {
+                return inertia_in(step, c);
+              }));
 
             // 3. f_I -= int (sigma . grad N_I + e_r kappa sigma_tt N_I/r) dV,
             //    over Gauss points and points.

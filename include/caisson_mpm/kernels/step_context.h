@@ -29,7 +29,17 @@ namespace CaissonMPM
       unsigned int      n_corners = 0;
       // [n_cells], excess pore pressure of undrained soil; null: none (Pa)
       const double *pore_pressure = nullptr;
+      // [n_cells], by which the mass of the points counts as inertia in a
+      // cell; null: 1
+      const double *inertia = nullptr;
     };
+
+    /** The factor of the inertia in a cell. */
+    inline double
+    inertia_in(const StepContext &step, const unsigned int cell)
+    {
+      return step.inertia != nullptr ? step.inertia[cell] : 1.;
+    }
 
     /** The nodal velocities that update the points, each [n_nodes]. */
     struct NodalFields

@@ -29,11 +29,13 @@ namespace CaissonMPM
     double weight    = 0.; // sum of |terms| of the potential energy
   };
 
-  /** Find these sums, of all ranks and the whole circumference. Collective. */
+  /** Find these sums, of all ranks and the whole circumference, with the
+   * factors of the inertia in the cells [n_cells] (null: 1). Collective. */
   PointEnergies
   compute_point_energies(const MaterialPoints                 &points,
                          const std::vector<Kernels::Material> &materials,
-                         const BackgroundGrid                 &grid);
+                         const BackgroundGrid                 &grid,
+                         const double *inertia = nullptr);
 
   /**
    * The balance of a run. add() is called in every step, close() at records;

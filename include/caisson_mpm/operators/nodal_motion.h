@@ -26,6 +26,7 @@ namespace CaissonMPM
     const BackgroundGrid                 &grid;
     const std::vector<Kernels::Material> &materials;
     const double                         *pore_pressure; // see StepContext
+    const double                         *inertia;       // see StepContext
   };
 
   /**

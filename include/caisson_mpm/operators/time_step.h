@@ -8,9 +8,17 @@
 // scaling. Where the stiffness depends on
 // stress and void ratio, it is the largest of all points of a layer. Mass
 // scaling enters inertia only: weight and friction are those of the real soil.
+//
+// With an inertia tolerance T, the cell that limits the step gets the scaling
+//   s = T sigma / (rho v^2) >= 1
+// and every other cell only as much as it needs for the same step, at least 1.
+// sigma is the initial vertical effective stress at the tip, v the speed of the
+// body. The factor acts where the points of a cell bring mass and momentum to
+// its nodes: the points keep mass and velocity when it changes.
 #ifndef caisson_mpm_operators_time_step_h
 #define caisson_mpm_operators_time_step_h
 
+#include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/kernels/material.h>
@@ -30,6 +38,37 @@ namespace CaissonMPM
   {
   public:
     TimeStep();
+
+    /** Whether the scaling follows from the inertia tolerance. */
+    bool
+    has_inertia_tolerance() const
+    {
+      return tolerance.has_value();
+    }
+
+    /** Let the inertia of the cell that limits the step, @p density times the
+     * square of @p speed, be the tolerated share of @p stress, from the next
+     * search of the limit on. The same on all ranks. Units: Pa, kg/m3, m/s. */
+    void
+    tolerate_inertia(const double stress,
+                     const double density,
+                     const double speed);
+
+    /** The scaling of the cell that limits the step, found from the tolerance;
+     * else 1. */
+    double
+    largest_inertia() const
+    {
+      return largest_inertia_;
+    }
+
+    /** The factor of the inertia in each cell of this rank [n_cells], or null
+     * if all of them are 1. */
+    const double *
+    inertia() const
+    {
+      return inertia_.empty() ? nullptr : inertia_.data();
+    }
 
     /** Find the step at the start or after a restart. Throws BadInput where a
      * fixed step is not stable. Collective. */
@@ -51,6 +90,15 @@ namespace CaissonMPM
            const MaterialPoints           &points,
            const Soil                     &soil,
            std::vector<Kernels::Material> &materials);
+
+    /** Find the factors of the inertia in the next step: the cells are other
+     * ones. */
+    void
+    forget_cells()
+    {
+      if (tolerance)
+        age = Intervals::time_step - 1;
+    }
 
     /** The step that was found last. Units: s. */
     double
@@ -86,6 +134,14 @@ namespace CaissonMPM
                   const MaterialPoints           &points,
                   const Soil                     &soil,
                   std::vector<Kernels::Material> &materials);
+    /** Set the factors of the inertia, where @p worst is the square of the
+     * largest frequency of all cells without them, in the measure of
+     * inverse_square_of_size(). */
+    void
+    update_inertia(const BackgroundGrid      &grid,
+                   const MaterialPoints      &points,
+                   const std::vector<double> &squares,
+                   const double               worst);
     void
     update_limit(const BackgroundGrid                 &grid,
                  const MaterialPoints                 &points,
@@ -102,12 +158,14 @@ namespace CaissonMPM
     text_of_too_large_step() const;
 
     double                courant = 0.5;
-    std::optional<double> fixed_step;
+    std::optional<double> fixed_step, tolerance;
     double                limit = 0., limit_of_soil = 0.; // s
     // of all ranks; infinite where a zone has no points
     std::array<double, GridLines::n_zones> limit_of_zone;
-    unsigned int age = 0; // steps since the limit was found
-    std::string  limiting_cell;
+    unsigned int        age = 0; // steps since the limit was found
+    std::string         limiting_cell;
+    double              largest_inertia_ = 1.;
+    std::vector<double> inertia_;
   };
 } // namespace CaissonMPM
 

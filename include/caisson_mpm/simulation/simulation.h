@@ -116,6 +116,8 @@ namespace CaissonMPM
     void
     check_parameters();
     void
+    check_inertia_tolerance() const;
+    void
     place_lines();
     /** Return the mass of the body's cells on all ranks. Collective. Units: kg.
      */
@@ -168,6 +170,9 @@ namespace CaissonMPM
     void
     timed(const char *section, const Action &action);
     // the parts of a step, in their order
+    /** Bring stress and density at the tip to the time step. */
+    void
+    tolerate_inertia();
     void
     choose_step();
     StepSize
