@@ -67,7 +67,10 @@ namespace CaissonMPM
   {
     update_moduli(grid.communicator(), points, soil, materials);
     update_limit(grid, points, soil, materials);
-    age = 1; // the start of a run counts as a step
+    // The start of a run counts as a step. With a tolerance, the search is due
+    // in the steps in which ranks may have repartitioned the mesh, so that it
+    // comes in the same steps on any number of ranks.
+    age = tolerance ? -1 : 1;
     if (!std::isfinite(limit) || limit <= 0.)
       throw BadInput("the stability limit of the time step is " +
                      to_text(limit) + " s, set by " + limiting_cell +
@@ -84,7 +87,7 @@ namespace CaissonMPM
                    std::vector<Kernels::Material> &materials)
   {
     // The mesh moves slowly, and the search goes through all cells.
-    if (++age == Intervals::time_step)
+    if (++age == static_cast<int>(Intervals::time_step))
       {
         update_moduli(grid.communicator(), points, soil, materials);
         update_limit(grid, points, soil, materials);
@@ -161,6 +164,21 @@ namespace CaissonMPM
       return 1. / (g.width * g.width) + (1. + rise * rise) / (h * h);
     }
 
+    /** c^2 = (lambda + 2 mu) / rho of each material, the water included or
+     * not; the stiffness of the points changes p_wave_modulus. Units: m2/s2. */
+    std::vector<double>
+    squares_of_waves(const Soil                           &soil,
+                     const std::vector<Kernels::Material> &materials,
+                     const bool                            with_water)
+    {
+      std::vector<double> squares;
+      for (unsigned int i = 0; i < soil.n_materials(); ++i)
+        squares.push_back((materials[i].p_wave_modulus -
+                           (with_water ? 0. : materials[i].water_modulus)) /
+                          soil.inertial_density(i));
+      return squares;
+    }
+
     std::string
     describe(const BackgroundGrid &grid,
              const unsigned int    cell,
@@ -213,17 +231,10 @@ namespace CaissonMPM
                          const Soil                           &soil,
                          const std::vector<Kernels::Material> &materials)
   {
-    // 1. c^2 = (lambda + 2 mu) / rho of each material, with and without the
-    //    water; the stiffness of the points changes p_wave_modulus
-    std::vector<double> squares, squares_of_soil; // of wave speeds, m2/s2
-    for (unsigned int i = 0; i < soil.n_materials(); ++i)
-      {
-        const Kernels::Material &material = materials[i];
-        const double             density  = soil.inertial_density(i);
-        squares.push_back(material.p_wave_modulus / density);
-        squares_of_soil.push_back(
-          (material.p_wave_modulus - material.water_modulus) / density);
-      }
+    // 1. c^2 of each material, with and without the water
+    const std::vector<double> squares = squares_of_waves(soil, materials, true),
+                              squares_of_soil =
+                                squares_of_waves(soil, materials, false);
     // 2. the largest c^2 (1/dr^2 + 1/dz^2) of the cells of this rank, of the
     //    stiffest material in each, and the same by zone and without the water
     unsigned int        limiting = 0;

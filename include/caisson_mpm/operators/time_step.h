@@ -162,7 +162,7 @@ namespace CaissonMPM
     double                limit = 0., limit_of_soil = 0.; // s
     // of all ranks; infinite where a zone has no points
     std::array<double, GridLines::n_zones> limit_of_zone;
-    unsigned int        age = 0; // steps since the limit was found
+    int                 age = 0; // steps since the limit was found
     std::string         limiting_cell;
     double              largest_inertia_ = 1.;
     std::vector<double> inertia_;
