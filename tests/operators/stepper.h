@@ -57,6 +57,7 @@ struct Stepper
             scene.points,
             scene.grid,
             materials,
+            nullptr,
             nullptr};
   }
 
