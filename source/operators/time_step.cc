@@ -47,19 +47,6 @@ namespace CaissonMPM
   }
 
   void
-  TimeStep::tolerate_inertia(const double stress,
-                             const double density,
-                             const double speed)
-  {
-    constexpr double largest = 1e6; // as for a number
-    if (tolerance)
-      largest_inertia_ =
-        std::clamp(*tolerance * stress / (density * speed * speed),
-                   1.,
-                   largest);
-  }
-
-  void
   TimeStep::initialize(const BackgroundGrid           &grid,
                        MaterialPoints                 &points,
                        const Soil                     &soil,
@@ -179,6 +166,19 @@ namespace CaissonMPM
       return squares;
     }
 
+    /** The largest of the @p values of the materials in a cell. */
+    double
+    largest_in(const MaterialPoints      &points,
+               const unsigned int         cell,
+               const std::vector<double> &values)
+    {
+      double largest = 0.;
+      points.for_each_material(cell, [&](const unsigned int material) {
+        largest = std::max(largest, values[material]);
+      });
+      return largest;
+    }
+
     std::string
     describe(const BackgroundGrid &grid,
              const unsigned int    cell,
@@ -200,29 +200,25 @@ namespace CaissonMPM
                            const std::vector<double> &squares,
                            const double               worst)
   {
+    constexpr double largest = 1e6; // as for a number
+    largest_inertia_ =
+      std::clamp(*tolerance * stress_over_inertia_at_tip(), 1., largest);
     const auto set = [&](const unsigned int cell, const double square) {
       inertia_[cell] =
-        std::max(largest_inertia_ * square *
-                   inverse_square_of_size(grid.geometry(cell)) / worst,
-                 1.);
+        std::clamp(largest_inertia_ * square *
+                     inverse_square_of_size(grid.geometry(cell)) / worst,
+                   1.,
+                   largest_inertia_);
     };
     // 1. cells that points may enter until the next time: of the fastest wave
     const double fastest = *std::max_element(squares.begin(), squares.end());
     inertia_.resize(grid.n_cells());
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       if (!grid.is_rigid(cell))
-        set(cell,
-            std::min(fastest,
-                     worst / inverse_square_of_size(grid.geometry(cell))));
+        set(cell, fastest);
     // 2. cells with points: of the fastest wave in them
     for (const unsigned int cell : points.cells_with_points())
-      {
-        double square = 0.;
-        points.for_each_material(cell, [&](const unsigned int material) {
-          square = std::max(square, squares[material]);
-        });
-        set(cell, square);
-      }
+      set(cell, largest_in(points, cell, squares));
   }
 
   void
@@ -242,11 +238,8 @@ namespace CaissonMPM
     std::vector<double> worst_of_zone(GridLines::n_zones, 0.);
     for (const unsigned int cell : points.cells_with_points())
       {
-        double square = 0., of_soil = 0.;
-        points.for_each_material(cell, [&](const unsigned int material) {
-          square  = std::max(square, squares[material]);
-          of_soil = std::max(of_soil, squares_of_soil[material]);
-        });
+        const double square    = largest_in(points, cell, squares),
+                     of_soil   = largest_in(points, cell, squares_of_soil);
         const double size      = inverse_square_of_size(grid.geometry(cell)),
                      frequency = square * size;
         worst_of_soil          = std::max(worst_of_soil, of_soil * size);

@@ -56,6 +56,7 @@ namespace CaissonMPM
       nodal_motion.initialize(grid);
       time_step.forget_cells();
     });
+    time_step.follow_tip([this]() { return stress_over_inertia_at_tip(); });
     enter_subsection("Method");
     add_parameter("Instruction set",
                   instruction_set,
@@ -143,22 +144,19 @@ namespace CaissonMPM
     action();
   }
 
-  void
-  Simulation::tolerate_inertia()
+  double
+  Simulation::stress_over_inertia_at_tip() const
   {
-    if (!time_step.has_inertia_tolerance())
-      return;
-    const Point<2>     tip(0., -std::max(body.penetration(), 0.));
-    const unsigned int material = soil.material_at(tip[vertical]);
-    time_step.tolerate_inertia(-soil.initial_stress(tip)[zz],
-                               soil.inertial_density(material),
-                               body.motion().usual_velocity());
+    const Point<2> tip(0., -std::max(body.penetration(), 0.));
+    const double   density =
+                   soil.inertial_density(soil.material_at(tip[vertical])),
+                 speed = body.motion().usual_velocity();
+    return -soil.initial_stress(tip)[zz] / (density * speed * speed);
   }
 
   void
   Simulation::choose_step()
   {
-    tolerate_inertia();
     clock.step_size =
       schedule.shorten(time_step.choose(grid, points, soil, materials));
     boundary_conditions.prepare(grid, clock.time, clock.step_size);
@@ -414,7 +412,6 @@ namespace CaissonMPM
     grid.rebuild();
     grid.move_to(body.motion().travel());
     points.rebuild_sums();
-    tolerate_inertia();
     time_step.initialize(grid, points, soil, materials);
   }
 

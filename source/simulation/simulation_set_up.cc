@@ -252,7 +252,6 @@ namespace CaissonMPM
       resume();
     else
       start();
-    tolerate_inertia();
     time_step.initialize(grid, points, soil, materials);
     check_initial_speed();
     recorder.try_observations();

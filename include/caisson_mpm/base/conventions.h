@@ -15,6 +15,9 @@
 //  - Mass scaling multiplies inertia and leaves weight: the masses of material
 //    points and nodes, momenta and kinetic energies are the scaled ones, and
 //    body forces are divided by the factor. Only Soil knows the factor.
+//    The factors of an inertia tolerance are by cell, and TimeStep knows them:
+//    they multiply what the points bring to nodes and to the kinetic energy.
+//    The masses of the points do not contain them.
 //  - Penetration is the depth of the skirt tip's lowest point below z = 0.
 #ifndef caisson_mpm_base_conventions_h
 #define caisson_mpm_base_conventions_h

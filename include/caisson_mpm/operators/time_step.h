@@ -27,6 +27,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,13 +47,14 @@ namespace CaissonMPM
       return tolerance.has_value();
     }
 
-    /** Let the inertia of the cell that limits the step, @p density times the
-     * square of @p speed, be the tolerated share of @p stress, from the next
-     * search of the limit on. The same on all ranks. Units: Pa, kg/m3, m/s. */
+    /** Let the tolerance refer to this: the initial stress at the tip over
+     * density times the square of the speed of the body. It is asked for
+     * whenever the limit is found, and is the same on all ranks. */
     void
-    tolerate_inertia(const double stress,
-                     const double density,
-                     const double speed);
+    follow_tip(const std::function<double()> &stress_over_inertia)
+    {
+      stress_over_inertia_at_tip = stress_over_inertia;
+    }
 
     /** The scaling of the cell that limits the step, found from the tolerance;
      * else 1. */
@@ -134,9 +136,10 @@ namespace CaissonMPM
                   const MaterialPoints           &points,
                   const Soil                     &soil,
                   std::vector<Kernels::Material> &materials);
-    /** Set the factors of the inertia, where @p worst is the square of the
-     * largest frequency of all cells without them, in the measure of
-     * inverse_square_of_size(). */
+    /** Find the scaling from the tolerance, and set the factors of all cells.
+     * @p squares: of the wave speed of each material (m2/s2); @p worst: the
+     * largest of them over the square of the size of a cell, on all ranks
+     * (1/s2). */
     void
     update_inertia(const BackgroundGrid      &grid,
                    const MaterialPoints      &points,
@@ -162,10 +165,11 @@ namespace CaissonMPM
     double                limit = 0., limit_of_soil = 0.; // s
     // of all ranks; infinite where a zone has no points
     std::array<double, GridLines::n_zones> limit_of_zone;
-    int                 age = 0; // steps since the limit was found
-    std::string         limiting_cell;
-    double              largest_inertia_ = 1.;
-    std::vector<double> inertia_;
+    int                     age = 0; // steps since the limit was found
+    std::string             limiting_cell;
+    std::function<double()> stress_over_inertia_at_tip;
+    double                  largest_inertia_ = 1.;
+    std::vector<double>     inertia_;
   };
 } // namespace CaissonMPM
 

@@ -170,9 +170,9 @@ namespace CaissonMPM
     void
     timed(const char *section, const Action &action);
     // the parts of a step, in their order
-    /** Bring stress and density at the tip to the time step. */
-    void
-    tolerate_inertia();
+    /** See TimeStep::follow_tip(). */
+    double
+    stress_over_inertia_at_tip() const;
     void
     choose_step();
     StepSize
