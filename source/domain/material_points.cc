@@ -176,8 +176,10 @@ namespace CaissonMPM
     if (block < 0 || headers[block].count == block_size)
       block = new_block(cell, block >= 0 ? block : last, material);
     set(block, headers[block].count++, point);
-    if (headers[block].count == 1)
-      pad(block, 1, block_size);
+    // An odd count begins a register, whatever the width of the kernels. They
+    // have not moved the padding of the registers without points.
+    if (headers[block].count % 2 == 1)
+      pad(block, headers[block].count, block_size);
     ++n_points_;
   }
 

@@ -122,19 +122,21 @@ namespace CaissonMPM
           {
             const BlockHeader header = points.headers[block];
             const PointBlock &b      = points.blocks[block];
-            for (int lane = 0; lane < block_size; lane += Number::width)
-              {
-                const LoadedPoints<Number> p(b, lane, cell.map);
-                // Padding has neither mass nor volume: it adds nothing.
-                sums.add(p.local,
-                         p.mass,
-                         Number::load(b.velocity_r + lane),
-                         Number::load(b.velocity_z + lane));
-                add_stress(cell,
-                           p,
-                           materials[header.material].p_wave_modulus,
-                           internal);
-              }
+            with_lanes<Number>(header, [&](auto n_lanes) CAISSON_LAMBDA {
+              for (int lane = 0; lane < n_lanes; lane += Number::width)
+                {
+                  const LoadedPoints<Number> p(b, lane, cell.map);
+                  // Padding has neither mass nor volume: it adds nothing.
+                  sums.add(p.local,
+                           p.mass,
+                           Number::load(b.velocity_r + lane),
+                           Number::load(b.velocity_z + lane));
+                  add_stress(cell,
+                             p,
+                             materials[header.material].p_wave_modulus,
+                             internal);
+                }
+            });
             several |= header.material != material;
             block = header.next;
           }

@@ -25,6 +25,29 @@ namespace CaissonMPM
       for (; block >= 0; block = points.headers[block].next)
         action(block);
     }
+
+    /** A number that is known to the compiler. */
+    template <int n>
+    struct LaneCount
+    {
+      constexpr operator int() const
+      {
+        return n;
+      }
+    };
+
+    /** Call action(n) for the first n lanes of a block: those of one register
+     * where they hold all of its points, else all. The loop over the registers
+     * is unrolled, so that they share what is the same in all lanes. */
+    template <typename Number, typename Action>
+    [[gnu::always_inline]] inline void
+    with_lanes(const BlockHeader &header, const Action &action)
+    {
+      if (Number::width < block_size && header.count <= Number::width)
+        action(LaneCount<Number::width>());
+      else
+        action(LaneCount<block_size>());
+    }
   } // namespace Kernels
 } // namespace CaissonMPM
 

@@ -206,8 +206,9 @@ namespace CaissonMPM
                                           parameters}));
       }
 
-      /** Update one block; returns its lanes outside the moved cell. */
-      template <typename Law, typename Number>
+      /** Update the first @p n_lanes of a block; returns those outside the moved
+       * cell. */
+      template <typename Law, int n_lanes, typename Number>
       [[gnu::always_inline]] inline unsigned int
       update_block(PointBlock             &b,
                    PointHistory           &history,
@@ -221,7 +222,7 @@ namespace CaissonMPM
       {
         unsigned int outside = 0;
         limited              = 0;
-        for (int lane = 0; lane < block_size; lane += Number::width)
+        for (int lane = 0; lane < n_lanes; lane += Number::width)
           {
             Number r = Number::load(b.r + lane), z = Number::load(b.z + lane);
             const LocalPoint<Number> p = cell.map.at_position(r, z);
@@ -291,25 +292,6 @@ namespace CaissonMPM
             }
       }
 
-      /**
-       * Choose the field from which a cell takes its change of volume. In soil
-       * with a large bulk modulus vibrations of the volume decay only with the
-       * new velocities: those that the points bring back (MUSL) are smoother,
-       * and keep them.
-       */
-      [[gnu::always_inline]] inline void
-      choose_volume_field(const StepContext &step,
-                          const unsigned int cell,
-                          CellUpdate        &update)
-      {
-        const CellMoments &moments = step.moments[cell];
-        const double       share =
-          moments.full * step.materials[moments.material].volume_damping;
-        update.volume = update.strain;
-        if (share > 0.)
-          update.volume.approach(update.advection, share);
-      }
-
       /** Prepare the update of a cell, all but the mean divergence. */
       [[gnu::always_inline]] inline void
       prepare_cell(const StepContext &step,
@@ -329,7 +311,6 @@ namespace CaissonMPM
         update.strain                  = CellField<>(fields.strain, nodes);
         if (grid.flags[cell] & next_to_body)
           see_corners(step, fields, cell, update);
-        choose_volume_field(step, cell, update);
         update.axisymmetric = grid.axisymmetric;
         update.bubble[0] = update.bubble[1] = 0.;
         update.speed_limit                  = 0.;
@@ -393,16 +374,18 @@ namespace CaissonMPM
             unsigned int    outside = 0, limited = 0;
             const Material &material = step.materials[header.material];
             with_law(material, [&](auto law, const auto &) CAISSON_LAMBDA {
-              outside =
-                update_block<decltype(law), Number>(points.blocks[block],
-                                                    points.histories[block],
-                                                    in_group,
-                                                    update,
-                                                    settings,
-                                                    material,
-                                                    limited,
-                                                    sums,
-                                                    progress.deferred);
+              with_lanes<Number>(header, [&](auto n_lanes) CAISSON_LAMBDA {
+                outside = update_block<decltype(law), n_lanes, Number>(
+                  points.blocks[block],
+                  points.histories[block],
+                  in_group,
+                  update,
+                  settings,
+                  material,
+                  limited,
+                  sums,
+                  progress.deferred);
+              });
             });
             // padding moves like the point that it repeats, but is none
             const unsigned int real = (1u << header.count) - 1u;
@@ -481,8 +464,7 @@ namespace CaissonMPM
             CellUpdate update[width];
             for (int i = 0; i < group.n; ++i)
               prepare_cell(step, how, group.cell[i], update[i]);
-            find_volume_changes(
-              group, map, step.grid.axisymmetric, how, update);
+            find_volume_changes(step, group, map, how, update);
             if (step.pore_pressure != nullptr)
               result.stress_work +=
                 work_on_water(step, group, update, how.settings.time_step);

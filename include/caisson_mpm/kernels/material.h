@@ -38,7 +38,7 @@ namespace CaissonMPM
       // lambda + 2 mu, the largest of all points, and water_modulus (Pa)
       double        p_wave_modulus;
       double        water_modulus  = 0.; // of the water in undrained soil (Pa)
-      double        volume_damping = 0.; // 0 to 1: see choose_volume_field()
+      double        volume_damping = 0.; // 0 to 1: see find_mean_divergence()
       VolumeInShear volume_in_shear;
       bool          has_loosest_state = false; // kernels/loosest_state.h
       StressMeasure stress_measure    = StressMeasure::cauchy;

@@ -50,7 +50,7 @@ namespace CaissonMPM
 
         /** Go a share of the way to another field. */
         [[gnu::always_inline]] inline void
-        approach(const CellField &other, const double share)
+        approach(const CellField &other, const Real share)
         {
           for (int i = 0; i < 4; ++i)
             {
@@ -110,7 +110,7 @@ namespace CaissonMPM
       struct CellUpdate
       {
         CellMap<>     map, moved;
-        CellField<>   advection, transfer, strain, volume;
+        CellField<>   advection, transfer, strain;
         double        axisymmetric;
         double        mean_divergence;  // used where B-bar is on
         double        loose_divergence; // the same, kernels/loosest_state.h

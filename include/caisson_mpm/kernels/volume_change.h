@@ -36,19 +36,27 @@ namespace CaissonMPM
         return result;
       }
 
-      /** The mean divergence of each cell of a group, from the volume fields of
-       * @p update [group.n]. */
+      /**
+       * The mean divergence of each cell of a group. In soil with a large bulk
+       * modulus vibrations of the volume decay only with the new velocities,
+       * @p advection: those that the points bring back (MUSL) are smoother, and
+       * keep them.
+       */
       template <typename Number>
       [[gnu::always_inline]] inline void
-      find_mean_divergence(const CellGroup<Number> &group,
+      find_mean_divergence(const StepContext       &step,
+                           const CellGroup<Number> &group,
                            const CellMap<Number>   &map,
-                           const double             axisymmetric,
+                           const CellField<Number> &advection,
                            CellUpdate              *update)
       {
-        const Number mean =
-          mean_divergence(map,
-                          axisymmetric,
-                          field_of_group(group, update, &CellUpdate::volume));
+        CellField<Number> v =
+          field_of_group(group, update, &CellUpdate::strain);
+        v.approach(advection, group.lanes([&](const unsigned int cell) {
+          const CellMoments &moments = step.moments[cell];
+          return moments.full * step.materials[moments.material].volume_damping;
+        }));
+        const Number mean = mean_divergence(map, step.grid.axisymmetric, v);
         for (int i = 0; i < group.n; ++i)
           update[i].mean_divergence = mean[i];
       }
@@ -68,10 +76,9 @@ namespace CaissonMPM
       find_bubbles(const CellGroup<Number> &group,
                    const CellMap<Number>   &map,
                    const double             axisymmetric,
+                   const CellField<Number> &v,
                    CellUpdate              *update)
       {
-        const CellField<Number> v =
-          field_of_group(group, update, &CellUpdate::advection);
         // div v and 1, times r dz/deta, in the middle of the sides
         constexpr double xi[4] = {0., 1., .5, .5}, eta[4] = {.5, .5, 0., 1.};
         Number           flow[4], weight[4], sum_of_flow(0.), total(0.);
@@ -107,13 +114,15 @@ namespace CaissonMPM
       /** Both for B-bar: the volume change of points, and where they move. */
       template <typename Number>
       [[gnu::always_inline]] inline void
-      make_volume_change_uniform(const CellGroup<Number> &group,
+      make_volume_change_uniform(const StepContext       &step,
+                                 const CellGroup<Number> &group,
                                  const CellMap<Number>   &map,
-                                 const double             axisymmetric,
                                  CellUpdate              *update)
       {
-        find_mean_divergence(group, map, axisymmetric, update);
-        find_bubbles(group, map, axisymmetric, update);
+        const CellField<Number> advection =
+          field_of_group(group, update, &CellUpdate::advection);
+        find_mean_divergence(step, group, map, advection, update);
+        find_bubbles(group, map, step.grid.axisymmetric, advection, update);
       }
 
       /** Take the mean divergence of cells from the list @p rates [n_cells],
@@ -135,14 +144,14 @@ namespace CaissonMPM
       /** Find the volume changes of the cells of a group, by all of these. */
       template <typename Number>
       [[gnu::always_inline]] inline void
-      find_volume_changes(const CellGroup<Number> &group,
+      find_volume_changes(const StepContext       &step,
+                          const CellGroup<Number> &group,
                           const CellMap<Number>   &map,
-                          const double             axisymmetric,
                           const PointUpdate       &how,
                           CellUpdate              *update)
       {
         if (how.settings.mean_volume_change)
-          make_volume_change_uniform(group, map, axisymmetric, update);
+          make_volume_change_uniform(step, group, map, update);
         take_volume_rates(group, how.volume_rates, update);
       }
     } // namespace CAISSON_KERNEL_ISA
