@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/bodies/body_shape.h>
 
 #include <deal.II/base/patterns.h>
@@ -52,5 +54,17 @@ namespace CaissonMPM
       "Units: none.",
       prm,
       Patterns::Integer(1, 64));
+  }
+
+  void
+  BodyShape::check_cells_across(const unsigned int n) const
+  {
+    const double wanted = n * refinement;
+    if (std::abs(wanted - refined(n)) > 1e-6 * wanted)
+      throw BadInput("Rigid body/Cells across the wall = " + to_text(n) +
+                     ", times Grid/Refinement = " + to_text(refinement) +
+                     ", is " + to_text(wanted) +
+                     " and must be a whole number. Use Grid/Refinement = " +
+                     to_text(double(refined(n)) / n) + ".");
   }
 } // namespace CaissonMPM

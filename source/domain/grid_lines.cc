@@ -39,10 +39,11 @@ namespace CaissonMPM
                   Patterns::Integer(1));
     add_parameter("Refinement",
                   refinement,
-                  "All cell sizes are divided by this number, for studies of "
-                  "convergence. Units: none.",
+                  "All cell sizes are divided by this number, at every place, "
+                  "for studies of convergence; distances in the mesh stay. "
+                  "Numbers below 1 make the mesh coarser. Units: none.",
                   prm,
-                  Patterns::Integer(1, 256));
+                  Patterns::Double(1. / 64., 256.));
   }
 
   namespace

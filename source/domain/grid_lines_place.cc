@@ -103,12 +103,21 @@ namespace CaissonMPM
     return graded_lines(fixed, spacing.size);
   }
 
+  double
+  GridLines::size_at(const double distance,
+                     const double fine,
+                     const double coarse) const
+  {
+    const double growing = (growth - 1.) * std::max(0., distance);
+    return std::min(std::max(coarse / refinement, fine),
+                    fine + growing / refinement);
+  }
+
   GridLines::Spacing
   GridLines::even_spacing(const std::vector<FixedLine> &fixed,
                           const double                  size) const
   {
-    const double refined = size / refinement;
-    return {fixed, [=](double) { return refined; }, refined, ""};
+    return {fixed, [=](double) { return size; }, size, ""};
   }
 
   std::pair<double, std::string>
@@ -117,10 +126,11 @@ namespace CaissonMPM
                          const std::string entry) const
   {
     if (fine_size)
-      return {*fine_size, "Grid/Fine cell size = " + meters(*fine_size)};
+      return {*fine_size / refinement,
+              "Grid/Fine cell size = " + meters(*fine_size)};
     if (body.cell_width() > 0.)
       return {body.cell_width(), body.entry_of_cell_width()};
-    return {otherwise, entry + " = " + meters(otherwise)};
+    return {otherwise / refinement, entry + " = " + meters(otherwise)};
   }
 
   std::pair<double, double>
@@ -129,7 +139,7 @@ namespace CaissonMPM
     if (body.expands())
       return {inner_radius, body.right()};
     const double width = finest_cell(body, cell_width, "Grid/Cell width").first,
-                 inset = body.inset_of_sides() * width / refinement;
+                 inset = body.inset_of_sides() * width;
     const bool at_axis = body.left() <= inner_radius;
     return {body.left() + (at_axis ? 0. : inset), body.right() - inset};
   }
@@ -140,7 +150,7 @@ namespace CaissonMPM
     const FixedLine inner = {inner_radius, "Grid/Inner radius"},
                     outer = {outer_radius, "Grid/Outer radius"};
     if (!body.exists())
-      return even_spacing({inner, outer}, cell_width);
+      return even_spacing({inner, outer}, cell_width / refinement);
     const bool expands = body.expands();
     // one column of the cylinder is enough
     const auto [left, right] = sides_of_body(body);
@@ -160,13 +170,11 @@ namespace CaissonMPM
       if (expands && r < right)
         return right - inner_radius;
       const double distance = std::max({left - r, r - right, 0.}) - fine_width;
-      return std::min(std::max(cell_width, fine),
-                      fine + (growth - 1.) * std::max(0., distance)) /
-             refinement;
+      return size_at(distance, fine, cell_width);
     };
     return {{inner, {left, "the body"}, {right, "the body"}, outer},
             size,
-            fine / refinement,
+            fine,
             finest.second + " or Grid/Fine width = " + meters(fine_width)};
   }
 
@@ -189,7 +197,7 @@ namespace CaissonMPM
         fixed.push_back({z, entry});
       }
     if (!body.exists() || body.expands())
-      return even_spacing(fixed, cell_height);
+      return even_spacing(fixed, cell_height / refinement);
     if (body.bottom() < bottom || body.top() > top)
       throw BadInput("The body, from z = " + meters(body.bottom()) + " to " +
                      meters(body.top()) +
@@ -206,13 +214,11 @@ namespace CaissonMPM
     const double fine   = finest.first * (1u << levels);
     const auto   size   = [=](const double z) {
       const double distance = std::abs(z - shoulder) - fine_height;
-      return std::min(std::max(cell_height, fine),
-                      fine + (growth - 1.) * std::max(0., distance)) /
-             refinement;
+      return size_at(distance, fine, cell_height);
     };
     return {fixed,
             size,
-            fine / refinement,
+            fine,
             finest.second + " or Grid/Fine height = " + meters(fine_height)};
   }
 
@@ -268,8 +274,8 @@ namespace CaissonMPM
            "columns", "r", "Grid/Cell width", cell_width, in_r) :
          reason_for_number(
            "rows", "z", "Grid/Cell height", cell_height, in_z)) +
-      (refinement > 1 ? " Grid/Refinement = " + to_text(refinement) + "." :
-                        ""));
+      (refinement > 1. ? " Grid/Refinement = " + to_text(refinement) + "." :
+                         ""));
   }
 
   std::string
@@ -348,14 +354,14 @@ namespace CaissonMPM
     if (!fine_size || n == 0 || body.expands() || body.inset_of_sides() > 0.)
       return "";
     const double width  = columns[body_column_end] - columns[body_column_begin],
-                 actual = refinement * width / n;
-    if (std::abs(actual - *fine_size) <= tolerance * *fine_size)
+                 actual = width / n, wanted = *fine_size / refinement;
+    if (std::abs(actual - wanted) <= tolerance * wanted)
       return "";
     return "Grid/Fine cell size = " + meters(*fine_size) +
            " does not divide the width of the body, " + meters(width) +
-           ": the cells there are " + meters(actual) + " wide" +
-           (refinement > 1 ? ", before Grid/Refinement" : "") + ". Set " +
-           meters(actual) + ", or the width over another whole number.";
+           ": the cells there are " + meters(actual) + " wide" + ". Set " +
+           meters(actual * refinement) +
+           ", or the width over another whole number.";
   }
 
   // ------------------------------------------------------------ distortion

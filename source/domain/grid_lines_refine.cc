@@ -114,11 +114,12 @@ namespace CaissonMPM
     if (levels == 0 || !body.exists())
       return;
     const unsigned int size = 1u << levels, n = body.cells_across_wall();
-    if (!fine_size && n * refinement % size != 0)
-      throw BadInput("Rigid body/Cells across the wall = " + to_text(n) +
-                     ", times Grid/Refinement, must be a multiple of " +
-                     to_text(size) + ", because Grid/Refinement levels = " +
-                     to_text(levels) + " halves cells that many times.");
+    if (!fine_size && n % size != 0)
+      throw BadInput("Rigid body/Cells across the wall, times "
+                     "Grid/Refinement, = " +
+                     to_text(n) + " must be a multiple of " + to_text(size) +
+                     ", because Grid/Refinement levels = " + to_text(levels) +
+                     " halves cells that many times.");
     const double reach    = distance_of_tip(body) * (size / 2),
                  smallest = 2. * body.tip_height();
     if (is_wedge(body) && reach < smallest)

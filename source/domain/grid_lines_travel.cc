@@ -93,11 +93,11 @@ namespace CaissonMPM
                      meters(zone_top) + ".");
     const unsigned int row      = flattest_row_at(-uplift_to_hold, true);
     const double       smallest = height_of_row(row, -uplift_to_hold);
-    if (smallest < smallest_row)
+    if (smallest < smallest_row_height())
       throw BadInput(
         "Moving up by " + meters(uplift_to_hold) +
         " compresses a row above the body to " + meters(smallest) +
-        ", below Grid/Smallest row height = " + meters(smallest_row) +
+        ", below Grid/Smallest row height = " + meters(smallest_row_height()) +
         ". Raise Grid/Top, or set Grid/Upper zone = free.");
   }
 
@@ -114,11 +114,11 @@ namespace CaissonMPM
     const unsigned int size     = tree_.root_size();
     for (unsigned int i = body_column_end; i + 1 < columns.size(); i += size)
       smallest = std::min(smallest, factor * (columns[i + size] - columns[i]));
-    if (smallest < smallest_row)
+    if (smallest < smallest_row_height())
       throw BadInput(
         "The radius grows by " + meters(travel_to_hold) +
         ", which compresses a column to " + meters(smallest) +
-        ", below Grid/Smallest row height = " + meters(smallest_row) +
+        ", below Grid/Smallest row height = " + meters(smallest_row_height()) +
         ". Increase Grid/Outer radius, or reduce Grid/Smallest "
         "row height or the velocity.");
   }
@@ -134,7 +134,8 @@ namespace CaissonMPM
                      meters(zone_bottom - travel_to_hold) +
                      ", reduce Grid/Moving zone below tip, or push less far.");
     const unsigned int row = flattest_row_at(travel_to_hold, false);
-    if (row < n_rows() && height_of_row(row, travel_to_hold) < smallest_row)
+    if (row < n_rows() &&
+        height_of_row(row, travel_to_hold) < smallest_row_height())
       refuse_flat_row(row);
     if (upper_zone == UpperZone::free && height_at(top, travel_to_hold) <= 0.)
       throw BadInput("After a travel of " + meters(travel_to_hold) +
@@ -162,21 +163,21 @@ namespace CaissonMPM
         meters(rows[row + tree_.root_size()] - rows[row]) +
         " high, is compressed to " + meters(smallest) + " by the travel of " +
         meters(travel_to_hold) +
-        ", below Grid/Smallest row height = " + meters(smallest_row) +
+        ", below Grid/Smallest row height = " + meters(smallest_row_height()) +
         ". Move one of these lines, or reduce Grid/Smallest row "
         "height; the row also limits the time step.");
     const double factor = 1. - travel_to_hold / available;
     const double needed =
-      travel_to_hold / (1. - smallest_row * factor / smallest);
-    throw BadInput(
-      "The travel of " + meters(travel_to_hold) +
-      " compresses the lowest row to " + meters(smallest) +
-      ", below Grid/Smallest row height = " + meters(smallest_row) + ". " +
-      (smallest_row * factor < smallest ?
-         "Lower Grid/Bottom to about " + meters(zone_bottom - needed) +
-           ", or reduce" :
-         "Reduce") +
-      " Grid/Smallest row height.");
+      travel_to_hold / (1. - smallest_row_height() * factor / smallest);
+    throw BadInput("The travel of " + meters(travel_to_hold) +
+                   " compresses the lowest row to " + meters(smallest) +
+                   ", below Grid/Smallest row height = " +
+                   meters(smallest_row_height()) + ". " +
+                   (smallest_row_height() * factor < smallest ?
+                      "Lower Grid/Bottom to about " +
+                        meters(zone_bottom - needed) + ", or reduce" :
+                      "Reduce") +
+                   " Grid/Smallest row height.");
   }
 
   double

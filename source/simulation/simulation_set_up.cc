@@ -57,6 +57,7 @@ namespace CaissonMPM
   Simulation::check_parameters()
   {
     soil.check_parameters();
+    body.refine(lines.number_to_divide_by());
     body.check_parameters();
     lines.check_parameters();
     generator.check_parameters();

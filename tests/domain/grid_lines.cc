@@ -24,6 +24,8 @@ struct Lines : EmptyParameters
     prm.parse_input_from_string(parameters);
     dealii::ParameterAcceptor::parse_all_parameters(prm);
     lines.check_parameters();
+    body.refine(lines.number_to_divide_by());
+    body.check_parameters();
     lines.place(body.shape(), soil, travel, uplift);
   }
 
@@ -133,6 +135,79 @@ check_inset_edges()
       }
 }
 
+/** The number of cells of a row of lines from the first of them to @p x, with a
+ * part of the cell in which it lies. */
+double
+cells_to(const std::vector<double> &lines, const double x)
+{
+  const auto above = std::upper_bound(lines.begin() + 1, lines.end() - 1, x);
+  return (above - lines.begin()) - (*above - x) / (*above - *(above - 1));
+}
+
+/** The lines of one direction, taken from the cells. */
+std::vector<double>
+lines_of(const GridLines &lines, const unsigned int direction)
+{
+  std::vector<double> result;
+  const unsigned int  n =
+    direction == radial ? lines.n_columns() : lines.n_rows();
+  for (unsigned int i = 0; i <= n; ++i)
+    result.push_back(direction == radial ? lines.node_start(i, 0)[radial] :
+                                           lines.node_start(0, i)[vertical]);
+  return result;
+}
+
+/** Meshes of one family: between any two distances from the body, their numbers
+ * of cells have the ratio of Grid/Refinement. */
+void
+check_similar_meshes()
+{
+  const std::vector<double> distances = {0., .1, .2, .4, .8, 1.6};
+  for (const char *levels : {"0", "1"})
+    {
+      std::vector<double> of_base;
+      double              worst = 0., tip = 0.;
+      for (const double number : {1., .5, 1.5, 2., 3.})
+        {
+          const Lines s(
+            "subsection Rigid body\nset Kind = caisson\n"
+            "set Cells across the wall = 4\nset Tip angle = 30\nend\n"
+            "subsection Grid\nset Outer radius = 15\nset Bottom = -18\n"
+            "set Top = 8\nset Cell width = 1.2\nset Cell height = 0.4\n"
+            "set Growth ratio = 1.2\nset Fine width = 0.15\n"
+            "set Fine height = 0.15\nset Refined distance = 0.3\n"
+            "set Refinement levels = " +
+            std::string(levels) +
+            "\nset Refinement = " + std::to_string(number) + "\nend\n");
+          const auto columns = lines_of(s.lines, radial),
+                     rows    = lines_of(s.lines, vertical);
+          const double shoulder =
+            s.body.shape().bottom() + s.body.shape().tip_height();
+          std::vector<double> cells;
+          for (unsigned int i = 0; i + 1 < distances.size(); ++i)
+            {
+              const double a = distances[i], b = distances[i + 1];
+              cells.push_back(cells_to(columns, 3. + b) -
+                              cells_to(columns, 3. + a));
+              cells.push_back(cells_to(rows, shoulder - a) -
+                              cells_to(rows, shoulder - b));
+            }
+          if (number == 1.)
+            of_base = cells;
+          for (unsigned int i = 0; i < cells.size(); ++i)
+            worst =
+              std::max(worst, std::abs(cells[i] / (number * of_base[i]) - 1.));
+          // the bevel of the shoulder is half a cell high
+          tip = std::max(tip,
+                         std::abs(s.body.shape().tip_height() -
+                                  .05 * std::tan(radians(30.)) -
+                                  .5 * .1 / 4. / number));
+        }
+      verdict("similar meshes: error of the ratio of cells", worst, .05);
+      verdict("similar meshes: error of the height of the tip", tip, 1e-12);
+    }
+}
+
 /** The heights of lines follow the travel, and what soil meets on the way. */
 void
 check_motion()
@@ -189,6 +264,9 @@ check_refusals()
   refuse("subsection Grid\nset Inner radius = 8\nend\n");
   refuse("subsection Grid\nset Bottom = 1\nend\n");
   refuse("subsection Grid\nset Outer radius = 2.5\nend\n");
+  // cells across the wall: a whole number, and even
+  refuse("subsection Grid\nset Refinement = 1.3\nend\n");
+  refuse("subsection Grid\nset Refinement = 0.5\nend\n");
   refuse("subsection Grid\nset Bottom = -0.4\nend\n");
   refuse("subsection Grid\nset Distortion = 0.1\nend\n");
   refuse("", 5.);
@@ -217,6 +295,7 @@ main()
   check_lines();
   check_cells();
   check_inset_edges();
+  check_similar_meshes();
   check_motion();
   check_refusals();
 }

@@ -10,6 +10,8 @@
 
 #include <deal.II/base/point.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace CaissonMPM
@@ -123,6 +125,14 @@ namespace CaissonMPM
       return false;
     }
 
+    /** Divide the cells that the shape asks for by a number, before
+     * check_parameters(). */
+    void
+    refine(const double number)
+    {
+      refinement = number;
+    }
+
     /** Return the width of the cells at the body that the shape asks for; 0 if
      * it does not. Units: m. */
     virtual double
@@ -185,6 +195,17 @@ namespace CaissonMPM
     /** A length below which a place counts as on the surface. Units: m. */
     static constexpr double round_off = 1e-9;
 
+    /** Return the number of cells for the one that an entry asks for. */
+    unsigned int
+    refined(const unsigned int n) const
+    {
+      return std::max(1l, std::lround(n * refinement));
+    }
+
+    /** Throw BadInput if refined(@p n) is not exact, for @p n cells across. */
+    void
+    check_cells_across(const unsigned int n) const;
+
     /** Whether a place is inside left(), right(), bottom() and top(). */
     bool
     is_within_extent(const Point &p) const
@@ -203,6 +224,9 @@ namespace CaissonMPM
     add_initial_penetration(double &depth);
     void
     add_cells_across(unsigned int &n);
+
+  private:
+    double refinement = 1.;
   };
 } // namespace CaissonMPM
 

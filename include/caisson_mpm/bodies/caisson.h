@@ -81,6 +81,7 @@ namespace CaissonMPM
           "Rigid body/Wall thickness = " + to_text(wall_thickness) +
           " m leaves no soil plug within Outer diameter = " +
           to_text(outer_diameter) + " m. Reduce the thickness.");
+      check_cells_across(cells_across);
       check_tip();
       if (has_lid() && lower_face_of_lid() < -round_off)
         throw BadInput("Rigid body/Lid thickness = " + to_text(lid_thickness) +
@@ -165,7 +166,7 @@ namespace CaissonMPM
     double
     cell_width() const override
     {
-      return wall_thickness / cells_across;
+      return wall_thickness / cells_across_wall();
     }
 
     std::string
@@ -177,7 +178,7 @@ namespace CaissonMPM
     unsigned int
     cells_across_wall() const override
     {
-      return cells_across;
+      return refined(cells_across);
     }
 
     bool
@@ -218,15 +219,16 @@ namespace CaissonMPM
     double
     bevel() const
     {
-      return cells_across > 1 ? shoulder_bevel * cell_width() : 0.;
+      return cells_across_wall() > 1 ? shoulder_bevel * cell_width() : 0.;
     }
 
     void
     check_tip() const
     {
-      if (tip == Tip::triangular && cells_across % 2 == 1)
+      if (tip == Tip::triangular && cells_across_wall() % 2 == 1)
         throw BadInput(
-          "Rigid body/Cells across the wall = " + to_text(cells_across) +
+          "Rigid body/Cells across the wall, times Grid/Refinement, = " +
+          to_text(cells_across_wall()) +
           " puts no node at the edge of the triangular tip. Use "
           "an even number, or Tip = flat.");
       if (tip_height() >= skirt_length)

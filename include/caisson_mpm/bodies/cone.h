@@ -47,6 +47,7 @@ namespace CaissonMPM
     void
     check_parameters() const override
     {
+      check_cells_across(cells_across);
       if (length <= tip_height())
         throw BadInput("Rigid body/Skirt length = " + to_text(length) +
                        " m must exceed the height of the cone, " +
@@ -104,7 +105,7 @@ namespace CaissonMPM
     double
     cell_width() const override
     {
-      return right() / cells_across;
+      return right() / refined(cells_across);
     }
 
     std::string

@@ -73,7 +73,7 @@ namespace CaissonMPM
     double
     cell_width() const override
     {
-      return right() / cells_across;
+      return right() / refined(cells_across);
     }
 
     std::string

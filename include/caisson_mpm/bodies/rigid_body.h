@@ -35,6 +35,13 @@ namespace CaissonMPM
     void
     name_unused_entries(ParameterOrigins &origins) const;
 
+    /** See BodyShape::refine(). */
+    void
+    refine(const double number)
+    {
+      shapes[chosen_shape]->refine(number);
+    }
+
     const BodyShape &
     shape() const
     {

@@ -156,6 +156,13 @@ namespace CaissonMPM
     double
     height_at(const double z0, const double travel) const;
 
+    /** Return the number that all cell sizes of the entries are divided by. */
+    double
+    number_to_divide_by() const
+    {
+      return refinement;
+    }
+
     /** Return the geometry of a cell at the start. */
     Kernels::CellGeometry
     initial_geometry(const GlobalCell cell) const;
@@ -289,6 +296,12 @@ namespace CaissonMPM
     spacing_in_r(const BodyShape &body) const;
     Spacing
     spacing_in_z(const BodyShape &body, const Soil &soil) const;
+    /** Return the size of cells at a distance from the fine ones, between
+     * @p fine and the entry @p coarse. Units: m. */
+    double
+    size_at(const double distance,
+            const double fine,
+            const double coarse) const;
     Spacing
     even_spacing(const std::vector<FixedLine> &fixed, const double size) const;
     /** Return the size of the finest cells and the entry that sets it. */
@@ -296,6 +309,11 @@ namespace CaissonMPM
     finest_cell(const BodyShape  &body,
                 const double      otherwise,
                 const std::string entry) const;
+    double
+    smallest_row_height() const
+    {
+      return smallest_row / refinement;
+    }
     static std::vector<double>
     lines_of(const Spacing &spacing);
     /** Sort the lines and return the number of cells from each to the next. */
@@ -416,7 +434,7 @@ namespace CaissonMPM
     UpperZone             upper_zone     = UpperZone::free;
     double                smallest_row   = 0.01;
     double                distortion     = 0.;
-    unsigned int          refinement     = 1;
+    double                refinement     = 1.;
     unsigned int          levels         = 0; // at the tip
     unsigned int          levels_at_wall = 0;
     std::optional<double> refined_distance, refined_distance_at_wall; // or auto
