@@ -2,19 +2,10 @@
 """Numbers of a curve that only the laboratory needs; the others: caisson.curves."""
 import numpy as np
 
-from caisson.curves import in_window
-
 
 def final_mean(position: np.ndarray, values: np.ndarray, length: float) -> float:
     """Return the mean of values [n] over the last length of the positions [n]."""
     return float(values[position > position[-1] - length].mean())
-
-
-def window_rms(position: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
-    """Return the root of the mean square of values [n] about each position [n];
-    at the ends over the part of the window that there is."""
-    near = [in_window(position, at, width) for at in position]
-    return np.array([np.sqrt(np.mean(values[rows] ** 2)) for rows in near])
 
 
 def relative_error(values: np.ndarray, reference: np.ndarray) -> float:

@@ -18,7 +18,7 @@ Each problem is a study; a row of the table is one of its
 or states the half-width of the error bar of an installation, over the quantity itself:
 
     error_bar = "../jack_error_bar.csv"   # of a study of kind "error bar"
-    quantity = "tip"                      # as lab.studies.error_bar names it
+    quantity = "tip"                      # as caisson_error.error_bar names it
     depth = 2                             # m
 """
 import math
@@ -31,8 +31,8 @@ from caisson import table
 from caisson.results import ResultsError, read_table
 from caisson.study import Options, Study, StudyError, StudyRun
 from caisson.table import number
+from caisson_error import error_bar
 from lab.machine import machine
-from lab.studies import error_bar
 
 NAME = "verification"
 STUDY_KEYS = {"checks"}
@@ -102,7 +102,7 @@ def error_row(row: Row, runs: Sequence[StudyRun]) -> Row:
 
 
 def error_bar_row(row: Row, study: Study) -> Row:
-    """Return what the table says of the half-width of an error bar, over the
+    """Return what the table says of the longer side of an error bar, over the
     quantity itself. Raises StudyError where the file has no such quantity or depth."""
     path = (study.file.parent / row["error_bar"]).resolve()
     bars = read_table(path)
@@ -110,9 +110,9 @@ def error_bar_row(row: Row, study: Study) -> Row:
     if abs(bars["penetration_m"][nearest] - row["depth"]) > NEAR:
         raise StudyError(f"{path.name} has no depth {row['depth']} m")
     quantity = error_bar.QUANTITIES.get(row["quantity"])
-    if quantity is None or quantity.half_width not in bars:
+    if quantity is None or quantity.named("below") not in bars:
         raise StudyError(f"{path.name} has no quantity {row['quantity']!r}")
-    bar = float(bars[quantity.half_width][nearest])
+    bar = max(float(bars[quantity.named(s)][nearest]) for s in error_bar.SIDES)
     if not quantity.is_relative:
         bar /= abs(float(bars[quantity.column][nearest]))
     return {

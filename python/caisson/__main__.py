@@ -16,6 +16,7 @@ GROUPS: Groups = {
     "compute": {
         "run": ("caisson.launch", "run a scene, draw its pictures, write its report"),
         "study": ("caisson.study_command", "run and evaluate many runs of a scene"),
+        "error-bar": ("caisson_error.command", "compute the error bar of a scene"),
     },
     "results": {
         "plot": ("caisson.plot", "draw the pictures of runs"),

@@ -56,6 +56,13 @@ def window_means(
     return np.array([window_mean(position, values, x, width) for x in at])
 
 
+def window_rms(position: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
+    """Return the root of the mean square of values [n] about each position [n];
+    at the ends over the part of the window that there is."""
+    near = [in_window(position, at, width) for at in position]
+    return np.array([np.sqrt(np.mean(values[rows] ** 2)) for rows in near])
+
+
 def smoothed_at(position: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarray:
     """Return the means over FORCE_WINDOW about each of at [m]: [m]; where the window
     is not whole, the values there, linear between the positions [n], which grow."""

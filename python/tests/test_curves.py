@@ -51,7 +51,7 @@ class WindowMean(unittest.TestCase):
 
     def test_rms_takes_the_part_that_there_is(self) -> None:
         x, f = np.array([0.0, 1.0, 2.0]), np.array([3.0, 4.0, 0.0])
-        rms = lab_curves.window_rms(x, f, 2)
+        rms = curves.window_rms(x, f, 2)
         np.testing.assert_allclose(
             rms, [np.sqrt(25 / 2), np.sqrt(25 / 3), np.sqrt(16 / 2)]
         )

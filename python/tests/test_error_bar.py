@@ -12,8 +12,9 @@ from synthetic import write_run
 
 from caisson.results import ResultsError, Table, read_table
 from caisson.study import Options, Reader, Study, StudyError
+from caisson_error import command, error_bar
+from caisson_error.mesh_error import mesh_error
 from lab import verification
-from lab.studies import error_bar
 
 STUDY = """
 kind = "error bar"
@@ -82,18 +83,19 @@ class ErrorBar(unittest.TestCase):
         bars, printed = self.bars(self.study())
         self.assertEqual(len(bars["penetration_m"]), 21)
         for name in ("tip", "inner", "outer", "total"):
-            np.testing.assert_allclose(bars[f"{name}_error"], 0.05)
-            np.testing.assert_allclose(bars[f"{name}_mass_scaling"], 0.04)
-        np.testing.assert_allclose(bars["required_suction_half_width_Pa"], 1000)
-        np.testing.assert_allclose(bars["required_suction_mesh_Pa"], 800)
-        np.testing.assert_allclose(bars["plug_heave_half_width_m"], 1e-3)
-        np.testing.assert_allclose(bars["exit_gradient_axis_half_width"], 0)
+            for side in error_bar.SIDES:
+                np.testing.assert_allclose(bars[f"{name}_{side}"], 0.05)
+                np.testing.assert_allclose(bars[f"{name}_mass_scaling_{side}"], 0.04)
+        np.testing.assert_allclose(bars["required_suction_below_Pa"], 1000)
+        np.testing.assert_allclose(bars["required_suction_mesh_above_Pa"], 800)
+        np.testing.assert_allclose(bars["plug_heave_above_m"], 1e-3)
+        np.testing.assert_allclose(bars["exit_gradient_axis_below"], 0)
         expected = SUCTION * (bars["penetration_m"] - 2)
         np.testing.assert_allclose(bars["required_suction_Pa"], expected, atol=1e-3)
         text = (self.path / "bar.csv").read_text(encoding="utf-8")
         self.assertIn("# fingerprint: f00d\n", text)
         row = next(line for line in printed.splitlines() if "| all " in line)
-        self.assertEqual(row.split("|")[2].strip(), "5.0 %")
+        self.assertEqual(row.split("|")[2].strip(), "+-5.0 %")
 
     def test_a_term_counts_at_its_depths(self) -> None:
         """Outside them the other term is left; a run that ends before is reported."""
@@ -103,7 +105,7 @@ class ErrorBar(unittest.TestCase):
         shallow = bars["penetration_m"] < 2.05
         self.assertEqual(int(shallow.sum()), 11)
         expected = np.where(shallow, 1000, 600)
-        np.testing.assert_allclose(bars["required_suction_half_width_Pa"], expected)
+        np.testing.assert_allclose(bars["required_suction_below_Pa"], expected)
         study.keys["errors"][0]["depths"] = [1.0, 5.0]
         study.keys["depths"] = [1.0, 5.0, 0.1]
         with self.assertRaisesRegex(StudyError, "'mesh' counts to 5 m.*set its depths"):
@@ -112,7 +114,7 @@ class ErrorBar(unittest.TestCase):
     def test_drained_runs_have_forces_only(self) -> None:
         bars, _ = self.bars(self.study((None, None, None)))
         self.assertEqual([name for name in bars if "suction" in name], [])
-        np.testing.assert_allclose(bars["total_error"], 0.05)
+        np.testing.assert_allclose(bars["total_above"], 0.05)
 
     def test_missing_run(self) -> None:
         study = self.study()
@@ -139,6 +141,116 @@ class ErrorBar(unittest.TestCase):
             verification.error_bar_row({**row, "quantity": "lid", "error": 0.1}, study)
         with self.assertRaises(ResultsError):
             verification.error_bar_row({**row, "error_bar": "x", "error": 0.1}, study)
+
+
+class MeshError(unittest.TestCase):
+    """Made-up runs with known errors."""
+
+    SIZES = np.array([2.0, 1.0, 2 / 3, 0.5])
+
+    def test_first_order(self) -> None:
+        """8 % too high with h = 1: the limit, a bar of 10 % on one side, order 1."""
+        found = mesh_error(self.SIZES, 100 + 8 * self.SIZES[:, np.newaxis], 1)
+        np.testing.assert_allclose(found.limit, 100)
+        np.testing.assert_allclose(found.below, 10)
+        np.testing.assert_allclose(found.above, 0, atol=1e-9)
+        np.testing.assert_allclose(found.order, 1, atol=0.05)
+        self.assertFalse(found.failed.any())
+
+    def test_too_low(self) -> None:
+        found = mesh_error(self.SIZES, 100 - 8 * self.SIZES[:, np.newaxis], 1)
+        np.testing.assert_allclose(found.below, 0, atol=1e-9)
+        np.testing.assert_allclose(found.above, 10)
+
+    def test_scatter(self) -> None:
+        """Its standard deviation counts on both sides; two parameters are fitted."""
+        scatter = np.array([0.2, -0.3, 0.4, -0.3])
+        found = mesh_error(
+            self.SIZES, (100 + 8 * self.SIZES + scatter)[:, np.newaxis], 1
+        )
+        line = np.polyfit(self.SIZES, scatter, 1)
+        left = scatter - np.polyval(line, self.SIZES)
+        deviation = np.sqrt(np.sum(left**2) / 2)
+        np.testing.assert_allclose(found.above, deviation)
+        np.testing.assert_allclose(found.below, 1.25 * (8 + line[0]) + deviation)
+
+    def test_two_runs(self) -> None:
+        """They cannot confirm the order or the sign: three times the error."""
+        found = mesh_error(self.SIZES[:2], np.array([[116.0], [108.0]]), 1)
+        np.testing.assert_allclose(
+            [found.limit, found.below, found.above], [[100], [24], [24]]
+        )
+        self.assertTrue(np.isnan(found.order).all())
+
+    def test_it_fails(self) -> None:
+        """Runs that go to and fro, or of an order near 0: three times the range over
+        the ratio of sizes, 4, less one."""
+        for values in ([100.0, 109.0, 101.0, 108.0], [109.0, 108.0, 103.0, 100.0]):
+            found = mesh_error(self.SIZES, np.array(values)[:, np.newaxis], 1)
+            self.assertTrue(found.failed.all())
+            self.assertGreaterEqual(found.below[0], 9.0 - 1e-9)
+            self.assertGreaterEqual(found.above[0], 9.0 - 1e-9)
+
+
+class Similar(ErrorBar):
+    """A study with similar meshes."""
+
+    def test_mesh_term(self) -> None:
+        """Forces that are 8 % too high with h = 1, by order 1; a limit in the file; the
+        finest mesh lies in the bar of the others."""
+        file = self.path / "study.toml"
+        meshes = {"coarse": 0.5, "default": 1, "fine": 1.5, "finest": 2}
+        runs = ", ".join(
+            f'{{name = "{name}", set = {{"Grid/Refinement" = {number}}}}}'
+            for name, number in meshes.items()
+        )
+        file.write_text(
+            'kind = "error bar"\nscene = "a.prm"\noutput = "bar.csv"\n'
+            f"depths = [1.0, 3.0, 0.1]\nruns = [{runs}]\n"
+            f'[[errors]]\nname = "mesh"\nmeshes = {list(meshes)}\n'.replace("'", '"'),
+            encoding="utf-8",
+        )
+        options = Options(results=self.path / "results")
+        (study,) = Reader(file, options, error_bar.STUDY_KEYS, set()).studies()
+        for run, number in zip(study.runs, meshes.values()):
+            summary = {"fingerprint": "f00d", "wall_time_s": 60}
+            write_run(run.run.directory, synthetic(0.08 / number, None), summary)
+        bars, printed = self.bars(study)
+        np.testing.assert_allclose(bars["tip_below"], 0.1 / 1.08, atol=1e-4)
+        np.testing.assert_allclose(bars["tip_above"], error_bar.LEAST)
+        np.testing.assert_allclose(bars["tip_shift"], 1 / 1.08 - 1, atol=1e-4)
+        self.assertRegex(printed, r"\| total +\| 1.0 +\| 0 % +\| 100 %")
+
+
+class Plan(unittest.TestCase):
+    """The meshes that a budget allows."""
+
+    def test_refinements(self) -> None:
+        """Cells across the wall are even, and at least two."""
+        found = command.refinements(4, even=True)
+        self.assertEqual(found[:5], [0.5, 1.0, 1.5, 2.0, 3.0])
+        self.assertEqual(command.refinements(2, even=True)[:3], [1.0, 2.0, 3.0])
+        self.assertEqual(command.refinements(0, even=False)[:3], [0.5, 0.75, 1.0])
+
+    def test_budget(self) -> None:
+        """The mesh of the scene, then all coarser ones, then finer ones while the cube
+        of the refinement is paid for."""
+        chosen = command.chosen_meshes([0.5, 1.0, 1.5, 2.0], 100.0, 300.0)
+        self.assertEqual(chosen, [0.5, 1.0])
+        chosen = command.chosen_meshes([0.5, 1.0, 1.5, 2.0], 100.0, 700.0)
+        self.assertEqual(chosen, [0.5, 1.0, 1.5])
+        self.assertEqual(command.chosen_meshes([1.0, 2.0], 100.0, 300.0), [1.0])
+
+    def test_durations(self) -> None:
+        for text, seconds in {
+            "90s": 90,
+            "30min": 1800,
+            "1.5 h": 5400,
+            "2h": 7200,
+        }.items():
+            self.assertEqual(command.seconds_of(text), seconds)
+        with self.assertRaises(ValueError):
+            command.seconds_of("30")
 
 
 if __name__ == "__main__":

@@ -29,7 +29,7 @@ class Install(unittest.TestCase):
         for name in FILES:
             (self.project / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.project / name)
-        for name in ("python/caisson", "python/caisson_design"):
+        for name in ("python/caisson", "python/caisson_design", "python/caisson_error"):
             shutil.copytree(ROOT / name, self.project / name)
 
     def call(self, *words: str | Path) -> str:

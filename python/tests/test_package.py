@@ -15,6 +15,7 @@ from pathlib import Path
 import caisson
 import caisson.__main__
 import caisson_design
+import caisson_error
 import caisson_workshop.__main__
 import lab.__main__
 from caisson.paths import ROOT
@@ -57,7 +58,7 @@ MOST_COMMANDS, MOST_LINES = 10, 10_000  # of the user's package
 
 def modules() -> list[str]:
     """Return the names of all modules of the packages."""
-    packages = (caisson, caisson_design, lab, caisson_workshop)
+    packages = (caisson, caisson_design, caisson_error, lab, caisson_workshop)
     names = [
         m.name
         for package in packages
@@ -104,7 +105,8 @@ class Product(unittest.TestCase):
     def test_imports(self) -> None:
         """It imports nothing of them, and the design methods nothing of it either."""
         design = sorted((ROOT / "python/caisson_design").rglob("*.py"))
-        for path in self.files + design:
+        error = sorted((ROOT / "python/caisson_error").rglob("*.py"))
+        for path in self.files + design + error:
             refused = {"lab", "caisson_workshop"}
             if path in design:
                 refused.add("caisson")

@@ -314,16 +314,17 @@ class Evaluation(WithFiles):
     def test_error_bar(self) -> None:
         """That of the scene, relative to the force."""
         (self.path / "bar.csv").write_text(
-            "# fingerprint: x\npenetration_m,total_error\n1,0.1\n3,0.2\n"
+            "# fingerprint: x\npenetration_m,total_below,total_above\n"
+            "1,0.1,0\n3,0.2,0.1\n"
         )
         named: dict[str, object] = {"entries": {"Output/Error bar": "bar.csv"}}
         found = self.outcomes(PHI + "values = [30]", "1e3 * d", named)
         depths = np.array([1.0, 2.0, 4.0])
-        half = found.half_width(depths, np.array([10.0, -10.0, 10.0]))
-        assert half is not None
-        np.testing.assert_allclose(half, [1, 1.5, np.nan])
+        error = found.error(depths, np.array([10.0, -10.0, 10.0]))
+        assert error is not None
+        np.testing.assert_allclose(error, [[1, 1.5, np.nan], [0, 0.5, np.nan]])
         found = self.outcomes(PHI + "values = [31]", "1e3 * d", {"entries": {}})
-        self.assertIsNone(found.half_width(depths, depths))
+        self.assertIsNone(found.error(depths, depths))
 
     def test_suction(self) -> None:
         """The required suction is observed where there is one, from the weight that

@@ -300,17 +300,18 @@ class Report(unittest.TestCase):
             self.assertAlmostEqual(bar["to"][i], expected[1])
 
     def test_error_bar_of_the_force(self) -> None:
-        """Its half-width in percent of the force, under the columns of the program."""
+        """Its sides in percent of the force, under the columns of the program."""
         leave_run(self.path, SUMMARY)
         self.assertIn("no error bar", content.error_remark(Results(self.path)))
         depth = np.linspace(1, 2, 11)
         bounds = {
             "penetration_m": depth,
-            "total_force_low_N": 0.96e6 * depth,
+            "total_force_N": 1e6 * depth,
+            "total_force_low_N": 0.93e6 * depth,
             "total_force_high_N": 1.04e6 * depth,
         }
         write_columns(self.path / "history_error.csv", bounds)
-        self.assertIn("force: 4 % in", content.error_remark(Results(self.path)))
+        self.assertIn("-7 % to +4 % in", content.error_remark(Results(self.path)))
 
     def test_run_that_goes_on(self) -> None:
         """Its page reloads itself, also where an old run.json is left."""

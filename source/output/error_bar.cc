@@ -58,27 +58,42 @@ namespace CaissonMPM
 
   struct ErrorBar::Quantity
   {
-    std::string name, unit, half_width;
+    std::string name, unit, name_in_file;
     bool        is_relative, is_required;
 
-    /** Its column in history.csv, or that of a bound, with "low" or "high". */
+    /** Its column in history.csv, or that of a bound such as "low". */
     std::string
     column(const std::string &bound = "") const
     {
       return name + (bound.empty() ? "" : "_" + bound) +
              (unit.empty() ? "" : "_" + unit);
     }
+
+    /** The column of the file with this part of the error. */
+    std::string
+    column_in_file(const std::string &part) const
+    {
+      return name_in_file + "_" + part +
+             (is_relative || unit.empty() ? "" : "_" + unit);
+    }
+
+    /** A value that is larger by this error. */
+    double
+    changed(const double value, const double error) const
+    {
+      return is_relative ? (1. + error) * value : value + error;
+    }
   };
 
-  // Forces have relative half-widths. The required suction crosses zero where
-  // the weight no longer suffices, so that it and what follows from it have
+  // Forces have relative errors. The required suction crosses zero where the
+  // weight no longer suffices, so that it and what follows from it have
   // absolute ones.
   const std::vector<ErrorBar::Quantity> ErrorBar::known_quantities = {
-    {"tip_force", "N", "tip_error", true, true},
-    {"total_force", "N", "total_error", true, true},
-    {"required_suction", "Pa", "required_suction_half_width_Pa", false, false},
-    {"exit_gradient_axis", "", "exit_gradient_axis_half_width", false, false},
-    {"plug_heave", "m", "plug_heave_half_width_m", false, false}};
+    {"tip_force", "N", "tip", true, true},
+    {"total_force", "N", "total", true, true},
+    {"required_suction", "Pa", "required_suction", false, false},
+    {"exit_gradient_axis", "", "exit_gradient_axis", false, false},
+    {"plug_heave", "m", "plug_heave", false, false}};
 
   ErrorBar::ErrorBar()
     : ParameterAcceptor("/Output")
@@ -87,9 +102,9 @@ namespace CaissonMPM
       "Error bar",
       file,
       "The file with the errors of the forces, and of the suction where there "
-      "is one, as scripts/lab study writes it, has this path relative to "
-      "the scene's file; history_error.csv is written from it. With an empty "
-      "path there is none. Units: none.");
+      "is one, as scripts/caisson error-bar writes it, has this path relative "
+      "to the scene's file; history_error.csv is written from it. With an "
+      "empty path there is none. Units: none.");
   }
 
   std::string
@@ -106,8 +121,8 @@ namespace CaissonMPM
     if (at == std::string::npos)
       throw BadInput("Output/Error bar = " + file + ": " + path +
                      " cannot be read, or has no line \"" + mark +
-                     "...\". Create it with scripts/lab study, or leave "
-                     "the entry empty.");
+                     "...\". Create it with scripts/caisson error-bar, or "
+                     "leave the entry empty.");
     if (text.compare(at + mark.size(), fingerprint.size(), fingerprint) != 0)
       return "the error bar of " + path +
              " was computed for other parameters: history_error.csv is not "
@@ -118,22 +133,29 @@ namespace CaissonMPM
         const Table table(text);
         quantities.clear();
         for (const Quantity &q : known_quantities)
-          if (q.is_required || table.has({q.half_width}))
+          if (q.is_required || table.has({q.column_in_file("below")}))
             quantities.push_back(&q);
+        has_limit = table.has({quantities.front()->column_in_file("shift")});
         for (const auto &row : table.rows)
           {
             rows.push_back({table.value(row, "penetration_m"), {}});
             for (const Quantity *q : quantities)
-              rows.back().half_widths.push_back(
-                table.value(row, q->half_width));
+              {
+                const auto part = [&](const std::string &name) {
+                  return table.value(row, q->column_in_file(name));
+                };
+                rows.back().errors.push_back({part("below"),
+                                              part("above"),
+                                              has_limit ? part("shift") : 0.});
+              }
           }
       }
     catch (const std::exception &)
       {
         throw BadInput("Output/Error bar = " + file + ": " + path +
-                       " must have the columns penetration_m, tip_error and "
-                       "total_error, with numbers. Create it with "
-                       "scripts/lab study.");
+                       " must have the columns penetration_m, tip_below, "
+                       "tip_above, total_below and total_above, with numbers. "
+                       "Create it with scripts/caisson error-bar.");
       }
     return "";
   }
@@ -153,9 +175,17 @@ namespace CaissonMPM
     const double x =
       std::min(1.,
                (penetration - a.penetration) / (b.penetration - a.penetration));
-    Row between{penetration, a.half_widths};
+    const auto mean = [x](const double from, const double to) {
+      return from + x * (to - from);
+    };
+    Row between{penetration, {}};
     for (unsigned int i = 0; i < quantities.size(); ++i)
-      between.half_widths[i] += x * (b.half_widths[i] - a.half_widths[i]);
+      {
+        const Error &p = a.errors[i], &q = b.errors[i];
+        between.errors.push_back({mean(p.below, q.below),
+                                  mean(p.above, q.above),
+                                  mean(p.shift, q.shift)});
+      }
     return between;
   }
 
@@ -168,7 +198,7 @@ namespace CaissonMPM
            penetration <= rows.back().penetration + rounding;
   }
 
-  std::optional<double>
+  std::optional<ErrorBar::Error>
   ErrorBar::of_total_force(const double penetration) const
   {
     if (!covers(penetration))
@@ -178,7 +208,7 @@ namespace CaissonMPM
                    quantities.end(),
                    [](const Quantity *q) { return q->name == "total_force"; }) -
       quantities.begin();
-    return at(penetration).half_widths[i];
+    return at(penetration).errors[i];
   }
 
   void
@@ -194,6 +224,8 @@ namespace CaissonMPM
         names.push_back(q->column());
         for (const std::string bound : {"", "low", "high"})
           text += "," + q->column(bound);
+        if (has_limit)
+          text += "," + q->column("limit");
       }
     text += "\n";
     if (!history.has(names))
@@ -208,13 +240,13 @@ namespace CaissonMPM
         text += to_text(depth, 10);
         for (unsigned int i = 0; i < quantities.size(); ++i)
           {
-            const double value      = history.value(row, names[i + 1]);
-            const double half_width = error.half_widths[i];
-            for (const double side : {0., -1., 1.})
-              text += "," + to_text(quantities[i]->is_relative ?
-                                      (1. + side * half_width) * value :
-                                      value + side * half_width,
-                                    10);
+            const double        value   = history.value(row, names[i + 1]);
+            const Error        &e       = error.errors[i];
+            std::vector<double> changes = {0., -e.below, e.above};
+            if (has_limit)
+              changes.push_back(e.shift);
+            for (const double change : changes)
+              text += "," + to_text(quantities[i]->changed(value, change), 10);
           }
         text += "\n";
       }

@@ -94,9 +94,11 @@ namespace CaissonMPM
     }
 
     std::string
-    error_in_words(const std::optional<double> error)
+    error_in_words(const std::optional<ErrorBar::Error> &error)
     {
-      return error ? " +- " + percent(*error, 2) : "";
+      if (!error)
+        return "";
+      return " -" + percent(error->below, 2) + " +" + percent(error->above, 2);
     }
   } // namespace
 

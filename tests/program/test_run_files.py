@@ -68,8 +68,9 @@ class Files(ProgramTest):
         done = self.run_scene("jack", path, entries={"Output/Terminal": "full"})
         key = summary(path)["fingerprint"]
         (path / "error.csv").write_text(
-            f"# fingerprint: {key}\npenetration_m,tip_error,total_error\n"
-            "0.5,0.2,0.1\n0.65,0.2,0.04\n"
+            f"# fingerprint: {key}\n"
+            "penetration_m,tip_below,tip_above,total_below,total_above\n"
+            "0.5,0.2,0.2,0.1,0.01\n0.65,0.2,0.2,0.04,0.04\n"
         )
         rows = history(path)
         done = self.run_scene(
@@ -92,7 +93,7 @@ class Files(ProgramTest):
                 if x < float(depth) <= y
             ]
             self.assertAlmostEqual(float(force) / expected, 1.0, delta=1e-3)
-            self.assertEqual(error, " +- 6 %" if depth == "0.6" else "")
+            self.assertEqual(error, " -6 % +3 %" if depth == "0.6" else "")
         largest = max(forces, key=abs)
         words = re.search(r"^largest force +([-\d.]+) kN", done, re.M)
         assert words, done

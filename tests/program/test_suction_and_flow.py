@@ -76,8 +76,11 @@ class Suction(ProgramTest):
         file = self.made_directory() / "bar.csv"
         file.write_text(
             f"# fingerprint: {summary(first)['fingerprint']}\n"
-            "penetration_m,tip_error,total_error,required_suction_half_width_Pa\n"
-            "0.52,0.1,0.2,1000\n0.58,0.4,0.2,4000\n"
+            "penetration_m,tip_below,tip_above,tip_shift,total_below,total_above,"
+            "total_shift,required_suction_below_Pa,required_suction_above_Pa,"
+            "required_suction_shift_Pa\n"
+            "0.52,0.1,0.1,-0.05,0.2,0.2,-0.1,1000,1000,-500\n"
+            "0.58,0.4,0.4,-0.05,0.2,0.2,-0.1,4000,4000,-500\n"
         )
         entries["Output/Error bar"] = file
         self.run_scene("suction", path, entries=entries)
@@ -99,6 +102,14 @@ class Suction(ProgramTest):
                     1 + sign * (0.1 + 0.3 * share),
                     6,
                 )
+            # where all meshes would end
+            self.assertAlmostEqual(
+                bounds["required_suction_limit_Pa"][i],
+                row["required_suction_Pa"] - 500,
+                delta=0.1,
+            )
+            limit = bounds["tip_force_limit_N"][i] / row["tip_force_N"]
+            self.assertAlmostEqual(limit, 0.95, 6)
         entries["Rigid body/Submerged weight"] = 5e4
         other = self.directory("other")
         text = self.run_scene("suction", other, entries=entries)

@@ -8,10 +8,11 @@ import sys
 import unittest
 from pathlib import Path
 
-from program import HERE, ProgramTest, history, summary, user_scene
+from program import HERE, SUCCESS, ProgramTest, history, summary, user_scene
 
 from caisson import ranks
 from caisson.paths import PROGRAM
+from caisson.results import Results
 from caisson.runner import query, environment, size_in
 
 BY_STRESS = "0: Law = Mohr-Coulomb with stiffness by stress, Friction angle = 33"
@@ -99,6 +100,52 @@ class Launch(CommandTest):
         self.assertEqual(process.wait(), 3, rest)
         self.assertEqual(summary(path)["status"], "stopped")
         self.assertTrue((path / "checkpoint.info").is_file())
+
+
+class ErrorBar(CommandTest):
+    """caisson error-bar, from the scene to the picture's band."""
+
+    SCENE = f"""
+include {HERE / "simulation/jack.prm"}
+subsection Rigid body
+  set Cells across the wall = 4
+end
+subsection Time
+  set Mass scaling    = 100
+  set End penetration = 1.05
+end
+subsection Output
+  set Record interval = 0.1
+  set Error bar       = own_error_bar.csv
+end
+"""
+
+    def test_own_scene(self) -> None:
+        """Two meshes and the runs with other numerics on the coarse one; the scene
+        then finds its bar. A budget for one mesh is refused with the one to set."""
+        path = self.made_directory()
+        scene = path / "own.prm"
+        scene.write_text(self.SCENE, encoding="utf-8")
+        call = ["error-bar", str(scene), "--results", str(path / "runs")]
+        listed, _ = self.caisson(*call, "--list")
+        self.assertRegex(listed, r"(?m)^refinement 0.5: about .*\ndefault: about ")
+        self.assertFalse((path / "runs").exists())
+        said, _ = self.caisson(*call)
+        for run in ("mass scaling", "time step", "points", "boundaries"):
+            self.assertRegex(said, rf"(?m)^own {run}: \d+ s$")
+        self.assertIn("The next finer mesh, 1.5 times as fine", said)
+        again, _ = self.caisson(*call)
+        self.assertIn("runs to do: 0", again)
+        results = path / "results"
+        self.run_program(SUCCESS, str(scene), "--output-directory", results)
+        bounds = Results(results).error_bounds
+        self.assertGreater(len(bounds["total_force_low_N"]), 5)
+        self.assertTrue((bounds["total_force_low_N"] < bounds["total_force_N"]).all())
+        self.assertTrue((bounds["total_force_high_N"] > bounds["total_force_N"]).all())
+        self.assertIn("total_force_limit_N", bounds)
+        scene.write_text(self.SCENE.replace("wall = 4", "wall = 2"), encoding="utf-8")
+        complaint = self.caisson(*call, status=1)[1]
+        self.assertRegex(complaint, "no second mesh. Set --budget [0-9.]+(s|min|h),")
 
 
 class Suggest(CommandTest):

@@ -4,8 +4,8 @@
 // history.csv.
 //
 // The errors come from a study of mesh, points, mass scaling and more
-// (scripts/lab study), as a file beside the scene. They hold for the scene
-// of the study only, which the file names by its fingerprint.
+// (scripts/caisson error-bar), as a file beside the scene. They hold for the
+// scene of the study only, which the file names by its fingerprint.
 #ifndef caisson_mpm_output_error_bar_h
 #define caisson_mpm_output_error_bar_h
 
@@ -20,13 +20,15 @@ namespace CaissonMPM
   /**
    * Reads the file of errors and writes history_error.csv: for each row of
    * history.csv within the depths of the study the quantities of the file, with
-   * their lower and upper bounds. The file of errors is CSV with the line
+   * their lower and upper bounds, and with the limit of all meshes where the
+   * file has it. The file of errors is CSV with the line
    *   # fingerprint: TEXT
-   * and the columns penetration_m (increasing), tip_error and total_error
-   * (relative half-widths). Columns of a run with suction, with half-widths in
-   * the units of history.csv, may be added: required_suction_half_width_Pa,
-   * exit_gradient_axis_half_width and plug_heave_half_width_m. Called by one
-   * rank; not collective.
+   * and the columns penetration_m (increasing), tip_below, tip_above,
+   * total_below and total_above: how far the force may be too high and too low,
+   * as a share of it. tip_shift and total_shift lead to the limit. Those of a
+   * run with suction may be added, in the units of history.csv: for example
+   * required_suction_below_Pa, exit_gradient_axis_below and plug_heave_below_m.
+   * Called by one rank; not collective.
    */
   class ErrorBar : public dealii::ParameterAcceptor
   {
@@ -41,9 +43,16 @@ namespace CaissonMPM
     std::string
     read(const std::string &scene_file, const std::string &fingerprint);
 
-    /** The relative half-width of the total force at a depth, nothing where no
-     * error is known. Units: m. */
-    std::optional<double>
+    /** How far a quantity may lie below and above what was computed, and what
+     * leads to the limit of all meshes; 0 where that is not known. */
+    struct Error
+    {
+      double below, above, shift;
+    };
+
+    /** The relative error of the total force at a depth, nothing where none is
+     * known. Units: m. */
+    std::optional<Error>
     of_total_force(const double penetration) const;
 
     /**
@@ -54,14 +63,14 @@ namespace CaissonMPM
     write(const std::string &directory) const;
 
   private:
-    /** A quantity of history.csv, and which column has its half-width. */
+    /** A quantity of history.csv, and which columns have its error. */
     struct Quantity;
 
-    /** A depth with the half-widths of all quantities that the file has. */
+    /** A depth with the errors of all quantities that the file has. */
     struct Row
     {
-      double              penetration;
-      std::vector<double> half_widths;
+      double             penetration;
+      std::vector<Error> errors;
     };
 
     static const std::vector<Quantity> known_quantities;
@@ -77,6 +86,7 @@ namespace CaissonMPM
     std::string                   file;
     std::vector<const Quantity *> quantities;
     std::vector<Row>              rows;
+    bool                          has_limit = false;
   };
 } // namespace CaissonMPM
 

@@ -25,16 +25,16 @@ OBSERVED = (
 )
 SHOWN = {"_N": ("kN", 1e-3), "_Pa": ("kPa", 1e-3), "_m": ("m", 1.0), "_m3": ("m³", 1.0)}
 COMPLETE, FAILED = "complete", "failed"
-# column of history.csv: that of its half-width in the file of an error bar, and whether
-# this is relative
-HALF_WIDTHS = {
-    "tip_force_N": ("tip_error", True),
-    "inner_friction_N": ("inner_error", True),
-    "outer_friction_N": ("outer_error", True),
-    "total_force_N": ("total_error", True),
-    "required_suction_Pa": ("required_suction_half_width_Pa", False),
-    "exit_gradient_axis": ("exit_gradient_axis_half_width", False),
-    "plug_heave_m": ("plug_heave_half_width_m", False),
+# column of history.csv: those of its error on both sides in the file of an error bar,
+# and whether it is relative
+ERRORS = {
+    "tip_force_N": ("tip_{}", True),
+    "inner_friction_N": ("inner_{}", True),
+    "outer_friction_N": ("outer_{}", True),
+    "total_force_N": ("total_{}", True),
+    "required_suction_Pa": ("required_suction_{}_Pa", False),
+    "exit_gradient_axis": ("exit_gradient_axis_{}", False),
+    "plug_heave_m": ("plug_heave_{}_m", False),
 }
 
 
@@ -244,18 +244,22 @@ class Outcomes:
             raise StudyError("no run passes a depth of the table; set depths")
         return float(self.depths[reached == reached.max()].max())
 
-    def half_width(self, depths: np.ndarray, values: np.ndarray) -> np.ndarray | None:
-        """Return the half-width [n_depths] of the error bar that the scene names, for
-        its numerics; None where there is none. values: of what is observed."""
-        column, is_relative = HALF_WIDTHS.get(self.column, ("", False))
+    def error(self, depths: np.ndarray, values: np.ndarray) -> np.ndarray | None:
+        """Return how far the truth may lie below and above [2, n_depths], by the error
+        bar that the scene names, for its numerics; None where there is none. values: of
+        what is observed."""
+        column, is_relative = ERRORS.get(self.column, ("", False))
         outcome = next(o for o in [*self.all, self.reference] if o and o.history)
         if not column:
             return None
         try:
             file = outcome.run.results.summary["entries"]["Output/Error bar"]
             bar = read_table(outcome.run.run.scene.parent / file)
-            half = bar[column]
+            sides = [bar[column.format(side)] for side in ("below", "above")]
         except (ResultsError, KeyError):
             return None
-        half = np.interp(depths, bar[DEPTH], half, left=math.nan, right=math.nan)
-        return half * np.abs(values) if is_relative else half
+        nan = math.nan
+        error = np.array(
+            [np.interp(depths, bar[DEPTH], s, left=nan, right=nan) for s in sides]
+        )
+        return error * np.abs(values) if is_relative else error

@@ -124,13 +124,13 @@ def draw_error(
     if middle is None:
         return NO_BAR
     values = np.interp(outcomes.depths, outcomes.grid, middle / scale)
-    half = outcomes.half_width(outcomes.depths, values)
-    if half is None:
+    error = outcomes.error(outcomes.depths, values)
+    if error is None:
         return NO_BAR
     axes.errorbar(
         values * scale,
         outcomes.depths,
-        xerr=half * scale,
+        xerr=error * scale,
         fmt="none",
         ecolor="black",
         capsize=3,
@@ -272,13 +272,13 @@ def draw_tornado(path: Path, outcomes: Outcomes, depth: float | None) -> Path | 
     else:
         draw_swings(axes, found, base, scale)
         axes.set_xlabel(title_of(outcomes.column))
-        half = outcomes.half_width(np.array([depth]), np.array([base]))
-        if half is not None and np.isfinite(half[0]):
-            ends = (base - half[0]) * scale, (base + half[0]) * scale
+        error = outcomes.error(np.array([depth]), np.array([base]))
+        if error is not None and np.isfinite(error).all():
+            ends = (base - error[0, 0]) * scale, (base + error[1, 0]) * scale
             axes.axvspan(*ends, color="0.85", zorder=0, label=BAR)
         line = "base" if outcomes.sampling == ONE else "mean of all runs"
         notes[0] += f"; black line: {line}; numbers: values of the parameter"
-        notes += [NO_BAR] if half is None else []
+        notes += [NO_BAR] if error is None else []
     axes.set_yticks(range(len(found)), [effect.parameter.label for effect in found])
     axes.grid(color="0.9", axis="x")
     axes.set_axisbelow(True)

@@ -291,11 +291,14 @@ def error_remark(run: Results) -> str:
             "This scene has no error bar of its own. Those of the reference scenes are"
             " in the manual; run the scene with half the cell size to see its own."
         )
-    middle = (bounds["total_force_low_N"] + bounds["total_force_high_N"]) / 2
-    half = (bounds["total_force_high_N"] - bounds["total_force_low_N"]) / 2
-    share = 100 * np.nanmean(half / np.maximum(np.abs(middle), 1e-9))
+    force = bounds["total_force_N"]
+    below, above = [
+        100
+        * np.nanmean(np.abs(bounds[f"total_force_{side}_N"] - force) / np.abs(force))
+        for side in ("low", "high")
+    ]
     return (
-        f"Half-width of the error bar of the total force: {share:.2g} % in the mean,"
+        f"Error bar of the total force: -{below:.2g} % to +{above:.2g} % in the mean,"
         " from runs with other meshes, steps and numbers of points."
     )
 

@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Computes the error bar of a scene: runs it on similar meshes, and with other mass
+scaling, steps, points and boundaries, and writes the file that Output/Error bar reads.
+
+The budget is the time of all runs on one core. The coarsest mesh, with two cells across
+the wall, costs little: it has the runs with other numerics. The error by the mesh comes
+from all meshes that the budget allows; with two of them the bar is wide, because
+nothing confirms it. The scene itself is not changed.
+"""
+import argparse
+import math
+import re
+import sys
+from pathlib import Path
+from typing import Any
+
+from caisson.paths import PROGRAM, RESULTS, scene_or_study, short
+from caisson.progress import duration
+from caisson.runner import Run, RunError, read_parameters
+from caisson.study import Options, Study, StudyError, StudyRun, execute
+from caisson.study_command import shares_of, to_do_of
+from caisson_error import error_bar
+
+UNITS = {"s": 1, "min": 60, "h": 3600}
+TIMES_THE_SCENE = 3  # the budget, if none is given
+CELLS = [2, 3, 4, 6, 8, 12, 16, 24]  # across the wall
+PLAIN = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0]  # of a body without cells across
+QUIET = {
+    "Output/Frame interval": "never",
+    "Output/Frame penetrations": "",
+    "Output/Error bar": "",
+}
+# runs with other numerics on the coarsest mesh: name, factor of the error, and what
+# a step costs more
+MASS, STEP, POINTS, SIDES = "mass scaling", "time step", "points", "boundaries"
+COST_OF_CHANGES = 2 + 2 + 1.8 + 1.5
+
+
+def seconds_of(text: str) -> float:
+    """Return a duration such as 90s, 30min or 2h in seconds. Raises ValueError."""
+    found = re.fullmatch(r"([\d.]+) *(s|min|h)", text.strip())
+    if found is None:
+        raise ValueError(f"{text!r} is no duration such as 90s, 30min or 2h")
+    return float(found[1]) * UNITS[found[2]]
+
+
+def in_units(seconds: float) -> str:
+    """Return a duration as seconds_of() reads it, rounded up."""
+    unit = "s" if seconds < 60 else "min" if seconds < 5400 else "h"
+    return f"{math.ceil(seconds / UNITS[unit])}{unit}"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson error-bar`."""
+    add = parser.add_argument
+    add("scene", type=scene_or_study, metavar="FILE.prm")
+    text = "time of all runs on one core, such as 30min or 2h; default: three times"
+    add("--budget", type=seconds_of, metavar="TIME", help=f"{text} that of the scene")
+    text = "the file to write, default: that of Output/Error bar, or FILE_error_bar.csv"
+    add("--output", type=Path, metavar="CSV", help=text)
+    add("--list", action="store_true", help="print the runs, and run nothing")
+    add("--again", action="store_true", help="repeat also runs that are complete")
+    add("--program", type=Path, default=PROGRAM, help="caisson_mpm")
+    text = "directory of the runs, default: results/error_bar/FILE"
+    add("--results", type=Path, help=text)
+
+
+def refinements(cells: int, even: bool) -> list[float]:
+    """Return the numbers for Grid/Refinement of a body with so many cells across its
+    wall, which must be even for a triangular tip; 0: a body without a wall."""
+    if not cells:
+        return PLAIN
+    wanted = sorted({*CELLS, cells, *(cells * n for n in (2, 3, 4))})
+    return [n / cells for n in wanted if n >= 2 and not (even and n % 2)]
+
+
+def chosen_meshes(known: list[float], seconds: float, budget: float) -> list[float]:
+    """Return the refinements that the budget (s) allows, where a run of the scene takes
+    some seconds: a run costs the cube of its refinement."""
+    chosen = [r for r in known if r <= 1]
+    left = budget - seconds * (
+        sum(r**3 for r in chosen) + COST_OF_CHANGES * min(chosen) ** 3
+    )
+    for r in (r for r in known if r > 1):
+        left -= seconds * r**3
+        if left < 0:
+            break
+        chosen.append(r)
+    return chosen
+
+
+def changes_of(entries: dict[str, str]) -> dict[str, tuple[dict[str, Any], float]]:
+    """Return the runs with other numerics: what they change in the entries of the
+    scene, and the factor that extrapolates to the limit."""
+    found: dict[str, tuple[dict[str, Any], float]] = {}
+    tolerance = entries["Time/Inertia tolerance"]
+    if tolerance != "none":
+        quarter = {"Time/Inertia tolerance": float(tolerance) / 4}
+        found[MASS] = quarter, 4 / 3
+    elif (scaling := float(entries["Time/Mass scaling"])) > 1:
+        found[MASS] = {"Time/Mass scaling": max(1.0, scaling / 4)}, 4 / 3
+    courant = float(entries["Time/Courant number"])
+    found[STEP] = {"Time/Courant number": courant / 2}, 1
+    points = [f"Material points/Per direction {zone}" for zone in ("in path", "near")]
+    points.append("Material points/Per direction far")
+    found[POINTS] = {name: int(entries[name]) + 1 for name in points}, 1
+    sides = ("Grid/Outer radius", "Grid/Bottom")
+    found[SIDES] = {name: 1.5 * float(entries[name]) for name in sides}, 1
+    return found
+
+
+class Plan:
+    """The runs for the error bar of a scene."""
+
+    def __init__(self, arguments: argparse.Namespace) -> None:
+        """Ask the program for the scene. Raises RunError and StudyError."""
+        self.scene: Path = arguments.scene.resolve()
+        self.program: Path = arguments.program.resolve()
+        self.results = arguments.results or RESULTS / "error_bar" / self.scene.stem
+        self.entries = read_parameters([str(self.scene)], self.program)
+        self.output: Path = arguments.output or self.scene.parent / (
+            self.entries["Output/Error bar"] or f"{self.scene.stem}_error_bar.csv"
+        )
+        self.seconds = self.run("default", {}).run.validate().seconds
+        self.budget = arguments.budget or TIMES_THE_SCENE * self.seconds
+        known = self.meshes()
+        self.chosen = chosen_meshes(known, self.seconds, self.budget)
+        self.next = next((r for r in known if r not in self.chosen), 0.0)
+        if len(self.chosen) < 2:
+            needed = self.seconds * (1 + COST_OF_CHANGES + self.next**3)
+            raise StudyError(
+                f"{duration(self.budget)} allow no second mesh. Set --budget"
+                f" {in_units(needed)}, or more cells across the wall: the coarser"
+                " meshes then cost little."
+            )
+
+    def run(self, name: str, entries: dict[str, Any]) -> StudyRun:
+        """Return a run of the scene."""
+        directory = self.results / name.replace(" ", "_")
+        of_scene = Run(
+            self.scene, {**QUIET, **entries}, directory.resolve(), program=self.program
+        )
+        return StudyRun(self.scene.stem, name, "", "", 0, {}, of_scene)
+
+    def meshes(self) -> list[float]:
+        """Return the refinements that the program accepts, up to the first finer one
+        that it refuses."""
+        kind = self.entries["Rigid body/Kind"]
+        if kind not in ("caisson", "box", "cone"):
+            raise StudyError("the scene has no body that is pushed into the soil")
+        cells = int(self.entries["Rigid body/Cells across the wall"])
+        triangular = self.entries["Rigid body/Tip"] == "triangular"
+        found = []
+        for r in refinements(
+            0 if kind == "box" else cells, kind == "caisson" and triangular
+        ):
+            try:
+                if r < 1:
+                    self.run("", self.mesh(r)).run.validate()
+                found.append(r)
+            except RunError:
+                pass
+        return found
+
+    def mesh(self, r: float) -> dict[str, Any]:
+        """Return the entry of a mesh, none of that of the scene."""
+        if r == 1:
+            return {}
+        return {"Grid/Refinement": r * float(self.entries["Grid/Refinement"])}
+
+    def study(self) -> Study:
+        """Return the runs and the terms of the error bar."""
+        names = {r: f"refinement {r:g}" if r != 1 else "default" for r in self.chosen}
+        runs = [self.run(name, self.mesh(r)) for r, name in names.items()]
+        errors: list[dict[str, Any]] = [
+            {"name": "mesh", "meshes": list(names.values())}
+        ]
+        coarsest = min(names)
+        for name, (entries, factor) in changes_of(self.entries).items():
+            runs.append(self.run(name, {**entries, **self.mesh(coarsest)}))
+            term = {"name": name, "from": names[coarsest], "to": name, "factor": factor}
+            errors.append(term)
+        for run in runs:
+            run.size = run.run.validate()
+        keys = {"errors": errors, "output": str(self.output.resolve())}
+        return Study(self.scene.stem, self.scene.stem, self.scene, runs, keys)
+
+
+def set_depths(study: Study) -> None:
+    """Set the depths of the bar: all that the run of the scene passes on its way down,
+    without half a window at both ends and without the first 0.3 m."""
+    depth = study.run("default").results.history["penetration_m"]
+    first, last = depth[0] + 0.3, depth.max() - 0.1
+    if last < first:
+        raise StudyError(
+            "the body is pushed by less than 0.4 m. Forces are means over 0.2 m, so"
+            " that such a scene has no error bar"
+        )
+    study.keys["depths"] = [round(first, 1), round(last, 6), 0.1]
+
+
+def advise(plan: Plan, study: Study) -> None:
+    """Print how the scene finds the bar, and what the next finer mesh would cost."""
+    if plan.entries["Output/Error bar"] == "":
+        print(f"Set Output/Error bar = {plan.output.name} in {short(plan.scene)}.")
+    if plan.next:
+        cost = duration(plan.seconds * plan.next**3)
+        print(
+            f"The next finer mesh, {plan.next:g} times as fine as that of the scene,"
+            f" takes about {cost} on one core. With it as that of the scene, the mesh"
+            f" error would be about {1 / plan.next:.2f} of that above."
+        )
+
+
+def main(arguments: argparse.Namespace) -> int:
+    """Run and write the file."""
+    try:
+        plan = Plan(arguments)
+        study = plan.study()
+        total = sum(run.duration for run in study.runs)
+        for run in study.runs:
+            print(f"{run.name}: about {duration(run.duration)}")
+        print(f"all runs: about {duration(total)} on one core", flush=True)
+        if arguments.list:
+            return 0
+        plan.results.mkdir(parents=True, exist_ok=True)
+        for some, at_a_time, ranks in shares_of(
+            to_do_of(study.runs, arguments.again), None
+        ):
+            execute(some, at_a_time, arguments.again, None, ranks)
+        if missing := [run for run in study.runs if not run.run.is_complete()]:
+            raise StudyError(f"{missing[0].name}: {missing[0].trouble}")
+        set_depths(study)
+        error_bar.evaluate([study], Options(), 0)
+        advise(plan, study)
+        return 0
+    except (StudyError, RunError) as error:
+        print(f"error-bar: {error}", file=sys.stderr)
+        return 1
