@@ -143,30 +143,42 @@ class Plan:
         return StudyRun(self.scene.stem, name, "", "", 0, {}, of_scene)
 
     def meshes(self) -> list[float]:
-        """Return the refinements that the program accepts, up to the first finer one
-        that it refuses."""
+        """Return the refinements that fit the body and that the program accepts."""
         kind = self.entries["Rigid body/Kind"]
         if kind not in ("caisson", "box", "cone"):
             raise StudyError("the scene has no body that is pushed into the soil")
-        cells = int(self.entries["Rigid body/Cells across the wall"])
-        triangular = self.entries["Rigid body/Tip"] == "triangular"
-        found = []
-        for r in refinements(
-            0 if kind == "box" else cells, kind == "caisson" and triangular
-        ):
-            try:
-                if r < 1:
-                    self.run("", self.mesh(r)).run.validate()
-                found.append(r)
-            except RunError:
-                pass
-        return found
+        has_wall = kind != "box"
+        cells = int(self.entries["Rigid body/Cells across the wall"]) if has_wall else 0
+        even = kind == "caisson" and self.entries["Rigid body/Tip"] == "triangular"
+        return [r for r in refinements(cells, even) if self.fits(r, cells)]
+
+    def fits(self, r: float, cells: int) -> bool:
+        """Return whether a mesh can be made: the program is asked for coarse ones."""
+        name = "Grid/Refinement levels"
+        levels = int({**self.entries, **self.mesh(r)}[name])
+        if round(cells * r) % 2**levels:
+            return False
+        try:
+            if r < 1:
+                self.run("", self.mesh(r)).run.validate()
+        except RunError:
+            return False
+        return True
 
     def mesh(self, r: float) -> dict[str, Any]:
-        """Return the entry of a mesh, none of that of the scene."""
+        """Return the entries of a mesh, none of that of the scene. Cells that are
+        halved at the tip are halved less often on a coarser one: lines of the mesh
+        cannot be wider apart than the wall."""
         if r == 1:
             return {}
-        return {"Grid/Refinement": r * float(self.entries["Grid/Refinement"])}
+        found: dict[str, Any] = {
+            "Grid/Refinement": r * float(self.entries["Grid/Refinement"])
+        }
+        less = math.ceil(-math.log2(r)) if r < 1 else 0
+        for name in ("Grid/Refinement levels", "Grid/Refinement levels along wall"):
+            if levels := int(self.entries[name]):
+                found[name] = max(0, levels - less)
+        return found
 
     def study(self) -> Study:
         """Return the runs and the terms of the error bar."""
