@@ -4,6 +4,7 @@
 #include <caisson_mpm/kernels/apply_mass.h>
 #include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/kernels/grid_to_points.h>
+#include <caisson_mpm/kernels/largest_moduli.h>
 #include <caisson_mpm/kernels/points_to_grid.h>
 #include <caisson_mpm/kernels/pressure_force.h>
 #include <caisson_mpm/kernels/pressure_gradient_force.h>
@@ -27,7 +28,8 @@ namespace CaissonMPM
         &pressure_force<NativeLanes>,
         &pressure_gradient_force<NativeLanes>,
         &apply_mass,
-        &grid_to_points<NativeLanes>};
+        &grid_to_points<NativeLanes>,
+        &largest_moduli<NativeLanes>};
       return table;
     }
   } // namespace Kernels

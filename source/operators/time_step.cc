@@ -47,12 +47,13 @@ namespace CaissonMPM
   }
 
   void
-  TimeStep::initialize(const BackgroundGrid           &grid,
+  TimeStep::initialize(const Kernels::KernelTable     &kernels,
+                       const BackgroundGrid           &grid,
                        MaterialPoints                 &points,
                        const Soil                     &soil,
                        std::vector<Kernels::Material> &materials)
   {
-    update_moduli(grid.communicator(), points, soil, materials);
+    update_moduli(kernels, grid.communicator(), points, soil, materials);
     update_limit(grid, points, soil, materials);
     // The start of a run counts as a step. With a tolerance, the search is due
     // in the steps in which ranks may have repartitioned the mesh, so that it
@@ -68,15 +69,16 @@ namespace CaissonMPM
   }
 
   double
-  TimeStep::choose(const BackgroundGrid           &grid,
-                   const MaterialPoints           &points,
+  TimeStep::choose(const Kernels::KernelTable     &kernels,
+                   const BackgroundGrid           &grid,
+                   MaterialPoints                 &points,
                    const Soil                     &soil,
                    std::vector<Kernels::Material> &materials)
   {
     // The mesh moves slowly, and the search goes through all cells.
     if (++age == static_cast<int>(Intervals::time_step))
       {
-        update_moduli(grid.communicator(), points, soil, materials);
+        update_moduli(kernels, grid.communicator(), points, soil, materials);
         update_limit(grid, points, soil, materials);
       }
     if (is_too_large())
@@ -94,41 +96,29 @@ namespace CaissonMPM
   }
 
   void
-  TimeStep::update_moduli(const MPI_Comm                  communicator,
-                          const MaterialPoints           &points,
+  TimeStep::update_moduli(const Kernels::KernelTable     &kernels,
+                          const MPI_Comm                  communicator,
+                          MaterialPoints                 &points,
                           const Soil                     &soil,
                           std::vector<Kernels::Material> &materials)
   {
     // what stress and density may add until the next update
     constexpr double margin = 1.25;
     // 1. the materials whose stiffness varies, if any
-    std::vector<double> found(materials.size(), -1.);
-    bool                any = false;
+    bool any = false;
     for (unsigned int i = 0; i < materials.size(); ++i)
-      if (soil.material(i).stiffness_varies())
-        {
-          found[i] = 0.;
-          any      = true;
-        }
+      any |= soil.material(i).stiffness_varies();
     if (!any)
       return;
     // 2. the largest modulus of the points of each of them, on all ranks
-    points.for_each([&](const MaterialPoint &p, const unsigned int) {
-      double &largest = found[p.material];
-      if (largest >= 0.)
-        largest = std::max(
-          largest,
-          p_wave_modulus(materials[p.material],
-                         p.stress,
-                         p.void_ratio(soil.material(p.material).void_ratio())));
-    });
+    std::vector<double> found(materials.size(), 0.);
+    kernels.largest_moduli(points.view(), materials.data(), found.data());
     Utilities::MPI::max(found, communicator, found);
     // 3. the margin multiplies the part of the soil, not that of the water
     for (unsigned int i = 0; i < materials.size(); ++i)
       if (found[i] > 0.) // else no point is of this material
         materials[i].p_wave_modulus =
-          materials[i].water_modulus +
-          margin * (found[i] - materials[i].water_modulus);
+          materials[i].water_modulus + margin * found[i];
   }
 
   namespace

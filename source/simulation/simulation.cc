@@ -157,8 +157,8 @@ namespace CaissonMPM
   void
   Simulation::choose_step()
   {
-    clock.step_size =
-      schedule.shorten(time_step.choose(grid, points, soil, materials));
+    clock.step_size = schedule.shorten(
+      time_step.choose(*kernels, grid, points, soil, materials));
     boundary_conditions.prepare(grid, clock.time, clock.step_size);
   }
 
@@ -412,7 +412,7 @@ namespace CaissonMPM
     grid.rebuild();
     grid.move_to(body.motion().travel());
     points.rebuild_sums();
-    time_step.initialize(grid, points, soil, materials);
+    time_step.initialize(*kernels, grid, points, soil, materials);
   }
 
   bool

@@ -253,7 +253,7 @@ namespace CaissonMPM
       resume();
     else
       start();
-    time_step.initialize(grid, points, soil, materials);
+    time_step.initialize(*kernels, grid, points, soil, materials);
     check_initial_speed();
     recorder.try_observations();
     check_number_of_steps();

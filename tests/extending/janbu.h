@@ -76,13 +76,14 @@ namespace CaissonMPM
           return max((-1. / 3.) * (s.rr + s.zz + s.tt), Number(1e3));
         }
 
-        static double
-        p_wave_modulus(const StressState<Lanes<1>> &stress,
-                       const double /*void_ratio*/,
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        p_wave_modulus(const StressState<Number> &stress,
+                       const Number /*void_ratio*/,
                        const Parameters &p)
         {
           return p.unloading * (p.lambda + 2. * p.mu) *
-                 pow(1e-5 * pressure(stress), p.exponent)[0];
+                 pow(1e-5 * pressure(stress), p.exponent);
         }
 
         static void

@@ -160,7 +160,9 @@ test_any_state()
       const double wave = (mr * (answer.rr * nr + answer.rz * nz) +
                            mz * (answer.rz * nr + answer.zz * nz))[0];
       raise(excess,
-            wave / Law::p_wave_modulus(point.stress, point.void_ratio, p));
+            wave / Law::p_wave_modulus(point.stress,
+                                       Scalar(point.void_ratio),
+                                       p)[0]);
     }
   std::printf("Any state\nnot finite: %u\n", not_finite);
   report("|h| / R", length, 1. + 1e-12);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The functions of simd_math.h: exp, log, pow, sin and cos of one and of eight
-// lanes against <cmath>.
+// The functions of simd_math.h: exp, log, pow, roots, sin and cos of one and of
+// eight lanes against <cmath>.
 #include <caisson_mpm/kernels/simd_math.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ test_functions()
       raise(error, std::fabs(a[i] - b) / std::max(std::fabs(b), 1e-300));
     return error;
   };
-  double e = 0., l = 0., p = 0., s = 0.;
+  double e = 0., l = 0., p = 0., q = 0., s = 0.;
   for (double x = -300.; x < 300.; x += 0.0371)
     raise(e, relative(exp(Number(x)), std::exp(x)));
   for (double x = 1e-12; x < 1e12; x *= 1.0123)
@@ -27,6 +27,8 @@ test_functions()
       raise(l, relative(log(Number(x)), std::log(x)));
       for (const double y : {0.13, 0.28, 1.05})
         raise(p, relative(pow(Number(x), y), std::pow(x, y)));
+      for (const double y : {0., .25, .5, .75, 5.5, 6.})
+        raise(q, relative(quarter_power(Number(x), y), std::pow(x, y)));
     }
   for (double x = -1.57; x < 1.57; x += 0.00123)
     {
@@ -37,6 +39,7 @@ test_functions()
   report("exp", e, 1e-15);
   report("log", l, 1e-15);
   report("pow", p, 1e-14);
+  report("quarter_power", q, 1e-14);
   report("sin, cos", s, 1e-15);
 }
 

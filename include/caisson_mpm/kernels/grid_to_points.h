@@ -12,6 +12,7 @@
 #include <caisson_mpm/kernels/cell_sums.h>
 #include <caisson_mpm/kernels/deferred_blocks.h>
 #include <caisson_mpm/kernels/loosest_state.h>
+#include <caisson_mpm/kernels/packed_points.h>
 #include <caisson_mpm/kernels/volume_change.h>
 
 namespace CaissonMPM
@@ -134,31 +135,37 @@ namespace CaissonMPM
       {
         BlocksAhead            ahead;
         DeferredBlocks<Number> deferred;
+        PackedPoints<Number>  &packed;
         // row i: sum i of UpdateSums of the cells of a group
         Number        of_group[UpdateSums<Number>::size][Number::width];
         UpdateResult &result;
 
-        [[gnu::always_inline]] inline UpdateInProgress(const PointsView &points,
-                                                       UpdateResult     &result)
+        [[gnu::always_inline]] inline UpdateInProgress(
+          const PointsView     &points,
+          PackedPoints<Number> &packed,
+          UpdateResult         &result)
           : ahead(points)
+          , packed(packed)
           , result(result)
         {}
       };
 
       /** Update stress and volume of the points in the lanes from @p lane on,
-       * or let their block wait; @p in_group is the number of the cell. */
-      template <typename Law, typename Number>
+       * @p count to the end of their block, or let them wait; @p in_group is the
+       * number of the cell. */
+      template <typename Law, typename Number, typename Waiting>
       [[gnu::always_inline]] inline void
       update_stress_of_lanes(PointBlock               &b,
                              PointHistory             &history,
                              const int                 lane,
+                             const int                 count,
                              const int                 in_group,
                              const LocalPoint<Number> &p,
                              const CellUpdate         &cell,
                              const UpdateSettings     &settings,
                              const Material           &material,
                              UpdateSums<Number>       &sums,
-                             DeferredBlocks<Number>   &deferred)
+                             Waiting                  &waiting)
       {
         const auto &parameters =
           reinterpret_cast<const typename Law::Parameters &>(
@@ -169,6 +176,9 @@ namespace CaissonMPM
           if (cell.has_loose_points && material.has_loosest_state)
             is_loose = hold_loose_points<Law, Number>(
               b, history, lane, material, parameters, cell, settings, s.step);
+        if constexpr (is_packed<Law>(0))
+          return waiting.template add<Law>(
+            b, history, lane, count, s, p, parameters, in_group);
         const Number mass   = Number::load(b.mass + lane),
                      volume = Number::load(b.volume + lane),
                      after  = volume * (Number(1.) + s.step.volume_change);
@@ -190,7 +200,7 @@ namespace CaissonMPM
                 }
               if (!Law::needs_void_ratio(parameters) &&
                   material.overstress_time == 0.)
-                return deferred.add(b, s, p, material, in_group);
+                return waiting.add(b, s, p, material, in_group);
             }
         sums.add_work(p,
                       mass,
@@ -208,17 +218,18 @@ namespace CaissonMPM
 
       /** Update the first @p n_lanes of a block; returns those outside the moved
        * cell. */
-      template <typename Law, int n_lanes, typename Number>
+      template <typename Law, int n_lanes, typename Number, typename Waiting>
       [[gnu::always_inline]] inline unsigned int
-      update_block(PointBlock             &b,
-                   PointHistory           &history,
-                   const int               in_group,
-                   const CellUpdate       &cell,
-                   const UpdateSettings   &settings,
-                   const Material         &material,
-                   unsigned int           &limited,
-                   UpdateSums<Number>     &sums,
-                   DeferredBlocks<Number> &deferred)
+      update_block(PointBlock           &b,
+                   PointHistory         &history,
+                   const int             count,
+                   const int             in_group,
+                   const CellUpdate     &cell,
+                   const UpdateSettings &settings,
+                   const Material       &material,
+                   unsigned int         &limited,
+                   UpdateSums<Number>   &sums,
+                   Waiting              &waiting)
       {
         unsigned int outside = 0;
         limited              = 0;
@@ -229,16 +240,50 @@ namespace CaissonMPM
             update_stress_of_lanes<Law>(b,
                                         history,
                                         lane,
+                                        count - lane,
                                         in_group,
                                         p,
                                         cell,
                                         settings,
                                         material,
                                         sums,
-                                        deferred);
+                                        waiting);
             limited |= move_points(b, lane, p, cell, settings, r, z) << lane;
             outside |= to_integer(!cell.moved.contains(r, z)) << lane;
           }
+        return outside;
+      }
+
+      /** Update a block of a law that is packed. What a kernel does for the
+       * points of other laws stays as short as it is without this. */
+      template <typename Law, typename Number>
+      [[gnu::noinline]] unsigned int
+      update_packed_block(const PointsView                         &points,
+                          const int                                 block,
+                          const int                                 in_group,
+                          const CellUpdate                         &cell,
+                          const UpdateSettings                     &settings,
+                          const Material                           &material,
+                          unsigned int                             &limited,
+                          const typename PackedPoints<Number>::Sums sums,
+                          PackedPoints<Number>                     &packed)
+      {
+        const BlockHeader  header  = points.headers[block];
+        unsigned int       outside = 0;
+        UpdateSums<Number> no_sums; // packed points are added later
+        packed.prepare(material, sums);
+        with_lanes<Number>(header, [&](auto n_lanes) CAISSON_LAMBDA {
+          outside = update_block<Law, n_lanes>(points.blocks[block],
+                                               points.histories[block],
+                                               header.count,
+                                               in_group,
+                                               cell,
+                                               settings,
+                                               material,
+                                               limited,
+                                               no_sums,
+                                               packed);
+        });
         return outside;
       }
 
@@ -374,18 +419,30 @@ namespace CaissonMPM
             unsigned int    outside = 0, limited = 0;
             const Material &material = step.materials[header.material];
             with_law(material, [&](auto law, const auto &) CAISSON_LAMBDA {
-              with_lanes<Number>(header, [&](auto n_lanes) CAISSON_LAMBDA {
-                outside = update_block<decltype(law), n_lanes, Number>(
-                  points.blocks[block],
-                  points.histories[block],
-                  in_group,
-                  update,
-                  settings,
-                  material,
-                  limited,
-                  sums,
-                  progress.deferred);
-              });
+              using Law = decltype(law);
+              if constexpr (is_packed<Law>(0))
+                outside = update_packed_block<Law>(points,
+                                                   block,
+                                                   in_group,
+                                                   update,
+                                                   settings,
+                                                   material,
+                                                   limited,
+                                                   progress.of_group,
+                                                   progress.packed);
+              else
+                with_lanes<Number>(header, [&](auto n_lanes) CAISSON_LAMBDA {
+                  outside = update_block<Law, n_lanes>(points.blocks[block],
+                                                       points.histories[block],
+                                                       header.count,
+                                                       in_group,
+                                                       update,
+                                                       settings,
+                                                       material,
+                                                       limited,
+                                                       sums,
+                                                       progress.deferred);
+                });
             });
             // padding moves like the point that it repeats, but is none
             const unsigned int real = (1u << header.count) - 1u;
@@ -424,6 +481,7 @@ namespace CaissonMPM
               step, group.cell[i], i, update[i], how.settings, progress);
           }
         progress.deferred.update(progress.of_group);
+        progress.packed.update(progress.of_group);
         // The sums for the next step, while the points are in the cache. A
         // cell that points leave is summed by points_to_grid instead.
         for (int i = 0; i < group.n; ++i)
@@ -444,7 +502,8 @@ namespace CaissonMPM
         constexpr int width = Number::width, n_sums = UpdateSums<Number>::size;
         result.n_leaving = result.n_limited = 0;
         result.stress_work                  = 0.;
-        UpdateInProgress<Number> progress(step.points, result);
+        PackedPoints<Number>     packed;
+        UpdateInProgress<Number> progress(step.points, packed, result);
         for (unsigned int begin = 0; begin < step.points.n_active_cells;
              begin += width)
           {

@@ -71,18 +71,7 @@ namespace CaissonMPM
           const Number              length = sqrt(square);
           const Number              trace  = D.rr + D.zz + D.tt;
 
-          State<Number> state{{sigma.rr - p.shift,
-                               sigma.zz - p.shift,
-                               sigma.tt - p.shift,
-                               sigma.rz},
-                              law_state.void_ratio,
-                              {}};
-          if constexpr (remembers)
-            state.memory = {law_state.variable[0],
-                            law_state.variable[1],
-                            law_state.variable[2],
-                            law_state.variable[3]};
-          hold_in_bounds(state, p);
+          State<Number> state = state_at_start(sigma, law_state, p);
 
           // the share of the step that is done, and that of the next substep
           Number done(0.), share(1.);
@@ -90,6 +79,12 @@ namespace CaissonMPM
             {
               const Substep<Number> substep =
                 take_substep(state, D, length, share, p);
+              // nearly always one substep is enough for all lanes
+              if (n == 0 && !any(substep.error > Number(tolerance)))
+                {
+                  state = substep.end;
+                  break;
+                }
               const Mask running = done < one;
               // a NaN is accepted, and noticed elsewhere
               const Mask accepted =
@@ -130,6 +125,27 @@ namespace CaissonMPM
         };
 
         template <typename Number>
+        [[gnu::always_inline]] static inline State<Number>
+        state_at_start(const StressState<Number> &sigma,
+                       const LawState<Number>    &law_state,
+                       const Parameters          &p)
+        {
+          State<Number> state{{sigma.rr - p.shift,
+                               sigma.zz - p.shift,
+                               sigma.tt - p.shift,
+                               sigma.rz},
+                              law_state.void_ratio,
+                              {}};
+          if constexpr (remembers)
+            state.memory = {law_state.variable[0],
+                            law_state.variable[1],
+                            law_state.variable[2],
+                            law_state.variable[3]};
+          hold_in_bounds(state, p);
+          return state;
+        }
+
+        template <typename Number>
         [[gnu::always_inline]] static inline void
         hold_in_bounds(State<Number> &state, const Parameters &p)
         {
@@ -137,10 +153,11 @@ namespace CaissonMPM
           Hypoplasticity::hold_below_loosest(state.stress, state.void_ratio, p);
           if constexpr (remembers)
             {
-              const Number length = sqrt(product(state.memory, state.memory));
-              const Number kept =
-                min(Number(p.range) / max(length, Number(1e-30)), Number(1.));
-              state.memory = scaled(kept, state.memory);
+              const Number square = product(state.memory, state.memory),
+                           largest(p.range * p.range);
+              if (any(square > largest))
+                state.memory =
+                  scaled(sqrt(largest / max(square, largest)), state.memory);
             }
         }
 
@@ -159,23 +176,27 @@ namespace CaissonMPM
                  const StressState<Number> &D,
                  const Parameters          &p)
         {
-          const Number length  = sqrt(product(h, h));
-          const Number rho     = min(length * (1. / p.range), Number(1.));
-          const auto   along_h = scaled(1. / max(length, Number(1e-30)), h);
-          const Number along   = product(along_h, D);
+          const Number square  = max(product(h, h), Number(1e-60)),
+                       length  = sqrt(square);
+          const Number rho     = min(length * (1. / p.range), Number(1.)),
+                       along   = product(h, D);
           const auto   forward = along > Number(0.);
-          // rho = 0 has no logarithm
-          const Number some = max(rho, Number(1e-30));
-          const Number kept = pow(some, p.decay);
+          const auto   share   = along / square; // along h
+          const Number log_rho = p.by_roots ? Number(0.) : log2(rho);
+          const auto   power   = [&](const double exponent) {
+            return p.by_roots ? quarter_power(rho, exponent) :
+                                    exp2(exponent * log_rho);
+          };
+          const Number kept = power(p.decay);
           const Number more = select(forward,
                                      Number(1. - p.turned),
                                      Number(p.reversed - p.turned));
           const Number all  = p.reversed + kept * (p.turned - p.reversed);
           const Number lost =
-            select(forward, pow(some, p.evolution) * along, Number(0.));
-          return {sum(scaled(all, D), kept * more * along, along_h),
-                  select(forward, kept * along, Number(0.)),
-                  sum(D, -lost, along_h)};
+            select(forward, power(p.evolution) * share, Number(0.));
+          return {sum(scaled(all, D), kept * more * share, h),
+                  select(forward, kept * share * length, Number(0.)),
+                  sum(D, -lost, h)};
         }
 
         /** The end of a substep and its relative error. */
@@ -259,12 +280,14 @@ namespace CaissonMPM
           hold_in_bounds(euler, p);
           const Number scale =
             sqrt(product(euler.stress, euler.stress)) + 10. * p.shift;
-          const Number change =
-            share * sqrt(product(first.stress, first.stress));
-          auto is_large = change > small_change * scale;
+          const Number change = share * share, small = small_change * scale;
+          auto is_large = change * product(first.stress, first.stress) > //
+                          small * small;
           if constexpr (remembers)
             is_large =
-              is_large | (share * length > Number(small_strain * p.range));
+              is_large |
+              (change * product(D, D) >
+               Number(small_strain * small_strain * p.range * p.range));
 
           Substep<Number> result{euler, Number(0.)};
           if (any(is_large))

@@ -86,6 +86,8 @@ namespace CaissonMPM
           p.evolution  = values[12];
           p.decay      = values[13];
           p.start      = values[14];
+          p.by_roots =
+            has_quarter_power(p.evolution) && has_quarter_power(p.decay);
           return p;
         }
 

@@ -126,7 +126,8 @@ namespace CaissonMPM
        */
       struct Hypoplasticity
       {
-        static constexpr bool uses_void_ratio = true, stiffness_varies = true;
+        static constexpr bool uses_void_ratio = true, stiffness_varies = true,
+                              is_packed = true;
 
         struct Parameters
         {
@@ -142,6 +143,9 @@ namespace CaissonMPM
            * without one has m_R = 1. */
           double range = 1., reversed = 1., turned = 1., evolution = 1.,
                  decay = 1.;
+
+          /** Whether both powers of |h| / R are computed by roots. */
+          bool by_roots = true;
 
           /** |h| / R at the start. */
           double start = 0.;
@@ -159,16 +163,16 @@ namespace CaissonMPM
           p.sin_phi = __builtin_sin(values[0] * radians_per_degree);
           p.a       = __builtin_sqrt(3.) * (3. - p.sin_phi) /
                 (2. * __builtin_sqrt(2.) * p.sin_phi);
-          p.hardness  = values[1];
-          p.n         = values[2];
-          p.e_d0      = values[3];
-          p.e_c0      = values[4];
-          p.e_i0      = values[5];
-          p.alpha     = values[6];
-          p.beta      = values[7];
-          p.shift     = values[8];
-          p.stiffness = p.hardness / p.n *
-                        __builtin_pow(p.e_i0 / p.e_c0, p.beta) / denominator(p);
+          p.hardness = values[1];
+          p.n        = values[2];
+          p.e_d0     = values[3];
+          p.e_c0     = values[4];
+          p.e_i0     = values[5];
+          p.alpha    = values[6];
+          p.beta     = values[7];
+          p.shift    = values[8];
+          p.stiffness =
+            p.hardness / p.n * __builtin_pow(p.e_i0, p.beta) / denominator(p);
           p.dense = loosest_void_ratio(Lanes<1>(p.dense_pressure), p)[0];
           return p;
         }
@@ -244,10 +248,11 @@ namespace CaissonMPM
          * largest. An intergranular strain makes the first two terms up to
          * m_R times as large, and turns the strain, so that s is |S| there.
          */
-        static double
-        p_wave_modulus(const StressState<Lanes<1>> &stress,
-                       const double                 void_ratio,
-                       const Parameters            &parameters);
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        p_wave_modulus(const StressState<Number> &stress,
+                       const Number               void_ratio,
+                       const Parameters          &parameters);
 
         /** What the rate takes from stress and void ratio. */
         template <typename Number>
@@ -416,43 +421,37 @@ namespace CaissonMPM
                               const Parameters          &p)
       {
         const Number    third(1. / 3.);
-        const Number    trace   = T.rr + T.zz + T.tt;
-        const Number    inverse = Number(1.) / trace;
+        const Number    trace = T.rr + T.zz + T.tt;
         Factors<Number> f;
-        f.s = {T.rr * inverse, T.zz * inverse, T.tt * inverse, T.rz * inverse};
+        f.s = scaled(Number(1.) / trace, T);
 
-        // the deviator: its length and its third invariant
+        // F with cos 3theta = -3 sqrt(6) det(S*) / |S*|^3 put in
         const Number x = f.s.rr - third, y = f.s.zz - third, z = f.s.tt - third,
                      w      = f.s.rz;
-        const Number square = x * x + y * y + z * z + 2. * (w * w);
-        // tr(S* S* S*) = 3 det(S*)
-        const Number cubic      = 3. * (z * (x * y - w * w));
-        const Number length     = sqrt(square);
-        const Number cos_3theta = max(min(Number(-2.449489742783178) * cubic /
-                                            max(square * length, Number(1e-30)),
-                                          Number(1.)),
-                                      Number(-1.));
-        const Number t          = 1.7320508075688772 * length;
+        const Number square = max(x * x + y * y + z * z + 2. * (w * w), //
+                                  Number(1e-30)),
+                     det    = z * (x * y - w * w);
+        // one division for both quotients
+        const Number tr_SS = third + square, divisor = 2. * square - 18. * det,
+                     inverse = Number(1.) / (tr_SS * divisor);
         const Number radicand =
-          0.125 * (t * t) +
-          (2. - t * t) / (2. + 1.4142135623730951 * t * cos_3theta);
-        f.F = sqrt(max(radicand, Number(0.))) - 0.35355339059327373 * t;
+          .375 * square + (2. - 3. * square) * square * tr_SS * inverse;
+        f.F = sqrt(max(radicand, Number(0.))) - sqrt(.375 * square);
 
-        // pressure and density
-        const Number pressure = -trace * (1. / p.hardness); // 3 p / h_s
-        const Number power    = pow(pressure, p.n);
-        const Number bauer    = exp(-power);
-        const Number e_i      = p.e_i0 * bauer;
-        const Number e        = max(min(void_ratio, e_i), Number(.5 * p.e_d0));
-        const Number e_d      = p.e_d0 * bauer;
-        const Number excess =
-          max(e - e_d, Number(0.)) / ((p.e_c0 - p.e_d0) * bauer);
-        f.f_d            = select(excess > Number(0.),
+        // pressure: e_i0 / e_i = exp((3p/h_s)^n), and e at zero pressure
+        const Number log_pressure = log2(-trace * (1. / p.hardness));
+        const Number growth =
+          exp2(1.4426950408889634 * exp2(p.n * log_pressure));
+        const Number e =
+          max(min(void_ratio * growth, Number(p.e_i0)), Number(.5 * p.e_d0));
+        // density
+        const Number excess = (e - p.e_d0) * (1. / (p.e_c0 - p.e_d0));
+        f.f_d               = select(excess > Number(0.),
                        pow(max(excess, Number(1e-30)), p.alpha),
                        Number(0.));
-        const Number f_e = pow(p.e_c0 * bauer / e, p.beta);
-        f.scale = p.stiffness * f_e * (1. + e_i) / e_i * (pressure / power) /
-                  product(f.s, f.s);
+        f.scale             = p.stiffness * (1. + growth * (1. / p.e_i0)) *
+                  exp2((1. - p.n) * log_pressure - p.beta * log2(e)) *
+                  (divisor * inverse);
         return f;
       }
 
@@ -463,11 +462,16 @@ namespace CaissonMPM
       {
         const Number mean   = (1. / 3.) * (T.rr + T.zz + T.tt);
         const Number center = .5 * (T.rr + T.zz), half = .5 * (T.rr - T.zz);
-        const Number radius = sqrt(half * half + T.rz * T.rz);
+        const Number square = half * half + T.rz * T.rz;
+        const auto   parted = !(mean < Number(-parameters.shift));
+        // what most stresses are: no principal value above the bound
+        const Number bound = (3. / 50.) * mean, room = bound - center;
+        if (!any(parted | (T.tt > bound) |
+                 (square >= room * max(room, Number(0.)))))
+          return;
         // how far the least compressive value stands above the mean
-        const Number excess  = max(center + radius, T.tt) - mean;
-        const Number allowed = -(1. - 3. / 50.) * mean;
-        const auto   parted  = !(mean < Number(-parameters.shift));
+        const Number excess  = max(center + sqrt(square), T.tt) - mean;
+        const Number allowed = bound - mean;
         const Number share   = select(excess > allowed,
                                     allowed / max(excess, Number(1e-30)),
                                     Number(1.));
@@ -482,29 +486,27 @@ namespace CaissonMPM
         T.rz = select(parted, Number(0.), share * T.rz);
       }
 
-      inline double
-      Hypoplasticity::p_wave_modulus(const StressState<Lanes<1>> &stress,
-                                     const double                 void_ratio,
-                                     const Parameters            &p)
+      template <typename Number>
+      [[gnu::always_inline]] inline Number
+      Hypoplasticity::p_wave_modulus(const StressState<Number> &stress,
+                                     const Number               void_ratio,
+                                     const Parameters          &p)
       {
-        using Scalar = Lanes<1>;
-        StressState<Scalar> T{stress.rr - p.shift,
+        StressState<Number> T{stress.rr - p.shift,
                               stress.zz - p.shift,
                               stress.tt - p.shift,
                               stress.rz};
         hold_in_bounds(T, p);
-        const Factors<Scalar> f      = factors(T, Scalar(void_ratio), p);
-        const double          center = .5 * (f.s.rr[0] + f.s.zz[0]),
-                     half = .5 * (f.s.rr[0] - f.s.zz[0]), rz = f.s.rz[0],
-                     tt    = f.s.tt[0];
-        const double upper = center + __builtin_sqrt(half * half + rz * rz);
-        const double s     = upper > tt ? upper : tt;
-        const double F     = f.F[0];
-        const double linear =
+        const Factors<Number> f    = factors(T, void_ratio, p);
+        const Number          half = .5 * (f.s.rr - f.s.zz);
+        const Number          s =
+          max(.5 * (f.s.rr + f.s.zz) + sqrt(half * half + f.s.rz * f.s.rz),
+              f.s.tt);
+        const Number linear =
           p.reversed > 1. ?
-            p.reversed * (F * F + p.a * p.a * product(f.s, f.s)[0]) :
-            F * F + p.a * p.a * s * s;
-        return f.scale[0] * (linear + f.f_d[0] * p.a * F * (2. * s - 1. / 3.));
+            p.reversed * (f.F * f.F + p.a * p.a * product(f.s, f.s)) :
+            f.F * f.F + p.a * p.a * s * s;
+        return f.scale * (linear + f.f_d * p.a * f.F * (2. * s - 1. / 3.));
       }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

@@ -65,6 +65,14 @@ namespace CaissonMPM
       void (*grid_to_points)(const StepContext &,
                              const PointUpdate &,
                              UpdateResult &);
+
+      /**
+       * Raise @p largest to the p-wave modulus of the points of each material
+       * whose stiffness varies, without the water. Units: Pa.
+       */
+      void (*largest_moduli)(const PointsView &,
+                             const Material *materials,
+                             double         *largest);
     };
   } // namespace Kernels
 } // namespace CaissonMPM

@@ -244,9 +244,9 @@ namespace CaissonMPM
                        const double    void_ratio)
         {
           return Law::p_wave_modulus(
-            {stress[0], stress[1], stress[2], stress[3]},
-            void_ratio,
-            parameters(material));
+            StressState<Lanes<1>>{stress[0], stress[1], stress[2], stress[3]},
+            Lanes<1>(void_ratio),
+            parameters(material))[0];
         }
 
         static double

@@ -66,9 +66,10 @@ namespace CaissonMPM
           return p.lambda / (p.lambda + 2. * p.mu);
         }
 
-        static double
-        p_wave_modulus(const StressState<Lanes<1>> & /*stress*/,
-                       const double /*void_ratio*/,
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        p_wave_modulus(const StressState<Number> & /*stress*/,
+                       const Number /*void_ratio*/,
                        const Parameters &p)
         {
           return p.lambda + 2. * p.mu;

@@ -10,6 +10,8 @@
 //   static constexpr bool        uses_void_ratio;
 //   static constexpr bool        stiffness_varies; // with stress, void ratio
 //   static constexpr bool        has_yield_surface; // optional: overstress.h
+//   static constexpr bool        is_packed; // optional, for a law that
+//                                   // takes long: packed_points.h
 //   static constexpr int         n_state; // of LawState::variable in use
 //   static constexpr bool        state_is_a_tensor; // optional: the first four
 //                                   // variables turn with the soil
@@ -27,8 +29,9 @@
 //                                           const Parameters &);
 //   static const char *warning(const double *values); // optional; null: none
 //   static double earth_pressure_at_rest(const Parameters &);
-//   static double p_wave_modulus(const StressState<Lanes<1>> &,
-//                                double void_ratio, const Parameters &);
+//   template <typename Number>
+//   static Number p_wave_modulus(const StressState<Number> &,
+//                                Number void_ratio, const Parameters &);
 //   static void start(const Parameters &, double *variable); // if n_state > 0
 //   template <typename Number>
 //   static void update(StressState<Number> &, const StrainIncrement<Number> &,

@@ -154,9 +154,10 @@ namespace CaissonMPM
           return 1. - p.strength.sin_phi;
         }
 
-        static double
-        p_wave_modulus(const StressState<Lanes<1>> & /*stress*/,
-                       const double /*void_ratio*/,
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        p_wave_modulus(const StressState<Number> & /*stress*/,
+                       const Number /*void_ratio*/,
                        const Parameters &p)
         {
           return p.elastic.p_wave_modulus();

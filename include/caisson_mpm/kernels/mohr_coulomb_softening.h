@@ -159,9 +159,10 @@ namespace CaissonMPM
           return 1. - __builtin_sin(p.phi + p.phi_lost);
         }
 
-        static double
-        p_wave_modulus(const StressState<Lanes<1>> & /*stress*/,
-                       const double /*void_ratio*/,
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        p_wave_modulus(const StressState<Number> & /*stress*/,
+                       const Number /*void_ratio*/,
                        const Parameters &p)
         {
           return p.elastic.p_wave_modulus();

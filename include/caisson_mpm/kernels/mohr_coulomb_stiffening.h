@@ -192,12 +192,13 @@ namespace CaissonMPM
                  bulk_modulus;
         }
 
-        static double
-        p_wave_modulus(const StressState<Lanes<1>> &stress,
-                       const double                 void_ratio,
-                       const Parameters            &p)
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        p_wave_modulus(const StressState<Number> &stress,
+                       const Number               void_ratio,
+                       const Parameters          &p)
         {
-          return stiffening(stress, p)[0] *
+          return stiffening(stress, p) *
                  MohrCoulomb::p_wave_modulus(stress, void_ratio, p.reference);
         }
 

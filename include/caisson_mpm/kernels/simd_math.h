@@ -4,9 +4,14 @@
 // on every instruction set. Relative errors are a few units of round-off where
 // the result is a normal number; the test is tests/kernels/vector_math.cc.
 //
-// exp(x) = 2^k exp(t) with |t| <= ln(2)/2, and log(x) = k ln 2 + log(m) with
-// 1/sqrt(2) <= m <= sqrt(2), log(m) = 2 artanh((m - 1) / (m + 1)); exp(t),
-// artanh, sin and cos are summed by their power series.
+// With 1/sqrt(2) <= m < sqrt(2) and |t| <= 1/2,
+//
+//   2^x = 2^k 2^t,   log2 x = k + log2 m,
+//   log2 m = (2 / ln 2) artanh(f),   f = (m - 1) / (m + 1).
+//
+// 2^t and artanh(f) / f are polynomials that interpolate them in Chebyshev's
+// points, with relative errors below 2e-17; sin and cos are summed by their
+// power series.
 #ifndef caisson_mpm_kernels_simd_math_h
 #define caisson_mpm_kernels_simd_math_h
 
@@ -70,79 +75,131 @@ namespace CaissonMPM
         return result;
       }
 
+      /** 2^k 2^t for |t| <= 1/2, with k in the low bits of @p shifted. */
+      template <int n>
+      [[gnu::always_inline]] inline Lanes<n>
+      power_of_two(const Lanes<n> shifted, const Lanes<n> t)
+      {
+        using Bits                    = LaneBits<n>;
+        static constexpr double fit[] = {1.,
+                                         0.6931471805599453,
+                                         0.24022650695910158,
+                                         0.055504108664821625,
+                                         0.009618129107587256,
+                                         0.001333355814640647,
+                                         0.00015403530463724353,
+                                         1.5252733841556773e-05,
+                                         1.3215432535912375e-06,
+                                         1.0178057087733941e-07,
+                                         7.074194297288521e-09,
+                                         4.4558179083360645e-10};
+        return Bits::to_lanes(Bits::of(polynomial(fit, t)) +
+                              (Bits::of(shifted) << 52));
+      }
+
+      /** Adding this rounds to an integer and leaves it in the low bits. */
+      constexpr double to_low_bits = 6755399441055744.; // 1.5 2^52
+
+      /** 2^x for -1000 <= x <= 1000; beyond, and for NaN, the value at the
+       * limit. */
+      template <int n>
+      [[gnu::always_inline]] inline Lanes<n>
+      exp2(const Lanes<n> x)
+      {
+        using Number         = Lanes<n>;
+        const Number y       = min(max(x, Number(-1000.)), Number(1000.)),
+                     shifted = y + Number(to_low_bits);
+        return power_of_two(shifted, y - (shifted - Number(to_low_bits)));
+      }
+
       /** For -700 <= x <= 700; beyond, and for NaN, the value at the limit. */
       template <int n>
       [[gnu::always_inline]] inline Lanes<n>
       exp(const Lanes<n> x)
       {
-        using Number                     = Lanes<n>;
-        using Bits                       = LaneBits<n>;
-        static constexpr double series[] = {1.,
-                                            1.,
-                                            1. / 2.,
-                                            1. / 6.,
-                                            1. / 24.,
-                                            1. / 120.,
-                                            1. / 720.,
-                                            1. / 5040.,
-                                            1. / 40320.,
-                                            1. / 362880.,
-                                            1. / 3628800.,
-                                            1. / 39916800.,
-                                            1. / 479001600.,
-                                            1. / 6227020800.};
-        const Number            y = min(max(x, Number(-700.)), Number(700.));
-        // adding 1.5 2^52 rounds to an integer and leaves it in the low bits
-        const Number round(6755399441055744.);
-        const Number shifted = y * Number(1.4426950408889634) + round;
-        const Number k       = shifted - round;
-        const Number t       = (y - k * Number(0.693147180369123816490)) -
-                         k * Number(1.90821492927058770002e-10);
-        return Bits::to_lanes(Bits::of(polynomial(series, t)) +
-                              (Bits::of(shifted) << 52));
+        using Number         = Lanes<n>;
+        const Number y       = min(max(x, Number(-700.)), Number(700.)),
+                     to      = Number(to_low_bits), per_ln2(1.4426950408889634),
+                     shifted = y * per_ln2 + to, k = shifted - to;
+        return power_of_two(shifted,
+                            ((y - k * Number(0.693147180369123816490)) -
+                             k * Number(1.90821492927058770002e-10)) *
+                              per_ln2);
       }
 
       /** For normal numbers x > 0; smaller ones, and NaN, count as 1e-300. */
       template <int n>
       [[gnu::always_inline]] inline Lanes<n>
-      log(const Lanes<n> x)
+      log2(const Lanes<n> x)
       {
-        using Number                     = Lanes<n>;
-        using Bits                       = LaneBits<n>;
-        static constexpr double series[] = {2.,
-                                            2. / 3.,
-                                            2. / 5.,
-                                            2. / 7.,
-                                            2. / 9.,
-                                            2. / 11.,
-                                            2. / 13.,
-                                            2. / 15.,
-                                            2. / 17.,
-                                            2. / 19.,
-                                            2. / 21.};
-        const Number            y        = max(x, Number(1e-300));
-        const auto              bits     = Bits::of(y);
-        // the exponent as a double: the low bits of 2^52 + exponent
-        const Number exponent =
-          Bits::to_lanes((bits >> 52) | 0x4330000000000000ull) -
-          Number(4503599627370496. + 1023.);
-        const Number mantissa = Bits::to_lanes((bits & 0x000fffffffffffffull) |
-                                               0x3ff0000000000000ull);
-        const auto   is_large = mantissa > Number(1.4142135623730951);
-        const Number m = select(is_large, Number(.5) * mantissa, mantissa);
-        const Number k = select(is_large, exponent + Number(1.), exponent);
+        using Number                  = Lanes<n>;
+        using Bits                    = LaneBits<n>;
+        static constexpr double fit[] = {2.8853900817779268,
+                                         0.9617966939259898,
+                                         0.5770780163455203,
+                                         0.4121985858409005,
+                                         0.32059853491395984,
+                                         0.262334352504183,
+                                         0.2209130842311768,
+                                         0.2136589569431927};
+        const auto              bits  = Bits::of(max(x, Number(1e-300)));
+        // 1023 + k, from sqrt(2) on one more than the exponent of x
+        const auto   exponent = (bits + 0x00095f619980c433ull) >> 52;
+        const Number m =
+          Bits::to_lanes(bits - (exponent << 52) + 0x3ff0000000000000ull);
+        // the low bits of 2^52 + exponent
+        const Number k = Bits::to_lanes(exponent | 0x4330000000000000ull) -
+                         Number(4503599627370496. + 1023.);
         const Number f = (m - Number(1.)) / (m + Number(1.));
-        return k * Number(0.693147180369123816490) +
-               (f * polynomial(series, f * f) +
-                k * Number(1.90821492927058770002e-10));
+        return k + f * polynomial(fit, f * f);
+      }
+
+      /** As log2(). */
+      template <typename Number>
+      [[gnu::always_inline]] inline Number
+      log(const Number x)
+      {
+        return Number(0.6931471805599453) * log2(x);
       }
 
       /** x^y for x > 0. */
-      template <int n>
-      [[gnu::always_inline]] inline Lanes<n>
-      pow(const Lanes<n> x, const double y)
+      template <typename Number>
+      [[gnu::always_inline]] inline Number
+      pow(const Number x, const double y)
       {
-        return exp(Lanes<n>(y) * log(x));
+        return exp2(Number(y) * log2(x));
+      }
+
+      /** Whether x^y can be had from roots. */
+      inline bool
+      has_quarter_power(const double y)
+      {
+        return y >= 0. && y <= 16. && 4. * y == static_cast<int>(4. * y);
+      }
+
+      /** The same for x >= 0 where 4 y is a whole number: by square roots and
+       * squares. */
+      template <typename Number>
+      [[gnu::always_inline]] inline Number
+      quarter_power(Number x, const double y)
+      {
+        int    quarters = static_cast<int>(4. * y);
+        Number result(1.);
+        if ((quarters & 3) != 0)
+          {
+            const Number root = sqrt(x);
+            if ((quarters & 2) != 0)
+              result = root;
+            if ((quarters & 1) != 0)
+              result = result * sqrt(root);
+          }
+        for (quarters >>= 2; quarters > 0; quarters >>= 1)
+          {
+            if ((quarters & 1) != 0)
+              result = result * x;
+            x = x * x;
+          }
+        return result;
       }
 
       /** For |x| <= pi / 2. */

@@ -5,7 +5,7 @@
 #ifndef caisson_mpm_kernels_simd_twice_h
 #define caisson_mpm_kernels_simd_twice_h
 
-#include <caisson_mpm/kernels/simd.h>
+#include <caisson_mpm/kernels/simd_math.h>
 
 namespace CaissonMPM
 {
@@ -141,6 +141,21 @@ namespace CaissonMPM
         sqrt(const Twice x)
         {
           return {sqrt(x.a), sqrt(x.b)};
+        }
+        [[gnu::always_inline]] friend inline Twice
+        exp(const Twice x)
+        {
+          return {exp(x.a), exp(x.b)};
+        }
+        [[gnu::always_inline]] friend inline Twice
+        exp2(const Twice x)
+        {
+          return {exp2(x.a), exp2(x.b)};
+        }
+        [[gnu::always_inline]] friend inline Twice
+        log2(const Twice x)
+        {
+          return {log2(x.a), log2(x.b)};
         }
         [[gnu::always_inline]] friend inline Twice
         select(const Mask m, const Twice x, const Twice y)

@@ -298,9 +298,10 @@ namespace CaissonMPM
         LawState<Number> state;
         state.plastic_deviatoric = Number::load(b.plastic_deviatoric + lane);
         state.plastic_volumetric = Number::load(b.plastic_volumetric + lane);
-        if (uses_void_ratio)
-          state.void_ratio =
-            void_ratio_of(volume, history, lane, initial_void_ratio);
+        state.void_ratio =
+          uses_void_ratio ?
+            void_ratio_of(volume, history, lane, initial_void_ratio) :
+            Number(0.);
         for (int i = 0; i < Law::n_state; ++i)
           state.variable[i] = Number::load(history.state[i] + lane);
         return state;
@@ -461,6 +462,49 @@ namespace CaissonMPM
           }
       }
 
+      /** Set the points in the lanes from @p lane on to the end of the step,
+       * where the law has given them a stress and a state in the middle of the
+       * turn. Returns work_per_volume(). */
+      template <typename Law, typename Number>
+      [[gnu::always_inline]] inline Number
+      end_stress_step(const StressStep<Number>  &s,
+                      const StressState<Number> &stress,
+                      LawState<Number>           state,
+                      PointBlock                &b,
+                      PointHistory              &history,
+                      const int                  lane)
+      {
+        store_stress(s.half_turn(stress), b, lane);
+        turn_state<Law>(s.half_turn, state);
+        store_state<Law>(state, b, history, lane);
+        // 5. V <- V (1 + dt div v)
+        (Number::load(b.volume + lane) * (Number(1.) + s.step.volume_change))
+          .store(b.volume + lane);
+        return work_per_volume(s.old, stress, s.step);
+      }
+
+      /** The state of the points in the lanes from @p lane on in the middle of
+       * the turn, as the law takes it. */
+      template <typename Law, typename Number>
+      [[gnu::always_inline]] inline LawState<Number>
+      begin_law(const StressStep<Number>       &s,
+                const PointBlock               &b,
+                const PointHistory             &history,
+                const int                       lane,
+                const double                    initial_void_ratio,
+                const typename Law::Parameters &parameters)
+      {
+        LawState<Number> state =
+          load_state<Law>(b,
+                          history,
+                          lane,
+                          Number::load(b.volume + lane),
+                          initial_void_ratio,
+                          needs_void_ratio<Law>(parameters, 0));
+        turn_state<Law>(s.half_turn, state);
+        return state;
+      }
+
       /** Set the stress and the volume of the points in the lanes from @p lane
        * on to those at the end of the step. Returns work_per_volume(). */
       template <typename Law, typename Number>
@@ -472,32 +516,24 @@ namespace CaissonMPM
                     const MaterialOf<Law>    &material)
       {
         // 4. The law: sigma <- sigma + C : de, and its state variables.
-        const Number     volume = Number::load(b.volume + lane);
-        LawState<Number> state =
-          load_state<Law>(b,
-                          history,
-                          lane,
-                          volume,
-                          material.initial_void_ratio,
-                          needs_void_ratio<Law>(material.parameters, 0));
-        turn_state<Law>(s.half_turn, state);
+        LawState<Number>    state  = begin_law<Law>(s,
+                                                b,
+                                                history,
+                                                lane,
+                                                material.initial_void_ratio,
+                                                material.parameters);
         StressState<Number> stress = s.old;
         Number              relative_volume(1.);
         if (material.stress_measure == StressMeasure::kirchhoff)
           {
-            const Number initial = Number::load(history.initial_volume + lane);
+            const Number volume  = Number::load(b.volume + lane),
+                         initial = Number::load(history.initial_volume + lane);
             // empty lanes have no volume
             relative_volume =
               select(volume > Number(0.), volume / initial, relative_volume);
           }
         apply_law<Law>(stress, s.step, relative_volume, state, material);
-        store_stress(s.half_turn(stress), b, lane);
-        turn_state<Law>(s.half_turn, state);
-        store_state<Law>(state, b, history, lane);
-
-        // 5. V <- V (1 + dt div v)
-        (volume * (Number(1.) + s.step.volume_change)).store(b.volume + lane);
-        return work_per_volume(s.old, stress, s.step);
+        return end_stress_step<Law>(s, stress, state, b, history, lane);
       }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

@@ -21,6 +21,7 @@
 #include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_points.h>
+#include <caisson_mpm/kernels/kernel_table.h>
 #include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/materials/soil.h>
 
@@ -75,7 +76,8 @@ namespace CaissonMPM
     /** Find the step at the start or after a restart. Throws BadInput where a
      * fixed step is not stable. Collective. */
     void
-    initialize(const BackgroundGrid           &grid,
+    initialize(const Kernels::KernelTable     &kernels,
+               const BackgroundGrid           &grid,
                MaterialPoints                 &points,
                const Soil                     &soil,
                std::vector<Kernels::Material> &materials);
@@ -88,8 +90,9 @@ namespace CaissonMPM
      * ranks; collective.
      */
     double
-    choose(const BackgroundGrid           &grid,
-           const MaterialPoints           &points,
+    choose(const Kernels::KernelTable     &kernels,
+           const BackgroundGrid           &grid,
+           MaterialPoints                 &points,
            const Soil                     &soil,
            std::vector<Kernels::Material> &materials);
 
@@ -132,8 +135,9 @@ namespace CaissonMPM
 
   private:
     void
-    update_moduli(const MPI_Comm                  communicator,
-                  const MaterialPoints           &points,
+    update_moduli(const Kernels::KernelTable     &kernels,
+                  const MPI_Comm                  communicator,
+                  MaterialPoints                 &points,
                   const Soil                     &soil,
                   std::vector<Kernels::Material> &materials);
     /** Find the scaling from the tolerance, and set the factors of all cells.
