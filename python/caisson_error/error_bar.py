@@ -262,32 +262,44 @@ def in_words(quantity: Quantity, below: float, above: float) -> str:
     return f"-{texts[0]} +{texts[1]}{unit}"
 
 
+def share_in_bar(
+    study: Study, finest: StudyRun, names: Sequence[str], depths: np.ndarray
+) -> dict[str, float]:
+    """Return the share of the depths where a run on the finest mesh lies in the error
+    bar that is made from the other meshes, by quantity; nothing where these are less
+    than two, or without that of the scene."""
+    others = [name for name in names if name != finest.name]
+    if len(others) < 2 or "default" not in others:
+        return {}
+    terms = [
+        {**term, "meshes": others} if "meshes" in term else term
+        for term in study.keys["errors"]
+    ]
+    bars = combined([term_errors(term, study, depths) for term in terms])
+    shares = {}
+    for q in (q for q in FORCES + SUCTION if q.name in bars):
+        value = values_of(study.run("default"), q, depths)
+        rise = values_of(finest, q, depths) - value
+        if q.is_relative:
+            rise /= value
+        below, above = bars[q.name]
+        shares[q.name] = float(np.mean((rise >= -below) & (rise <= above)))
+    return shares
+
+
 def print_meshes(study: Study, depths: np.ndarray, names: Sequence[str]) -> None:
     """Print what the similar meshes say of themselves: their order, and the finest
     one as the test of a bar that is made without it."""
     runs = [study.run(name) for name in names]
-    finest = min(
-        runs, key=lambda run: -float(run.run.entries.get("Grid/Refinement", 1))
-    )
-    others = [name for name in names if name != finest.name]
+    finest = max(runs, key=lambda r: float(r.run.entries.get("Grid/Refinement", 1)))
+    shares = share_in_bar(study, finest, names, depths)
     rows = []
     for q in quantities_of(study.run("default").results.history):
         error = mesh_error_of(study, names, q, depths)
-        held = "-"
-        if "default" in others and len(others) > 1:
-            bar = mesh_error_of(study, others, q, depths)
-            rise = values_of(finest, q, depths) - values_of(
-                study.run("default"), q, depths
-            )
-            held = f"{100 * np.mean((rise >= -bar.below) & (rise <= bar.above)):.0f} %"
         order = f"{np.nanmean(error.order):.1f}" if len(runs) > 2 else "-"
+        held = f"{100 * shares[q.name]:.0f} %" if q.name in shares else "-"
         rows.append([q.name, order, f"{100 * np.mean(error.failed):.0f} %", held])
-    heads = [
-        "meshes",
-        "order",
-        "not of order 1",
-        f"{finest.name} in the bar without it",
-    ]
+    heads = ["meshes", "order", "not of order 1", f"{finest.name} in bar of the others"]
     print(table.markdown(heads, rows) + "\n")
 
 
