@@ -9,6 +9,7 @@ nothing confirms it. The scene itself is not changed.
 """
 import argparse
 import math
+import os
 import re
 import sys
 from pathlib import Path
@@ -16,6 +17,7 @@ from typing import Any
 
 from caisson.paths import PROGRAM, RESULTS, scene_or_study, short
 from caisson.progress import duration
+from caisson.ranks import Size
 from caisson.runner import Run, RunError, read_parameters
 from caisson.study import Options, Study, StudyError, StudyRun, execute
 from caisson.study_command import shares_of, to_do_of
@@ -33,14 +35,23 @@ QUIET = {
 # runs with other numerics on the coarsest mesh: name, factor of the error, and what
 # a step costs more
 MASS, STEP, POINTS, SIDES = "mass scaling", "time step", "points", "boundaries"
-COST_OF_CHANGES = 2 + 2 + 1.8 + 1.5
+COST = {MASS: 2.0, STEP: 2.0, POINTS: 1.8, SIDES: 1.5}
+COST_OF_CHANGES = sum(COST.values())
+SHORTEST_WAY = 0.4  # m
+TOO_SHORT = (
+    f"the body is pushed by less than {SHORTEST_WAY} m. Forces are means over 0.2 m, so"
+    " that such a scene has no error bar"
+)
 
 
 def seconds_of(text: str) -> float:
-    """Return a duration such as 90s, 30min or 2h in seconds. Raises ValueError."""
-    found = re.fullmatch(r"([\d.]+) *(s|min|h)", text.strip())
-    if found is None:
-        raise ValueError(f"{text!r} is no duration such as 90s, 30min or 2h")
+    """Return a duration such as 90s, 30min or 2h in seconds. Raises
+    ArgumentTypeError."""
+    found = re.fullmatch(r"(\d+(?:\.\d*)?) *(s|min|h)", text.strip())
+    if found is None or not float(found[1]):
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not a duration such as 90s, 30min or 2h"
+        )
     return float(found[1]) * UNITS[found[2]]
 
 
@@ -115,13 +126,21 @@ class Plan:
     def __init__(self, arguments: argparse.Namespace) -> None:
         """Ask the program for the scene. Raises RunError and StudyError."""
         self.scene: Path = arguments.scene.resolve()
+        if self.scene.suffix == ".toml":
+            raise StudyError(
+                f"{self.scene.name} is a study. Give the scene, a .prm file, or call"
+                " caisson study"
+            )
         self.program: Path = arguments.program.resolve()
         self.results = arguments.results or RESULTS / "error_bar" / self.scene.stem
         self.entries = read_parameters([str(self.scene)], self.program)
         self.output: Path = arguments.output or self.scene.parent / (
             self.entries["Output/Error bar"] or f"{self.scene.stem}_error_bar.csv"
         )
-        self.seconds = self.run("default", {}).run.validate().seconds
+        self.check_way()
+        self.check_output()
+        self.size = self.size_of_scene()
+        self.seconds = self.size.seconds
         self.budget = arguments.budget or TIMES_THE_SCENE * self.seconds
         known = self.meshes()
         self.chosen = chosen_meshes(known, self.seconds, self.budget)
@@ -129,10 +148,61 @@ class Plan:
         if len(self.chosen) < 2:
             needed = self.seconds * (1 + COST_OF_CHANGES + self.next**3)
             raise StudyError(
-                f"{duration(self.budget)} allow no second mesh. Set --budget"
+                f"{duration(self.budget)} is not enough for a second mesh. Set --budget"
                 f" {in_units(needed)}, or more cells across the wall: the coarser"
                 " meshes then cost little."
             )
+
+    def check_way(self) -> None:
+        """Raise StudyError where the body is not pushed far enough."""
+        if self.entries["Rigid body/Velocity"].startswith("-"):
+            raise StudyError("the body is pulled out: error bars are for its way down")
+        try:
+            end = float(self.entries["Time/End penetration"])
+        except ValueError:  # another end: a short way is seen after the runs
+            return
+        if end - float(self.entries["Rigid body/Initial penetration"]) < SHORTEST_WAY:
+            raise StudyError(TOO_SHORT)
+
+    def check_output(self) -> None:
+        """Raise StudyError where the file would replace something else, or cannot be
+        written."""
+        folder = self.output.resolve().parent
+        if not os.access(folder, os.W_OK):
+            raise StudyError(f"{folder} cannot be written. Choose --output")
+        if self.output.is_dir():
+            raise StudyError(f"{self.output} is a directory. Choose --output")
+        if self.output.exists():
+            text = self.output.read_text(encoding="utf-8", errors="replace")
+            if "\n# fingerprint: " not in f"\n{text}":
+                raise StudyError(
+                    f"{self.output} exists and is no error bar. Choose --output, or"
+                    " move the file"
+                )
+
+    def check_results(self, runs: list[StudyRun]) -> None:
+        """Raise StudyError where a run would empty a directory of something else."""
+        for folder in (run.run.directory for run in runs):
+            names = (
+                {path.name for path in folder.iterdir()} if folder.is_dir() else set()
+            )
+            if names and not names & {Run.RECORD, "log"}:
+                raise StudyError(
+                    f"{folder} has files that are not of such a run. Choose --results"
+                )
+
+    def size_of_scene(self) -> Size:
+        """Return the points of the scene and how long it takes on one core. The program
+        does not say it where its first steps took no time that it could measure."""
+        for _ in range(3):
+            size = self.run("default", {}).run.validate()
+            if size.seconds:
+                return size
+        raise StudyError("the time of the scene is not known; repeat the command")
+
+    def sized(self, r: float, cost: float = 1.0) -> Size:
+        """Return the size of a run on a mesh, where a step costs more by a factor."""
+        return Size(round(self.size.points * r**2), cost * self.seconds * r**3)
 
     def run(self, name: str, entries: dict[str, Any]) -> StudyRun:
         """Return a run of the scene."""
@@ -148,7 +218,12 @@ class Plan:
         if kind not in ("caisson", "box", "cone"):
             raise StudyError("the scene has no body that is pushed into the soil")
         has_wall = kind != "box"
-        cells = int(self.entries["Rigid body/Cells across the wall"]) if has_wall else 0
+        cells = 0
+        if has_wall:
+            refined = float(self.entries["Grid/Refinement"])
+            cells = round(
+                int(self.entries["Rigid body/Cells across the wall"]) * refined
+            )
         even = kind == "caisson" and self.entries["Rigid body/Tip"] == "triangular"
         return [r for r in refinements(cells, even) if self.fits(r, cells)]
 
@@ -192,8 +267,10 @@ class Plan:
             runs.append(self.run(name, {**entries, **self.mesh(coarsest)}))
             term = {"name": name, "from": names[coarsest], "to": name, "factor": factor}
             errors.append(term)
-        for run in runs:
-            run.size = run.run.validate()
+        sizes = [self.sized(r) for r in names]
+        sizes += [self.sized(coarsest, COST[term["name"]]) for term in errors[1:]]
+        for run, size in zip(runs, sizes, strict=True):
+            run.size = size
         keys = {"errors": errors, "output": str(self.output.resolve())}
         return Study(self.scene.stem, self.scene.stem, self.scene, runs, keys)
 
@@ -204,23 +281,21 @@ def set_depths(study: Study) -> None:
     depth = study.run("default").results.history["penetration_m"]
     first, last = depth[0] + 0.3, depth.max() - 0.1
     if last < first:
-        raise StudyError(
-            "the body is pushed by less than 0.4 m. Forces are means over 0.2 m, so"
-            " that such a scene has no error bar"
-        )
+        raise StudyError(TOO_SHORT)
     study.keys["depths"] = [round(first, 1), round(last, 6), 0.1]
 
 
 def advise(plan: Plan, study: Study) -> None:
     """Print how the scene finds the bar, and what the next finer mesh would cost."""
     if plan.entries["Output/Error bar"] == "":
-        print(f"Set Output/Error bar = {plan.output.name} in {short(plan.scene)}.")
+        path = os.path.relpath(plan.output.resolve(), plan.scene.parent)
+        print(f"Set Output/Error bar = {path} in {short(plan.scene)}.")
     if plan.next:
         cost = duration(plan.seconds * plan.next**3)
         print(
             f"The next finer mesh, {plan.next:g} times as fine as that of the scene,"
-            f" takes about {cost} on one core. With it as that of the scene, the mesh"
-            f" error would be about {1 / plan.next:.2f} of that above."
+            f" takes about {cost} on one core. If the scene used it, its error by the"
+            f" mesh would be about {1 / plan.next:.2f} times the one above."
         )
 
 
@@ -235,6 +310,7 @@ def main(arguments: argparse.Namespace) -> int:
         print(f"all runs: about {duration(total)} on one core", flush=True)
         if arguments.list:
             return 0
+        plan.check_results(study.runs)
         plan.results.mkdir(parents=True, exist_ok=True)
         for some, at_a_time, ranks in shares_of(
             to_do_of(study.runs, arguments.again), None
@@ -246,6 +322,6 @@ def main(arguments: argparse.Namespace) -> int:
         error_bar.evaluate([study], Options(), 0)
         advise(plan, study)
         return 0
-    except (StudyError, RunError) as error:
+    except (StudyError, RunError, OSError) as error:
         print(f"error-bar: {error}", file=sys.stderr)
         return 1

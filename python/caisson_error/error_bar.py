@@ -37,6 +37,7 @@ import numpy as np
 
 from caisson import curves, table
 from caisson.paths import short
+from caisson.progress import duration
 from caisson.results import ResultsError, Table
 from caisson.study import Options, Study, StudyError, StudyRun
 from caisson_error.mesh_error import MeshError, mesh_error
@@ -95,13 +96,25 @@ Errors = dict[str, np.ndarray]
 
 
 def quantities_of(history: Table) -> list[Quantity]:
-    """Return what a run with this history has: forces, and suction if it acts."""
-    return [q for q in FORCES + SUCTION if q.column in history]
+    """Return what a run with this history has: forces that are not zero throughout, as
+    friction without a wall, and suction if it acts."""
+    return [q for q in FORCES + SUCTION if np.any(history.get(q.column, 0))]
 
 
 def values_of(run: StudyRun, quantity: Quantity, depths: np.ndarray) -> np.ndarray:
     """Return the means of a quantity about depths [n] (m) in a run: [n]."""
     return curves.forces_at(run.results.history, quantity.column, depths)
+
+
+def refinement_of(run: StudyRun) -> float:
+    """Return the Grid/Refinement in effect in a finished run."""
+    entries = {**run.results.summary.get("entries", {}), **run.run.entries}
+    return float(entries.get("Grid/Refinement", 1))
+
+
+def relative(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
+    """Return part / whole, and 0 where there is nothing, as without friction."""
+    return np.divide(part, whole, out=np.zeros_like(part), where=whole != 0)
 
 
 def mesh_error_of(
@@ -110,7 +123,7 @@ def mesh_error_of(
     """Return the error of the run called default, from these runs on similar meshes;
     nan at the depths [n] that not all of them reach."""
     runs = [study.run(name) for name in names]
-    sizes = [1 / float(run.run.entries.get("Grid/Refinement", 1)) for run in runs]
+    sizes = [1 / refinement_of(run) for run in runs]
     values = np.array([values_of(run, quantity, depths) for run in runs])
     return mesh_error(np.array(sizes), values, list(names).index("default"))
 
@@ -124,7 +137,7 @@ def error_of_change(
     ]
     difference = changed - other
     if quantity.is_relative:
-        difference /= changed
+        difference = relative(difference, changed)
     return term["factor"] * curves.window_rms(depths, difference, ERROR_WINDOW)
 
 
@@ -136,9 +149,10 @@ def sides_of(
         return np.array([error_of_change(term, study, quantity, depths)] * 2)
     error = mesh_error_of(study, term["meshes"], quantity, depths)
     sides = np.array([error.below, error.above])
-    if quantity.is_relative:
-        sides /= values_of(study.run("default"), quantity, depths)
-    return sides
+    if not quantity.is_relative:
+        return sides
+    values = values_of(study.run("default"), quantity, depths)
+    return np.array([relative(side, np.abs(values)) for side in sides])
 
 
 def term_errors(term: dict[str, Any], study: Study, depths: np.ndarray) -> Errors:
@@ -180,7 +194,7 @@ def shift_to_limit(
         values = values_of(study.run("default"), quantity, depths)
         shift = mesh_error_of(study, names, quantity, depths).limit - values
         if quantity.is_relative:
-            shift /= values
+            shift = relative(shift, values)
         return {quantity.named("shift"): np.nan_to_num(shift)}
     return {}
 
@@ -230,7 +244,7 @@ def write_file(
 def minutes(run: StudyRun) -> str:
     """Return the time of a run."""
     seconds = run.results.summary.get("wall_time_s")
-    return "broke off" if seconds is None else f"{seconds / 60:.1f} min"
+    return "broke off" if seconds is None else duration(seconds)
 
 
 def print_table(
@@ -281,7 +295,7 @@ def share_in_bar(
         value = values_of(study.run("default"), q, depths)
         rise = values_of(finest, q, depths) - value
         if q.is_relative:
-            rise /= value
+            rise = relative(rise, value)
         below, above = bars[q.name]
         shares[q.name] = float(np.mean((rise >= -below) & (rise <= above)))
     return shares
@@ -291,16 +305,25 @@ def print_meshes(study: Study, depths: np.ndarray, names: Sequence[str]) -> None
     """Print what the similar meshes say of themselves: their order, and the finest
     one as the test of a bar that is made without it."""
     runs = [study.run(name) for name in names]
-    finest = max(runs, key=lambda r: float(r.run.entries.get("Grid/Refinement", 1)))
+    finest = max(runs, key=refinement_of)
     shares = share_in_bar(study, finest, names, depths)
     rows = []
     for q in quantities_of(study.run("default").results.history):
         error = mesh_error_of(study, names, q, depths)
-        order = f"{np.nanmean(error.order):.1f}" if len(runs) > 2 else "-"
+        order, failed = "-", "-"
+        if len(runs) > 2:
+            order = f"{np.mean(error.order):.1f}"
+            failed = f"{100 * np.mean(error.failed):.0f} %"
         held = f"{100 * shares[q.name]:.0f} %" if q.name in shares else "-"
-        rows.append([q.name, order, f"{100 * np.mean(error.failed):.0f} %", held])
+        rows.append([q.name, order, failed, held])
     heads = ["meshes", "order", "not of order 1", f"{finest.name} in bar of the others"]
     print(table.markdown(heads, rows) + "\n")
+    print(
+        "Order: the one that the meshes show, in the mean over the depths. Not of order"
+        " 1: the share of the depths where the meshes do not confirm the fit, and the"
+        " bar is wider. Last column: the share of the depths where the finest mesh lies"
+        " in a bar that is made without it. A dash: too few meshes to say.\n"
+    )
 
 
 def print_tables(

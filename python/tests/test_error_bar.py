@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The error bar of made-up runs that differ by known amounts."""
+import argparse
 import contextlib
 import io
 import tempfile
@@ -249,8 +250,9 @@ class Plan(unittest.TestCase):
             "2h": 7200,
         }.items():
             self.assertEqual(command.seconds_of(text), seconds)
-        with self.assertRaises(ValueError):
-            command.seconds_of("30")
+        for text in ("30", "1.2.3min", "0s"):
+            with self.assertRaises(argparse.ArgumentTypeError):
+                command.seconds_of(text)
 
 
 if __name__ == "__main__":

@@ -57,14 +57,21 @@ namespace CaissonMPM
   }
 
   void
-  BodyShape::check_cells_across(const unsigned int n) const
+  BodyShape::check_cells_across(const unsigned int n,
+                                const unsigned int multiple) const
   {
-    const double wanted = n * refinement;
-    if (std::abs(wanted - refined(n)) > 1e-6 * wanted)
+    if (refinement == 1.)
+      return;
+    const double       wanted = n * refinement;
+    const unsigned int nearest =
+      multiple * std::max(1l, std::lround(wanted / multiple));
+    if (std::abs(wanted - nearest) > 1e-6 * wanted)
       throw BadInput("Rigid body/Cells across the wall = " + to_text(n) +
                      ", times Grid/Refinement = " + to_text(refinement) +
-                     ", is " + to_text(wanted) +
-                     " and must be a whole number. Use Grid/Refinement = " +
-                     to_text(double(refined(n)) / n) + ".");
+                     ", is " + to_text(wanted) + " and must be " +
+                     (multiple == 1 ? "a whole number" :
+                                      "a multiple of " + to_text(multiple)) +
+                     ". Use Grid/Refinement = " + to_text(double(nearest) / n) +
+                     ".");
   }
 } // namespace CaissonMPM

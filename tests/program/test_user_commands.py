@@ -111,7 +111,7 @@ subsection Rigid body
   set Cells across the wall = 4
 end
 subsection Time
-  set Mass scaling    = 100
+  set Mass scaling    = 400
   set End penetration = 1.05
 end
 subsection Output
@@ -145,7 +145,9 @@ end
         self.assertIn("total_force_limit_N", bounds)
         scene.write_text(self.SCENE.replace("wall = 4", "wall = 2"), encoding="utf-8")
         complaint = self.caisson(*call, status=1)[1]
-        self.assertRegex(complaint, "no second mesh. Set --budget [0-9.]+(s|min|h),")
+        self.assertRegex(
+            complaint, "not enough for a second mesh. Set --budget [0-9.]+(s|min|h),"
+        )
 
 
 class Suggest(CommandTest):

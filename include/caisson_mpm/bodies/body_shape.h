@@ -202,9 +202,11 @@ namespace CaissonMPM
       return std::max(1l, std::lround(n * refinement));
     }
 
-    /** Throw BadInput if refined(@p n) is not exact, for @p n cells across. */
+    /** Throw BadInput if the refinement does not make @p n cells across a whole
+     * number, or a multiple of @p multiple. */
     void
-    check_cells_across(const unsigned int n) const;
+    check_cells_across(const unsigned int n,
+                       const unsigned int multiple = 1) const;
 
     /** Whether a place is inside left(), right(), bottom() and top(). */
     bool

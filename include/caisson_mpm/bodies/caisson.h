@@ -81,7 +81,7 @@ namespace CaissonMPM
           "Rigid body/Wall thickness = " + to_text(wall_thickness) +
           " m leaves no soil plug within Outer diameter = " +
           to_text(outer_diameter) + " m. Reduce the thickness.");
-      check_cells_across(cells_across);
+      check_cells_across(cells_across, tip == Tip::triangular ? 2 : 1);
       check_tip();
       if (has_lid() && lower_face_of_lid() < -round_off)
         throw BadInput("Rigid body/Lid thickness = " + to_text(lid_thickness) +
@@ -227,8 +227,7 @@ namespace CaissonMPM
     {
       if (tip == Tip::triangular && cells_across_wall() % 2 == 1)
         throw BadInput(
-          "Rigid body/Cells across the wall, times Grid/Refinement, = " +
-          to_text(cells_across_wall()) +
+          "Rigid body/Cells across the wall = " + to_text(cells_across) +
           " puts no node at the edge of the triangular tip. Use "
           "an even number, or Tip = flat.");
       if (tip_height() >= skirt_length)
