@@ -32,8 +32,7 @@ QUIET = {
     "Output/Frame penetrations": "",
     "Output/Error bar": "",
 }
-# runs with other numerics on the coarsest mesh: name, factor of the error, and what
-# a step costs more
+# runs with other numerics on the coarsest mesh, and their cost over one without
 MASS, STEP, POINTS, SIDES = "mass scaling", "time step", "points", "boundaries"
 COST = {MASS: 2.0, STEP: 2.0, POINTS: 1.8, SIDES: 1.5}
 COST_OF_CHANGES = sum(COST.values())
@@ -82,7 +81,7 @@ def refinements(cells: int, even: bool) -> list[float]:
     if not cells:
         return PLAIN
     wanted = sorted({*CELLS, cells, *(cells * n for n in (2, 3, 4))})
-    return [n / cells for n in wanted if n >= 2 and not (even and n % 2)]
+    return [n / cells for n in wanted if n == cells or n >= 2 and not (even and n % 2)]
 
 
 def chosen_meshes(known: list[float], seconds: float, budget: float) -> list[float]:
@@ -109,7 +108,8 @@ def changes_of(entries: dict[str, str]) -> dict[str, tuple[dict[str, Any], float
         quarter = {"Time/Inertia tolerance": float(tolerance) / 4}
         found[MASS] = quarter, 4 / 3
     elif (scaling := float(entries["Time/Mass scaling"])) > 1:
-        found[MASS] = {"Time/Mass scaling": max(1.0, scaling / 4)}, 4 / 3
+        less = max(1.0, scaling / 4)
+        found[MASS] = {"Time/Mass scaling": less}, scaling / (scaling - less)
     courant = float(entries["Time/Courant number"])
     found[STEP] = {"Time/Courant number": courant / 2}, 1
     points = [f"Material points/Per direction {zone}" for zone in ("in path", "near")]

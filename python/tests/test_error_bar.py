@@ -231,6 +231,7 @@ class Plan(unittest.TestCase):
         found = command.refinements(4, even=True)
         self.assertEqual(found[:5], [0.5, 1.0, 1.5, 2.0, 3.0])
         self.assertEqual(command.refinements(2, even=True)[:3], [1.0, 2.0, 3.0])
+        self.assertEqual(command.refinements(1, even=False)[:3], [1.0, 2.0, 3.0])
         self.assertEqual(command.refinements(0, even=False)[:3], [0.5, 0.75, 1.0])
 
     def test_budget(self) -> None:
