@@ -155,18 +155,23 @@ def sides_of(
     return np.array([relative(side, np.abs(values)) for side in sides])
 
 
+def where_it_counts(term: dict[str, Any], depths: np.ndarray) -> np.ndarray:
+    """Return at which of the depths [n] a term counts: [n]."""
+    first, last = term.get("depths", (depths[0], depths[-1]))
+    return (depths > first - curves.EDGE) & (depths < last + curves.EDGE)
+
+
 def term_errors(term: dict[str, Any], study: Study, depths: np.ndarray) -> Errors:
     """Return the errors of all quantities by one term, 0 where it does not count.
     Raises StudyError where a run does not reach that far."""
-    first, last = term.get("depths", (depths[0], depths[-1]))
-    counts = (depths > first - curves.EDGE) & (depths < last + curves.EDGE)
+    counts = where_it_counts(term, depths)
     errors = {}
     for quantity in quantities_of(study.run("default").results.history):
         sides = sides_of(term, study, quantity, depths[counts])
         if not np.all(np.isfinite(sides)):
             raise StudyError(
-                f"the error {term['name']!r} counts to {last:.4g} m, and one of its"
-                " runs ends before; set its depths"
+                f"the error {term['name']!r} counts to {depths[counts][-1]:.4g} m, and"
+                " one of its runs ends before; set its depths"
             )
         errors[quantity.name] = np.zeros((2, len(depths)))
         errors[quantity.name][:, counts] = sides
@@ -337,9 +342,7 @@ def print_tables(
         print_table(study, depths[at], list(zip(names, chosen)), q)
     for term in study.keys["errors"]:
         if "meshes" in term:
-            first, last = term.get("depths", (depths[0], depths[-1]))
-            counts = (depths > first - curves.EDGE) & (depths < last + curves.EDGE)
-            print_meshes(study, depths[counts], term["meshes"])
+            print_meshes(study, depths[where_it_counts(term, depths)], term["meshes"])
 
 
 def chosen_depths(depths: np.ndarray) -> list[int]:

@@ -280,13 +280,13 @@ namespace CaissonMPM
           hold_in_bounds(euler, p);
           const Number scale =
             sqrt(product(euler.stress, euler.stress)) + 10. * p.shift;
-          const Number change = share * share, small = small_change * scale;
-          auto is_large = change * product(first.stress, first.stress) > //
-                          small * small;
+          const Number shares = share * share, small = small_change * scale,
+                       change = shares * product(first.stress, first.stress);
+          auto is_large       = change > small * small;
           if constexpr (remembers)
             is_large =
               is_large |
-              (change * product(D, D) >
+              (shares * product(D, D) >
                Number(small_strain * small_strain * p.range * p.range));
 
           Substep<Number> result{euler, Number(0.)};

@@ -289,7 +289,7 @@ def error_remark(run: Results) -> str:
     if not bounds or "total_force_low_N" not in bounds:
         return (
             "This scene has no error bar of its own. Those of the reference scenes are"
-            " in the manual; run the scene with half the cell size to see its own."
+            " in the manual; caisson error-bar computes its own."
         )
     force = bounds["total_force_N"]
     below, above = [
