@@ -324,6 +324,16 @@ namespace CaissonMPM
                        });
   }
 
+  bool
+  Soil::yields_by_friction() const
+  {
+    return std::all_of(materials.begin(),
+                       materials.end(),
+                       [](const SoilMaterial &m) {
+                         return m.yields_by_friction();
+                       });
+  }
+
   std::vector<unsigned int>
   Soil::uppermost_materials() const
   {
@@ -467,14 +477,20 @@ namespace CaissonMPM
 
   namespace
   {
-    /** Return the damping of vibrations of the volume for a Poisson ratio. The
-     * noise that they make in the pressure grows with the bulk modulus over the
-     * shear modulus: it is harmless at 0.3, and not at 0.45. */
+    /** Return the damping of vibrations of the volume. Soil with friction has
+     * the strength of its smallest pressure, which any vibration lowers: a
+     * twentieth is enough, and more disturbs laws that depend on their path.
+     * Besides, the noise of the pressure grows with the bulk modulus over the
+     * shear modulus: it is harmless at a Poisson ratio of 0.3, and not at 0.45.
+     */
     double
-    volume_damping(const double nu)
+    volume_damping(const SoilMaterial &m)
     {
-      constexpr double harmless = .3, harmful = .4;
-      return std::clamp((nu - harmless) / (harmful - harmless), 0., 1.);
+      constexpr double harmless = .3, harmful = .4, with_friction = .1;
+      const double     least =
+        m.friction_angle().value_or(0.) > 0. ? with_friction : 0.;
+      const double nu = m.law_value("Poisson ratio").value_or(harmless);
+      return std::clamp((nu - harmless) / (harmful - harmless), least, 1.);
     }
   } // namespace
 
@@ -490,8 +506,7 @@ namespace CaissonMPM
           p_wave_modulus(result[i], Stress(), m.void_ratio()) + water_modulus;
         result[i].water_modulus   = water_modulus;
         result[i].initial_density = inertial_density(i);
-        if (const auto nu = m.law_value("Poisson ratio"))
-          result[i].volume_damping = volume_damping(*nu);
+        result[i].volume_damping  = volume_damping(m);
         // weight and mass ratio: buoyancy and mass scaling leave the force
         const double buoyancy =
           (1. - m.porosity) *

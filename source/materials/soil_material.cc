@@ -51,6 +51,13 @@ namespace CaissonMPM
     return description(law).name;
   }
 
+  bool
+  SoilMaterial::yields_by_friction() const
+  {
+    return law_value("Cohesion").has_value() &&
+           friction_angle().value_or(0.) > 0.;
+  }
+
   std::optional<double>
   SoilMaterial::friction_angle() const
   {

@@ -53,13 +53,18 @@ namespace CaissonMPM
                   "PIC. Units: none.",
                   prm,
                   Patterns::Integer(1, 10));
-    add_parameter("FLIP fraction",
-                  flip_fraction,
-                  "FLIP has this share in the blend in a step with a Courant "
-                  "number of 0.8, and XPIC the rest; in shorter steps the "
-                  "share of XPIC is smaller, in proportion. Units: none.",
-                  prm,
-                  Patterns::Double(0., 1.));
+    add_word_or_number(*this,
+                       "FLIP fraction",
+                       flip_fraction,
+                       "auto",
+                       {},
+                       "FLIP has this share in the blend in a step with a "
+                       "Courant number of 0.8, and XPIC the rest; in shorter "
+                       "steps the share of XPIC is smaller, in proportion. "
+                       "With auto it is 0.99 where all layers are "
+                       "Mohr-Coulomb soil with friction, and 0.95 elsewhere. "
+                       "Units: none.",
+                       Patterns::Double(0., 1.));
     add_choice(*this,
                "Stress update",
                stress_update,
@@ -193,7 +198,8 @@ namespace CaissonMPM
     return transfer == VelocityTransfer::flip ?
              1. :
            transfer == VelocityTransfer::blend ?
-             std::pow(flip_fraction, step.n_reference_steps()) :
+             std::pow(flip_fraction.value_or(flip_fraction_of_soil),
+                      step.n_reference_steps()) :
              0.;
   }
 

@@ -187,16 +187,27 @@ namespace CaissonMPM
   void
   TimeStep::update_inertia(const BackgroundGrid      &grid,
                            const MaterialPoints      &points,
-                           const std::vector<double> &squares,
-                           const double               worst)
+                           const std::vector<double> &squares)
   {
     constexpr double largest = 1e6; // as for a number
+    // A jump next to the body disturbs the flow around the tip: cells up to
+    // twice as large keep the whole factor, and halved cells have that of their
+    // ancestors.
+    constexpr double margin   = 4.;
+    const auto       ancestor = [&](const unsigned int cell) {
+      return inverse_square_of_size(grid.geometry(cell)) /
+             (1u << 2 * grid.cell_iterator(cell)->level());
+    };
+    double worst = 0.;
+    for (const unsigned int cell : points.cells_with_points())
+      worst =
+        std::max(worst, largest_in(points, cell, squares) * ancestor(cell));
+    worst = Utilities::MPI::max(worst, grid.communicator());
     largest_inertia_ =
       std::clamp(*tolerance * stress_over_inertia_at_tip(), 1., largest);
     const auto set = [&](const unsigned int cell, const double square) {
       inertia_[cell] =
-        std::clamp(largest_inertia_ * square *
-                     inverse_square_of_size(grid.geometry(cell)) / worst,
+        std::clamp(margin * largest_inertia_ * square * ancestor(cell) / worst,
                    1.,
                    largest_inertia_);
     };
@@ -246,10 +257,7 @@ namespace CaissonMPM
     //    inertia; those of the zones stay without it
     const MPI_Comm communicator = grid.communicator();
     if (tolerance)
-      update_inertia(grid,
-                     points,
-                     squares,
-                     Utilities::MPI::max(worst, communicator));
+      update_inertia(grid, points, squares);
     worst /= largest_inertia_;
     worst_of_soil /= largest_inertia_;
     Utilities::MPI::max(worst_of_zone, communicator, worst_of_zone);

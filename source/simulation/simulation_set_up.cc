@@ -78,6 +78,7 @@ namespace CaissonMPM
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");
     place_lines();
+    nodal_motion.choose_flip_fraction(soil.yields_by_friction());
     if (body.shape().expands() && soil.has_walls())
       throw BadInput(
         "the expanding cylinder takes its friction from Rigid body/"

@@ -19,6 +19,7 @@ from lab.paths import LAB
 WITHOUT_A_WARNING = ("jack", "jack_coarse", "jack_dense_sand", "column")
 VERTICAL_STRESS = "8829*z"
 AT_REST = {
+    "Time/Inertia tolerance": "none",
     "Rigid body/Velocity": 0,
     "Rigid body/Ramp time": 0,
     "Time/End penetration": 0,

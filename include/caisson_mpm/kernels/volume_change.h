@@ -69,7 +69,8 @@ namespace CaissonMPM
        *   dxi/dt += a xi (xi - 1),   deta/dt += b eta (eta - 1),
        * which vanish at the sides that they point to, so that no flow through a
        * side changes (conservative velocity interpolation: Wang, Agrusta & van
-       * Hunen 2015, doi:10.1002/2015GC005824).
+       * Hunen 2015, doi:10.1002/2015GC005824). At most @p largest (1/s), since
+       * the velocity of a node with hardly any mass has no bound.
        */
       template <typename Number>
       [[gnu::always_inline]] inline void
@@ -77,6 +78,7 @@ namespace CaissonMPM
                    const CellMap<Number>   &map,
                    const double             axisymmetric,
                    const CellField<Number> &v,
+                   const double             largest,
                    CellUpdate              *update)
       {
         // div v and 1, times r dz/deta, in the middle of the sides
@@ -100,10 +102,13 @@ namespace CaissonMPM
             total += weight[i];
           }
         const Number mean = sum_of_flow / total, scale = Number(-2.) / total;
-        const Number a = scale *
-                         (flow[1] - flow[0] - mean * (weight[1] - weight[0])),
-                     b = scale *
-                         (flow[3] - flow[2] - mean * (weight[3] - weight[2]));
+        const auto   bounded = [&](const Number &x) {
+          return min(max(x, Number(-largest)), Number(largest));
+        };
+        const Number a =
+          bounded(scale * (flow[1] - flow[0] - mean * (weight[1] - weight[0])));
+        const Number b =
+          bounded(scale * (flow[3] - flow[2] - mean * (weight[3] - weight[2])));
         for (int i = 0; i < group.n; ++i)
           {
             update[i].bubble[0] = a[i];
@@ -117,12 +122,19 @@ namespace CaissonMPM
       make_volume_change_uniform(const StepContext       &step,
                                  const CellGroup<Number> &group,
                                  const CellMap<Number>   &map,
+                                 const double             time_step,
                                  CellUpdate              *update)
       {
         const CellField<Number> advection =
           field_of_group(group, update, &CellUpdate::advection);
         find_mean_divergence(step, group, map, advection, update);
-        find_bubbles(group, map, step.grid.axisymmetric, advection, update);
+        // no further than a quarter of the cell in a step
+        find_bubbles(group,
+                     map,
+                     step.grid.axisymmetric,
+                     advection,
+                     1. / time_step,
+                     update);
       }
 
       /** Take the mean divergence of cells from the list @p rates [n_cells],
@@ -151,7 +163,8 @@ namespace CaissonMPM
                           CellUpdate              *update)
       {
         if (how.settings.mean_volume_change)
-          make_volume_change_uniform(step, group, map, update);
+          make_volume_change_uniform(
+            step, group, map, how.settings.time_step, update);
         take_volume_rates(group, how.volume_rates, update);
       }
     } // namespace CAISSON_KERNEL_ISA

@@ -85,6 +85,11 @@ namespace CaissonMPM
     bool
     has_walls() const;
 
+    /** Whether all laws are elastic up to a yield surface
+     * with friction. */
+    bool
+    yields_by_friction() const;
+
     /** Return the uppermost material of each layer. */
     std::vector<unsigned int>
     uppermost_materials() const;

@@ -71,6 +71,11 @@ namespace CaissonMPM
     std::string
     law_name() const;
 
+    /** Whether the law is elastic up to a yield surface
+     * with friction. */
+    bool
+    yields_by_friction() const;
+
     /** The friction angle of the law (peak, critical) if it has one. Units:
      * degrees. */
     std::optional<double>

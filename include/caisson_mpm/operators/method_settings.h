@@ -10,6 +10,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,15 @@ namespace CaissonMPM
     void
     name_unused_entries(ParameterOrigins &origins) const;
 
+    /** Choose the share of FLIP where it is not set. In soil that yields by
+     * friction the lost work of the blend is the larger error; in hypoplastic
+     * sand vibrations are, and clay with adhesion may be thrown off. */
+    void
+    choose_flip_fraction(const bool yields_by_friction)
+    {
+      flip_fraction_of_soil = yields_by_friction ? 0.99 : 0.95;
+    }
+
     /** Share of a point's own velocity that it keeps (FLIP: 1). */
     double
     keep_velocity(const StepSize &step) const;
@@ -127,15 +137,16 @@ namespace CaissonMPM
     ForceIntegration force_integration  = ForceIntegration::gauss_in_full_cells;
     Kernels::PressureSlope pressure_fit = Kernels::PressureSlope::by_dilation;
     unsigned int           xpic_order   = 2;
-    double                 flip_fraction        = 0.95;
-    double                 full_fraction        = 0.9;
-    double                 full_fraction_inside = 0.4;
-    bool                   mean_volume          = true;
-    double                 stress_filter        = 0.01;
-    bool                   minimum_nodal_mass   = true;
-    double                 damping              = 0.;
-    bool                   limits_velocity      = true;
-    double                 limiter_factor       = 0.75;
+    std::optional<double>  flip_fraction; // else by the soil
+    double                 flip_fraction_of_soil = 0.95;
+    double                 full_fraction         = 0.9;
+    double                 full_fraction_inside  = 0.4;
+    bool                   mean_volume           = true;
+    double                 stress_filter         = 0.01;
+    bool                   minimum_nodal_mass    = true;
+    double                 damping               = 0.;
+    bool                   limits_velocity       = true;
+    double                 limiter_factor        = 0.75;
   };
 } // namespace CaissonMPM
 

@@ -102,6 +102,12 @@ namespace CaissonMPM
                   const double            *volume_rates,
                   Kernels::UpdateResult   &result);
 
+    void
+    choose_flip_fraction(const bool yields_by_friction)
+    {
+      settings_.choose_flip_fraction(yields_by_friction);
+    }
+
     const MethodSettings &
     settings() const
     {

@@ -141,14 +141,11 @@ namespace CaissonMPM
                   const Soil                     &soil,
                   std::vector<Kernels::Material> &materials);
     /** Find the scaling from the tolerance, and set the factors of all cells.
-     * @p squares: of the wave speed of each material (m2/s2); @p worst: the
-     * largest of them over the square of the size of a cell, on all ranks
-     * (1/s2). */
+     * @p squares: of the wave speed of each material (m2/s2). Collective. */
     void
     update_inertia(const BackgroundGrid      &grid,
                    const MaterialPoints      &points,
-                   const std::vector<double> &squares,
-                   const double               worst);
+                   const std::vector<double> &squares);
     void
     update_limit(const BackgroundGrid                 &grid,
                  const MaterialPoints                 &points,
