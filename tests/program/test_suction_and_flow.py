@@ -455,7 +455,7 @@ class Dropped(ProgramTest):
     def test_mass(self) -> None:
         """However light the body is against the soil at its tip, it rests there,
         and its weight does the work that the soil takes."""
-        for mass, delta in (("844", 0.025), ("auto", 0.01)):
+        for mass, delta, residual in (("844", 0.025, 0.015), ("auto", 0.01, 0.001)):
             with self.subTest(mass=mass):
                 path = self.directory(f"mass_{mass}")
                 entries = {"Rigid body/Inertia": mass, "Time/End time": 2}
@@ -468,7 +468,7 @@ class Dropped(ProgramTest):
                     last["external_work_J"] / (1e5 * travel), 1, delta=delta
                 )
                 self.assertAlmostEqual(last["total_force_N"] / 1e5, 1, delta=0.03)
-                self.assertLess(abs(last["energy_residual"]), 0.01)
+                self.assertLess(abs(last["energy_residual"]), residual)
 
     def test_inertia_delays(self) -> None:
         """A body of 84,400 t hardly moves, so that the soil below the tip bears no
