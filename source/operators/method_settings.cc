@@ -62,7 +62,9 @@ namespace CaissonMPM
                        "Courant number of 0.8, and XPIC the rest; in shorter "
                        "steps the share of XPIC is smaller, in proportion. "
                        "With auto it is 0.99 where all layers are "
-                       "Mohr-Coulomb soil with friction, and 0.95 elsewhere. "
+                       "Mohr-Coulomb soil with friction, the water is neither "
+                       "undrained nor coupled, and no loads move the body. "
+                       "Elsewhere it is 0.95. "
                        "Units: none.",
                        Patterns::Double(0., 1.));
     add_choice(*this,
@@ -198,7 +200,7 @@ namespace CaissonMPM
     return transfer == VelocityTransfer::flip ?
              1. :
            transfer == VelocityTransfer::blend ?
-             std::pow(flip_fraction.value_or(flip_fraction_of_soil),
+             std::pow(flip_fraction.value_or(flip_fraction_of_scene),
                       step.n_reference_steps()) :
              0.;
   }

@@ -78,7 +78,10 @@ namespace CaissonMPM
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");
     place_lines();
-    nodal_motion.choose_flip_fraction(soil.yields_by_friction());
+    // water that follows the soil, and a body that the soil carries, vibrate
+    nodal_motion.choose_flip_fraction(
+      soil.yields_by_friction() && !traits.follows_soil &&
+      traits.bulk_modulus == 0. && !body.motion().follows_loads());
     if (body.shape().expands() && soil.has_walls())
       throw BadInput(
         "the expanding cylinder takes its friction from Rigid body/"

@@ -187,7 +187,7 @@ class Installation(ProgramTest):
         )
         last, end = history(path)[-1], history(whole)[-1]
         for key in ("tip_water_force_N", "pore_pressure_smallest_Pa"):
-            self.assertAlmostEqual(last[key] / end[key], 1, msg=key, delta=4e-4)
+            self.assertAlmostEqual(last[key] / end[key], 1, 4, key)
         first, end = history(path)[0], history(before)[-1]
         for key in ("tip_water_force_N", "total_force_with_water_N"):
             self.assertAlmostEqual(first[key] / end[key], 1, 6, key)

@@ -455,7 +455,7 @@ class Dropped(ProgramTest):
     def test_mass(self) -> None:
         """However light the body is against the soil at its tip, it rests there,
         and its weight does the work that the soil takes."""
-        for mass, delta, residual in (("844", 0.025, 0.015), ("auto", 0.01, 0.001)):
+        for mass, delta, residual in (("844", 0.02, 0.01), ("auto", 0.01, 0.001)):
             with self.subTest(mass=mass):
                 path = self.directory(f"mass_{mass}")
                 entries = {"Rigid body/Inertia": mass, "Time/End time": 2}
@@ -463,7 +463,7 @@ class Dropped(ProgramTest):
                 self.assert_words(["came to rest"], text)
                 last = history(path)[-1]
                 travel = last["penetration_m"] - 0.5
-                self.assertAlmostEqual(travel, 5.8e-3, delta=1e-3)
+                self.assertAlmostEqual(travel, 5.3e-3, delta=1e-3)
                 self.assertAlmostEqual(
                     last["external_work_J"] / (1e5 * travel), 1, delta=delta
                 )

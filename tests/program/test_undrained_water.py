@@ -154,8 +154,7 @@ class Caisson(ProgramTest):
             entries: Entries = {"Water/Bulk modulus": water, DEPTH: 0.56}
             path = self.jack(f"of_{water:g}", {**UNDRAINED, **entries})
             losses.append(history(path)[-1]["numerical_dissipation_J"])
-        self.assertLess(losses[1], 1.15 * losses[0])
-        self.assertGreater(losses[1], 0.5 * losses[0])
+        self.assertAlmostEqual(losses[1] / losses[0], 1, delta=0.15)
 
     def test_restart_and_ranks(self) -> None:
         """The points carry the pressure through checkpoints and ranks."""
@@ -178,9 +177,9 @@ class Caisson(ProgramTest):
         whole, of_one, of_two = rows
         for name in ("tip_water_force_N", "tip_force_N"):
             self.assertAlmostEqual(of_two[name] / of_one[name], 1, 6, msg=name)
-        # that of the last step, and water vibrates; the steps are chosen again
+        # that of the last step; the steps are chosen again
         name = "tip_water_force_N"
-        self.assertAlmostEqual(of_one[name] / whole[name], 1, msg=name, delta=4e-3)
+        self.assertAlmostEqual(of_one[name] / whole[name], 1, 3, msg=name)
 
 
 class BadInput(ProgramTest):

@@ -73,13 +73,15 @@ namespace CaissonMPM
     void
     name_unused_entries(ParameterOrigins &origins) const;
 
-    /** Choose the share of FLIP where it is not set. In soil that yields by
-     * friction the lost work of the blend is the larger error; in hypoplastic
-     * sand vibrations are, and clay with adhesion may be thrown off. */
+    /** Choose the share of FLIP where it is not set. In drained soil that
+     * yields by friction, @p drained_friction, the lost work of the blend is the
+     * larger error. Elsewhere vibrations are: of hypoplastic sand, of water
+     * that follows the soil, of a body that the soil carries; and clay with
+     * adhesion may be thrown off. */
     void
-    choose_flip_fraction(const bool yields_by_friction)
+    choose_flip_fraction(const bool drained_friction)
     {
-      flip_fraction_of_soil = yields_by_friction ? 0.99 : 0.95;
+      flip_fraction_of_scene = drained_friction ? 0.99 : 0.95;
     }
 
     /** Share of a point's own velocity that it keeps (FLIP: 1). */
@@ -137,16 +139,16 @@ namespace CaissonMPM
     ForceIntegration force_integration  = ForceIntegration::gauss_in_full_cells;
     Kernels::PressureSlope pressure_fit = Kernels::PressureSlope::by_dilation;
     unsigned int           xpic_order   = 2;
-    std::optional<double>  flip_fraction; // else by the soil
-    double                 flip_fraction_of_soil = 0.95;
-    double                 full_fraction         = 0.9;
-    double                 full_fraction_inside  = 0.4;
-    bool                   mean_volume           = true;
-    double                 stress_filter         = 0.01;
-    bool                   minimum_nodal_mass    = true;
-    double                 damping               = 0.;
-    bool                   limits_velocity       = true;
-    double                 limiter_factor        = 0.75;
+    std::optional<double>  flip_fraction; // else by the scene
+    double                 flip_fraction_of_scene = 0.95;
+    double                 full_fraction          = 0.9;
+    double                 full_fraction_inside   = 0.4;
+    bool                   mean_volume            = true;
+    double                 stress_filter          = 0.01;
+    bool                   minimum_nodal_mass     = true;
+    double                 damping                = 0.;
+    bool                   limits_velocity        = true;
+    double                 limiter_factor         = 0.75;
   };
 } // namespace CaissonMPM
 
