@@ -5,7 +5,7 @@ For scripts and notebooks (doc/how_to/python.md):
 
     import caisson
 
-    run = caisson.run("jack_coarse.prm", set={"Time/Mass scaling": 25})
+    run = caisson.run("jack_coarse.prm", set={"Time/Inertia tolerance": 0.1})
     run = caisson.load("results/jack")  # or one that is there
     run.history                         # a pandas.DataFrame; attrs["units"]
     run.frame(penetration=2.5).mesh     # a mesh for VTK and PyVista

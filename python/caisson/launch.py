@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs a scene on as many ranks as pay, or on those of --ranks, and draws its pictures.
 
+With --error it first finds the coarsest mesh whose error bar is small enough, and runs
+the scene on that one.
 The exit status is the program's: 0 success, 1 bad input, 2 failure, 3 stopped on
 request. Options of caisson_mpm follow the file. A scene that is not a file here is
 one of the project, see `caisson scenes`.
@@ -23,13 +25,21 @@ from caisson.runner import (
     read_parameters,
     size_in,
 )
+from caisson.study import StudyError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson run`."""
-    parser.usage = "%(prog)s [--ranks N] FILE.prm [option of caisson_mpm]..."
+    parser.usage = (
+        "%(prog)s [--ranks N] [--error 5%% [--budget TIME]] FILE.prm"
+        " [option of caisson_mpm]..."
+    )
     text = "MPI ranks, default: as many as pay on this machine"
     parser.add_argument("--ranks", type=int, metavar="N", help=text)
+    text = "refine the mesh until the error bar of the total force is that small"
+    parser.add_argument("--error", metavar="5%%", help=text)
+    text = "with --error: time of all runs on one core, such as 30min (default: 2h)"
+    parser.add_argument("--budget", metavar="TIME", help=text)
     parser.add_argument("arguments", nargs=argparse.REMAINDER, metavar="FILE.prm ...")
 
 
@@ -64,6 +74,23 @@ def choose_ranks(arguments: list[str]) -> int:
     text = f"run: {chosen} rank{plural} ({why}); --ranks N overrules"
     print(text, file=sys.stderr, flush=True)
     return chosen
+
+
+def options_for_error(options: argparse.Namespace, directory: Path) -> list[str]:
+    """Return the options of the program with which the scene has the error that is
+    wanted. The runs for it go beside the output directory. Raises RunError, StudyError
+    and ArgumentTypeError."""
+    from caisson_error import wanted
+    from caisson_error.command import seconds_of
+
+    scene, *more = options.arguments
+    if more and more[0] != "--output-directory":
+        raise RunError(f"--error runs the scene as it is: write {more[0]} into a file")
+    budget = seconds_of(options.budget) if options.budget else wanted.BUDGET
+    error = wanted.error_of(options.error)
+    meshes = directory.with_name(f"{directory.name}_meshes")
+    entries = wanted.entries_for(scene_or_study(scene), error, budget, meshes)
+    return [w for k, v in entries.items() for w in ("--set", f"{k}={v}")]
 
 
 def draw(directory: Path) -> None:
@@ -137,6 +164,12 @@ def main(options: argparse.Namespace) -> int:
         for word in options.arguments
     ]
     directory, stop_file = places_of(arguments)
+    if options.error and directory:  # else the program says what is wrong
+        try:
+            arguments += options_for_error(options, directory)
+        except (RunError, StudyError, OSError, argparse.ArgumentTypeError) as error:
+            print(f"run: {error}", file=sys.stderr)
+            return 1
     if complaint := needed.complaint():
         print(f"run: {complaint}, for pictures and report", file=sys.stderr)
     n_ranks = options.ranks or choose_ranks(arguments)

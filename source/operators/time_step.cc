@@ -190,8 +190,10 @@ namespace CaissonMPM
                            const std::vector<double> &squares)
   {
     constexpr double largest = 1e6; // as for a number
-    // A jump next to the body disturbs the flow around the tip: cells up to
-    // twice as large keep the whole factor, and halved cells have that of their
+    // Soil that is heavier than what lies around it reflects its own waves, and
+    // swings on it. So the factor falls slowly, with the size of the cells to
+    // the power 2/3, although the step allows the square; cells up to twice as
+    // large keep all of it, and halved cells have the factor of their
     // ancestors.
     constexpr double margin   = 4.;
     const auto       ancestor = [&](const unsigned int cell) {
@@ -206,10 +208,10 @@ namespace CaissonMPM
     largest_inertia_ =
       std::clamp(*tolerance * stress_over_inertia_at_tip(), 1., largest);
     const auto set = [&](const unsigned int cell, const double square) {
-      inertia_[cell] =
-        std::clamp(margin * largest_inertia_ * square * ancestor(cell) / worst,
-                   1.,
-                   largest_inertia_);
+      const double share = square * ancestor(cell) / worst;
+      inertia_[cell] = std::clamp(largest_inertia_ * std::cbrt(margin * share),
+                                  1.,
+                                  largest_inertia_);
     };
     // 1. cells that points may enter until the next time: of the fastest wave
     const double fastest = *std::max_element(squares.begin(), squares.end());

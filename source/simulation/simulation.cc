@@ -151,7 +151,13 @@ namespace CaissonMPM
     const double   density =
                    soil.inertial_density(soil.material_at(tip[vertical])),
                  speed = body.motion().usual_velocity();
-    return -soil.initial_stress(tip)[zz] / (density * speed * speed);
+    // The waves of the start must decay before the soil gets heavy.
+    constexpr double first_share = .15;
+    const double     way         = body.shape().right() / 3.,
+                 share = std::clamp(std::abs(body.motion().travel()) / way,
+                                    first_share,
+                                    1.);
+    return -share * soil.initial_stress(tip)[zz] / (density * speed * speed);
   }
 
   void

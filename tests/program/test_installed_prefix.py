@@ -24,7 +24,7 @@ STUDY = """kind = "parameters"
 title = "Two friction angles"
 scene = "jack_coarse.prm"
 depths = [0.55]
-set = {"Time/End penetration" = 0.6, "Time/Mass scaling" = 100}
+set = {"Time/End penetration" = 0.6, "Time/Inertia tolerance" = 2}
 [parameters."Soil/Layer 1/Friction angle"]
 values = [31, 33]
 """

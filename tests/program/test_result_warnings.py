@@ -32,6 +32,7 @@ COUPLED: Entries = {
     "Soil/Layer 1/Cohesion": 100,
     "Soil/Layer 1/Permeability": 1e-4,
     "Water/Level": "coupled",
+    "Time/Inertia tolerance": "none",
     "Time/Mass scaling": 100,
     "Time/End penetration": 1.7,
 }
@@ -58,7 +59,9 @@ class RunReview(ProgramTest):
 
     def test_sound_run(self) -> None:
         """A run without a fault has none of these warnings."""
-        text = self.words_of_run({**SMALL, "Time/Mass scaling": 25})
+        text = self.words_of_run(
+            {**SMALL, "Time/Inertia tolerance": "none", "Time/Mass scaling": 25}
+        )
         for words in (FALL, JUMP, LOST, ONE_CELL, FEW_POINTS):
             self.assertNotIn(words, text)
 
@@ -67,6 +70,7 @@ class RunReview(ProgramTest):
         text = self.words_of_run(
             {
                 **SMALL,
+                "Time/Inertia tolerance": "none",
                 "Time/Mass scaling": 100,
                 "Soil/Layer 1/Dilatancy angle": 15,
                 "Soil/Layer 1/Largest void ratio": 10,
@@ -82,7 +86,14 @@ class RunReview(ProgramTest):
             "Soil/Layer 2/Friction angle": 15,
             "Soil/Layer 2/Friction angle of the walls": 10,
         }
-        text = self.words_of_run({**SMALL, **soft, "Time/Mass scaling": 100})
+        text = self.words_of_run(
+            {
+                **SMALL,
+                **soft,
+                "Time/Inertia tolerance": "none",
+                "Time/Mass scaling": 100,
+            }
+        )
         self.assertNotIn(FALL, text)
 
     def test_fall_for_a_reason(self) -> None:
@@ -103,7 +114,14 @@ class RunReview(ProgramTest):
         )
         for entries in cases:
             with self.subTest(entries=entries):
-                text = self.words_of_run({**SMALL, "Time/Mass scaling": 100, **entries})
+                text = self.words_of_run(
+                    {
+                        **SMALL,
+                        "Time/Inertia tolerance": "none",
+                        "Time/Mass scaling": 100,
+                        **entries,
+                    }
+                )
                 self.assertNotIn(FALL, text)
 
     def test_volume_of_points(self) -> None:
@@ -125,6 +143,7 @@ class RunReview(ProgramTest):
         text = self.words_of_run(
             {
                 **SMALL,
+                "Time/Inertia tolerance": "none",
                 "Time/Mass scaling": 100,
                 "Time/End penetration": 0.9,
                 "Method/Velocity transfer": "PIC",

@@ -133,6 +133,7 @@ class Suction(ProgramTest):
                 "Material points/Per direction in path": 3,
                 "Material points/Per direction near": 2,
                 "Material points/Per direction far": 2,
+                "Time/Inertia tolerance": "none",
                 "Time/Mass scaling": 100,
                 "Time/End penetration": 2.3,
                 "Output/Frame interval": "never",

@@ -149,13 +149,32 @@ end
             complaint, "not enough for a second mesh. Set --budget [0-9.]+(s|min|h),"
         )
 
+    def test_wanted_error(self) -> None:
+        """The first mesh that is good enough runs with its bar; an error that comes
+        from the mass scaling is not looked for on finer meshes."""
+        path = self.made_directory()
+        scene = path / "own.prm"
+        scene.write_text(self.SCENE, encoding="utf-8")
+        to = ["--output-directory", str(path / "results")]
+        said, _ = self.caisson("run", "--error", "45%", str(scene), *to)
+        self.assertRegex(said, r"(?m)^refinement 1: error of the total force \d")
+        self.assertNotIn("refinement 1.5:", said)
+        self.assertIn("total_force_low_N", Results(path / "results").error_bounds)
+        call = ["run", "--error", "20%", str(scene), *to]
+        self.assertIn("a quarter of Time/Inertia", self.caisson(*call, status=1)[1])
+        call[1:1] = ["--budget", "0.1s"]
+        self.assertIn("Set --budget ", self.caisson(*call, status=1)[1])
+
 
 class Suggest(CommandTest):
     """Scenes of caisson suggest."""
 
-    def suggest(self, path: Path, layer: str, status: int = 0) -> tuple[str, str]:
+    def suggest(
+        self, path: Path, layer: str, status: int = 0, error: int = 20
+    ) -> tuple[str, str]:
         """Write a scene for a caisson of 10 m."""
-        sizes = ["--diameter", "10", "--skirt", "8", "--wall", "40mm", "--error", "20"]
+        sizes = ["--diameter", "10", "--skirt", "8", "--wall", "40mm"]
+        sizes += ["--error", str(error)]
         return self.caisson(
             "suggest", str(path), *sizes, "--layer", layer, status=status
         )
@@ -183,15 +202,19 @@ class Suggest(CommandTest):
         self.assertIn("Friction angle of the walls", said)
         self.caisson(*words, "--wall-friction", "20")
 
-    def test_mass_scaling(self) -> None:
-        """No warning of the one that suggest has chosen; another one is warned of, and
-        so is the same in soil of constant stiffness."""
+    def test_inertia_tolerance(self) -> None:
+        """It is smaller for a smaller error. A large mass scaling instead of it is
+        warned of, and a larger one where the stiffness of all soil grows with its
+        stress."""
         path = self.made_directory()
         soft = f"{BY_STRESS}, Youngs modulus = 20e6"
         stiff = soft.replace(" with stiffness by stress", "")
         self.assertNotIn("warning", "".join(self.suggest(path / "soft.prm", soft)))
         text = (path / "soft.prm").read_text(encoding="utf-8")
-        self.assertRegex(text, r"Mass scaling *= 400\b")
+        self.assertRegex(text, r"Inertia tolerance *= 0.4\b")
+        self.suggest(path / "fine.prm", soft, error=5)
+        fine = (path / "fine.prm").read_text(encoding="utf-8")
+        self.assertRegex(fine, r"Inertia tolerance *= 0.2\b")
         self.assertIn("above 400", self.said(path / "soft.prm", 401))
         self.suggest(path / "stiff.prm", stiff)
         self.assertIn("above 100", self.said(path / "stiff.prm", 400))
@@ -211,7 +234,13 @@ class Suggest(CommandTest):
     def said(self, path: Path, scaling: int) -> str:
         """Return what the program says of a scene with this mass scaling."""
         return query(
-            [str(path), "--validate", "--set", f"{SCALING}={scaling}"], PROGRAM
+            [
+                str(path),
+                "--validate",
+                *("--set", "Time/Inertia tolerance=none"),
+                *("--set", f"{SCALING}={scaling}"),
+            ],
+            PROGRAM,
         )
 
 

@@ -31,6 +31,15 @@ namespace CaissonMPM
         static constexpr int friction_entry =
                                entry_named(entries, "Critical friction angle"),
                              n_state = 0;
+
+        static const char *
+        warning(const double * /*values*/)
+        {
+          return "hypoplastic sand has no elastic range, and the smallest "
+                 "vibrations weaken it: dense sand bore two thirds of the "
+                 "force with intergranular strain. Set Law = hypoplastic sand "
+                 "with intergranular strain";
+        }
       };
 
       template <>

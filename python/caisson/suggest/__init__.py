@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Writes a scene for your own caisson: domain, mesh, points and mass scaling for the
-error that you want, and what it will cost.
+"""Writes a scene for your own caisson: domain, mesh, points and inertia tolerance for
+the error that you want, and what it will cost.
 
     caisson suggest --diameter 10 --skirt 8 --wall 40mm --error 10 \\
       --layer "0: Friction angle = 33, Youngs modulus = 20e6" \\
@@ -32,11 +32,10 @@ from caisson.suggest.sizes import (
     Body,
     Level,
     frames_of,
-    mass_scaling_of,
     mesh_of,
     start_of,
 )
-from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of, stiffens
+from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of
 from caisson_design import InputError
 
 CHANGES = (-4, -2, 0, 2, 4)  # degrees, of a study of the friction angle
@@ -247,9 +246,6 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         f" {body.wall * 1e3:g} mm, {how}",
         body=body,
         level=level,
-        mass_scaling=mass_scaling_of(
-            level, all(map(stiffens, reached(options, layers)))
-        ),
         mesh=mesh,
         smallest_mm=f"{smallest * 1e3:.3g}",
         start=start,

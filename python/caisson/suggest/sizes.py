@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What mesh, points and mass scaling a caisson needs for an error that is wanted.
+"""What mesh, points and inertia tolerance a caisson needs for an error that is wanted.
 
 The far mesh follows the diameter, as in prm/jack.prm, and the mesh at the tip the
 wall: its lines are as far apart as the wall is thick, and cells around the tip are
@@ -25,7 +25,7 @@ class Level:
     error: int
     cells: int
     levels: int
-    mass_scaling: float
+    inertia_tolerance: float
     far: float
     growth: float
 
@@ -33,26 +33,12 @@ class Level:
 LEVELS = {
     level.error: level
     for level in (
-        Level(20, cells=2, levels=1, mass_scaling=100, far=1, growth=1.2),
-        Level(10, cells=4, levels=2, mass_scaling=100, far=1, growth=1.2),
-        Level(5, cells=8, levels=3, mass_scaling=100, far=0.5, growth=1.1),
-        Level(2, cells=16, levels=4, mass_scaling=25, far=0.25, growth=1.05),
+        Level(20, cells=2, levels=1, inertia_tolerance=0.4, far=1, growth=1.2),
+        Level(10, cells=4, levels=2, inertia_tolerance=0.4, far=1, growth=1.2),
+        Level(5, cells=8, levels=3, inertia_tolerance=0.2, far=0.5, growth=1.1),
+        Level(2, cells=16, levels=4, inertia_tolerance=0.1, far=0.25, growth=1.05),
     )
 }
-
-
-# where the stiffness of all layers grows with their stress, at 20 %: the force is 5 %
-# larger down to a meter, and the same from 2 m on (doc/how_to/own_caisson.md)
-MASS_SCALING_OF_STIFFENING = 400
-
-
-def mass_scaling_of(level: Level, stiffens: bool) -> float:
-    """Return the factor on the inertia; stiffens: the stiffness of all layers that the
-    skirt reaches grows with their stress, so that the soil at the tip is far stiffer
-    than elsewhere."""
-    if stiffens and level.error == 20:
-        return MASS_SCALING_OF_STIFFENING
-    return level.mass_scaling
 
 
 @dataclass(frozen=True)

@@ -43,11 +43,6 @@ class Layer:
         return next((e.value for e in self.entries if e.name == name), "")
 
 
-def stiffens(layer: Layer) -> bool:
-    """Return whether the stiffness of a layer grows with its stress."""
-    return layer.value("Law") == BY_STRESS
-
-
 def name_of(word: str, known: Sequence[str]) -> str:
     """Return the entry meant. Raises SuggestError."""
     by_lower = {name.lower(): name for name in known}
