@@ -56,8 +56,9 @@ class Search:
     """The meshes of a scene, from the coarsest on."""
 
     def __init__(self, scene: Path, budget: float, directory: Path) -> None:
-        """Ask the program for the scene. directory: of the runs. Raises RunError and
-        StudyError."""
+        """Ask the program for the scene. directory: of the runs. Raises RunError,
+        StudyError and OSError."""
+        directory.parent.mkdir(parents=True, exist_ok=True)
         self.plan = Plan(
             argparse.Namespace(
                 scene=scene,

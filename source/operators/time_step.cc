@@ -86,6 +86,21 @@ namespace CaissonMPM
     return step_size();
   }
 
+  double
+  TimeStep::inertia_for(const double stress_over_inertia) const
+  {
+    constexpr double largest = 1e6; // as for a number
+    return std::clamp(*tolerance * stress_over_inertia, 1., largest);
+  }
+
+  double
+  TimeStep::growth_of_step(const double stress_over_inertia) const
+  {
+    return fixed_step ?
+             1. :
+             std::sqrt(inertia_for(stress_over_inertia) / largest_inertia_);
+  }
+
   std::string
   TimeStep::text_of_too_large_step() const
   {
@@ -189,7 +204,6 @@ namespace CaissonMPM
                            const MaterialPoints      &points,
                            const std::vector<double> &squares)
   {
-    constexpr double largest = 1e6; // as for a number
     // Soil that is heavier than what lies around it reflects its own waves, and
     // swings on it. So the factor falls slowly, with the size of the cells to
     // the power 2/3, although the step allows the square; cells up to twice as
@@ -204,10 +218,9 @@ namespace CaissonMPM
     for (const unsigned int cell : points.cells_with_points())
       worst =
         std::max(worst, largest_in(points, cell, squares) * ancestor(cell));
-    worst = Utilities::MPI::max(worst, grid.communicator());
-    largest_inertia_ =
-      std::clamp(*tolerance * stress_over_inertia_at_tip(), 1., largest);
-    const auto set = [&](const unsigned int cell, const double square) {
+    worst            = Utilities::MPI::max(worst, grid.communicator());
+    largest_inertia_ = inertia_for(stress_over_inertia_at_tip());
+    const auto set   = [&](const unsigned int cell, const double square) {
       const double share = square * ancestor(cell) / worst;
       inertia_[cell] = std::clamp(largest_inertia_ * std::cbrt(margin * share),
                                   1.,

@@ -267,7 +267,8 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::print_header(const std::vector<std::string> &warnings)
+  Recorder::print_header(const std::vector<std::string> &warnings,
+                         const double                    n_steps)
   {
     double own_mass = 0.;
     for (const BodyPoint &p : parts.body_points)
@@ -288,7 +289,6 @@ namespace CaissonMPM
                   std::string(kernels->name) + ", " + to_text(kernels->width) + " lanes"},
                  {"ranks", to_text(parts.grid.n_ranks())},
                  {"step limited by", parts.time_step.reason()}};
-    const double n_steps = parts.schedule.steps_left(parts.clock.step_size);
     if (std::isfinite(n_steps))
       first.emplace_back("steps", "about " + rough(n_steps));
     if (!installation.empty())

@@ -56,7 +56,8 @@ namespace CaissonMPM
       nodal_motion.initialize(grid);
       time_step.forget_cells();
     });
-    time_step.follow_tip([this]() { return stress_over_inertia_at_tip(); });
+    time_step.follow_tip(
+      [this]() { return stress_over_inertia_at_tip(body.motion().travel()); });
     enter_subsection("Method");
     add_parameter("Instruction set",
                   instruction_set,
@@ -145,18 +146,17 @@ namespace CaissonMPM
   }
 
   double
-  Simulation::stress_over_inertia_at_tip() const
+  Simulation::stress_over_inertia_at_tip(const double travel) const
   {
-    const Point<2> tip(0., -std::max(body.penetration(), 0.));
+    const double   depth = body.penetration() + travel - body.motion().travel();
+    const Point<2> tip(0., -std::max(depth, 0.));
     const double   density =
                    soil.inertial_density(soil.material_at(tip[vertical])),
                  speed = body.motion().usual_velocity();
     // The waves of the start must decay before the soil gets heavy.
     constexpr double first_share = .15;
     const double     way         = body.shape().right() / 3.,
-                 share = std::clamp(std::abs(body.motion().travel()) / way,
-                                    first_share,
-                                    1.);
+                 share = std::clamp(std::abs(travel) / way, first_share, 1.);
     return -share * soil.initial_stress(tip)[zz] / (density * speed * speed);
   }
 
@@ -533,7 +533,7 @@ namespace CaissonMPM
       recorder.start(overwrites);
     if (is_restart && schedule.is_finished())
       return nothing_left();
-    recorder.print_header(warnings);
+    recorder.print_header(warnings, number_of_steps());
     if (!is_restart)
       {
         if (installation.is_given())

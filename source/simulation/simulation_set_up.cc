@@ -303,7 +303,19 @@ namespace CaissonMPM
   double
   Simulation::number_of_steps() const
   {
-    return schedule.steps_left(time_step.step_size());
+    const double left = schedule.steps_left(time_step.step_size());
+    if (!time_step.has_inertia_tolerance() || !std::isfinite(left))
+      return left;
+    // the step grows with the stress at the tip
+    constexpr unsigned int n_parts = 200;
+    const double           start   = body.motion().travel(),
+                 way               = (schedule.end_time() - clock.time) *
+                       body.motion().usual_velocity();
+    double sum = 0.;
+    for (unsigned int part = 0; part < n_parts; ++part)
+      sum += 1. / time_step.growth_of_step(stress_over_inertia_at_tip(
+                    start + (part + .5) / n_parts * way));
+    return std::ceil(left * sum / n_parts);
   }
 
   double

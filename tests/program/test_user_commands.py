@@ -155,11 +155,13 @@ end
         path = self.made_directory()
         scene = path / "own.prm"
         scene.write_text(self.SCENE, encoding="utf-8")
-        to = ["--output-directory", str(path / "results")]
+        to = ["--output-directory", str(path / "new" / "results")]
         said, _ = self.caisson("run", "--error", "45%", str(scene), *to)
         self.assertRegex(said, r"(?m)^refinement 1: error of the total force \d")
         self.assertNotIn("refinement 1.5:", said)
-        self.assertIn("total_force_low_N", Results(path / "results").error_bounds)
+        self.assertIn(
+            "total_force_low_N", Results(path / "new" / "results").error_bounds
+        )
         call = ["run", "--error", "20%", str(scene), *to]
         self.assertIn("a quarter of Time/Inertia", self.caisson(*call, status=1)[1])
         call[1:1] = ["--budget", "0.1s"]

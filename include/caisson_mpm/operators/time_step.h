@@ -112,6 +112,11 @@ namespace CaissonMPM
       return fixed_step.value_or(courant * limit);
     }
 
+    /** How much longer the step is once this is the stress over the inertia at
+     * the tip, with a tolerance and all else the same. */
+    double
+    growth_of_step(const double stress_over_inertia) const;
+
     /** A step over the limit that the soil would have without its water, with
      * the limit that was found last. The water of undrained soil shortens the
      * steps; what acts in each step by a share would act more often, and damp
@@ -140,6 +145,9 @@ namespace CaissonMPM
                   MaterialPoints                 &points,
                   const Soil                     &soil,
                   std::vector<Kernels::Material> &materials);
+    /** The scaling of the cell that limits the step. */
+    double
+    inertia_for(const double stress_over_inertia) const;
     /** Find the scaling from the tolerance, and set the factors of all cells.
      * @p squares: of the wave speed of each material (m2/s2). Collective. */
     void

@@ -98,7 +98,8 @@ namespace CaissonMPM
 
     /** Print what is run, and the warnings of its scene. */
     void
-    print_header(const std::vector<std::string> &warnings);
+    print_header(const std::vector<std::string> &warnings,
+                 const double                    n_steps);
 
     /** Add a step: the impulses of this rank's nodes, for the whole
      * circumference. Units: N s. */

@@ -170,9 +170,9 @@ namespace CaissonMPM
     void
     timed(const char *section, const Action &action);
     // the parts of a step, in their order
-    /** See TimeStep::follow_tip(). */
+    /** See TimeStep::follow_tip(); once the body has this travel (m). */
     double
-    stress_over_inertia_at_tip() const;
+    stress_over_inertia_at_tip(const double travel) const;
     void
     choose_step();
     StepSize
