@@ -158,8 +158,8 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
     (["6e+13 steps"], {"Time/Time step": 1e-12}, {}),
     (
         ["frames", "Frame interval"],
-        {"Output/Frame interval": 2e-3},
-        {"Output/Frame interval": 1},
+        {"Time/Time step": 1e-3, "Output/Frame interval": 2e-3},
+        {"Time/Time step": 1e-3, "Output/Frame interval": 1},
     ),
     (
         ["rows", "Record interval"],
