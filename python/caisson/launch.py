@@ -85,7 +85,10 @@ def options_for_error(options: argparse.Namespace, directory: Path) -> list[str]
 
     scene, *more = options.arguments
     if more and more[0] != "--output-directory":
-        raise RunError(f"--error runs the scene as it is: write {more[0]} into a file")
+        raise RunError(
+            f"--error goes with --output-directory only, not with {more[0]}. Write the"
+            " entries that you change into a file"
+        )
     budget = seconds_of(options.budget) if options.budget else wanted.BUDGET
     error = wanted.error_of(options.error)
     meshes = directory.with_name(f"{directory.name}_meshes")
@@ -163,6 +166,9 @@ def main(options: argparse.Namespace) -> int:
         str(scene_or_study(word)) if word.endswith(".prm") else word
         for word in options.arguments
     ]
+    if options.budget and not options.error:
+        print("run: --budget belongs to --error", file=sys.stderr)
+        return 1
     directory, stop_file = places_of(arguments)
     if options.error and directory:  # else the program says what is wrong
         try:

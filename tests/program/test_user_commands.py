@@ -166,6 +166,8 @@ end
         self.assertIn("a quarter of Time/Inertia", self.caisson(*call, status=1)[1])
         call[1:1] = ["--budget", "0.1s"]
         self.assertIn("Set --budget ", self.caisson(*call, status=1)[1])
+        del call[3:5]
+        self.assertIn("belongs to --error", self.caisson(*call, status=1)[1])
 
 
 class Suggest(CommandTest):
