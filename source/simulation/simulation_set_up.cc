@@ -67,8 +67,8 @@ namespace CaissonMPM
     nodal_motion.settings().check_parameters();
     check_inertia_tolerance();
     const WaterTraits &traits = water->traits();
-    if ((traits.follows_soil || traits.bulk_modulus > 0.) &&
-        !nodal_motion.settings().uses_mean_volume())
+    const bool strains_water  = traits.follows_soil || traits.bulk_modulus > 0.;
+    if (strains_water && !nodal_motion.settings().uses_mean_volume())
       throw BadInput("Water/Level is coupled or undrained, but Method/Mean "
                      "volume change is false: the points of a cell are "
                      "strained with the volume change that the pressure sees. "
@@ -79,9 +79,9 @@ namespace CaissonMPM
                      ": this CPU does not have it. Set auto.");
     place_lines();
     // water that follows the soil, and a body that the soil carries, vibrate
-    nodal_motion.choose_flip_fraction(
-      soil.yields_by_friction() && !traits.follows_soil &&
-      traits.bulk_modulus == 0. && !body.motion().follows_loads());
+    nodal_motion.choose_flip_fraction(soil.yields_by_friction() &&
+                                      !strains_water &&
+                                      !body.motion().follows_loads());
     if (body.shape().expands() && soil.has_walls())
       throw BadInput(
         "the expanding cylinder takes its friction from Rigid body/"
@@ -309,9 +309,8 @@ namespace CaissonMPM
     // the step grows with the stress at the tip
     constexpr unsigned int n_parts = 200;
     const double           start   = body.motion().travel(),
-                 way               = (schedule.end_time() - clock.time) *
-                       body.motion().usual_velocity();
-    double sum = 0.;
+                 way               = schedule.travel_to_hold().second - start;
+    double sum                     = 0.;
     for (unsigned int part = 0; part < n_parts; ++part)
       sum += 1. / time_step.growth_of_step(stress_over_inertia_at_tip(
                     start + (part + .5) / n_parts * way));

@@ -20,7 +20,6 @@ class PoissonRatio(ProgramTest):
             path,
             entries={
                 **SMALL,
-                "Time/Inertia tolerance": "none",
                 "Time/Mass scaling": 100,
                 "Time/End penetration": 1.1,
                 "Output/Frame interval": "never",

@@ -7,6 +7,7 @@ from program import SUCCESS, Entries, ProgramTest, user_scene
 
 # a short way of a small caisson in a small domain
 SMALL: Entries = {
+    "Time/Inertia tolerance": "none",
     "Rigid body/Outer diameter": 2.2,
     "Rigid body/Skirt length": 2,
     "Grid/Outer radius": 5,
@@ -32,7 +33,6 @@ COUPLED: Entries = {
     "Soil/Layer 1/Cohesion": 100,
     "Soil/Layer 1/Permeability": 1e-4,
     "Water/Level": "coupled",
-    "Time/Inertia tolerance": "none",
     "Time/Mass scaling": 100,
     "Time/End penetration": 1.7,
 }
@@ -59,9 +59,7 @@ class RunReview(ProgramTest):
 
     def test_sound_run(self) -> None:
         """A run without a fault has none of these warnings."""
-        text = self.words_of_run(
-            {**SMALL, "Time/Inertia tolerance": "none", "Time/Mass scaling": 25}
-        )
+        text = self.words_of_run({**SMALL, "Time/Mass scaling": 25})
         for words in (FALL, JUMP, LOST, ONE_CELL, FEW_POINTS):
             self.assertNotIn(words, text)
 
@@ -70,7 +68,6 @@ class RunReview(ProgramTest):
         text = self.words_of_run(
             {
                 **SMALL,
-                "Time/Inertia tolerance": "none",
                 "Time/Mass scaling": 100,
                 "Soil/Layer 1/Dilatancy angle": 15,
                 "Soil/Layer 1/Largest void ratio": 10,
@@ -86,14 +83,7 @@ class RunReview(ProgramTest):
             "Soil/Layer 2/Friction angle": 15,
             "Soil/Layer 2/Friction angle of the walls": 10,
         }
-        text = self.words_of_run(
-            {
-                **SMALL,
-                **soft,
-                "Time/Inertia tolerance": "none",
-                "Time/Mass scaling": 100,
-            }
-        )
+        text = self.words_of_run({**SMALL, **soft, "Time/Mass scaling": 100})
         self.assertNotIn(FALL, text)
 
     def test_fall_for_a_reason(self) -> None:
@@ -114,14 +104,7 @@ class RunReview(ProgramTest):
         )
         for entries in cases:
             with self.subTest(entries=entries):
-                text = self.words_of_run(
-                    {
-                        **SMALL,
-                        "Time/Inertia tolerance": "none",
-                        "Time/Mass scaling": 100,
-                        **entries,
-                    }
-                )
+                text = self.words_of_run({**SMALL, "Time/Mass scaling": 100, **entries})
                 self.assertNotIn(FALL, text)
 
     def test_volume_of_points(self) -> None:
@@ -143,7 +126,6 @@ class RunReview(ProgramTest):
         text = self.words_of_run(
             {
                 **SMALL,
-                "Time/Inertia tolerance": "none",
                 "Time/Mass scaling": 100,
                 "Time/End penetration": 0.9,
                 "Method/Velocity transfer": "PIC",

@@ -85,8 +85,7 @@ namespace CaissonMPM
     bool
     has_walls() const;
 
-    /** Whether all laws are elastic up to a yield surface
-     * with friction. */
+    /** Whether all laws are elastic up to a yield surface with friction. */
     bool
     yields_by_friction() const;
 

@@ -71,8 +71,7 @@ namespace CaissonMPM
     std::string
     law_name() const;
 
-    /** Whether the law is elastic up to a yield surface
-     * with friction. */
+    /** Whether the law is elastic up to a yield surface with friction. */
     bool
     yields_by_friction() const;
 
