@@ -255,24 +255,40 @@ class Plan:
                 found[name] = max(0, levels - less)
         return found
 
+    def run_on(self, r: float, name: str) -> StudyRun:
+        """Return the run of a mesh."""
+        run = self.run(name, self.mesh(r))
+        run.size = self.sized(r)
+        return run
+
+    def changed(self, r: float, of: str) -> tuple[list[StudyRun], list[dict[str, Any]]]:
+        """Return the runs with other numerics on a mesh, and their terms of the error
+        bar; of: the name of the run of the mesh itself."""
+        runs, terms = [], []
+        for name, (entries, factor) in changes_of(self.entries).items():
+            runs.append(self.run(name, {**entries, **self.mesh(r)}))
+            runs[-1].size = self.sized(r, COST[name])
+            terms.append({"name": name, "from": of, "to": name, "factor": factor})
+        return runs, terms
+
     def study(self) -> Study:
         """Return the runs and the terms of the error bar."""
         names = {r: f"refinement {r:g}" if r != 1 else "default" for r in self.chosen}
-        runs = [self.run(name, self.mesh(r)) for r, name in names.items()]
-        errors: list[dict[str, Any]] = [
-            {"name": "mesh", "meshes": list(names.values())}
-        ]
+        runs = [self.run_on(r, name) for r, name in names.items()]
         coarsest = min(names)
-        for name, (entries, factor) in changes_of(self.entries).items():
-            runs.append(self.run(name, {**entries, **self.mesh(coarsest)}))
-            term = {"name": name, "from": names[coarsest], "to": name, "factor": factor}
-            errors.append(term)
-        sizes = [self.sized(r) for r in names]
-        sizes += [self.sized(coarsest, COST[term["name"]]) for term in errors[1:]]
-        for run, size in zip(runs, sizes, strict=True):
-            run.size = size
+        changed, terms = self.changed(coarsest, names[coarsest])
+        errors = [{"name": "mesh", "meshes": list(names.values())}, *terms]
         keys = {"errors": errors, "output": str(self.output.resolve())}
-        return Study(self.scene.stem, self.scene.stem, self.scene, runs, keys)
+        return Study(self.scene.stem, self.scene.stem, self.scene, runs + changed, keys)
+
+    def execute(self, runs: list[StudyRun], again: bool) -> None:
+        """Run what is not complete. Raises StudyError where a run has no result."""
+        self.check_results(runs)
+        self.results.mkdir(parents=True, exist_ok=True)
+        for some, at_a_time, ranks in shares_of(to_do_of(runs, again), None):
+            execute(some, at_a_time, again, None, ranks)
+        if missing := [run for run in runs if not run.run.is_complete()]:
+            raise StudyError(f"{missing[0].name}: {missing[0].trouble}")
 
 
 def set_depths(study: Study) -> None:
@@ -310,14 +326,7 @@ def main(arguments: argparse.Namespace) -> int:
         print(f"all runs: about {duration(total)} on one core", flush=True)
         if arguments.list:
             return 0
-        plan.check_results(study.runs)
-        plan.results.mkdir(parents=True, exist_ok=True)
-        for some, at_a_time, ranks in shares_of(
-            to_do_of(study.runs, arguments.again), None
-        ):
-            execute(some, at_a_time, arguments.again, None, ranks)
-        if missing := [run for run in study.runs if not run.run.is_complete()]:
-            raise StudyError(f"{missing[0].name}: {missing[0].trouble}")
+        plan.execute(study.runs, arguments.again)
         set_depths(study)
         error_bar.evaluate([study], Options(), 0)
         advise(plan, study)

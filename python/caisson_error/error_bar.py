@@ -352,12 +352,17 @@ def chosen_depths(depths: np.ndarray) -> list[int]:
     return [int(np.argmin(abs(depths - depth))) for depth in wanted]
 
 
+def depths_of(study: Study) -> np.ndarray:
+    """Return the depths of the bar: [n] (m)."""
+    first, last, step = study.keys["depths"]
+    return np.arange(first, last + step / 2, step)
+
+
 def evaluate(studies: Sequence[Study], _: Options, __: float) -> int:
     """Write the file of each study and print its tables. Raises StudyError where a
     run is missing."""
     for study in studies:
-        first, last, step = study.keys["depths"]
-        depths = np.arange(first, last + step / 2, step)
+        depths = depths_of(study)
         try:
             terms = [term_errors(t, study, depths) for t in study.keys["errors"]]
             bars = combined(terms)

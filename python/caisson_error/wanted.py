@@ -7,6 +7,7 @@ error bar. The first whose bar of the total force is small enough at nine tenths
 depths is the one that is wanted; the scene then runs on it, with its bar.
 """
 import argparse
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,18 +15,15 @@ import numpy as np
 
 from caisson.paths import PROGRAM
 from caisson.progress import duration
-from caisson.study import Options, Study, StudyError, StudyRun, execute
-from caisson.study_command import shares_of, to_do_of
+from caisson.study import Options, Study, StudyError, StudyRun
 from caisson_error import error_bar
 from caisson_error.command import (
-    COST,
     COST_OF_CHANGES,
     MASS,
     POINTS,
     SIDES,
     STEP,
     Plan,
-    changes_of,
     in_units,
     set_depths,
 )
@@ -80,28 +78,13 @@ class Search:
     def add_mesh(self, r: float) -> None:
         """Run a mesh; the first one also with other numerics. Raises StudyError."""
         self.left -= self.cost(r)
-        plan, mesh = self.plan, self.plan.mesh(r)
         self.names[r] = f"refinement {r:g}"
-        runs = [plan.run(self.names[r], mesh)]
-        runs[0].size = plan.sized(r)
+        runs = [self.plan.run_on(r, self.names[r])]
         if not self.runs:
-            for name, (entries, factor) in changes_of(plan.entries).items():
-                runs.append(plan.run(f"coarse, {name}", {**entries, **mesh}))
-                runs[-1].size = plan.sized(r, COST[name])
-                self.errors.append(
-                    {
-                        "name": name,
-                        "from": self.names[r],
-                        "to": runs[-1].name,
-                        "factor": factor,
-                    }
-                )
-        plan.check_results(runs)
-        plan.results.mkdir(parents=True, exist_ok=True)
-        for some, at_a_time, ranks in shares_of(to_do_of(runs, False), None):
-            execute(some, at_a_time, False, None, ranks)
-        if missing := [run for run in runs if not run.run.is_complete()]:
-            raise StudyError(f"{missing[0].name}: {missing[0].trouble}")
+            changed, terms = self.plan.changed(r, self.names[r])
+            runs += changed
+            self.errors += terms
+        self.plan.execute(runs, False)
         self.runs += runs
 
     def study(self) -> Study:
@@ -111,9 +94,7 @@ class Search:
             "default" if name == finest else name for name in self.names.values()
         ]
         runs = [
-            StudyRun(run.study, "default", "", "", 0, {}, run.run)
-            if run.name == finest
-            else run
+            replace(run, name="default") if run.name == finest else run
             for run in self.runs
         ]
         keys = {"errors": self.errors, "output": str(self.bar_file)}
@@ -131,8 +112,7 @@ class Search:
         exceeded at nine tenths of the depths: by term, of all terms, and of all but the
         mesh."""
         study = self.study()
-        first, last, step = study.keys["depths"]
-        depths = np.arange(first, last + step / 2, step)
+        depths = error_bar.depths_of(study)
         terms = [error_bar.term_errors(t, study, depths) for t in self.errors]
         bars = {term["name"]: bar for term, bar in zip(self.errors, terms)}
         bars[ALL] = error_bar.combined(terms)
