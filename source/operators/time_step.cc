@@ -37,12 +37,13 @@ namespace CaissonMPM
                        tolerance,
                        "none",
                        0.,
-                       "The inertia of the cell that limits the step, mass "
-                       "scaling times density times the square of the velocity "
-                       "of the body, is this share of the initial vertical "
-                       "effective stress at the tip. The scaling follows the "
-                       "penetration, and larger cells get less of it. Mass "
-                       "scaling must then be 1. Units: none.",
+                       "The inertia of the smallest cells, mass scaling times "
+                       "density times the square of the velocity of the body, "
+                       "is this share of the initial vertical effective stress "
+                       "at the tip. The scaling follows the penetration. "
+                       "Larger cells get less of it, and cells that the tip "
+                       "bends get more. Mass scaling must then be 1. "
+                       "Units: none.",
                        Patterns::Double(1e-6, 10.));
   }
 
@@ -98,7 +99,7 @@ namespace CaissonMPM
   {
     return fixed_step ?
              1. :
-             std::sqrt(inertia_for(stress_over_inertia) / largest_inertia_);
+             std::sqrt(inertia_for(stress_over_inertia) / inertia_at_tip_);
   }
 
   std::string
@@ -144,17 +145,22 @@ namespace CaissonMPM
      * cells at most 2 c |J^-1|: 1/dr^2 + 1/dz^2 where rows are level, more
      * where they are bent.
      */
-    double
-    inverse_square_of_size(const Kernels::CellGeometry &g)
+    struct InverseSquareOfSize
     {
-      const double h   = std::min(g.height_left, g.height_right);
-      const double top = g.bottom_right + g.height_right - g.bottom_left -
-                         g.height_left,
-                   rise = std::max(std::abs(g.bottom_right - g.bottom_left),
-                                   std::abs(top)) /
-                          g.width;
-      return 1. / (g.width * g.width) + (1. + rise * rise) / (h * h);
-    }
+      explicit InverseSquareOfSize(const Kernels::CellGeometry &g)
+      {
+        const double h   = std::min(g.height_left, g.height_right);
+        const double top = g.bottom_right + g.height_right - g.bottom_left -
+                           g.height_left,
+                     rise = std::max(std::abs(g.bottom_right - g.bottom_left),
+                                     std::abs(top)) /
+                            g.width;
+        with_level_rows = 1. / (g.width * g.width) + 1. / (h * h);
+        bound           = with_level_rows + rise * rise / (h * h);
+      }
+
+      double with_level_rows, bound; // 1/m2
+    };
 
     /** c^2 = (lambda + 2 mu) / rho of each material, the water included or
      * not; the stiffness of the points changes p_wave_modulus. Units: m2/s2. */
@@ -208,23 +214,31 @@ namespace CaissonMPM
     // swings on it. So the factor falls slowly, with the size of the cells to
     // the power 2/3, although the step allows the square; cells up to twice as
     // large keep all of it, and halved cells have the factor of their
-    // ancestors.
-    constexpr double margin   = 4.;
-    const auto       ancestor = [&](const unsigned int cell) {
-      return inverse_square_of_size(grid.geometry(cell)) /
-             (1u << 2 * grid.cell_iterator(cell)->level());
+    // ancestors. Only the few cells that are bent beneath the tip get what
+    // their step needs.
+    constexpr double margin           = 4.;
+    const auto       size_of_ancestor = [&](const unsigned int cell) {
+      InverseSquareOfSize size(grid.geometry(cell));
+      const unsigned int  n_children = 1u
+                                      << 2 * grid.cell_iterator(cell)->level();
+      size.with_level_rows /= n_children;
+      size.bound /= n_children;
+      return size;
     };
     double worst = 0.;
     for (const unsigned int cell : points.cells_with_points())
-      worst =
-        std::max(worst, largest_in(points, cell, squares) * ancestor(cell));
-    worst            = Utilities::MPI::max(worst, grid.communicator());
-    largest_inertia_ = inertia_for(stress_over_inertia_at_tip());
-    const auto set   = [&](const unsigned int cell, const double square) {
-      const double share = square * ancestor(cell) / worst;
-      inertia_[cell] = std::clamp(largest_inertia_ * std::cbrt(margin * share),
-                                  1.,
-                                  largest_inertia_);
+      worst = std::max(worst,
+                       largest_in(points, cell, squares) *
+                         size_of_ancestor(cell).with_level_rows);
+    worst           = Utilities::MPI::max(worst, grid.communicator());
+    inertia_at_tip_ = inertia_for(stress_over_inertia_at_tip());
+    const auto set  = [&](const unsigned int cell, const double square) {
+      const auto   size = size_of_ancestor(cell);
+      const double level =
+                     std::cbrt(margin * square * size.with_level_rows / worst),
+                   bent = square * size.bound / worst;
+      inertia_[cell] =
+        std::max(1., inertia_at_tip_ * std::max(std::min(level, 1.), bent));
     };
     // 1. cells that points may enter until the next time: of the fastest wave
     const double fastest = *std::max_element(squares.begin(), squares.end());
@@ -247,8 +261,12 @@ namespace CaissonMPM
     const std::vector<double> squares = squares_of_waves(soil, materials, true),
                               squares_of_soil =
                                 squares_of_waves(soil, materials, false);
-    // 2. the largest c^2 (1/dr^2 + 1/dz^2) of the cells of this rank, of the
-    //    stiffest material in each, and the same by zone and without the water
+    if (tolerance)
+      update_inertia(grid, points, squares);
+    // 2. the largest c^2 (1/dr^2 + 1/dz^2) over the inertia of the cells of
+    // this
+    //    rank, of the stiffest material in each, and the same without the
+    //    water, and by zone without the inertia
     unsigned int        limiting = 0;
     double              worst = 0., worst_of_soil = 0., speed = 0.; // 1/s2, m/s
     std::vector<double> worst_of_zone(GridLines::n_zones, 0.);
@@ -256,11 +274,12 @@ namespace CaissonMPM
       {
         const double square    = largest_in(points, cell, squares),
                      of_soil   = largest_in(points, cell, squares_of_soil);
-        const double size      = inverse_square_of_size(grid.geometry(cell)),
-                     frequency = square * size;
-        worst_of_soil          = std::max(worst_of_soil, of_soil * size);
+        const double size      = InverseSquareOfSize(grid.geometry(cell)).bound,
+                     heavy     = tolerance ? size / inertia_[cell] : size,
+                     frequency = square * heavy;
+        worst_of_soil          = std::max(worst_of_soil, of_soil * heavy);
         double &of_zone = worst_of_zone[static_cast<int>(grid.zone(cell))];
-        of_zone         = std::max(of_zone, frequency);
+        of_zone         = std::max(of_zone, square * size);
         if (frequency > worst)
           {
             worst    = frequency;
@@ -268,13 +287,8 @@ namespace CaissonMPM
             speed    = std::sqrt(square);
           }
       }
-    // 3. the limits, 1 / sqrt of the largest value on all ranks, over the
-    //    inertia; those of the zones stay without it
+    // 3. the limits, 1 / sqrt of the largest value on all ranks
     const MPI_Comm communicator = grid.communicator();
-    if (tolerance)
-      update_inertia(grid, points, squares);
-    worst /= largest_inertia_;
-    worst_of_soil /= largest_inertia_;
     Utilities::MPI::max(worst_of_zone, communicator, worst_of_zone);
     for (unsigned int zone = 0; zone < GridLines::n_zones; ++zone)
       limit_of_zone[zone] = 1. / std::sqrt(worst_of_zone[zone]);

@@ -303,7 +303,7 @@ namespace CaissonMPM
       {"method", parts.nodal_motion.settings().description()},
       {"time step",
        to_text(parts.clock.step_size, 6) + " s, mass scaling " +
-         to_text(parts.soil.mass_scaling() * parts.time_step.largest_inertia(),
+         to_text(parts.soil.mass_scaling() * parts.time_step.inertia_at_tip(),
                  6)},
       {"end", parts.schedule.end_description()}};
     const auto more = parts.water->report(parts.materials).lines;

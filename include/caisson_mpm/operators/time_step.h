@@ -57,12 +57,11 @@ namespace CaissonMPM
       stress_over_inertia_at_tip = stress_over_inertia;
     }
 
-    /** The scaling of the cell that limits the step, found from the tolerance;
-     * else 1. */
+    /** The scaling of the smallest cells, found from the tolerance; else 1. */
     double
-    largest_inertia() const
+    inertia_at_tip() const
     {
-      return largest_inertia_;
+      return inertia_at_tip_;
     }
 
     /** The factor of the inertia in each cell of this rank [n_cells], or null
@@ -145,7 +144,7 @@ namespace CaissonMPM
                   MaterialPoints                 &points,
                   const Soil                     &soil,
                   std::vector<Kernels::Material> &materials);
-    /** The scaling of the cell that limits the step. */
+    /** The scaling of the smallest cells. */
     double
     inertia_for(const double stress_over_inertia) const;
     /** Find the scaling from the tolerance, and set the factors of all cells.
@@ -177,7 +176,7 @@ namespace CaissonMPM
     int                     age = 0; // steps since the limit was found
     std::string             limiting_cell;
     std::function<double()> stress_over_inertia_at_tip;
-    double                  largest_inertia_ = 1.;
+    double                  inertia_at_tip_ = 1.;
     std::vector<double>     inertia_;
   };
 } // namespace CaissonMPM
