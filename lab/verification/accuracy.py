@@ -3,7 +3,9 @@
 method, one at a time.
 
 Draws one picture per study, error against processor time of one core, and prints
-the cheapest run for each error in ASKED. Keys of a study beside the usual ones:
+the cheapest run for each error in ASKED. Runs with a uniform mass scaling, the default
+until 2026-11, are gray. The limit of the default on its meshes, which are then similar,
+is a point of its own. Keys of a study beside the usual ones:
 
     measure   what the relative error is of
     check     as before the first colon in Verification/Checks of the scene; or
@@ -19,14 +21,17 @@ from caisson import curves, table
 from caisson.paths import short
 from caisson.results import ResultsError
 from caisson.study import Options, Study, StudyRun
+from caisson_error.error_bar import refinement_of
+from caisson_error.mesh_error import mesh_error
 from lab.curves import relative_error
 
 NAME = "accuracy"
 STUDY_KEYS = set("measure check column depths".split())
 RUN_KEYS = set[str]()
 JOBS = 2  # runs at a time: more would take each other's memory and change the times
-ASKED = [0.01, 0.03, 0.1]
+ASKED = [0.01, 0.02, 0.03, 0.05, 0.1]
 DEFAULT, REFERENCE = "default", "reference"
+FORMER = "mass scaling"  # begins the names of variants that were the default
 COLUMNS = ["problem", "variant", "mesh", "seconds", "relative_error"]
 
 Found = list[tuple[StudyRun, float, float | None]]  # run, processor time (s), error
@@ -56,6 +61,19 @@ def error_of(study: Study, run: StudyRun) -> float | None:
         return None
 
 
+def extrapolated(study: Study, found: Found) -> tuple[float, float] | None:
+    """Return processor time (s) and relative error of the limit of the default on all
+    its meshes, None where there are less than two or no forces."""
+    runs = [(run, s) for run, s, _ in found if run.variant == DEFAULT]
+    if "check" in study.keys or len(runs) < 2:
+        return None
+    sizes = np.array([1 / refinement_of(run) for run, _ in runs])
+    values = np.array([forces(study, run) for run, _ in runs])
+    limit = mesh_error(sizes, values, 0).limit
+    error = relative_error(limit, forces(study, study.run(REFERENCE)))
+    return sum(seconds for _, seconds in runs), error
+
+
 def find(study: Study) -> Found:
     """Return the runs of a study but its reference, with time and error."""
     found = []
@@ -76,9 +94,14 @@ def draw(study: Study, found: Found, options: Options) -> None:
             continue
         if name == DEFAULT:
             style = dict(color="black", lw=2.5, marker="*", ms=11, zorder=5)
+        elif name.startswith(FORMER):
+            style = dict(color="0.6", lw=2.5, marker="s", ms=6, zorder=4)
         else:
             style = dict(color=f"C{i % 10}", lw=1, marker="osv^D<>Ph"[i % 9], ms=5)
         axes.loglog(*zip(*shown), label=name, **style)
+    if point := extrapolated(study, found):
+        style = dict(color="black", ls="", marker="*", ms=13, mfc="white", zorder=6)
+        axes.loglog(*point, label="limit of the default", **style)
     axes.set_xlabel("processor time on one core (s)")
     axes.set_ylabel(f"relative error: {study.keys['measure']}")
     axes.set_title(study.title, fontsize=10)

@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     text = "MPI ranks, default: as many as pay on this machine"
     parser.add_argument("--ranks", type=int, metavar="N", help=text)
     text = "refine the mesh until the error bar of the total force is that small"
-    parser.add_argument("--error", metavar="5%%", help=text)
+    parser.add_argument("--error", metavar="5%", help=text)
     text = "with --error: time of all runs on one core, such as 30min (default: 2h)"
     parser.add_argument("--budget", metavar="TIME", help=text)
     parser.add_argument("arguments", nargs=argparse.REMAINDER, metavar="FILE.prm ...")

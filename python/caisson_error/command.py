@@ -33,7 +33,7 @@ QUIET = {
     "Output/Error bar": "",
 }
 # runs with other numerics on the coarsest mesh, and their cost over one without
-MASS, STEP, POINTS, SIDES = "mass scaling", "time step", "points", "boundaries"
+MASS, STEP, POINTS, SIDES = "inertia", "time step", "points", "boundaries"
 COST = {MASS: 2.0, STEP: 2.0, POINTS: 1.8, SIDES: 1.5}
 COST_OF_CHANGES = sum(COST.values())
 SHORTEST_WAY = 0.4  # m
@@ -324,6 +324,8 @@ def main(arguments: argparse.Namespace) -> int:
         for run in study.runs:
             print(f"{run.name}: about {duration(run.duration)}")
         print(f"all runs: about {duration(total)} on one core", flush=True)
+        if total > plan.budget:
+            print(f"This is more than the budget, {duration(plan.budget)}.")
         if arguments.list:
             return 0
         plan.execute(study.runs, arguments.again)

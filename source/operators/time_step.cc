@@ -32,19 +32,20 @@ namespace CaissonMPM
                        "The time step has this length; with auto it follows "
                        "from the Courant number. Units: s.",
                        Patterns::Double(0.));
-    add_word_or_number(*this,
-                       "Inertia tolerance",
-                       tolerance,
-                       "none",
-                       0.,
-                       "The inertia of the smallest cells, mass scaling times "
-                       "density times the square of the velocity of the body, "
-                       "is this share of the initial vertical effective stress "
-                       "at the tip. The scaling follows the penetration. "
-                       "Larger cells get less of it, and cells that the tip "
-                       "bends get more. Mass scaling must then be 1. "
-                       "Units: none.",
-                       Patterns::Double(1e-6, 10.));
+    add_word_or_number(
+      *this,
+      "Inertia tolerance",
+      tolerance,
+      "none",
+      0.,
+      "The inertia of the smallest cells, mass scaling times "
+      "density times the square of the velocity of the body, "
+      "is this share of the initial vertical effective stress "
+      "at the tip, 0.1 to 0.4 as a rule. The scaling follows the "
+      "penetration. Larger cells get less of it, and cells that the tip "
+      "bends get more. Mass scaling must then be 1. "
+      "Units: none.",
+      Patterns::Double(1e-6, 10.));
   }
 
   void
@@ -85,6 +86,17 @@ namespace CaissonMPM
     if (is_too_large())
       throw RunFailure(text_of_too_large_step());
     return step_size();
+  }
+
+  std::vector<std::string>
+  TimeStep::known_limits() const
+  {
+    constexpr double usual = 1.;
+    if (!tolerance || *tolerance <= usual)
+      return {};
+    return {"Time/Inertia tolerance above " + to_text(usual) +
+            " was found to raise the tip force by 8 % with 2 and by 30 to 70 % "
+            "with 10; 0.1 to 0.4 are usual"};
   }
 
   double

@@ -304,7 +304,8 @@ namespace CaissonMPM
       {"time step",
        to_text(parts.clock.step_size, 6) + " s, mass scaling " +
          to_text(parts.soil.mass_scaling() * parts.time_step.inertia_at_tip(),
-                 6)},
+                 6) +
+         (parts.time_step.has_inertia_tolerance() ? " at the start" : "")},
       {"end", parts.schedule.end_description()}};
     const auto more = parts.water->report(parts.materials).lines;
     lines.insert(lines.end(), more.begin(), more.end());

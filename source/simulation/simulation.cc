@@ -455,7 +455,9 @@ namespace CaissonMPM
   std::string
   Simulation::reason_to_stop()
   {
-    if (grid.n_ranks() == 1)
+    // A search for factors of the inertia would come in other steps after a
+    // restart, unless the stop waits for the step of one.
+    if (grid.n_ranks() == 1 && !time_step.has_inertia_tolerance())
       return stop_request.reason();
     if (clock.step % Intervals::agreement != 0)
       return "";

@@ -434,6 +434,7 @@ namespace CaissonMPM
                            lines.depth();
     for (const auto &limits : {soil.known_limits(reach),
                                nodal_motion.settings().known_limits(),
+                               time_step.known_limits(),
                                water->report(materials).known_limits})
       for (const std::string &limit : limits)
         origins.add_limit(limit);

@@ -36,15 +36,17 @@ PIPE_SIZE = 4096  # bytes, the smallest
 class Stop(ProgramTest):
     """Signals, the stop file and --restart."""
 
-    def run_until(self, path: Path, n_records: int, *options: str) -> tuple[int, str]:
-        """Run simulation/jack.prm as TWICE, and send SIGTERM after some records. Return
-        the exit status and the words after the last record read.
+    def run_until(
+        self, path: Path, n_records: int, *options: str, entries: Entries = TWICE
+    ) -> tuple[int, str]:
+        """Run simulation/jack.prm, and send SIGTERM after some records. Return the exit
+        status and the words after the last record read.
 
         All records are far more than the pipe holds, so that the program cannot
         come to its end before it gets the signal, however slow this process is.
         """
         command = self.command(
-            scene("jack"), "--output-directory", path, *options, entries=TWICE
+            scene("jack"), "--output-directory", path, *options, entries=entries
         )
         with subprocess.Popen(
             command, bufsize=0, stdout=subprocess.PIPE, env=ALONE
@@ -86,6 +88,20 @@ class Stop(ProgramTest):
             ]
             self.assertEqual(frames[0], frames[1], name)
             self.assertGreater(len(frames[0]), 1, name)
+
+    def test_stopped_with_an_inertia_tolerance(self) -> None:
+        """The factors of the inertia are searched for in the same steps."""
+        entries: Entries = {
+            **TWICE,
+            "Time/Mass scaling": 1,
+            "Time/Inertia tolerance": 0.4,
+        }
+        whole, path = self.directory("whole"), self.directory("pieces")
+        self.run_scene("jack", whole, entries=entries)
+        status, rest = self.run_until(path, 30, entries=entries)
+        self.assertEqual(status, STOPPED, rest)
+        self.run_scene("jack", path, SUCCESS, "--restart", entries=entries)
+        self.assert_same_history(history(whole), history(path), 1e-9)
 
     def test_lost_rows(self) -> None:
         """A restart is refused where history.csv has lost rows since the checkpoint,

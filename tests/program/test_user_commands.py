@@ -131,7 +131,7 @@ end
         self.assertRegex(listed, r"(?m)^refinement 0.5: about .*\ndefault: about ")
         self.assertFalse((path / "runs").exists())
         said, _ = self.caisson(*call)
-        for run in ("mass scaling", "time step", "points", "boundaries"):
+        for run in ("inertia", "time step", "points", "boundaries"):
             self.assertRegex(said, rf"(?m)^own {run}: \d+ s$")
         self.assertIn("The next finer mesh, 1.5 times as fine", said)
         again, _ = self.caisson(*call)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The scenes of users, prm/*.prm, and of the laboratory."""
+import re
 import unittest
 
 from program import (
@@ -36,6 +37,24 @@ AT_REST = {
 
 class UserScenes(ProgramTest):
     """They are valid, and their checks pass."""
+
+    def step(self, tip: str, tolerance: str) -> float:
+        """Return the first time step of prm/jack.prm (s)."""
+        changed = (f"Rigid body/Tip={tip}", f"Time/Inertia tolerance={tolerance}")
+        options = [word for entry in changed for word in ("--set", entry)]
+        options += ["--set", "Output/Error bar="]
+        text = self.run_program(SUCCESS, user_scene("jack"), "--validate", *options)
+        found = re.search(r"time step +(\S+) s", text)
+        assert found is not None
+        return float(found[1])
+
+    def test_a_pointed_tip_costs_no_steps(self) -> None:
+        """It bends cells, which with the same inertia shorten the step by a quarter;
+        with a tolerance they carry more of it."""
+        pointed, flat = (self.step(tip, "none") for tip in ("triangular", "flat"))
+        self.assertLess(pointed, 0.8 * flat)
+        pointed, flat = (self.step(tip, "0.4") for tip in ("triangular", "flat"))
+        self.assertGreater(pointed, 0.95 * flat)
 
     def test_every_user_scene_is_valid(self) -> None:
         """Those that users begin with have no likely mistake, and some no warning."""

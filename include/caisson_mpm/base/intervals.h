@@ -40,6 +40,8 @@ namespace CaissonMPM
                   rebuild % time_step == 0 && rebuild % mudline == 0 &&
                   rebuild % soil_of_water == 0);
     static_assert(soil_of_water % equations_of_water == 0);
+    // So does the search for the time step at a stop.
+    static_assert(agreement % time_step == 0);
   } // namespace Intervals
 } // namespace CaissonMPM
 

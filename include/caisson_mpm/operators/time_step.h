@@ -104,6 +104,10 @@ namespace CaissonMPM
         age = Intervals::time_step - 1;
     }
 
+    /** Settings that were found to give wrong results, each as a sentence. */
+    std::vector<std::string>
+    known_limits() const;
+
     /** The step that was found last. Units: s. */
     double
     step_size() const

@@ -39,6 +39,9 @@ from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of
 from caisson_design import InputError
 
 CHANGES = (-4, -2, 0, 2, 4)  # degrees, of a study of the friction angle
+ADHESION_OF_CLAY = Entry(
+    "Adhesion factor of the walls", cone.ADHESION, " # ASSUMED: remoulded"
+)
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "": 1.0}
 
 
@@ -157,6 +160,18 @@ def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
     )
 
 
+def with_adhesion(layers: Sequence[Layer]) -> list[Layer]:
+    """Return the layers, where clay whose walls have no friction of their own has an
+    adhesion."""
+    found = []
+    for layer in layers:
+        is_clay = layer.value("Friction angle") == "0"
+        has_wall = any("of the walls" in entry.name for entry in layer.entries)
+        adhesion = [ADHESION_OF_CLAY] if is_clay and not has_wall else []
+        found.append(Layer(layer.top, [*layer.entries, *adhesion]))
+    return found
+
+
 def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
     """Return the layers with a permeability. Raises SuggestError where only some
     have one."""
@@ -241,6 +256,8 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
     mesh = mesh_of(body, end, level, [layer.top for layer in layers])
     how = "by weight and suction" if options.weight else "jacked"
     smallest = body.wall / level.cells
+    wall_friction = wall_friction_of(options.wall_friction, reached(options, layers))
+    soil = with_adhesion(layers) if float(wall_friction.value) == 0 else layers
     return template("scene.prm.jinja").render(
         title=f"a caisson of {body.diameter:g} m with a wall of"
         f" {body.wall * 1e3:g} mm, {how}",
@@ -250,8 +267,8 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         smallest_mm=f"{smallest * 1e3:.3g}",
         start=start,
         end=end,
-        wall_friction=wall_friction_of(options.wall_friction, reached(options, layers)),
-        layers=with_permeability(layers) if options.weight else layers,
+        wall_friction=wall_friction,
+        layers=with_permeability(soil) if options.weight else soil,
         weight=options.weight,
         water_depth=options.water_depth,
         directory=f"results/{options.file.stem}",
@@ -318,6 +335,10 @@ def main(options: argparse.Namespace) -> int:
         else ("scripts/run", "scripts/caisson study")
     )
     print(f"written: {options.file}; next: {run} {options.file}")
+    print(
+        f"The mesh is an estimate for {options.error} %. To find the one that has this"
+        f" error, with its error bar: {run} --error {options.error}% {options.file}"
+    )
     if options.study:
         print(f"written: {options.study}; next: {study} {options.study}")
     return 0
