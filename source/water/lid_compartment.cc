@@ -252,9 +252,9 @@ namespace CaissonMPM
   {
     const double weight = scene.body.submerged_weight();
     return "on a lid of " + to_text(area(), 4) + " m2; the weight is " +
-           to_text(1e-3 * weight, 4) + " kN, like " +
+           to_text(1e-3 * weight, 4) + " kN, equal to " +
            to_text(1e-3 * weight / area(), 3) +
-           " kPa on it; water boils there at " +
+           " kPa on it; water cavitates there at a suction of " +
            to_text(1e-3 * suction_.cavitation(height_of_lid()), 3) + " kPa";
   }
 
