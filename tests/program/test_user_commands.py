@@ -206,10 +206,18 @@ class Suggest(CommandTest):
         self.assertIn("Friction angle of the walls", said)
         self.caisson(*words, "--wall-friction", "20")
 
+    def test_clay_alone(self) -> None:
+        """Its walls have an adhesion, which is marked as assumed."""
+        path = self.made_directory() / "own.prm"
+        clay = "0: Friction angle = 0, Cohesion = 40e3, Youngs modulus = 8e6"
+        self.suggest(path, clay)
+        text = path.read_text(encoding="utf-8")
+        self.assertIn("Adhesion factor of the walls = 0.5 # ASSUMED", text)
+
     def test_inertia_tolerance(self) -> None:
-        """It is smaller for a smaller error. A large mass scaling instead of it is
-        warned of, and a larger one where the stiffness of all soil grows with its
-        stress."""
+        """It is smaller for a smaller error, and warned of above 1. A large mass
+        scaling instead of it is warned of, and a larger one where the stiffness of all
+        soil grows with its stress."""
         path = self.made_directory()
         soft = f"{BY_STRESS}, Youngs modulus = 20e6"
         stiff = soft.replace(" with stiffness by stress", "")
@@ -219,6 +227,9 @@ class Suggest(CommandTest):
         self.suggest(path / "fine.prm", soft, error=5)
         fine = (path / "fine.prm").read_text(encoding="utf-8")
         self.assertRegex(fine, r"Inertia tolerance *= 0.2\b")
+        large = ["--validate", "--set", "Time/Inertia tolerance=2"]
+        said = query([str(path / "soft.prm"), *large], PROGRAM)
+        self.assertIn("Inertia tolerance above 1", said)
         self.assertIn("above 400", self.said(path / "soft.prm", 401))
         self.suggest(path / "stiff.prm", stiff)
         self.assertIn("above 100", self.said(path / "stiff.prm", 400))

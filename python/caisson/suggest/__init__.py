@@ -257,7 +257,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
     how = "by weight and suction" if options.weight else "jacked"
     smallest = body.wall / level.cells
     wall_friction = wall_friction_of(options.wall_friction, reached(options, layers))
-    soil = with_adhesion(layers) if float(wall_friction.value) == 0 else layers
+    soil = with_adhesion(layers) if options.wall_friction is None else layers
     return template("scene.prm.jinja").render(
         title=f"a caisson of {body.diameter:g} m with a wall of"
         f" {body.wall * 1e3:g} mm, {how}",
