@@ -33,8 +33,8 @@ QUIET = {
     "Output/Error bar": "",
 }
 # runs with other numerics on the coarsest mesh, and their cost over one without
-MASS, STEP, POINTS, SIDES = "inertia", "time step", "points", "boundaries"
-COST = {MASS: 2.0, STEP: 2.0, POINTS: 1.8, SIDES: 1.5}
+INERTIA, STEP, POINTS, SIDES = "inertia", "time step", "points", "boundaries"
+COST = {INERTIA: 2.0, STEP: 2.0, POINTS: 1.8, SIDES: 1.5}
 COST_OF_CHANGES = sum(COST.values())
 SHORTEST_WAY = 0.4  # m
 TOO_SHORT = (
@@ -106,10 +106,10 @@ def changes_of(entries: dict[str, str]) -> dict[str, tuple[dict[str, Any], float
     tolerance = entries["Time/Inertia tolerance"]
     if tolerance != "none":
         quarter = {"Time/Inertia tolerance": float(tolerance) / 4}
-        found[MASS] = quarter, 4 / 3
+        found[INERTIA] = quarter, 4 / 3
     elif (scaling := float(entries["Time/Mass scaling"])) > 1:
         less = max(1.0, scaling / 4)
-        found[MASS] = {"Time/Mass scaling": less}, scaling / (scaling - less)
+        found[INERTIA] = {"Time/Mass scaling": less}, scaling / (scaling - less)
     courant = float(entries["Time/Courant number"])
     found[STEP] = {"Time/Courant number": courant / 2}, 1
     points = [f"Material points/Per direction {zone}" for zone in ("in path", "near")]

@@ -19,7 +19,7 @@ from caisson.study import Options, Study, StudyError, StudyRun
 from caisson_error import error_bar
 from caisson_error.command import (
     COST_OF_CHANGES,
-    MASS,
+    INERTIA,
     POINTS,
     SIDES,
     STEP,
@@ -32,7 +32,7 @@ BUDGET = 7200.0  # s of all runs on one core, if none is given
 SHARE = 90  # percent of the depths at which the error must be small enough
 ALL, NOT_MESH = "all", "all but the mesh"
 REMEDIES = {
-    MASS: "a quarter of Time/Inertia tolerance, or of Time/Mass scaling",
+    INERTIA: "a quarter of Time/Inertia tolerance, or of Time/Mass scaling",
     STEP: "half of Time/Courant number",
     POINTS: "one more of Material points/Per direction in path, near and far",
     SIDES: "Grid/Outer radius and Grid/Bottom 1.5 times as far away",

@@ -275,10 +275,9 @@ namespace CaissonMPM
                                 squares_of_waves(soil, materials, false);
     if (tolerance)
       update_inertia(grid, points, squares);
-    // 2. the largest c^2 (1/dr^2 + 1/dz^2) over the inertia of the cells of
-    // this
-    //    rank, of the stiffest material in each, and the same without the
-    //    water, and by zone without the inertia
+    // 2. the largest c^2 (1/dr^2 + 1/dz^2) over the inertia, of the stiffest
+    //    material in each cell of this rank; the same without the water, and
+    //    by zone without the inertia
     unsigned int        limiting = 0;
     double              worst = 0., worst_of_soil = 0., speed = 0.; // 1/s2, m/s
     std::vector<double> worst_of_zone(GridLines::n_zones, 0.);

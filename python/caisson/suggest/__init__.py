@@ -39,9 +39,6 @@ from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of
 from caisson_design import InputError
 
 CHANGES = (-4, -2, 0, 2, 4)  # degrees, of a study of the friction angle
-ADHESION_OF_CLAY = Entry(
-    "Adhesion factor of the walls", cone.ADHESION, " # ASSUMED: remoulded"
-)
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "": 1.0}
 
 
@@ -167,7 +164,7 @@ def with_adhesion(layers: Sequence[Layer]) -> list[Layer]:
     for layer in layers:
         is_clay = layer.value("Friction angle") == "0"
         has_wall = any("of the walls" in entry.name for entry in layer.entries)
-        adhesion = [ADHESION_OF_CLAY] if is_clay and not has_wall else []
+        adhesion = [cone.ADHESION_OF_CLAY] if is_clay and not has_wall else []
         found.append(Layer(layer.top, [*layer.entries, *adhesion]))
     return found
 
@@ -256,7 +253,6 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
     mesh = mesh_of(body, end, level, [layer.top for layer in layers])
     how = "by weight and suction" if options.weight else "jacked"
     smallest = body.wall / level.cells
-    wall_friction = wall_friction_of(options.wall_friction, reached(options, layers))
     soil = with_adhesion(layers) if options.wall_friction is None else layers
     return template("scene.prm.jinja").render(
         title=f"a caisson of {body.diameter:g} m with a wall of"
@@ -267,7 +263,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         smallest_mm=f"{smallest * 1e3:.3g}",
         start=start,
         end=end,
-        wall_friction=wall_friction,
+        wall_friction=wall_friction_of(options.wall_friction, reached(options, layers)),
         layers=with_permeability(soil) if options.weight else soil,
         weight=options.weight,
         water_depth=options.water_depth,

@@ -19,7 +19,10 @@ from caisson.suggest.soil import ASSUMED, BY_STRESS, Entry, Layer, SuggestError
 
 REACH = 1.5  # times the skirt: the test counts to this depth
 ASSUMPTION = " # ASSUMED"
-ADHESION = "0.5"  # of walls in clay, over its strength
+# of walls in clay, over its strength
+ADHESION_OF_CLAY = Entry(
+    "Adhesion factor of the walls", "0.5", f"{ASSUMPTION}: remoulded"
+)
 POISSON_OF_CLAY = "0.45"  # hardly any change of volume, as without drainage
 
 
@@ -106,7 +109,7 @@ def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
         Entry("Poisson ratio", POISSON_OF_CLAY, ASSUMPTION),
         Entry("K0", number(e.values[K0].best), " # FROM CPT"),
         Entry("Friction angle of the walls", "0"),
-        Entry("Adhesion factor of the walls", ADHESION, f"{ASSUMPTION}: remoulded"),
+        ADHESION_OF_CLAY,
     ]
 
 
