@@ -41,6 +41,11 @@ namespace CaissonMPM
       return names;
     }
 
+    constexpr const char *minimum_void_ratio =
+                           Kernels::Entries::minimum_void_ratio.name,
+                         *maximum_void_ratio =
+                           Kernels::Entries::maximum_void_ratio.name;
+
     /** The number of the law with this name. */
     int
     law_named(const std::string &name)
@@ -151,18 +156,6 @@ namespace CaissonMPM
       "The relative density D gives the void ratio at the start as e_max - D "
       "(e_max - e_min), instead of Porosity. Units: none.",
       Patterns::Double(-0.2, 1.3));
-    add_parameter(
-      "Minimum void ratio",
-      minimum_void_ratio,
-      "The void ratio e_min of the relative density 1. Units: none.",
-      prm,
-      Patterns::Double(0.));
-    add_parameter(
-      "Maximum void ratio",
-      maximum_void_ratio,
-      "The void ratio e_max of the relative density 0. Units: none.",
-      prm,
-      Patterns::Double(0., 19.));
   }
 
   void
@@ -236,7 +229,8 @@ namespace CaissonMPM
     std::vector<std::string> unused;
     for (const auto &entry : values)
       {
-        bool is_used = false;
+        bool is_used = relative_density && (entry.first == minimum_void_ratio ||
+                                            entry.first == maximum_void_ratio);
         for (int i = 0; i < description.n_entries; ++i)
           is_used = is_used || entry.first == description.entries[i].name;
         if (!is_used)
@@ -260,10 +254,6 @@ namespace CaissonMPM
     if (relative_density)
       origins.add_unused({section() + "/Porosity"},
                          section() + "/Relative density is set");
-    else
-      origins.add_unused({section() + "/Minimum void ratio",
-                          section() + "/Maximum void ratio"},
-                         section() + "/Relative density is by porosity");
   }
 
   bool
@@ -292,6 +282,9 @@ namespace CaissonMPM
                                            &solid_density,
                                            &permeability,
                                            k0 ? k0.get() : &overconsolidation};
+    if (relative_density)
+      for (const char *const name : {minimum_void_ratio, maximum_void_ratio})
+        result.push_back(&values.at(name));
     if (wall_friction_angle)
       result.push_back(wall_friction_angle.get());
     if (adhesion_factor)
@@ -342,7 +335,9 @@ namespace CaissonMPM
     for (const Profile *const p :
          {&porosity,
           &solid_density,
-          static_cast<const Profile *>(relative_density.get())})
+          static_cast<const Profile *>(relative_density.get()),
+          &values.at(minimum_void_ratio),
+          &values.at(maximum_void_ratio)})
       if (p != nullptr && p->knows_stress())
         throw BadInput(p->name() +
                        " depends on s or p, the stress at the start, which "
@@ -353,12 +348,6 @@ namespace CaissonMPM
         throw BadInput(p->name() +
                        " depends on p, the mean stress at the start, which "
                        "follows from it. Write it with d and s.");
-    if (relative_density &&
-        (minimum_void_ratio <= 0. || minimum_void_ratio >= maximum_void_ratio))
-      throw BadInput(section() + "/Relative density needs " + section() +
-                     "/Minimum void ratio = " + to_text(minimum_void_ratio) +
-                     " above 0 and below Maximum void ratio = " +
-                     to_text(maximum_void_ratio) + ". Set both.");
   }
 
   double
@@ -366,9 +355,14 @@ namespace CaissonMPM
   {
     if (!relative_density)
       return porosity(place);
-    const double e =
-      maximum_void_ratio -
-      (*relative_density)(place) * (maximum_void_ratio - minimum_void_ratio);
+    const double e_min = values.at(minimum_void_ratio)(place),
+                 e_max = values.at(maximum_void_ratio)(place);
+    if (e_min <= 0. || e_min >= e_max)
+      throw BadInput(section() + "/Relative density needs " + section() +
+                     "/Minimum void ratio = " + to_text(e_min) +
+                     " above 0 and below Maximum void ratio = " +
+                     to_text(e_max) + ". Set both.");
+    const double e = e_max - (*relative_density)(place) * (e_max - e_min);
     if (e < 0.)
       throw BadInput(relative_density->name() + " gives a void ratio of " +
                      to_text(e, 3) + " at a depth of " +

@@ -19,7 +19,7 @@ namespace CaissonMPM
       {
         static constexpr const char *name      = "hypoplastic sand";
         static constexpr LawEntry    entries[] = {
-             HypoplasticEntries::critical_friction_angle,
+             Entries::critical_friction_angle,
              HypoplasticEntries::granulate_hardness,
              HypoplasticEntries::compression_exponent,
              HypoplasticEntries::densest_void_ratio,

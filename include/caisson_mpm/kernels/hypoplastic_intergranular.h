@@ -25,7 +25,7 @@ namespace CaissonMPM
         static constexpr const char *name =
           "hypoplastic sand with intergranular strain";
         static constexpr LawEntry entries[] = {
-          HypoplasticEntries::critical_friction_angle,
+          Entries::critical_friction_angle,
           HypoplasticEntries::granulate_hardness,
           HypoplasticEntries::compression_exponent,
           HypoplasticEntries::densest_void_ratio,

@@ -55,13 +55,6 @@ namespace CaissonMPM
       /** Entries that the laws of hypoplastic sand share. */
       namespace HypoplasticEntries
       {
-        constexpr LawEntry critical_friction_angle = {
-          "Critical friction angle",
-          "The friction angle phi_c of hypoplastic sand is that of the "
-          "critical state. Units: degrees.",
-          30.,
-          10.,
-          60.};
         constexpr LawEntry granulate_hardness = {
           "Granulate hardness",
           "The granulate hardness of hypoplastic sand is h_s of Bauer's law "

@@ -12,6 +12,7 @@
 #include <caisson_mpm/kernels/linear_elastic.h>
 #include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/kernels/mohr_coulomb.h>
+#include <caisson_mpm/kernels/mohr_coulomb_density.h>
 #include <caisson_mpm/kernels/mohr_coulomb_softening.h>
 #include <caisson_mpm/kernels/mohr_coulomb_stiffening.h>
 #include <caisson_mpm/kernels/overstress.h>

@@ -170,6 +170,45 @@ namespace CaissonMPM
           0.,
           0.,
           no_limit};
+        constexpr LawEntry critical_friction_angle = {
+          "Critical friction angle",
+          "The friction angle phi_c is that of the critical state. Units: "
+          "degrees.",
+          30.,
+          10.,
+          60.};
+        constexpr LawEntry minimum_void_ratio = {
+          "Minimum void ratio",
+          "The void ratio e_min of the relative density 1. Units: none.",
+          0.,
+          0.,
+          19.};
+        constexpr LawEntry maximum_void_ratio = {
+          "Maximum void ratio",
+          "The void ratio e_max of the relative density 0. Units: none.",
+          0.,
+          0.,
+          19.};
+        constexpr LawEntry reference_stress = {
+          "Reference stress",
+          "Young's modulus is that of this mean effective stress. Units: Pa.",
+          1e5,
+          1e-3,
+          no_limit};
+        constexpr LawEntry stiffness_exponent = {
+          "Stiffness exponent",
+          "Young's modulus grows with this power of the mean effective "
+          "stress. Units: none.",
+          0.5,
+          0.,
+          1.};
+        constexpr LawEntry smallest_stress_of_stiffness = {
+          "Smallest stress of stiffness",
+          "Below this mean effective stress Young's modulus falls no further. "
+          "Units: Pa.",
+          1e3,
+          1e-3,
+          no_limit};
       } // namespace Entries
 
       /** The law of this number, Material::law; void: none. */

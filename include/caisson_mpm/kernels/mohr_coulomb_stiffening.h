@@ -29,6 +29,19 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
+      /** What is known against the stresses p_ref and p_min, or null. */
+      inline const char *
+      warning_of_stiffness(const double reference, const double smallest)
+      {
+        if (reference < 1e4 || reference > 1e6)
+          return "Reference stress is usually 1e5 Pa: check its unit, and that "
+                 "Youngs modulus is that of this stress";
+        if (smallest >= reference)
+          return "Smallest stress of stiffness is not below Reference stress, "
+                 "so that the stiffness hardly depends on the stress";
+        return nullptr;
+      }
+
       /** The law "Mohr-Coulomb with stiffness by stress": the strength is that
        * of Mohr-Coulomb, the stiffness of each point follows from its stress.
        * See the head of the file. */
@@ -44,23 +57,9 @@ namespace CaissonMPM
           Entries::cohesion,
           Entries::tension_cutoff,
           Entries::largest_void_ratio,
-          {"Reference stress",
-           "Young's modulus is that of this mean effective stress. Units: Pa.",
-           1e5,
-           1e-3,
-           no_limit},
-          {"Stiffness exponent",
-           "Young's modulus grows with this power of the mean effective "
-           "stress. Units: none.",
-           0.5,
-           0.,
-           1.},
-          {"Smallest stress of stiffness",
-           "Below this mean effective stress Young's modulus falls no further. "
-           "Units: Pa.",
-           1e3,
-           1e-3,
-           no_limit}};
+          Entries::reference_stress,
+          Entries::stiffness_exponent,
+          Entries::smallest_stress_of_stiffness};
         static constexpr int friction_entry    = MohrCoulomb::friction_entry,
                              n_state           = 0;
         static constexpr bool uses_void_ratio  = MohrCoulomb::uses_void_ratio,
@@ -75,6 +74,7 @@ namespace CaissonMPM
           /** Of the elastic compression by the pressure p: that strain over p
            * over the bulk modulus at p, 1 / (1 - m). */
           double compression;
+          bool   by_roots; // 4 m is a whole number
         };
 
         static Parameters
@@ -84,7 +84,8 @@ namespace CaissonMPM
                   values[8],
                   1. / values[7],
                   values[9],
-                  1. / (1. - (values[8] < .9 ? values[8] : .9))};
+                  1. / (1. - (values[8] < .9 ? values[8] : .9)),
+                  has_quarter_power(values[8])};
         }
 
         static bool
@@ -149,13 +150,8 @@ namespace CaissonMPM
         static const char *
         warning(const double *values)
         {
-          if (values[7] < 1e4 || values[7] > 1e6)
-            return "Reference stress is usually 1e5 Pa: check its unit, and that "
-                   "Youngs modulus is that of this stress";
-          if (values[9] >= values[7])
-            return "Smallest stress of stiffness is not below Reference stress, "
-                   "so that the stiffness hardly depends on the stress";
-          return MohrCoulomb::warning(values);
+          const char *const text = warning_of_stiffness(values[7], values[9]);
+          return text != nullptr ? text : MohrCoulomb::warning(values);
         }
 
         static double
@@ -169,9 +165,10 @@ namespace CaissonMPM
         [[gnu::always_inline]] static inline Number
         stiffening(const StressState<Number> &s, const Parameters &p)
         {
-          return pow(Number(p.inverse_stress) *
-                       max(pressure(s), Number(p.smallest_stress)),
-                     p.exponent);
+          const Number ratio = Number(p.inverse_stress) *
+                               max(pressure(s), Number(p.smallest_stress));
+          return p.by_roots ? quarter_power(ratio, p.exponent) :
+                              pow(ratio, p.exponent);
         }
 
         template <typename Number>

@@ -116,7 +116,6 @@ namespace CaissonMPM
     std::unique_ptr<Profile> wall_friction_angle; // none: that of the body
     std::unique_ptr<Profile> adhesion_factor;     // none: the body's adhesion
     Profile                  sensitivity;
-    double                   minimum_void_ratio = 0., maximum_void_ratio = 0.;
 
     /** The entries of all laws by name, in the units of the entries. */
     std::map<std::string, Profile> values;

@@ -26,6 +26,20 @@ NAMES = {
 STRONG = "test 11 was stronger than its neighbors, see doc/validation.md"
 
 
+class Asked(NamedTuple):
+    """What is asked of a law: rms errors, and whether each test is to be met."""
+
+    of_q: float
+    of_angle: float  # degrees
+    each: bool
+
+
+ASKED = {
+    "triaxial": Asked(0.06, 1.0, True),
+    "triaxial_density": Asked(0.08, 1.5, False),
+}
+
+
 class Peak(NamedTuple):
     """What is compared; angles in degrees, strain in percent."""
 
@@ -113,6 +127,7 @@ def compare(study: Study, measured: Path, figure: Figure) -> list[Row]:
     strain = found["strain_at_peak_percent"] / tests["strain_at_peak_percent"]
     psi = found["psi_max_deg"] / tests["psi_max_deg"]
     dense = tests["psi_max_deg"] > 10
+    asked = ASKED[study.id]
 
     def rms(x: np.ndarray) -> float:
         return float(np.sqrt(np.mean(x**2)))
@@ -122,14 +137,16 @@ def compare(study: Study, measured: Path, figure: Figure) -> list[Row]:
 
     def within(quantity: str, error: np.ndarray, bound: float) -> Row:
         count = int((np.abs(error) <= bound).sum())
+        if not asked.each:
+            return row(quantity, count)
         known = STRONG if count == len(error) - 1 else ""
         return Row(study.id, quantity, count, least=len(error), known=known)
 
     return [
         within("peak q: tests within 10 %", ratio, 0.10),
-        row("peak q: rms error", rms(ratio), 0.06),
+        row("peak q: rms error", rms(ratio), asked.of_q),
         within("friction angle: tests within 1.5 degrees", angle, 1.5),
-        row("friction angle: rms error (degrees)", rms(angle), 1.0),
+        row("friction angle: rms error (degrees)", rms(angle), asked.of_angle),
         row("strain at the peak over measured: mean", float(strain.mean())),
         row("dilatancy of dense sand over measured: mean", float(psi[dense].mean())),
     ]

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Mohr-Coulomb sand whose strength follows from its present density and stress
+// (Bolton 1986). With the relative density D and the mean effective stress p,
+//
+//   I = D (Q - ln(p / 1 kPa)) - 1,   D = (e_max - e) / (e_max - e_min),
+//   phi = phi_c + A max(I, 0),       sin psi = 0.3 I / (2 + 0.3 I),
+//
+// I at most 4. A is 3 degrees in triaxial and 5 in plane strain; 0.3 I is the
+// rate of dilation -de_v / de_1 of both. Bolton correlated I >= 0. Below 0 the
+// sand is looser than in its critical state, I = 0, has the strength of that
+// state, and contracts by the same equation, at most with I = -1, that of D =
+// 0. As the void ratio e follows the volume, shearing ends in the critical
+// state, e_c = e_max - (e_max - e_min) / (Q - ln(p / 1 kPa)).
+//
+// Young's modulus is that of mohr_coulomb_stiffening.h, and follows the density
+// too if e_r, "Reference void ratio", is given (Hardin & Richart 1963):
+//
+//   E = E_ref (max(p, p_min) / p_ref)^m F(e) / F(e_r),   F = (2.17 - e)^2 / (1
+//   + e).
+//
+// The step is explicit in stiffness and strength, which are those of the start
+// of the step. A point that is looser than e_max has a gap.
+//
+// References:
+//   M.D. Bolton (1986), The strength and dilatancy of sands. Geotechnique 36,
+//     65-78. doi:10.1680/geot.1986.36.1.65
+//   B.O. Hardin, F.E. Richart (1963), Elastic wave velocities in granular
+//   soils.
+//     J. Soil Mech. Found. Div. ASCE 89(1), 33-65.
+#ifndef caisson_mpm_kernels_mohr_coulomb_density_h
+#define caisson_mpm_kernels_mohr_coulomb_density_h
+
+#include <caisson_mpm/kernels/mohr_coulomb_stiffening.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    inline namespace CAISSON_KERNEL_ISA
+    {
+      /** The law "Mohr-Coulomb by density and stress": strength, dilatancy and
+       * stiffness of each point follow from its void ratio and mean stress. See
+       * the head of the file. */
+      struct MohrCoulombDensity
+      {
+        static constexpr const char *name =
+          "Mohr-Coulomb by density and stress";
+        static constexpr LawEntry entries[] = {
+          Entries::youngs_modulus,
+          Entries::poisson_ratio,
+          Entries::critical_friction_angle,
+          Entries::minimum_void_ratio,
+          Entries::maximum_void_ratio,
+          {"Bolton Q",
+           "Q of Bolton's dilatancy index stands for the strength of the "
+           "grains: 10 for quartz and feldspar, 8 for limestone, 5.5 for chalk. "
+           "Units: none.",
+           10.,
+           4.,
+           15.},
+          {"Degrees per dilatancy index",
+           "The friction angle exceeds the critical one by this times Bolton's "
+           "dilatancy index: 3 in triaxial and 5 in plane strain. Units: "
+           "degrees.",
+           3.,
+           0.,
+           5.},
+          Entries::reference_stress,
+          Entries::stiffness_exponent,
+          Entries::smallest_stress_of_stiffness,
+          {"Reference void ratio",
+           "Young's modulus is that of this void ratio, and follows the density "
+           "by Hardin's (2.17 - e)2/(1 + e); with 0 it does not depend on the "
+           "density. Units: none.",
+           0.,
+           0.,
+           2.}};
+        static constexpr int friction_entry =
+                               entry_named(entries, "Critical friction angle"),
+                             n_state          = 0;
+        static constexpr bool uses_void_ratio = true, stiffness_varies = true;
+
+        /** Angles in rad. */
+        struct Parameters
+        {
+          // critical friction angle and no dilatancy; stiffness; e_max
+          MohrCoulombStiffening::Parameters critical;
+          double                            phi_c;
+          double inverse_range; // 1 / (e_max - e_min)
+          double ln_crushing;   // of 1 kPa exp(Q), in Pa
+          double angle_per_index;
+          double per_reference; // 1 / F(e_r); 0: no influence of the density
+        };
+
+        static Parameters
+        make(const double *values)
+        {
+          const double     critical[] = {values[0],
+                                         values[1],
+                                         values[2],
+                                         0.,
+                                         0.,
+                                         0.,
+                                         values[4],
+                                         values[7],
+                                         values[8],
+                                         values[9]};
+          constexpr double ln_kPa     = 6.907755278982137; // ln 1000
+          return {MohrCoulombStiffening::make(critical),
+                  values[2] * radians_per_degree,
+                  1. / (values[4] - values[3]),
+                  values[5] + ln_kPa,
+                  values[6] * radians_per_degree,
+                  values[10] > 0. ? 1. / hardin(Lanes<1>(values[10]))[0] : 0.};
+        }
+
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        loosest_void_ratio(const StressState<Number> & /*sigma*/,
+                           const Parameters &p)
+        {
+          return Number(e_max(p));
+        }
+
+        template <typename Number>
+        [[gnu::always_inline]] static inline typename Number::Mask
+        is_loosest(const StressState<Number> & /*sigma*/,
+                   const Number      volume,
+                   const Number      volume_of_solids,
+                   const Parameters &p)
+        {
+          return MohrCoulomb::is_loosest(Number(0.),
+                                         volume,
+                                         volume_of_solids,
+                                         p.critical.reference);
+        }
+
+        static bool
+        check(const double     *values,
+              const LawContext &context,
+              LawMessage       &message)
+        {
+          const double e_min = values[3], e_max = values[4],
+                       phi = values[2] + largest_index * values[6],
+                       psi = __builtin_asin(
+                               sine_of_dilatancy(Lanes<1>(largest_index))[0]) /
+                             radians_per_degree;
+          if (!(e_min > 0. && e_min < e_max))
+            {
+              __builtin_snprintf(
+                message.text,
+                sizeof(message.text),
+                "The law needs Minimum void ratio = %g above 0 and below "
+                "Maximum void ratio = %g. Set both.",
+                e_min,
+                e_max);
+              return false;
+            }
+          if (psi > phi)
+            {
+              __builtin_snprintf(
+                message.text,
+                sizeof(message.text),
+                "Critical friction angle = %g and Degrees per dilatancy index = "
+                "%g give a friction angle of %g degrees to sand with a "
+                "dilatancy angle of %.3g: plastic flow would create energy. "
+                "Raise one of them.",
+                values[2],
+                values[6],
+                phi,
+                psi);
+              return false;
+            }
+          if (context.void_ratio > e_max)
+            {
+              __builtin_snprintf(
+                message.text,
+                sizeof(message.text),
+                "The void ratio at the start, %g, exceeds Maximum void ratio = "
+                "%g. Raise that, or the density of the sand.",
+                context.void_ratio,
+                e_max);
+              return false;
+            }
+          return check_strength(values[2], 0., 0., context, message);
+        }
+
+        static const char *
+        warning(const double *values)
+        {
+          return warning_of_stiffness(values[7], values[9]);
+        }
+
+        /** 1 - sin phi_c (Jaky). */
+        static double
+        earth_pressure_at_rest(const Parameters &p)
+        {
+          return 1. - p.critical.reference.strength.sin_phi;
+        }
+
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        p_wave_modulus(const StressState<Number> &stress,
+                       const Number               void_ratio,
+                       const Parameters          &p)
+        {
+          return stiffening(stress, void_ratio, p) *
+                 Number(p.critical.reference.elastic.p_wave_modulus());
+        }
+
+        template <typename Number>
+        [[gnu::always_inline]] static inline void
+        update(StressState<Number>           &sigma,
+               const StrainIncrement<Number> &de,
+               LawState<Number>              &state,
+               const Parameters              &p)
+        {
+          const MohrCoulomb::Parameters &reference = p.critical.reference;
+          const Number factor = stiffening(sigma, state.void_ratio, p);
+          const StrainIncrement<Number> stiffer{factor * de.rr,
+                                                factor * de.zz,
+                                                factor * de.tt,
+                                                factor * de.rz};
+          // most sand is far from yield even with its critical strength
+          StressState<Number> trial = sigma;
+          const bool          is_elastic =
+            MohrCoulomb::update_elastic(trial, stiffer, reference);
+          const auto loose =
+            is_loosest(sigma, Number(1.) + state.void_ratio, Number(1.), p);
+          if (is_elastic && !any(loose))
+            {
+              sigma = trial;
+              return;
+            }
+          const Number deviatoric = state.plastic_deviatoric,
+                       volumetric = state.plastic_volumetric;
+          MohrCoulombReturn<Number, MohrCoulombStrength<Number>>::update(
+            sigma,
+            stiffer,
+            state,
+            reference.elastic,
+            strength(sigma, state.void_ratio, p));
+          if (any(loose))
+            MohrCoulomb::close_gap(sigma,
+                                   loose,
+                                   Number(0.),
+                                   factor * Number(reference.elastic.bulk),
+                                   MohrCoulomb::grown(state.void_ratio, de),
+                                   state,
+                                   reference);
+          const Number inverse = Number(1.) / factor;
+          state.plastic_deviatoric =
+            deviatoric + inverse * (state.plastic_deviatoric - deviatoric);
+          state.plastic_volumetric =
+            volumetric + inverse * (state.plastic_volumetric - volumetric);
+        }
+
+      private:
+        static constexpr double smallest_index = -1., largest_index = 4.,
+                                dilation_per_index = .3;
+
+        static double
+        e_max(const Parameters &p)
+        {
+          return p.critical.reference.largest_void_ratio;
+        }
+
+        /** F. */
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        hardin(const Number void_ratio)
+        {
+          // F falls to 0 at 2.17, far looser than any sand
+          const Number left = max(Number(2.17) - void_ratio, Number(.1));
+          return left * left / (Number(1.) + void_ratio);
+        }
+
+        /** E / E_ref. */
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        stiffening(const StressState<Number> &s,
+                   const Number               void_ratio,
+                   const Parameters          &p)
+        {
+          const Number by_stress =
+            MohrCoulombStiffening::stiffening(s, p.critical);
+          return p.per_reference > 0. ?
+                   Number(p.per_reference) * hardin(void_ratio) * by_stress :
+                   by_stress;
+        }
+
+        /** sin psi. */
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        sine_of_dilatancy(const Number index)
+        {
+          const Number rate = Number(dilation_per_index) * index;
+          return rate / (Number(2.) + rate);
+        }
+
+        /** Of sand with the stress @p s. */
+        template <typename Number>
+        [[gnu::always_inline]] static inline MohrCoulombStrength<Number>
+        strength(const StressState<Number> &s,
+                 const Number               void_ratio,
+                 const Parameters          &p)
+        {
+          const Number p_mean =
+            max(pressure(s), Number(p.critical.smallest_stress));
+          const Number density =
+            (Number(e_max(p)) - void_ratio) * Number(p.inverse_range);
+          const Number index =
+            min(max(density * (Number(p.ln_crushing) - log(p_mean)) -
+                      Number(1.),
+                    Number(smallest_index)),
+                Number(largest_index));
+          const Number sin_phi =
+            sin(Number(p.phi_c) +
+                Number(p.angle_per_index) * max(index, Number(0.)));
+          return MohrCoulombStrength<Number>::make(p.critical.reference.elastic,
+                                                   sin_phi,
+                                                   sqrt(Number(1.) -
+                                                        sin_phi * sin_phi),
+                                                   sine_of_dilatancy(index),
+                                                   Number(0.),
+                                                   0.);
+        }
+      };
+
+      template <>
+      struct LawSlot<6>
+      {
+        using type = MohrCoulombDensity;
+      };
+    } // namespace CAISSON_KERNEL_ISA
+  }   // namespace Kernels
+} // namespace CaissonMPM
+
+#endif
