@@ -85,7 +85,8 @@ namespace CaissonMPM
         const auto inverse = inverse_covariance(mass[0], xx, xy, yy);
         return volume *
                (mean +
-                (half - x) * (inverse.xx * slope_x + inverse.xy * slope_y) +
+                (half + center - x) *
+                  (inverse.xx * slope_x + inverse.xy * slope_y) +
                 (half - y) * (inverse.xy * slope_x + inverse.yy * slope_y));
       }
 
