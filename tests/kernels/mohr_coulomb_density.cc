@@ -14,23 +14,24 @@
 using Law = MohrCoulombDensity;
 
 constexpr double phi_c = 33., e_min = 0.6, e_max = 1., Q = 9.8, per_index = 3.2,
-                 E = 5e7, nu = 0.2, exponent = 0.4, e_r = 0.7;
+                 p_s = 8e4, E = 5e7, nu = 0.2, exponent = 0.4, e_r = 0.7;
 constexpr double sand[] =
-  {E, nu, phi_c, e_min, e_max, Q, per_index, 1e5, exponent, 1e3, e_r};
+  {E, nu, phi_c, e_min, e_max, Q, per_index, p_s, 1e5, exponent, 1e3, e_r};
 
 /** Bolton's dilatancy index at the mean stress p (Pa), from -1 to 4. */
 double
 index_of(const double e, const double p)
 {
   const double density = (e_max - e) / (e_max - e_min);
-  return std::fmin(std::fmax(density * (Q - std::log(p / 1e3)) - 1., -1.), 4.);
+  return std::fmin(
+    std::fmax(density * (Q - std::log(std::fmax(p, p_s) / 1e3)) - 1., -1.), 4.);
 }
 
 /** The void ratio of the critical state. */
 double
 critical_void_ratio(const double p)
 {
-  return e_max - (e_max - e_min) / (Q - std::log(p / 1e3));
+  return e_max - (e_max - e_min) / (Q - std::log(std::fmax(p, p_s) / 1e3));
 }
 
 double

@@ -3,21 +3,22 @@
 // Mohr-Coulomb sand whose strength follows from its present density and stress
 // (Bolton 1986). With the relative density D and the mean effective stress p,
 //
-//   I = D (Q - ln(p / 1 kPa)) - 1,   D = (e_max - e) / (e_max - e_min),
-//   phi = phi_c + A max(I, 0),       sin psi = 0.3 I / (2 + 0.3 I),
+//   I = D (Q - ln(max(p, p_s) / kPa)) - 1,  D = (e_max - e) / (e_max - e_min),
+//   phi = phi_c + A max(I, 0),              sin psi = 0.3 I / (2 + 0.3 I),
 //
 // I at most 4. A is 3 degrees in triaxial and 5 in plane strain; 0.3 I is the
-// rate of dilation -de_v / de_1 of both. Bolton correlated I >= 0. Below 0 the
-// sand is looser than in its critical state, I = 0, has the strength of that
-// state, and contracts by the same equation, at most with I = -1, that of D =
-// 0. As the void ratio e follows the volume, shearing ends in the critical
-// state, e_c = e_max - (e_max - e_min) / (Q - ln(p / 1 kPa)).
+// rate of dilation -de_v / de_1 of both. Below p_s = 150 kPa tests show no
+// further influence of p (Bolton 1987). Bolton correlated I >= 0. With I < 0
+// the sand is looser than in its critical state, I = 0: it has the strength of
+// that state, and contracts by the same equation, at most with I = -1, the
+// index for D = 0. As the void ratio e follows the volume, shearing ends in the
+// critical state, e_c = e_max - (e_max - e_min) / (Q - ln(max(p, p_s) / kPa)).
 //
 // Young's modulus is that of mohr_coulomb_stiffening.h, and follows the density
 // too if e_r, "Reference void ratio", is given (Hardin & Richart 1963):
 //
-//   E = E_ref (max(p, p_min) / p_ref)^m F(e) / F(e_r),   F = (2.17 - e)^2 / (1
-//   + e).
+//   E = E_ref (max(p, p_min) / p_ref)^m F(e) / F(e_r),
+//   F = (2.17 - e)^2 / (1 + e).
 //
 // The step is explicit in stiffness and strength, which are those of the start
 // of the step. A point that is looser than e_max has a gap.
@@ -25,9 +26,10 @@
 // References:
 //   M.D. Bolton (1986), The strength and dilatancy of sands. Geotechnique 36,
 //     65-78. doi:10.1680/geot.1986.36.1.65
+//   M.D. Bolton (1987), Discussion: The strength and dilatancy of sands.
+//     Geotechnique 37, 219-226. doi:10.1680/geot.1987.37.2.219
 //   B.O. Hardin, F.E. Richart (1963), Elastic wave velocities in granular
-//   soils.
-//     J. Soil Mech. Found. Div. ASCE 89(1), 33-65.
+//     soils. J. Soil Mech. Found. Div. ASCE 89(1), 33-65.
 #ifndef caisson_mpm_kernels_mohr_coulomb_density_h
 #define caisson_mpm_kernels_mohr_coulomb_density_h
 
@@ -66,6 +68,12 @@ namespace CaissonMPM
            3.,
            0.,
            5.},
+          {"Smallest stress of strength",
+           "Below this mean effective stress Bolton's dilatancy index rises no "
+           "further. Units: Pa.",
+           1.5e5,
+           1.,
+           no_limit},
           Entries::reference_stress,
           Entries::stiffness_exponent,
           Entries::smallest_stress_of_stiffness,
@@ -87,9 +95,9 @@ namespace CaissonMPM
           // critical friction angle and no dilatancy; stiffness; e_max
           MohrCoulombStiffening::Parameters critical;
           double                            phi_c;
-          double inverse_range; // 1 / (e_max - e_min)
-          double ln_crushing;   // of 1 kPa exp(Q), in Pa
-          double angle_per_index;
+          double inverse_range;                    // 1 / (e_max - e_min)
+          double ln_crushing;                      // of 1 kPa exp(Q), in Pa
+          double angle_per_index, smallest_stress; // rad, Pa
           double per_reference; // 1 / F(e_r); 0: no influence of the density
         };
 
@@ -103,16 +111,24 @@ namespace CaissonMPM
                                          0.,
                                          0.,
                                          values[4],
-                                         values[7],
                                          values[8],
-                                         values[9]};
+                                         values[9],
+                                         values[10]};
           constexpr double ln_kPa     = 6.907755278982137; // ln 1000
           return {MohrCoulombStiffening::make(critical),
                   values[2] * radians_per_degree,
                   1. / (values[4] - values[3]),
                   values[5] + ln_kPa,
                   values[6] * radians_per_degree,
-                  values[10] > 0. ? 1. / hardin(Lanes<1>(values[10]))[0] : 0.};
+                  values[7],
+                  values[11] > 0. ? 1. / hardin(Lanes<1>(values[11]))[0] : 0.};
+        }
+
+        /** Whether the soil gains volume in plastic shear. */
+        static bool
+        dilates(const Parameters & /*p*/)
+        {
+          return true;
         }
 
         template <typename Number>
@@ -189,7 +205,7 @@ namespace CaissonMPM
         static const char *
         warning(const double *values)
         {
-          return warning_of_stiffness(values[7], values[9]);
+          return warning_of_stiffness(values[8], values[10]);
         }
 
         /** 1 - sin phi_c (Jaky). */
@@ -306,8 +322,7 @@ namespace CaissonMPM
                  const Number               void_ratio,
                  const Parameters          &p)
         {
-          const Number p_mean =
-            max(pressure(s), Number(p.critical.smallest_stress));
+          const Number p_mean = max(pressure(s), Number(p.smallest_stress));
           const Number density =
             (Number(e_max(p)) - void_ratio) * Number(p.inverse_range);
           const Number index =
