@@ -267,3 +267,49 @@ def tip_pressure(tip: Tip, lines: int) -> float:
     lines."""
     found = TwoSided(tip, lines).pressure()
     return one_sided(tip, lines) if found is None else found
+
+
+def converged(tip: Tip, lines: int) -> float:
+    """Return the pressure of nets with lines / 2 and with this many lines,
+    extrapolated with the second order of the differences (Pa)."""
+    coarse, fine = tip_pressure(tip, lines // 2), tip_pressure(tip, lines)
+    return fine + (fine - coarse) / 3
+
+
+def flowing(phi: float, depth: float, gradient: float) -> Tip:
+    """Return a tip in soil of unit weight 1, whose width is 1: water flows down
+    outside and up inside. depth: of the tip over its width; gradient: over the
+    critical one."""
+    outer, inner = (
+        Side(depth * (1 + sign * gradient), 1 + sign * gradient) for sign in (1, -1)
+    )
+    return Tip(phi, outer, inner)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of scripts/lab tip-capacity."""
+    add = parser.add_argument
+    add("--phi", type=float, default=30, help="friction angle (degrees)")
+    add("--delta", type=float, default=20, help="wall friction of a wedge (degrees)")
+    add("--beta", type=float, default=45, help="angle of its faces (degrees)")
+    add("--depth", type=float, default=5, help="of the tip under flow, over its width")
+    add("--lines", type=int, default=40, help="lines of the finest net (none)")
+
+
+def main(options: argparse.Namespace) -> int:
+    """Print what tips bear in weightless soil and under flow."""
+    phi = options.phi
+    print("weightless soil, q / sigma_o")
+    print("sigma_i/sigma_o  flat, rough  smooth       wedge")
+    for ratio in (1, 0.7, 0.5, 0.3, 0.2, 0.1, 0.07):
+        wedge = weightless_wedge(phi, options.delta, options.beta, 1.0, ratio)
+        flat, smooth = weightless_tip(phi, 1.0, ratio), ratio * prandtl(phi)
+        print(f"{ratio:15g}{flat:13.4f}{smooth:8.4f}{wedge:12.4f}")
+    print(f"\nflat rough tip, {options.depth:g} t deep: q / (gamma' t)")
+    print("gradient/critical  with weight  surcharge alone")
+    for gradient in (0, 0.5, 0.8):
+        tip = flowing(phi, options.depth, gradient)
+        alone = weightless_tip(phi, tip.outer.surcharge, tip.inner.surcharge)
+        heavy = converged(tip, options.lines)
+        print(f"{gradient:17g}{heavy:13.3f}{alone:17.3f}", flush=True)
+    return 0
