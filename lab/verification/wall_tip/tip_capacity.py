@@ -165,7 +165,9 @@ class HalfNet:
         spread = exp(turn * tan(footing.friction))
         length = 2.6 * WIDTH * spread * cos(pi / 4 - footing.friction / 2)
         rough = RoughNet(footing, Mesh(self.lines, length, finest))
-        return rough.from_edge(self.along + x) if x >= 0 else rough.from_base(-x * WIDTH)
+        if x < 0:
+            return rough.from_base(-x * WIDTH)
+        return rough.from_edge(self.along + x)
 
     def ray(self, x: float) -> CubicSpline:
         """Return (r, z, p, psi) of the last ray over the number of the point."""
