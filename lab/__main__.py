@@ -14,6 +14,10 @@ GROUPS: Groups = {
             f"{REFERENCES}.footing_sand.bearing_capacity",
             "compute exact bearing capacities of strip and circular footings",
         ),
+        "tip-capacity": (
+            f"{REFERENCES}.wall_tip.tip_capacity",
+            "compute what the tip of a wall bears between unequal surcharges",
+        ),
         "cavity-expansion": (
             f"{REFERENCES}.cavity_mohr_coulomb.cavity_expansion",
             "compare an expanding cavity with its exact pressure",

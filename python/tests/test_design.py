@@ -5,6 +5,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from scipy.optimize import minimize
 
 from caisson_design.houlsby_byrne import (
     UNDISTURBED,
@@ -22,10 +23,14 @@ from lab.verification.cavity_mohr_coulomb.cavity_expansion import (
 )
 from lab.verification.footing_sand.bearing_capacity import (
     Footing,
+    Mesh,
+    RoughNet,
     converged,
     factors,
     pressure,
 )
+from lab.verification.wall_tip import tip_capacity as wall_tip
+from lab.verification.wall_tip.tip_capacity import Side, Tip, weightless_tip
 
 SAND = Layer(top=0, unit_weight=8829, friction_angle=30, lateral_stress_ratio=0.5)
 # kN, D = 6 m: {h: (tip of walls of 0.05, 0.1, 0.2 m, outer friction)}, each without
@@ -111,6 +116,96 @@ class BearingCapacity(unittest.TestCase):
         self.assertAlmostEqual(
             pressure(both, 40) + 2 / np.tan(angle), pressure(one, 40), places=8
         )
+
+
+class TipOfAWall(unittest.TestCase):
+    """What the tip of a wall bears between unequal surcharges."""
+
+    @staticmethod
+    def upper_bound(phi: float, ratio: float) -> float:
+        """Return the least load of a wedge of soil that goes down between two fans,
+        over sigma_o, by the work of the surcharges: over the angles of its faces."""
+        angle = np.radians(phi)
+
+        def load(faces: np.ndarray) -> float:
+            work = 0.0
+            for sigma, face, other in zip((1, ratio), faces, faces[::-1]):
+                length = np.sin(other) / np.sin(sum(faces))
+                velocity = np.cos(face - angle) / np.cos(angle)
+                turn = 0.75 * np.pi + angle / 2 - face
+                growth = np.exp(2 * np.tan(angle) * turn)
+                work += sigma * length * velocity * (1 + np.sin(angle)) * growth
+            return float(work)
+
+        start = np.array([1.2, 0.8]) * (np.pi / 4 + angle / 2)
+        return float(minimize(load, start, method="Nelder-Mead").fun)
+
+    def test_nets_and_upper_bound(self) -> None:
+        for phi, ratio in ((20, 0.6), (30, 1), (30, 0.5), (30, 0.2), (40, 0.1)):
+            exact = weightless_tip(phi, 1.0, ratio)
+            tip = Tip(phi, Side(1.0), Side(ratio))
+            self.assertAlmostEqual(wall_tip.tip_pressure(tip, 20) / exact, 1, places=9)
+            self.assertAlmostEqual(self.upper_bound(phi, ratio) / exact, 1, places=6)
+
+    def test_one_sided(self) -> None:
+        """All soil slips inwards, from a ratio of stresses on."""
+        angle = np.radians(30)
+        limit = np.exp(-(np.pi + 2 * angle) * np.tan(angle))
+        near = weightless_tip(30, 1, limit * 1.0001) / limit
+        self.assertAlmostEqual(near, wall_tip.one_sided_factor(30), places=2)
+        one = wall_tip.one_sided(Tip(30, Side(1.0), Side(0.05)), 20)
+        self.assertAlmostEqual(one, weightless_tip(30, 1, 0.05), places=6)
+        self.assertEqual(weightless_tip(30, 1, 0), 0)
+
+    def test_equal_sides_are_a_footing(self) -> None:
+        tip = Tip(30, Side(10, 1), Side(10, 1))
+        half = Footing(30, False, True, surcharge=10, weight=0.5)
+        np.testing.assert_allclose(
+            wall_tip.tip_pressure(tip, 20), pressure(half, 20), rtol=2e-4
+        )
+
+    def test_little_weight(self) -> None:
+        """It adds the work of gravity in the mechanism of Prandtl, with fans of
+        r = exp(theta tan phi) and faces of the width of the tip: for 30 degrees."""
+        k, start = np.sqrt(3), np.pi / 3
+        theta = np.linspace(0, np.pi / 2, 2001)
+        rising = -0.5 * np.exp(k * theta) * np.cos(start + theta)
+        fan = np.sum(0.5 * (rising[1:] + rising[:-1]) * np.diff(theta))
+        wedge, passive = np.sqrt(3) / 4, np.exp(k * np.pi / 2) * 3 / 8
+        exact = 2 * (fan + passive) - wedge
+        tip = Tip(30, Side(1e3, 1), Side(1e3, 1))
+        found = wall_tip.converged(tip, 40) - weightless_tip(30, 1e3, 1e3)
+        self.assertAlmostEqual(found / exact, 1, delta=2e-3)
+
+    def test_weight_of_one_side(self) -> None:
+        """Nets converge with the second order, and each side's weight counts."""
+        tip = wall_tip.flowing(30, 5, 0.5)
+        loads = [wall_tip.tip_pressure(tip, n) for n in (20, 40, 80)]
+        self.assertAlmostEqual(
+            (loads[0] - loads[1]) / (loads[1] - loads[2]), 4, delta=1
+        )
+        light = Tip(30, Side(tip.outer.surcharge), Side(tip.inner.surcharge))
+        inner = Tip(30, light.outer, tip.inner)
+        found = [wall_tip.tip_pressure(x, 20) for x in (light, inner, tip)]
+        self.assertLess(found[0], found[1])
+        self.assertLess(found[1], found[2])
+
+    def test_wedge(self) -> None:
+        """The faces of the wedge of Prandtl are those of a rough wedge of steel; the
+        two ways to fail have one load where they change."""
+        self.assertAlmostEqual(
+            wall_tip.weightless_wedge(30, 30, 60, 1, 1), wall_tip.prandtl(30)
+        )
+        omega = 0.5 * (np.radians(20) + np.arcsin(2 * np.sin(np.radians(20))))
+        change = np.exp(-4 * np.tan(np.radians(30)) * (np.pi / 4 - omega))
+        at = [wall_tip.weightless_wedge(30, 20, 45, 1, change * x) for x in (0.999, 1)]
+        self.assertAlmostEqual(at[0] / at[1], 1, delta=1e-3)
+
+    def test_a_net_that_is_too_short(self) -> None:
+        with self.assertRaisesRegex(ValueError, "longer surface"):
+            RoughNet(
+                Footing(30, False, True, surcharge=10, weight=0.5), Mesh(20, 5.0, 60.0)
+            ).pressure()
 
 
 class HoulsbyByrne(unittest.TestCase):

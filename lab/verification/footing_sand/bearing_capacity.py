@@ -308,8 +308,10 @@ def to_the_axis(footing: Footing, ray: Front) -> Front:
     """Return the ray up to the axis, where the largest stress is upright.
 
     A ray whose start is a little off leaves the solution near the axis: it is
-    followed while psi grows towards 0.
+    followed while psi grows towards 0. Raises ValueError where it ends before.
     """
+    if not (ray.r < 0.15).any():
+        raise ValueError("the net does not reach the axis: take a longer surface")
     near = np.where(ray.r < 0.15, ray.psi, -np.inf)
     ray = Front(*(x[: int(np.argmax(near)) + 1] for x in ray))
     depth = ray.z[-1] + ray.r[-1] / tan(footing.between - ray.psi[-1] / 2)
@@ -420,9 +422,8 @@ def surface_length(footing: Footing) -> float:
     """Return a length of the surface that is long enough (m)."""
     e = footing.between
     half = exp(pi / 2 * tan(footing.friction)) / tan(e)  # Prandtl, smooth strip
-    share = 1.0
-    if footing.weight > 0:
-        share = 0.6
+    # weight makes the net smaller, where it is much of the load
+    share = 0.6 if footing.weight > 10 * footing.surface_p else 1.0
     if footing.circular:
         share *= 0.75
     if footing.rough:
