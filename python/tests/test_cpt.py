@@ -30,6 +30,7 @@ from caisson.suggest import cone
 from caisson.suggest.soil import SuggestError
 from caisson_design import cone_file
 from caisson_design import InputError
+from caisson_design.density import bolton_angle
 
 EXAMPLE = SCENES / "cpt_example.csv"
 HEAD = "depth_m,qc_MPa,fs_kPa,u2_kPa\n"
@@ -198,7 +199,7 @@ class ByHand(unittest.TestCase):
         found = correlations.kulhawy_mayne(uniform(10e6, 100e3), LOW)
         np.testing.assert_allclose(found, [36.8])
         density = np.array([0.8])
-        found = correlations.bolton_of_density(np.array([100e3]), density)
+        found = bolton_angle(density, np.array([100e3]))
         np.testing.assert_allclose(found, [42.94759], atol=1e-5)
 
     def test_friction_angle_at_a_tip(self) -> None:
@@ -219,9 +220,7 @@ class ByHand(unittest.TestCase):
         angle = correlations.angles_of(ground, names, BEST)
         k0 = 1 - np.sin(np.radians(angle))
         density = correlations.densities_of(ground, names, BEST)
-        again = correlations.bolton_of_density(
-            correlations.mean_stress(ground, k0), density
-        )
+        again = bolton_angle(density, correlations.mean_stress(ground, k0))
         np.testing.assert_allclose(angle, again, atol=1e-6)
         # at least 2 degrees from the source, more with the scatter of D_r
         self.assertGreater(

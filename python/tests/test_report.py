@@ -176,16 +176,18 @@ class Report(unittest.TestCase):
     def test_design_methods(self) -> None:
         """DNV with 2 MPa per meter and a tip of 1.2516 m2 at 3 m: 0.3 6 MPa 1.2516 m2 =
         2252.9 kN, and 0.001 9 MN/m on pi 19.92 m of wall = 563.2 kN; without a cone
-        test, why there is nothing."""
+        test, by a cone that is assumed, and marked."""
         leave_run(self.path, SUMMARY)
         found = methods.methods_of(Results(self.path))
-        reason, of_clay = found["reasons"]
+        (of_clay,) = found["reasons"]
         self.assertIn("the method is for clay", of_clay[1])
-        self.assertEqual(reason[0].count(","), 2)
-        self.assertIn("a cone test is needed", reason[1])
-        self.assertFalse([n for n in self.rows(found, "Req")[0] if "/ Senders" in n])
+        self.assertIn("DNV (cone ASSUMED), highest", self.rows(found, "Force")[0])
+        name = "computed / Senders & Randolph (2009)"
+        self.assertIn(f"{name} (cone ASSUMED)", self.rows(found, "Req")[0])
+        self.assertNotIn(name, self.rows(found, "Req")[0])
         page = report.write(self.path).read_text(encoding="utf-8")
-        self.assertIn("a cone test is needed (--cpt FILE).", page)
+        self.assertIn("The cone resistance is ASSUMED, as no cone test is given", page)
+        self.assertIn("not near the mudline", page)
         self.assertIn("K tan \N{GREEK SMALL LETTER DELTA} = 0.45 to 0.8", page)
         (self.path / "cone.csv").write_text("depth_m,qc_kPa\n0,0\n3.5,7000\n")
         found = methods.methods_of(Results(self.path))
@@ -198,7 +200,9 @@ class Report(unittest.TestCase):
         self.assertIn(
             "computed / Senders & Randolph (2009)", self.rows(found, "Req")[2]
         )
-        self.assertIn("ends at 3.5 m", report.write(self.path).read_text())
+        page = report.write(self.path).read_text()
+        self.assertIn("ends at 3.5 m", page)
+        self.assertNotIn("(cone ASSUMED)", page)
 
     def test_computed_over_method(self) -> None:
         """3000 kN at 3 m over 2816 and 7195 kN; 15 kPa required at 3 m."""
@@ -329,11 +333,11 @@ class Report(unittest.TestCase):
 
     @unittest.skipUnless(BROWSER, "needs chromium")
     def test_in_a_browser(self) -> None:
-        """No error on the console; curves are drawn, read, shown and saved; a cone test
-        brings one more."""
-        visited = self.path / "visited.html"
-        for width, curves in ((400, 7), (1200, 8)):
-            if curves == 8:
+        """No error on the console; curves are drawn, read, shown and saved, also with a
+        cone test."""
+        visited, curves = self.path / "visited.html", 8
+        for width in (400, 1200):
+            if width == 1200:
                 (self.path / "cone.csv").write_text("depth_m,qc_MPa\n0,0\n9,18\n")
             page = self.page(SUMMARY).replace("</body>", VISIT + "</body>")
             visited.write_text(page, encoding="utf-8")

@@ -76,10 +76,10 @@ def forces_beside(
         columns["computed"] = computed
     for answer in answers:
         for case, forces in answer.forces.items():
-            columns[f"{answer.method.name}, {case}"] = forces["total"] / 1e3
+            columns[f"{answer.name}, {case}"] = forces["total"] / 1e3
         if answer.forces and computed is not None:
             low, high = [force / 1e3 for force in answer.band("total")]
-            name = f"computed / {answer.method.name}"
+            name = f"computed / {answer.name}"
             columns[name] = ratios(computed, low, high)
     title = "Force of jacking (kN)" if computed is None else "Total force (kN)"
     return table(title, columns)
@@ -96,9 +96,10 @@ def required_at(run: Results, at: np.ndarray) -> np.ndarray:
 def suctions_beside(run: Results, at: np.ndarray, site: theory.Site) -> dict[str, Any]:
     """Return the table of required and critical suctions (kPa)."""
     computed = np.maximum(required_at(run, at), 0) / 1e3
-    found = suction_methods.answers_of(site, at).suctions
+    answers = suction_methods.answers_of(site, at)
+    found, senders = answers.suctions, answers.senders_randolph
     columns: dict[str, Any] = {"depth (m)": at, "computed": computed}
-    byrne, senders = "Houlsby & Byrne (2005)", "Senders & Randolph (2009)"
+    byrne = "Houlsby & Byrne (2005)"
     for name, cases in (
         (byrne, suction_methods.CASES),
         (
@@ -115,7 +116,10 @@ def suctions_beside(run: Results, at: np.ndarray, site: theory.Site) -> dict[str
         columns[f"computed / {name}"] = ratios(computed, low, high)
     for name, column in (
         (byrne, suction_methods.PIPING),
-        (senders, suction_methods.CRITICAL_SENDERS_RANDOLPH),
+        (
+            suction_methods.SENDERS_RANDOLPH,
+            suction_methods.CRITICAL_SENDERS_RANDOLPH,
+        ),
     ):
         if column in found:
             columns[f"critical, {name}"] = found[column] / 1e3
@@ -256,7 +260,7 @@ def methods_of(run: Results) -> dict[str, Any]:
         computed = design.forces_at(history, at)[total] / 1e3
     tables = [suctions_beside(run, at, site)] if with_suction else []
     tables.append(forces_beside(computed, at, answers))
-    notes = [theory.end_of_cone(site, float(at.max()))]
+    notes = [theory.about_cone(site, float(at.max()))]
     if answers[0].forces:
         assumed = theory.assumptions_in_words(site.scene)
         notes.insert(0, f"{assumed}; {UNDISTURBED_IS}.")
