@@ -3,6 +3,7 @@
 import unittest
 
 import numpy as np
+from scipy.integrate import trapezoid
 from scipy.optimize import brentq
 
 from caisson_design import density
@@ -60,7 +61,7 @@ class Profiles(unittest.TestCase):
             found.at(2.01) / found.at(1.99), np.exp(1.628), delta=0.05
         )
         z = np.linspace(0, 1.9, 20001)
-        exact = np.trapezoid(density.cone_resistance(0.3, 6e3 * z), z)
+        exact = trapezoid(density.cone_resistance(0.3, 6e3 * z), z)
         np.testing.assert_allclose(found.integral(1.9), exact, rtol=2e-4)
         self.assertEqual(found.at(0), 0)
         self.assertTrue(np.isnan(found.at(4.1)))

@@ -14,10 +14,25 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
-from caisson.cpt import command, correlations, interpretation, layers, tables
-from caisson.cpt.correlations import ANGLE, BEST, DENSITY, HIGH, LOW, MODULUS, STRENGTH
+from caisson.cpt import command, interpretation, layers, tables
 from caisson.cpt.estimates import K0, REFERENCE, WEIGHT, reference_moduli
-from caisson.cpt.ground import (
+from caisson.paths import SCENES
+from caisson.suggest import cone
+from caisson.suggest.soil import SuggestError
+from caisson_design import correlations
+from caisson_design import cone_file
+from caisson_design import InputError
+from caisson_design.correlations import (
+    ANGLE,
+    BEST,
+    DENSITY,
+    HIGH,
+    LOW,
+    MODULUS,
+    STRENGTH,
+)
+from caisson_design.density import bolton_angle
+from caisson_design.ground import (
     ATMOSPHERE,
     Ground,
     ground_of,
@@ -25,12 +40,6 @@ from caisson.cpt.ground import (
     normalize,
     unit_weight_of,
 )
-from caisson.paths import SCENES
-from caisson.suggest import cone
-from caisson.suggest.soil import SuggestError
-from caisson_design import cone_file
-from caisson_design import InputError
-from caisson_design.density import bolton_angle
 
 EXAMPLE = SCENES / "cpt_example.csv"
 HEAD = "depth_m,qc_MPa,fs_kPa,u2_kPa\n"

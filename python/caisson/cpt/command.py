@@ -15,7 +15,6 @@ from pathlib import Path
 
 from caisson import suggest
 from caisson.cpt import interpretation, page, picture, tables
-from caisson.cpt.correlations import EVERY
 from caisson.cpt.interpretation import Interpretation
 from caisson.paths import RESULTS, scene_or_study, short
 from caisson.runner import RunError
@@ -23,6 +22,7 @@ from caisson.study import StudyError
 from caisson.suggest.cone import REACH
 from caisson.suggest.soil import SuggestError
 from caisson_design import InputError
+from caisson_design.correlations import EVERY
 
 SIZES = ("diameter", "skirt", "wall")
 SCENE, STUDY = "scene.prm", "study.toml"

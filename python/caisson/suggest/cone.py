@@ -2,7 +2,6 @@
 """Layers of a scene, and low, best and high estimates for a study, from a cone test."""
 from typing import Any
 
-from caisson.cpt.correlations import ANGLE, MODULUS, STRENGTH
 from caisson.cpt.estimates import (
     CAN,
     ENDS,
@@ -12,10 +11,11 @@ from caisson.cpt.estimates import (
     WEIGHT,
     Estimates,
 )
-from caisson.cpt.ground import CLAY, SAND
 from caisson.cpt.interpretation import Interpretation
 from caisson.cpt.tables import SHOWN, text_of
 from caisson.suggest.soil import ASSUMED, BY_STRESS, Entry, Layer, SuggestError
+from caisson_design.correlations import ANGLE, MODULUS, STRENGTH
+from caisson_design.ground import CLAY, SAND
 
 REACH = 1.5  # times the skirt: the test counts to this depth
 ASSUMPTION = " # ASSUMED"

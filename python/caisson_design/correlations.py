@@ -53,8 +53,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson.cpt.ground import ATMOSPHERE, Ground
 from caisson_design.density import bolton_angle, density_of_resistance
+from caisson_design.ground import ATMOSPHERE, Ground
 
 DENSITY, ANGLE = "relative density", "friction angle"
 MODULUS, STRENGTH = "Young's modulus", "undrained strength"
