@@ -14,11 +14,12 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
+from caisson import density_law
 from caisson.cpt import command, interpretation, layers, tables
 from caisson.cpt.estimates import K0, REFERENCE, WEIGHT, reference_moduli
 from caisson.paths import SCENES
-from caisson.suggest import cone
-from caisson.suggest.soil import SuggestError
+from caisson.suggest import cone, sand
+from caisson.suggest.entry import SuggestError
 from caisson_design import correlations
 from caisson_design import cone_file
 from caisson_design import InputError
@@ -459,7 +460,7 @@ class Scenes(WithFiles):
     def test_choices(self) -> None:
         """They grow, and the walls follow the smallest angle that is reached."""
         found = interpretation.interpret(EXAMPLE, options(), 12.0)
-        choices = cone.choices_of(found, 8.0, None)
+        choices = cone.choices_of(found, 8.0, None, sand.ONE_ANGLE)
         self.assertEqual(list(choices), ["low", "best", "high"])
         for entry in choices["low"]:
             low, best, high = (choices[name][entry] for name in choices)
@@ -468,7 +469,7 @@ class Scenes(WithFiles):
             angle = entries["Soil/Layer 1/Friction angle"]
             wall = entries["Rigid body/Friction angle of the inner wall"]
             self.assertAlmostEqual(wall, 2 / 3 * angle, delta=0.05)
-        given = cone.choices_of(found, 8.0, 20.0)
+        given = cone.choices_of(found, 8.0, 20.0, sand.ONE_ANGLE)
         self.assertEqual(
             set(choices["low"]) - set(given["low"]),
             {f"Rigid body/Friction angle of the {s} wall" for s in ("inner", "outer")},
@@ -476,7 +477,7 @@ class Scenes(WithFiles):
 
     def test_entries_say_where_they_come_from(self) -> None:
         found = interpretation.interpret(EXAMPLE, options(), 12.0)
-        first = cone.layers_of(found, 8.0)[0]
+        first = cone.layers_of(found, 8.0, sand.ONE_ANGLE)[0]
         self.assertEqual(first.value("Law"), cone.BY_STRESS)
         modulus = found.layers[0].values[REFERENCE].best
         self.assertAlmostEqual(float(first.value("Youngs modulus")) / modulus, 1, 3)
@@ -486,6 +487,51 @@ class Scenes(WithFiles):
         self.assertIn("FROM CPT (robertson-cabal-2010)", remarks["Porosity"])
         self.assertIn("ASSUMED", remarks["Dilatancy angle"])
 
+    def test_sand_by_its_density(self) -> None:
+        """Density, modulus, K0 and unit weight are those of the test; hypoplastic sand
+        has its own void ratios and stiffness."""
+        found = interpretation.interpret(EXAMPLE, options(), 12.0)
+        best = found.layers[0]
+        layer = cone.layers_of(found, 8.0, "density")[0]
+        self.assertEqual(layer.value("Law"), density_law.LAW)
+        self.assertEqual(layer.value("Friction angle"), "")
+        share, densest, loosest, modulus, k0 = (
+            float(layer.value(name))
+            for name in (
+                density_law.DENSITY,
+                density_law.DENSEST,
+                density_law.LOOSEST,
+                "Youngs modulus",
+                "K0",
+            )
+        )
+        self.assertAlmostEqual(share, best.values[DENSITY].best, places=4)
+        self.assertAlmostEqual(loosest - densest, 0.31, places=3)
+        void_ratio = loosest - share * (loosest - densest)
+        self.assertAlmostEqual(void_ratio / (1 + void_ratio), best.porosity(), places=3)
+        self.assertAlmostEqual(modulus / best.values[REFERENCE].best, 1, places=3)
+        self.assertAlmostEqual(k0, best.values[K0].best, places=3)
+        remarks = {entry.name: entry.remark for entry in layer.entries}
+        self.assertIn("FROM CPT (jamiolkowski-2003)", remarks[density_law.DENSITY])
+        other = cone.layers_of(found, 8.0, "hypoplastic")[0]
+        self.assertEqual(other.value("Law"), density_law.HYPOPLASTIC)
+        self.assertEqual(other.value(density_law.DENSEST), "0.53")
+        self.assertEqual(other.value("Youngs modulus"), "")
+
+    def test_choices_of_density(self) -> None:
+        """They grow; the walls do not follow, and a hypoplastic law has no modulus."""
+        found = interpretation.interpret(EXAMPLE, options(), 12.0)
+        for law, ends in (
+            ("density", (density_law.DENSITY, "Youngs modulus")),
+            ("hypoplastic", (density_law.DENSITY,)),
+        ):
+            choices = cone.choices_of(found, 8.0, None, law)
+            names = [f"Soil/Layer {i}/{end}" for i in (1, 2) for end in ends]
+            self.assertEqual(list(choices["best"]), names)
+            for entry in names:
+                low, best, high = (choices[name][entry] for name in choices)
+                self.assertTrue(low < best < high, entry)
+
     def test_silt_is_refused(self) -> None:
         """Where the skirt reaches it; and clay, where water flows."""
         path = self.layered((5, 15, 0.5), (12, 2.5, 3.0))
@@ -493,12 +539,12 @@ class Scenes(WithFiles):
         with self.assertRaisesRegex(
             SuggestError, "layer 2, 5 to 12 m, is silt.*--layer"
         ):
-            cone.layers_of(found, 6.0)
-        cone.layers_of(found, 4.0)
+            cone.layers_of(found, 6.0, "density")
+        cone.layers_of(found, 4.0, "density")
         path = self.layered((5, 15, 0.5), (12, 0.6, 4.5))
         found = interpretation.interpret(path, options("--tops", "0,5"))
         with self.assertRaisesRegex(SuggestError, "layer 2, 5 to 12 m, is clay"):
-            cone.layers_of(found, 6.0, flows=True)
+            cone.layers_of(found, 6.0, "density", flows=True)
 
     def test_no_strength_is_refused(self) -> None:
         """Clay whose cone resistance is below the total vertical stress."""
@@ -508,7 +554,7 @@ class Scenes(WithFiles):
         with self.assertRaisesRegex(
             SuggestError, "layer 2, 5 to 12 m, has no strength"
         ):
-            cone.layers_of(found, 4.0)
+            cone.layers_of(found, 4.0, "density")
 
     def test_end_of_test(self) -> None:
         found = interpretation.interpret(EXAMPLE, options())
@@ -519,13 +565,13 @@ class Scenes(WithFiles):
         """It is undrained, and its walls have adhesion in the place of friction."""
         path = self.layered((5, 15, 0.5), (12, 0.6, 4.5))
         found = interpretation.interpret(path, options("--tops", "0,5"))
-        _, clay = cone.layers_of(found, 6.0)
+        _, clay = cone.layers_of(found, 6.0, "density")
         self.assertEqual(clay.value("Friction angle of the walls"), "0")
         self.assertEqual(clay.value("Adhesion factor of the walls"), "0.5")
         self.assertEqual(clay.value("Friction angle"), "0")
         strength = found.layers[1].values[STRENGTH].best
         self.assertAlmostEqual(float(clay.value("Cohesion")), strength, delta=100)
-        choices = cone.choices_of(found, 4.0, None)
+        choices = cone.choices_of(found, 4.0, None, "density")
         self.assertNotIn("Soil/Layer 2/Friction angle", choices["low"])
         self.assertLess(
             choices["low"]["Soil/Layer 2/Cohesion"],
