@@ -8,7 +8,7 @@ import tomllib
 import unittest
 from pathlib import Path
 
-from program import SUCCESS, HERE, ProgramTest, history, scene, summary
+from program import SUCCESS, HERE, ProgramTest, history, summary
 
 from caisson import density_law
 from caisson.runner import environment, read_parameters
@@ -214,7 +214,7 @@ class SandByDensity(SuggestTest):
             ("jack_dense_sand", {}, 0.7741935),
         ):
             where = path / f"{name}{len(entries)}"
-            words = [scene(name), "--output-directory", where]
+            words = [HERE.parent / f"prm/{name}.prm", "--output-directory", where]
             self.run_program(SUCCESS, *words, entries={**short, **entries})
             (layer,) = summary(where)["scene"]["layers"]
             if expected is None:
