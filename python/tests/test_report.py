@@ -15,6 +15,7 @@ from synthetic import write_columns, write_run
 from caisson import report
 from caisson.report import content, methods
 from caisson.results import Results, ResultsError
+from caisson_design import reasons
 
 BROWSER = report.find_browser()
 SCENE: dict[str, Any] = {
@@ -236,8 +237,8 @@ class Report(unittest.TestCase):
             ((0, float("nan")), ""),
         ]
         for ends, words in cases:
-            self.assertEqual(methods.ratio_in_words(2, *ends), words)
-        self.assertEqual(methods.ratio_in_words(0, 1, 2), "")
+            self.assertEqual(reasons.ratio_in_words(2, *ends), words)
+        self.assertEqual(reasons.ratio_in_words(0, 1, 2), "")
 
     def why(self, tip: float, outer: float, change: dict[str, Any]) -> str:
         """Return why a jacked run with these forces (N) at 4 m is where it is."""

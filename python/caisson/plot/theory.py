@@ -98,10 +98,10 @@ def layers_of(site: Site, deepest: float) -> list[Layer]:
     NotApplicable."""
     found, above = list[Layer](), list[Sand]()
     entries = site.layers(deepest)
-    for (number, entry), (_, below) in zip(entries, [*entries[1:], (0, {})]):
-        layer = layer_of(entry, number)
+    bottoms = [top_of(entry) for _, entry in entries[1:]] + [deepest]
+    for (number, entry), bottom in zip(entries, bottoms):
+        layer, top = layer_of(entry, number), top_of(entry)
         above.append(sand_of(entry, number))
-        top, bottom = layer.top, top_of(below) or deepest
         n = max(int(np.ceil((bottom - top) / STEP - 1e-9)), 1)
         if entry.get("law") not in BY_DENSITY:
             found.append(layer)

@@ -25,8 +25,8 @@ from caisson.plot.suction import (
     upper_end,
 )
 from caisson.plot.suction_methods import CONE_HIGH, CONE_LOW, HIGH, LOW
-from caisson.report.methods import text_of
 from caisson.results import Results, Table
+from caisson_design.reasons import text_of
 
 SHOWN = ("tip", "total")  # parts of the methods in the interactive picture
 MANY = 1500  # points of a curve that a screen can show
