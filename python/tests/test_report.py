@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """report.html of made-up runs, as text and in a browser."""
+import argparse
+import contextlib
 import fcntl
 import html
+import io
 import re
 import subprocess
 import tempfile
@@ -16,6 +19,7 @@ from caisson import report
 from caisson.report import content, methods
 from caisson.results import Results, ResultsError
 from caisson_design import reasons
+from caisson_design.seepage import senders_randolph
 
 BROWSER = report.find_browser()
 SCENE: dict[str, Any] = {
@@ -275,6 +279,86 @@ class Report(unittest.TestCase):
         found = methods.why_of(Results(self.path), np.array([1.0, 4.0, 4.5]))
         self.assertRegex(found, r"At 4\.5 m .* times the suction of .* of 30 kPa")
         self.assertEqual(methods.why_of(Results(self.path), np.array([1.0])), "")
+
+    def test_why_not_like_the_other_methods(self) -> None:
+        """4 MN at 4 m: beyond undisturbed ground and a cone that is assumed, of which
+        the report says so; with a cone test that is like the run it does not ask."""
+        leave_run(self.path / "suction", SUMMARY)
+        history = dict(Results(self.path / "suction").history)
+        for name in [n for n in history if "suction" in n]:
+            del history[name]
+        write_run(self.path / "jacked", history, SUMMARY)
+        jacked = methods.methods_of(Results(self.path / "jacked"))
+        self.assertIn("computed / undisturbed", self.rows(jacked, "Total")[0])
+        said = "\n".join(jacked["why"])
+        self.assertRegex(said, r"At 4 m the run has [\d.]+ times the force of undist")
+        self.assertIn("times the force of Senders & Randolph (2009) (cone ASS", said)
+        self.assertIn("a cone test may change these ratios much", said)
+        rows = "depth_m,qc_MPa\n0,0\n4.5,9.4\n"
+        (self.path / "jacked/cone.csv").write_text(rows)
+        said = "\n".join(methods.methods_of(Results(self.path / "jacked"))["why"])
+        self.assertNotIn("DNV", said)
+        self.assertNotIn("ASSUMED", said)
+        # seepage beside seepage: no method without suction is compared
+        under = "\n".join(methods.methods_of(Results(self.path / "suction"))["why"])
+        self.assertIn("times the suction of undisturbed", under)
+        self.assertNotIn("times the force of", under)
+        self.assertNotIn("DNV", under)
+
+    def test_what_suction_leaves(self) -> None:
+        """Half of a jacked run's tip, a quarter of its inner friction, and twice its
+        outer friction; from one run alone the tip over the vertical stress, which does
+        not change here."""
+        leave_run(self.path / "own", SUMMARY)
+        run = Results(self.path / "own")
+        name = "tip (estimate from one run)"
+        alone = methods.methods_of(run)
+        rows = self.rows(alone, "What suction leaves")
+        self.assertEqual([row["depth (m)"] for row in rows], ["2", "3", "4"])
+        self.assertEqual([row[name] for row in rows], ["1", "1", "1"])
+        self.assertIn("one run does not know", " ".join(alone["notes"]))
+        critical = senders_randolph(9000, 4, 10)
+        self.assertAlmostEqual(
+            float(rows[2]["1 - s / s_cr"]), 1 - 25e3 / critical, places=3
+        )
+        history = {n: v for n, v in run.history.items() if "suction" not in n}
+        for part, factor in (("tip_force", 2), ("inner_friction", 4)):
+            history[f"{part}_N"] = factor * history[f"{part}_N"]
+        history["outer_friction_N"] = history["outer_friction_N"] / 2
+        write_run(self.path / "jacked", history, SUMMARY)
+        self.assertEqual(self.command("--jacked", "jacked", "own"), 0)
+        found = methods.methods_of(Results(self.path / "own"))
+        row = self.rows(found, "What suction leaves")[1]
+        shares = [row[f"{part} / jacked"] for part in ("tip", "inner friction")]
+        self.assertEqual(shares, ["0.5", "0.25"])
+        self.assertEqual(row["outer friction / jacked"], "2")
+        self.assertNotIn(name, row)
+
+    def command(self, *words: str) -> int:
+        """Call `caisson report` with directories below that of the test."""
+        parser = argparse.ArgumentParser()
+        report.add_arguments(parser)
+        given = [w if w.startswith("-") else str(self.path / w) for w in words]
+        with contextlib.redirect_stdout(io.StringIO()):
+            return report.main(parser.parse_args(given))
+
+    def test_jacked_run_that_is_not_the_same(self) -> None:
+        """Of another soil, or with suction itself; none is kept."""
+        leave_run(self.path / "own", SUMMARY)
+        history = dict(Results(self.path / "own").history)
+        jacked = {n: v for n, v in history.items() if "suction" not in n}
+        other = [{**SCENE["layers"][0], "friction_angle_deg": 33}]
+        changed = {**SUMMARY, "scene": {**SCENE, "layers": other}}
+        write_run(self.path / "other", jacked, changed)
+        for name, words in (
+            ("other", "layers in its run.json is not that of"),
+            ("own", "this run has suction, too"),
+        ):
+            said = io.StringIO()
+            with contextlib.redirect_stderr(said):
+                self.assertEqual(self.command("--jacked", name, "own"), 1)
+            self.assertIn(words, said.getvalue())
+            self.assertFalse((self.path / "own/jacked.csv").exists())
 
     def test_curves_without_a_point(self) -> None:
         """The run begins at 0.5 m, and the cone test ends at 0.3 m: no suction follows
