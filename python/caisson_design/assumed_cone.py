@@ -10,6 +10,7 @@ kPa, so that nothing is fitted near the mudline, where most of a skirt is.
 SI units; z is the depth below the mudline (m).
 """
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -112,3 +113,9 @@ class AssumedCone(Profile):
             f" {SOURCE} at the relative density of {' to '.join(ends)} {source}. The"
             " formula was fitted at 50 to 400 kPa, not near the mudline."
         )
+
+
+@lru_cache(maxsize=32)
+def assumed_cone(layers: tuple[Sand, ...], deepest: float) -> AssumedCone:
+    """Return the cone resistance of layers of sand; a report asks for it many times."""
+    return AssumedCone(layers, deepest)

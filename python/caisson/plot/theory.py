@@ -14,7 +14,7 @@ import numpy as np
 from caisson import density_law
 from caisson.results import Results
 from caisson_design import andersen, clay, dnv, houlsby_byrne, senders_randolph
-from caisson_design.assumed_cone import STEP, AssumedCone, Sand, SandGround
+from caisson_design.assumed_cone import STEP, Sand, SandGround, assumed_cone
 from caisson_design.cone import ConeMethod, Profile, Skirt, of_run
 from caisson_design.houlsby_byrne import (
     UNDISTURBED,
@@ -225,12 +225,12 @@ def cone_of(site: Site, deepest: float) -> Profile:
                 f"{CONE_NEEDED}; none is assumed for layer {number}, which is {soil}"
             )
     try:
-        sands = [sand_of(entry, i) for i, entry in site.layers(deepest)]
+        sands = tuple(sand_of(entry, i) for i, entry in site.layers(deepest))
     except KeyError as error:
         raise NotApplicable(f"run.json has no {error.args[0]}") from error
     except NotApplicable as reason:
         raise NotApplicable(f"{CONE_NEEDED}; none is assumed: {reason}") from reason
-    return AssumedCone(sands, deepest)
+    return assumed_cone(sands, deepest)
 
 
 def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
