@@ -153,8 +153,8 @@ def of_undisturbed(h: float, computed: float, bound: float, what: str) -> str:
 
 
 ASSUMED_CONE = (
-    "The methods from a cone were fitted to measured resistances of dense sand; here the"
-    " resistance is ASSUMED, and a cone test may change these ratios much."
+    "The methods from a cone were fitted to measured resistances of dense sand; here"
+    " the resistance is ASSUMED, and a cone test may change these ratios much."
 )
 
 
@@ -207,7 +207,8 @@ def of_cone(found: ByCone) -> str:
         beside(*forces, mark) for forces, mark in zip(by_part, ("method: ", "", ""))
     )
     return (
-        f"{head(found.h, found.ends, found.what, found.name)} its tip bears {tip}, its walls {inner} inside and {outer} outside;"
+        f"{head(found.h, found.ends, found.what, found.name)} its tip bears {tip}, its"
+        f" walls {inner} inside and {outer} outside;"
         f" {cause_by_cone(found)}."
     )
 

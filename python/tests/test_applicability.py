@@ -114,7 +114,8 @@ class Applicability(unittest.TestCase):
         """phi = 30 + 3 (0.8 (10 - ln sqrt(q_c sigma'_v)) - 1) in the middle of pieces
         of 0.25 m, whatever the depth that is asked for; in the second layer sigma'_v
         is that of both."""
-        dense = {**LAYER, "law": theory.BY_DENSITY[0], "relative_density": 0.8}
+        dense: dict[str, Any] = {**LAYER, "law": theory.BY_DENSITY[0]}
+        dense["relative_density"] = 0.8
         below = {**dense, "top_depth_m": 1.1, "submerged_unit_weight_N_m3": 11e3}
         site = self.site(dense, below)
         found = theory.layers_of(site, 2)

@@ -79,8 +79,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--jacked",
         type=Path,
         metavar="DIR",
-        help="of a run under suction: the same scene jacked, to tell what suction leaves"
-        " of tip and friction; its history is kept as jacked.csv",
+        help="the scene of a run under suction, jacked: it tells what suction leaves of"
+        " tip and friction; its history is kept as jacked.csv",
     )
     parser.add_argument("directories", nargs="+", type=Path, metavar="DIR")
     parser.add_argument("--pdf", action="store_true", help="print it to report.pdf too")

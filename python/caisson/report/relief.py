@@ -3,7 +3,7 @@
 same caisson and soil or, without one, what the run alone can say.
 
 Senders & Randolph leave 1 - s / s_cr of tip and inner friction, and all of the outer
-friction. A run under suction does not know what it would bear at the same depth without.
+friction. A run under suction does not know what it would bear at this depth without.
 Alone it can only compare its tip with what the tip bore under the weight, before there
 was suction, both over the vertical stress of undisturbed ground: this ratio rises and
 falls with depth without any suction, too (ONE_RUN).

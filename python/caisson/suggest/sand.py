@@ -126,7 +126,7 @@ def numbers_of(law: str, density: float, void_ratio: float) -> list[Entry]:
             Entry(
                 names.CRITICAL_ANGLE,
                 angle,
-                f"{ASSUMPTION}: quartz (Bolton 1986); the peak follows from the density",
+                f"{ASSUMPTION}: quartz (Bolton 1986); the peak follows from density",
             ),
             Entry(
                 names.MODULUS,
