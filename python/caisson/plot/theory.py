@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from caisson import density_law
+from caisson.density_law import BY_DENSITY
 from caisson.results import Results
 from caisson_design import andersen, clay, dnv, houlsby_byrne, senders_randolph
 from caisson_design.assumed_cone import STEP, Sand, SandGround, assumed_cone
@@ -28,12 +28,6 @@ Scene = Mapping[str, Any]
 # The laws whose strength is one friction angle; run.json names the law of a layer.
 LAWS = ("Mohr-Coulomb", "Mohr-Coulomb with stiffness by stress")
 SOFTENING = "Mohr-Coulomb with softening"
-# The laws whose strength follows from density and stress; their angle is critical.
-BY_DENSITY = (
-    "hypoplastic sand",
-    "hypoplastic sand with intergranular strain",
-    density_law.LAW,
-)
 SIZES = ("diameter_m", "wall_thickness_m")
 PARTS = ("tip", "inner friction", "outer friction", "total")
 # in pictures, of Houlsby & Byrne with K0 tan(delta) and without enhancement
