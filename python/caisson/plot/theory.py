@@ -30,8 +30,8 @@ LAWS = ("Mohr-Coulomb", "Mohr-Coulomb with stiffness by stress")
 SOFTENING = "Mohr-Coulomb with softening"
 SIZES = ("diameter_m", "wall_thickness_m")
 PARTS = ("tip", "inner friction", "outer friction", "total")
-# in pictures, of Houlsby & Byrne with K0 tan(delta) and without enhancement
 ASSUMED_CONE = " (cone ASSUMED)"  # behind the name of a method
+# in pictures, of Houlsby & Byrne with K0 tan(delta) and without enhancement
 LOWER_BOUND = "undisturbed ground (K0), a lower bound"
 
 
