@@ -26,8 +26,9 @@ PARTS = dict(zip(design.FORCES[:3], ("tip", "inner friction", "outer friction"))
 ONE_RUN = (
     "One run does not know what it would bear at this depth without suction. The tip is"
     " compared with what it bore at {rest:.2f} m, before there was suction, both over"
-    " the vertical stress at rest. This ratio changes with depth in jacked runs, too: in"
-    " two scenes the estimate was 0.8 to 2 times the true factor. Friction allows none."
+    " the vertical stress at rest. This ratio changes with depth in jacked runs, too:"
+    " in two scenes the estimate was 0.8 to 2 times the true factor. Friction allows"
+    " none."
     " For the factors of all three, jack the same scene (--set Water/Level=drained,"
     " another --output-directory), and name it: caisson report --jacked DIRECTORY."
 )
