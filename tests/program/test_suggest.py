@@ -208,11 +208,12 @@ class SandByDensity(SuggestTest):
                 ("Maximum void ratio", 0.9),
             )
         }
-        for name, entries, expected in (
+        cases: list[tuple[str, dict[str, float], float | None]] = [
             ("jack_coarse", {}, None),
             ("jack_coarse", given, 0.6),
             ("jack_dense_sand", {}, 0.7741935),
-        ):
+        ]
+        for name, entries, expected in cases:
             where = path / f"{name}{len(entries)}"
             words = [HERE.parent / f"prm/{name}.prm", "--output-directory", where]
             self.run_program(SUCCESS, *words, entries={**short, **entries})
