@@ -14,7 +14,6 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
-from caisson import density_law
 from caisson.cpt import command, interpretation, layers, tables
 from caisson.cpt.estimates import K0, REFERENCE, WEIGHT, reference_moduli
 from caisson.paths import SCENES
@@ -486,51 +485,6 @@ class Scenes(WithFiles):
         self.assertIn("FROM CPT (schmertmann-1978)", remarks["Youngs modulus"])
         self.assertIn("FROM CPT (robertson-cabal-2010)", remarks["Porosity"])
         self.assertIn("ASSUMED", remarks["Dilatancy angle"])
-
-    def test_sand_by_its_density(self) -> None:
-        """Density, modulus, K0 and unit weight are those of the test; hypoplastic sand
-        has its own void ratios and stiffness."""
-        found = interpretation.interpret(EXAMPLE, options(), 12.0)
-        best = found.layers[0]
-        layer = cone.layers_of(found, 8.0, "density")[0]
-        self.assertEqual(layer.value("Law"), density_law.LAW)
-        self.assertEqual(layer.value("Friction angle"), "")
-        share, densest, loosest, modulus, k0 = (
-            float(layer.value(name))
-            for name in (
-                density_law.DENSITY,
-                density_law.DENSEST,
-                density_law.LOOSEST,
-                "Youngs modulus",
-                "K0",
-            )
-        )
-        self.assertAlmostEqual(share, best.values[DENSITY].best, places=4)
-        self.assertAlmostEqual(loosest - densest, 0.31, places=3)
-        void_ratio = loosest - share * (loosest - densest)
-        self.assertAlmostEqual(void_ratio / (1 + void_ratio), best.porosity(), places=3)
-        self.assertAlmostEqual(modulus / best.values[REFERENCE].best, 1, places=3)
-        self.assertAlmostEqual(k0, best.values[K0].best, places=3)
-        remarks = {entry.name: entry.remark for entry in layer.entries}
-        self.assertIn("FROM CPT (jamiolkowski-2003)", remarks[density_law.DENSITY])
-        other = cone.layers_of(found, 8.0, "hypoplastic")[0]
-        self.assertEqual(other.value("Law"), density_law.HYPOPLASTIC)
-        self.assertEqual(other.value(density_law.DENSEST), "0.53")
-        self.assertEqual(other.value("Youngs modulus"), "")
-
-    def test_choices_of_density(self) -> None:
-        """They grow; the walls do not follow, and a hypoplastic law has no modulus."""
-        found = interpretation.interpret(EXAMPLE, options(), 12.0)
-        for law, ends in (
-            ("density", (density_law.DENSITY, "Youngs modulus")),
-            ("hypoplastic", (density_law.DENSITY,)),
-        ):
-            choices = cone.choices_of(found, 8.0, None, law)
-            names = [f"Soil/Layer {i}/{end}" for i in (1, 2) for end in ends]
-            self.assertEqual(list(choices["best"]), names)
-            for entry in names:
-                low, best, high = (choices[name][entry] for name in choices)
-                self.assertTrue(low < best < high, entry)
 
     def test_silt_is_refused(self) -> None:
         """Where the skirt reaches it; and clay, where water flows."""

@@ -12,16 +12,29 @@ import numpy as np
 
 from caisson import density_law, suggest
 from caisson.cpt import interpretation
-from caisson.suggest import sand
+from caisson.cpt.estimates import K0, REFERENCE
+from caisson.paths import SCENES
+from caisson.suggest import cone, sand
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.sizes import LEVELS
 from caisson.suggest.soil import layers_of
 from caisson_design.assumed_cone import AssumedCone, Sand
 from caisson_design.correlations import DENSITY
 
+EXAMPLE = SCENES / "cpt_example.csv"
 KNOWN = ["Cohesion", "Friction angle", "K0", "Permeability", "Youngs modulus"]
 KNOWN += ["Law", "Porosity", density_law.DENSITY, density_law.DENSEST]
 SIZES = ["--diameter", "4", "--skirt", "2.5", "--wall", "20mm", "own.prm"]
+
+
+def how_to_read(*words: str) -> argparse.Namespace:
+    """Return the options that say how a cone test is read."""
+    parser = argparse.ArgumentParser()
+    interpretation.add_arguments(parser)
+    return parser.parse_args(words)
+
+
+READ = how_to_read()
 
 
 def options_of(*words: str) -> argparse.Namespace:
@@ -118,17 +131,64 @@ class Entries(unittest.TestCase):
     def test_scene_and_design_methods_have_the_same_sand(self) -> None:
         """A cone test of the resistance that is assumed for dense sand says that it is
         dense. K0 = 1 - sin phi of the test is not that of the scene."""
-        cone = AssumedCone([Sand(0, 10.07e3, 0.35, 0.75, 33)], 6)
+        assumed = AssumedCone([Sand(0, 10.07e3, 0.35, 0.75, 33)], 6)
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "cone.csv")
-            rows = zip(cone.depth, cone.resistance / 1e6)
+            rows = zip(assumed.depth, assumed.resistance / 1e6)
             lines = [f"{z:.6f},{q:.6f}" for z, q in rows if z > 0.3]
             path.write_text("\n".join(["depth_m,qc_MPa", *lines]), encoding="utf-8")
             words = ["--soil", "sand", "--unit-weight", "19.88", "--tops", "0"]
-            parser = argparse.ArgumentParser()
-            interpretation.add_arguments(parser)
-            found = interpretation.interpret(path, parser.parse_args(words))
+            found = interpretation.interpret(path, how_to_read(*words))
         self.assertAlmostEqual(found.layers[0].values[DENSITY].best, 0.75, delta=0.01)
+
+
+class FromACone(unittest.TestCase):
+    """Sand by its density from the example of a cone test."""
+
+    def test_sand_by_its_density(self) -> None:
+        """Density, modulus, K0 and unit weight are those of the test; hypoplastic sand
+        has its own void ratios and stiffness."""
+        found = interpretation.interpret(EXAMPLE, READ, 12.0)
+        best = found.layers[0]
+        layer = cone.layers_of(found, 8.0, "density")[0]
+        self.assertEqual(layer.value("Law"), density_law.LAW)
+        self.assertEqual(layer.value("Friction angle"), "")
+        share, densest, loosest, modulus, k0 = (
+            float(layer.value(name))
+            for name in (
+                density_law.DENSITY,
+                density_law.DENSEST,
+                density_law.LOOSEST,
+                "Youngs modulus",
+                "K0",
+            )
+        )
+        self.assertAlmostEqual(share, best.values[DENSITY].best, places=4)
+        self.assertAlmostEqual(loosest - densest, 0.31, places=3)
+        void_ratio = loosest - share * (loosest - densest)
+        self.assertAlmostEqual(void_ratio / (1 + void_ratio), best.porosity(), places=3)
+        self.assertAlmostEqual(modulus / best.values[REFERENCE].best, 1, places=3)
+        self.assertAlmostEqual(k0, best.values[K0].best, places=3)
+        remarks = {entry.name: entry.remark for entry in layer.entries}
+        self.assertIn("FROM CPT (jamiolkowski-2003)", remarks[density_law.DENSITY])
+        other = cone.layers_of(found, 8.0, "hypoplastic")[0]
+        self.assertEqual(other.value("Law"), density_law.HYPOPLASTIC)
+        self.assertEqual(other.value(density_law.DENSEST), "0.53")
+        self.assertEqual(other.value("Youngs modulus"), "")
+
+    def test_choices_of_density(self) -> None:
+        """They grow; the walls do not follow, and a hypoplastic law has no modulus."""
+        found = interpretation.interpret(EXAMPLE, READ, 12.0)
+        for law, ends in (
+            ("density", (density_law.DENSITY, "Youngs modulus")),
+            ("hypoplastic", (density_law.DENSITY,)),
+        ):
+            choices = cone.choices_of(found, 8.0, None, law)
+            names = [f"Soil/Layer {i}/{end}" for i in (1, 2) for end in ends]
+            self.assertEqual(list(choices["best"]), names)
+            for entry in names:
+                low, best, high = (choices[name][entry] for name in choices)
+                self.assertTrue(low < best < high, entry)
 
 
 class Studies(unittest.TestCase):
