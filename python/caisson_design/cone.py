@@ -30,7 +30,10 @@ NAME = "cone.csv"  # of the test in the directory of a run
 
 
 class Profile:
-    """The cone resistance over depth."""
+    """The cone resistance over depth; assumed: of one that was not measured, what it
+    rests on, in a sentence."""
+
+    assumed = ""
 
     def __init__(self, depth: Sequence[float], resistance: Sequence[float]) -> None:
         """depth: [n] (m), growing; resistance: [n] (Pa)."""

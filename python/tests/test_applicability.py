@@ -47,8 +47,29 @@ class Applicability(unittest.TestCase):
     def test_sand(self) -> None:
         self.assertEqual(self.why(self.site(LAYER)), [""] * 4 + [NOT_CLAY])
         without = self.site(LAYER)._replace(cone=None)
-        needs = "a cone test is needed (--cpt FILE)"
-        self.assertEqual(self.why(without), ["", needs, needs, needs, NOT_CLAY])
+        self.assertEqual(self.why(without), [""] * 4 + [NOT_CLAY])
+        for answer in theory.answers_to(without, 2)[:4]:
+            marked = answer.method.key != "houlsby_byrne"
+            self.assertEqual("ASSUMED" in answer.name, marked)
+        for answer in theory.answers_to(self.site(LAYER), 2):
+            self.assertNotIn("ASSUMED", answer.name)
+
+    def test_no_cone_is_assumed(self) -> None:
+        """Of clay above or below sand, of sand whose density is not known, or of soil
+        without numbers."""
+        clay = {**CLAY, "top_depth_m": 1}
+        unknown = {**LAYER, "law": "hypoplastic sand"}
+        bare = {k: v for k, v in LAYER.items() if not k.startswith("submerged")}
+        for layers, words in (
+            ((LAYER, clay), "none is assumed for layer 2, which is clay"),
+            ((unknown,), "none is assumed: layer 1 is hypoplastic sand, and run.json"),
+            ((bare,), "run.json has no submerged_unit_weight_N_m3"),
+        ):
+            site = self.site(*layers)._replace(cone=None)
+            self.assertIn(words, self.why(site)[1])
+        # the tip does not reach the clay
+        shallow = self.site(LAYER, clay)._replace(cone=None)
+        self.assertEqual(self.why(shallow, 0.9), [""] * 4 + [NOT_CLAY])
 
     def test_clay(self) -> None:
         """Its strength answers, and DNV has coefficients, undrained or not."""
@@ -78,10 +99,34 @@ class Applicability(unittest.TestCase):
             self.assertIn("the run is undrained", found)
 
     def test_hypoplastic_sand(self) -> None:
-        """A cone answers for it; it has no single friction angle."""
-        byrne, *others = self.why(self.site({**LAYER, "law": "hypoplastic sand"}))
-        self.assertIn("hypoplastic", byrne)
-        self.assertEqual(others, [""] * 3 + [NOT_CLAY])
+        """A cone answers for it; it has no single friction angle, unless its density
+        gives one."""
+        for law in theory.BY_DENSITY:
+            byrne, *others = self.why(self.site({**LAYER, "law": law}))
+            self.assertIn(f"{law}, and run.json has no density", byrne)
+            self.assertEqual(others, [""] * 3 + [NOT_CLAY])
+            dense = {**LAYER, "law": law, "relative_density": 0.85}
+            site = self.site(dense)._replace(cone=None)
+            self.assertEqual(self.why(site), [""] * 4 + [NOT_CLAY])
+            self.assertIn("friction angle ASSUMED", theory.about_cone(site, 2))
+
+    def test_friction_angle_by_density(self) -> None:
+        """phi = 30 + 3 (0.8 (10 - ln sqrt(q_c sigma'_v)) - 1) in the middle of pieces
+        of 0.25 m, whatever the depth that is asked for; in the second layer sigma'_v
+        is that of both."""
+        dense: dict[str, Any] = {**LAYER, "law": theory.BY_DENSITY[0]}
+        dense["relative_density"] = 0.8
+        below = {**dense, "top_depth_m": 1.1, "submerged_unit_weight_N_m3": 11e3}
+        site = self.site(dense, below)
+        found = theory.layers_of(site, 2)
+        self.assertEqual(found, theory.layers_of(site, 2.1)[: len(found)])
+        tops = [0, 0.25, 0.5, 0.75, 1, 1.1, 1.35, 1.6, 1.85]
+        np.testing.assert_allclose([layer.top for layer in found], tops)
+        stress = 8829 * 1.1 + 11e3 * 0.375  # at 1.475 m
+        cone = 2.494e6 * (stress * 2 / 3 / 1e5) ** 0.46 * np.exp(2.96 * 0.8)
+        angle = 30 + 3 * (0.8 * (10 - np.log(np.sqrt(cone * stress) / 1e3)) - 1)
+        self.assertAlmostEqual(found[6].friction_angle, angle, places=9)
+        self.assertEqual(found[6].unit_weight, 11e3)
 
     def test_soils_that_nobody_knows(self) -> None:
         changes: list[tuple[dict[str, Any], str]] = [
@@ -150,8 +195,8 @@ class Applicability(unittest.TestCase):
     def test_end_of_the_cone_test(self) -> None:
         """It ends at 10 m."""
         site = self.site(LAYER)
-        self.assertEqual(theory.end_of_cone(site, 10), "")
-        self.assertIn("ends at 10 m", theory.end_of_cone(site, 10.1))
+        self.assertEqual(theory.about_cone(site, 10), "")
+        self.assertIn("ends at 10 m", theory.about_cone(site, 10.1))
         last = theory.answers_of(site, np.array([10.0, 10.1]))[1].band("total")[0]
         self.assertGreater(last[0], 0)
         np.testing.assert_equal(last[1], nan)

@@ -14,10 +14,25 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
-from caisson.cpt import command, correlations, interpretation, layers, tables
-from caisson.cpt.correlations import ANGLE, BEST, DENSITY, HIGH, LOW, MODULUS, STRENGTH
+from caisson.cpt import command, interpretation, layers, tables
 from caisson.cpt.estimates import K0, REFERENCE, WEIGHT, reference_moduli
-from caisson.cpt.ground import (
+from caisson.paths import SCENES
+from caisson.suggest import cone, sand
+from caisson.suggest.entry import SuggestError
+from caisson_design import correlations
+from caisson_design import cone_file
+from caisson_design import InputError
+from caisson_design.correlations import (
+    ANGLE,
+    BEST,
+    DENSITY,
+    HIGH,
+    LOW,
+    MODULUS,
+    STRENGTH,
+)
+from caisson_design.density import bolton_angle
+from caisson_design.ground import (
     ATMOSPHERE,
     Ground,
     ground_of,
@@ -25,11 +40,6 @@ from caisson.cpt.ground import (
     normalize,
     unit_weight_of,
 )
-from caisson.paths import SCENES
-from caisson.suggest import cone
-from caisson.suggest.soil import SuggestError
-from caisson_design import cone_file
-from caisson_design import InputError
 
 EXAMPLE = SCENES / "cpt_example.csv"
 HEAD = "depth_m,qc_MPa,fs_kPa,u2_kPa\n"
@@ -198,7 +208,7 @@ class ByHand(unittest.TestCase):
         found = correlations.kulhawy_mayne(uniform(10e6, 100e3), LOW)
         np.testing.assert_allclose(found, [36.8])
         density = np.array([0.8])
-        found = correlations.bolton_of_density(np.array([100e3]), density)
+        found = bolton_angle(density, np.array([100e3]))
         np.testing.assert_allclose(found, [42.94759], atol=1e-5)
 
     def test_friction_angle_at_a_tip(self) -> None:
@@ -219,9 +229,7 @@ class ByHand(unittest.TestCase):
         angle = correlations.angles_of(ground, names, BEST)
         k0 = 1 - np.sin(np.radians(angle))
         density = correlations.densities_of(ground, names, BEST)
-        again = correlations.bolton_of_density(
-            correlations.mean_stress(ground, k0), density
-        )
+        again = bolton_angle(density, correlations.mean_stress(ground, k0))
         np.testing.assert_allclose(angle, again, atol=1e-6)
         # at least 2 degrees from the source, more with the scatter of D_r
         self.assertGreater(
@@ -451,7 +459,7 @@ class Scenes(WithFiles):
     def test_choices(self) -> None:
         """They grow, and the walls follow the smallest angle that is reached."""
         found = interpretation.interpret(EXAMPLE, options(), 12.0)
-        choices = cone.choices_of(found, 8.0, None)
+        choices = cone.choices_of(found, 8.0, None, sand.ONE_ANGLE)
         self.assertEqual(list(choices), ["low", "best", "high"])
         for entry in choices["low"]:
             low, best, high = (choices[name][entry] for name in choices)
@@ -460,7 +468,7 @@ class Scenes(WithFiles):
             angle = entries["Soil/Layer 1/Friction angle"]
             wall = entries["Rigid body/Friction angle of the inner wall"]
             self.assertAlmostEqual(wall, 2 / 3 * angle, delta=0.05)
-        given = cone.choices_of(found, 8.0, 20.0)
+        given = cone.choices_of(found, 8.0, 20.0, sand.ONE_ANGLE)
         self.assertEqual(
             set(choices["low"]) - set(given["low"]),
             {f"Rigid body/Friction angle of the {s} wall" for s in ("inner", "outer")},
@@ -468,7 +476,7 @@ class Scenes(WithFiles):
 
     def test_entries_say_where_they_come_from(self) -> None:
         found = interpretation.interpret(EXAMPLE, options(), 12.0)
-        first = cone.layers_of(found, 8.0)[0]
+        first = cone.layers_of(found, 8.0, sand.ONE_ANGLE)[0]
         self.assertEqual(first.value("Law"), cone.BY_STRESS)
         modulus = found.layers[0].values[REFERENCE].best
         self.assertAlmostEqual(float(first.value("Youngs modulus")) / modulus, 1, 3)
@@ -485,12 +493,12 @@ class Scenes(WithFiles):
         with self.assertRaisesRegex(
             SuggestError, "layer 2, 5 to 12 m, is silt.*--layer"
         ):
-            cone.layers_of(found, 6.0)
-        cone.layers_of(found, 4.0)
+            cone.layers_of(found, 6.0, "density")
+        cone.layers_of(found, 4.0, "density")
         path = self.layered((5, 15, 0.5), (12, 0.6, 4.5))
         found = interpretation.interpret(path, options("--tops", "0,5"))
         with self.assertRaisesRegex(SuggestError, "layer 2, 5 to 12 m, is clay"):
-            cone.layers_of(found, 6.0, flows=True)
+            cone.layers_of(found, 6.0, "density", flows=True)
 
     def test_no_strength_is_refused(self) -> None:
         """Clay whose cone resistance is below the total vertical stress."""
@@ -500,7 +508,7 @@ class Scenes(WithFiles):
         with self.assertRaisesRegex(
             SuggestError, "layer 2, 5 to 12 m, has no strength"
         ):
-            cone.layers_of(found, 4.0)
+            cone.layers_of(found, 4.0, "density")
 
     def test_end_of_test(self) -> None:
         found = interpretation.interpret(EXAMPLE, options())
@@ -511,13 +519,13 @@ class Scenes(WithFiles):
         """It is undrained, and its walls have adhesion in the place of friction."""
         path = self.layered((5, 15, 0.5), (12, 0.6, 4.5))
         found = interpretation.interpret(path, options("--tops", "0,5"))
-        _, clay = cone.layers_of(found, 6.0)
+        _, clay = cone.layers_of(found, 6.0, "density")
         self.assertEqual(clay.value("Friction angle of the walls"), "0")
         self.assertEqual(clay.value("Adhesion factor of the walls"), "0.5")
         self.assertEqual(clay.value("Friction angle"), "0")
         strength = found.layers[1].values[STRENGTH].best
         self.assertAlmostEqual(float(clay.value("Cohesion")), strength, delta=100)
-        choices = cone.choices_of(found, 4.0, None)
+        choices = cone.choices_of(found, 4.0, None, "density")
         self.assertNotIn("Soil/Layer 2/Friction angle", choices["low"])
         self.assertLess(
             choices["low"]["Soil/Layer 2/Cohesion"],

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """report.html of made-up runs, as text and in a browser."""
+import argparse
+import contextlib
 import fcntl
 import html
+import io
 import re
 import subprocess
 import tempfile
@@ -15,6 +18,8 @@ from synthetic import write_columns, write_run
 from caisson import report
 from caisson.report import content, methods
 from caisson.results import Results, ResultsError
+from caisson_design import reasons
+from caisson_design.seepage import senders_randolph
 
 BROWSER = report.find_browser()
 SCENE: dict[str, Any] = {
@@ -176,16 +181,18 @@ class Report(unittest.TestCase):
     def test_design_methods(self) -> None:
         """DNV with 2 MPa per meter and a tip of 1.2516 m2 at 3 m: 0.3 6 MPa 1.2516 m2 =
         2252.9 kN, and 0.001 9 MN/m on pi 19.92 m of wall = 563.2 kN; without a cone
-        test, why there is nothing."""
+        test, by a cone that is assumed, and marked."""
         leave_run(self.path, SUMMARY)
         found = methods.methods_of(Results(self.path))
-        reason, of_clay = found["reasons"]
+        (of_clay,) = found["reasons"]
         self.assertIn("the method is for clay", of_clay[1])
-        self.assertEqual(reason[0].count(","), 2)
-        self.assertIn("a cone test is needed", reason[1])
-        self.assertFalse([n for n in self.rows(found, "Req")[0] if "/ Senders" in n])
+        self.assertIn("DNV (cone ASSUMED), highest", self.rows(found, "Force")[0])
+        name = "computed / Senders & Randolph (2009)"
+        self.assertIn(f"{name} (cone ASSUMED)", self.rows(found, "Req")[0])
+        self.assertNotIn(name, self.rows(found, "Req")[0])
         page = report.write(self.path).read_text(encoding="utf-8")
-        self.assertIn("a cone test is needed (--cpt FILE).", page)
+        self.assertIn("The cone resistance is ASSUMED, as no cone test is given", page)
+        self.assertIn("not near the mudline", page)
         self.assertIn("K tan \N{GREEK SMALL LETTER DELTA} = 0.45 to 0.8", page)
         (self.path / "cone.csv").write_text("depth_m,qc_kPa\n0,0\n3.5,7000\n")
         found = methods.methods_of(Results(self.path))
@@ -198,7 +205,9 @@ class Report(unittest.TestCase):
         self.assertIn(
             "computed / Senders & Randolph (2009)", self.rows(found, "Req")[2]
         )
-        self.assertIn("ends at 3.5 m", report.write(self.path).read_text())
+        page = report.write(self.path).read_text()
+        self.assertIn("ends at 3.5 m", page)
+        self.assertNotIn("(cone ASSUMED)", page)
 
     def test_computed_over_method(self) -> None:
         """3000 kN at 3 m over 2816 and 7195 kN; 15 kPa required at 3 m."""
@@ -232,8 +241,8 @@ class Report(unittest.TestCase):
             ((0, float("nan")), ""),
         ]
         for ends, words in cases:
-            self.assertEqual(methods.ratio_in_words(2, *ends), words)
-        self.assertEqual(methods.ratio_in_words(0, 1, 2), "")
+            self.assertEqual(reasons.ratio_in_words(2, *ends), words)
+        self.assertEqual(reasons.ratio_in_words(0, 1, 2), "")
 
     def why(self, tip: float, outer: float, change: dict[str, Any]) -> str:
         """Return why a jacked run with these forces (N) at 4 m is where it is."""
@@ -270,6 +279,86 @@ class Report(unittest.TestCase):
         found = methods.why_of(Results(self.path), np.array([1.0, 4.0, 4.5]))
         self.assertRegex(found, r"At 4\.5 m .* times the suction of .* of 30 kPa")
         self.assertEqual(methods.why_of(Results(self.path), np.array([1.0])), "")
+
+    def test_why_not_like_the_other_methods(self) -> None:
+        """4 MN at 4 m: beyond undisturbed ground and a cone that is assumed, of which
+        the report says so; with a cone test that is like the run it does not ask."""
+        leave_run(self.path / "suction", SUMMARY)
+        history = dict(Results(self.path / "suction").history)
+        for name in [n for n in history if "suction" in n]:
+            del history[name]
+        write_run(self.path / "jacked", history, SUMMARY)
+        jacked = methods.methods_of(Results(self.path / "jacked"))
+        self.assertIn("computed / undisturbed", self.rows(jacked, "Total")[0])
+        said = "\n".join(jacked["why"])
+        self.assertRegex(said, r"At 4 m the run has [\d.]+ times the force of undist")
+        self.assertIn("times the force of Senders & Randolph (2009) (cone ASS", said)
+        self.assertIn("a cone test may change these ratios much", said)
+        rows = "depth_m,qc_MPa\n0,0\n4.5,9.4\n"
+        (self.path / "jacked/cone.csv").write_text(rows)
+        said = "\n".join(methods.methods_of(Results(self.path / "jacked"))["why"])
+        self.assertNotIn("DNV", said)
+        self.assertNotIn("ASSUMED", said)
+        # seepage beside seepage: no method without suction is compared
+        under = "\n".join(methods.methods_of(Results(self.path / "suction"))["why"])
+        self.assertIn("times the suction of undisturbed", under)
+        self.assertNotIn("times the force of", under)
+        self.assertNotIn("DNV", under)
+
+    def test_what_suction_leaves(self) -> None:
+        """Half of a jacked run's tip, a quarter of its inner friction, and twice its
+        outer friction; from one run alone the tip over the vertical stress, which does
+        not change here."""
+        leave_run(self.path / "own", SUMMARY)
+        run = Results(self.path / "own")
+        name = "tip (estimate from one run)"
+        alone = methods.methods_of(run)
+        rows = self.rows(alone, "What suction leaves")
+        self.assertEqual([row["depth (m)"] for row in rows], ["2", "3", "4"])
+        self.assertEqual([row[name] for row in rows], ["1", "1", "1"])
+        self.assertIn("one run does not know", " ".join(alone["notes"]))
+        critical = senders_randolph(9000, 4, 10)
+        self.assertAlmostEqual(
+            float(rows[2]["1 - s / s_cr"]), 1 - 25e3 / critical, places=3
+        )
+        history = {n: v for n, v in run.history.items() if "suction" not in n}
+        for part, factor in (("tip_force", 2), ("inner_friction", 4)):
+            history[f"{part}_N"] = factor * history[f"{part}_N"]
+        history["outer_friction_N"] = history["outer_friction_N"] / 2
+        write_run(self.path / "jacked", history, SUMMARY)
+        self.assertEqual(self.command("--jacked", "jacked", "own"), 0)
+        found = methods.methods_of(Results(self.path / "own"))
+        row = self.rows(found, "What suction leaves")[1]
+        shares = [row[f"{part} / jacked"] for part in ("tip", "inner friction")]
+        self.assertEqual(shares, ["0.5", "0.25"])
+        self.assertEqual(row["outer friction / jacked"], "2")
+        self.assertNotIn(name, row)
+
+    def command(self, *words: str) -> int:
+        """Call `caisson report` with directories below that of the test."""
+        parser = argparse.ArgumentParser()
+        report.add_arguments(parser)
+        given = [w if w.startswith("-") else str(self.path / w) for w in words]
+        with contextlib.redirect_stdout(io.StringIO()):
+            return report.main(parser.parse_args(given))
+
+    def test_jacked_run_that_is_not_the_same(self) -> None:
+        """Of another soil, or with suction itself; none is kept."""
+        leave_run(self.path / "own", SUMMARY)
+        history = dict(Results(self.path / "own").history)
+        jacked = {n: v for n, v in history.items() if "suction" not in n}
+        other = [{**SCENE["layers"][0], "friction_angle_deg": 33}]
+        changed = {**SUMMARY, "scene": {**SCENE, "layers": other}}
+        write_run(self.path / "other", jacked, changed)
+        for name, words in (
+            ("other", "layers in its run.json is not that of"),
+            ("own", "this run has suction, too"),
+        ):
+            said = io.StringIO()
+            with contextlib.redirect_stderr(said):
+                self.assertEqual(self.command("--jacked", name, "own"), 1)
+            self.assertIn(words, said.getvalue())
+            self.assertFalse((self.path / "own/jacked.csv").exists())
 
     def test_curves_without_a_point(self) -> None:
         """The run begins at 0.5 m, and the cone test ends at 0.3 m: no suction follows
@@ -329,11 +418,11 @@ class Report(unittest.TestCase):
 
     @unittest.skipUnless(BROWSER, "needs chromium")
     def test_in_a_browser(self) -> None:
-        """No error on the console; curves are drawn, read, shown and saved; a cone test
-        brings one more."""
-        visited = self.path / "visited.html"
-        for width, curves in ((400, 7), (1200, 8)):
-            if curves == 8:
+        """No error on the console; curves are drawn, read, shown and saved, also with a
+        cone test."""
+        visited, curves = self.path / "visited.html", 8
+        for width in (400, 1200):
+            if width == 1200:
                 (self.path / "cone.csv").write_text("depth_m,qc_MPa\n0,0\n9,18\n")
             page = self.page(SUMMARY).replace("</body>", VISIT + "</body>")
             visited.write_text(page, encoding="utf-8")

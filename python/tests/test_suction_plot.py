@@ -16,9 +16,10 @@ from caisson import plot
 from caisson.plot import design, suction, theory
 from caisson.plot import suction_methods as methods
 from caisson.results import Results
-from caisson_design import seepage
+from caisson_design import seepage, senders_randolph
 from caisson_design import suction_installation as installation
-from caisson_design.cone import Profile
+from caisson_design.assumed_cone import AssumedCone, Sand
+from caisson_design.cone import Profile, Skirt
 from caisson_design.houlsby_byrne import Caisson, Layer
 
 GAMMA, WEIGHT, D = 8829.0, 1e6, 6.0
@@ -47,6 +48,7 @@ CASES = {
     "high": (Caisson(*GEOMETRY, k_tan_delta=(0.8, 0.8)), True),
     "undisturbed": (UNDISTURBED, False),
 }
+ASSUMED = [f"senders_randolph_assumed_cone_{case}_Pa" for case in ("low", "high")]
 REST = 2.0  # m, of the made-up run
 # no suction draws it in: it has no weight, and its outer wall much friction
 LIGHT: dict[str, Any] = {
@@ -58,6 +60,17 @@ LIGHT: dict[str, Any] = {
     "outer_wall_friction_angle_deg": 45,
     "layers": [{**SAND, "K0": 2}],
 }
+
+
+def by_assumed_cone(h: float) -> list[float]:
+    """Return the required suctions of ASSUMED (Pa)."""
+    cone = AssumedCone([Sand(0, GAMMA, 0.5, None, 30)], 4.5)
+    method = senders_randolph.method(Skirt(D, 0.1, 20, 20), cone)
+    area, critical = np.pi * 5.8**2 / 4, installation.critical_suction(UNDISTURBED, h)
+    return [
+        installation.relieved_suction(method.forces(h, case), WEIGHT, area, critical)
+        for case in method.cases
+    ]
 
 
 def synthetic() -> dict[str, np.ndarray]:
@@ -152,6 +165,7 @@ class MadeUpRun(unittest.TestCase):
             "penetration_m": h,
             "required_suction_Pa": 1e4 * (h - REST),
             **byrne,
+            **dict(zip(ASSUMED, by_assumed_cone(h))),
             "critical_feld_Pa": fits["Feld (2001)"](GAMMA, h, D),
             "critical_senders_randolph_Pa": fits["Senders & Randolph (2009)"](
                 GAMMA, h, D
@@ -160,9 +174,8 @@ class MadeUpRun(unittest.TestCase):
             "critical_houlsby_byrne_Pa": fits["Houlsby & Byrne (2005)"](GAMMA, h, D),
         }
         suctions = [name for name in row if not name.endswith("_N")]
-        empty = [methods.CONE_LOW, methods.CONE_HIGH]
-        self.assertEqual([n for n in suctions if n not in empty], list(expected))
-        self.assertEqual([row[name] for name in empty], ["", ""])
+        suctions.remove("assumed_cone_resistance_Pa")
+        self.assertEqual(suctions, list(expected))
         for name, value in expected.items():
             self.assertGreater(value, 0)
             self.assertAlmostEqual(float(row[name]) / value, 1, 9, name)
@@ -231,7 +244,8 @@ class MadeUpRun(unittest.TestCase):
         self.assertEqual(names, ["forces.png", "design.csv"])
         self.assertFalse((self.path / "suction.png").exists())
         row = self.design()[35]
-        self.assertEqual([name for name in row if name.endswith("_Pa")], [])
+        pressures = [name for name in row if name.endswith("_Pa")]
+        self.assertEqual(pressures, ["assumed_cone_resistance_Pa"])
         self.assertAlmostEqual(float(row["tip_force_N"]), 4.01e5, delta=1)
         first = float(self.design()[0]["tip_force_N"])
         self.assertAlmostEqual(first, history["tip_force_N"][1])
@@ -241,7 +255,10 @@ class MadeUpRun(unittest.TestCase):
             self.assertAlmostEqual(known / tip, 1, 9)
             known = float(row[f"houlsby_byrne_{case}_total_N"])
             self.assertAlmostEqual(known / caisson.resistance(4, enhanced), 1, 9)
-        self.assertEqual(row["dnv_most_probable_total_N"], "")
+        self.assertNotIn("dnv_most_probable_tip_N", row)
+        tip = 0.3 * float(row[pressures[0]]) * np.pi * 5.9 * 0.1
+        known = float(row["dnv_assumed_cone_most_probable_tip_N"])
+        self.assertAlmostEqual(known / tip, 1, 9)
 
     def test_cone_test(self) -> None:
         """2 MPa per meter down to 4.2 m: 0.3 8 MPa pi 5.9 m 0.1 m at 4 m."""
@@ -249,6 +266,8 @@ class MadeUpRun(unittest.TestCase):
         (self.path / "cone.csv").write_text("depth_m,qc_MPa\n0,0\n4.2,8.4\n")
         design.write(self.path / "design.csv", run)
         rows = self.design()
+        self.assertFalse([name for name in rows[35] if "assumed" in name])
+        self.assertAlmostEqual(float(rows[35]["cone_resistance_Pa"]), 8e6)
         tip = float(rows[35]["dnv_most_probable_tip_N"])
         self.assertAlmostEqual(tip / (2.4e6 * np.pi * 5.9 * 0.1), 1, 9)
         for name in ("senders_randolph_low", "senders_randolph_high", "andersen_low"):
@@ -273,7 +292,8 @@ class MadeUpRun(unittest.TestCase):
 
     def test_legend_has_no_method_without_a_line(self) -> None:
         """No suction is required of a heavy caisson, and none suffices for a light one
-        with much friction outside; the critical suctions are drawn in both."""
+        with much friction outside by Houlsby & Byrne; the critical suctions are drawn
+        in both."""
         heavy: dict[str, Any] = {"submerged_weight_N": 1e9}
         for change in (heavy, LIGHT):
             site = theory.Site({**SCENE, **change})
@@ -283,7 +303,8 @@ class MadeUpRun(unittest.TestCase):
             suction.draw_suction(axes, run, answers)
             labels = axes.get_legend_handles_labels()[1]
             self.assertFalse([n for n in labels if n.startswith("required, H")], change)
-            self.assertFalse([n for n in labels if n.startswith("required, S")], change)
+            by_cone = [n for n in labels if n.startswith("required, S")]
+            self.assertEqual(len(by_cone), change is LIGHT)
             self.assertEqual(len([n for n in labels if "critical" in n]), 4)
 
     def drawn(self, site: theory.Site) -> dict[str, Any]:
@@ -295,10 +316,11 @@ class MadeUpRun(unittest.TestCase):
         return dict(zip(labels, handles))
 
     def test_no_method_under_the_name_of_another(self) -> None:
-        """Senders and Randolph take their forces from a cone: without one, they
-        require no suction that anybody can know."""
+        """Senders and Randolph take their forces from a cone: without one, the cone
+        is assumed, and everything that rests on it says so."""
         name = "required, Senders & Randolph (2009)"
         self.assertNotIn(name, self.drawn(SITE))
+        self.assertIn(f"{name} (cone ASSUMED)", self.drawn(SITE))
         cone = Profile([0, 10], [0, 10e6])
         self.assertIn(name, self.drawn(SITE._replace(cone=cone)))
         design.write(self.path / "design.csv", self.write(synthetic()))

@@ -373,9 +373,11 @@ namespace CaissonMPM
   SoilMaterial
   SoilLayer::weight_at(const double depth) const
   {
-    SoilMaterial result  = soil;
-    result.top_depth     = depth;
-    result.porosity      = porosity_at({depth, 0., 0.});
+    SoilMaterial result = soil;
+    result.top_depth    = depth;
+    result.porosity     = porosity_at({depth, 0., 0.});
+    if (relative_density)
+      result.relative_density = (*relative_density)({depth, 0., 0.});
     result.solid_density = solid_density({depth, 0., 0.});
     return result;
   }

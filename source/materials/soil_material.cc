@@ -45,6 +45,16 @@ namespace CaissonMPM
         section() + "/Law to Mohr-Coulomb or Mohr-Coulomb with softening.");
   }
 
+  std::optional<double>
+  SoilMaterial::density_index() const
+  {
+    const auto densest = law_value("Densest void ratio"),
+               loosest = law_value("Critical void ratio");
+    if (relative_density || !densest || !loosest || *densest >= *loosest)
+      return relative_density;
+    return (*loosest - void_ratio()) / (*loosest - *densest);
+  }
+
   std::string
   SoilMaterial::law_name() const
   {

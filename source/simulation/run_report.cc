@@ -160,6 +160,7 @@ namespace CaissonMPM
         {"cohesion_Pa", m.law_value("Cohesion")},
         {"youngs_modulus_Pa", m.law_value("Youngs modulus")},
         {"porosity", m.porosity},
+        {"relative_density", m.density_index()},
         {"wall_friction_angle_deg", m.wall_friction_angle},
         {"wall_adhesion_Pa", m.wall_adhesion}};
       for (const auto &[name, value] : values)

@@ -8,8 +8,9 @@ import tomllib
 import unittest
 from pathlib import Path
 
-from program import SUCCESS, HERE, ProgramTest, history
+from program import SUCCESS, HERE, ProgramTest, history, summary
 
+from caisson import density_law
 from caisson.runner import environment, read_parameters
 
 EXAMPLE = HERE.parent / "prm/cpt_example.csv"
@@ -158,6 +159,84 @@ class Layers(SuggestTest):
         self.assertNotIn("Friction angle", assumed)
 
 
+class SandByDensity(SuggestTest):
+    """Sand that is given by its density alone; the text is in python/tests."""
+
+    def accepted(self, *words: str) -> dict[str, str]:
+        """Return the entries of a scene that the program accepts without a likely
+        mistake."""
+        path = self.made_directory() / "own.prm"
+        sizes = ["--diameter", "4", "--skirt", "2.5", "--wall", "20mm"]
+        said = self.suggest(path, *sizes, *words, "--error", "20", layers=())
+        self.assertRegex(said, r"assumed: \d+ lines of .*own.prm are marked ASSUMED")
+        self.assertRegex(said, "several times as long where soil grows stiffer")
+        self.run_program(SUCCESS, path, "--validate", "--strict")
+        return read_parameters([str(path)])
+
+    def test_hypoplastic_sand(self) -> None:
+        """By a word or a number, jacked or with suction, or from a cone test."""
+        law = ("--law", "hypoplastic")
+        entries = self.accepted("--sand", "dense", "--weight", "1e5", *law)
+        self.assertEqual(entries["Soil/Layer 1/Law"], density_law.HYPOPLASTIC)
+        self.assertEqual(float(entries["Soil/Layer 1/Relative density"]), 0.75)
+        self.assertEqual(float(entries["Soil/Layer 1/K0"]), 0.5)
+        self.accepted("--density", "0.3", *law)
+        self.accepted("--cpt", str(EXAMPLE), *law)
+
+    def test_law_by_density(self) -> None:
+        """That of words and of cone tests where no law is asked for."""
+        if density_law.LAW not in self.run_program(SUCCESS, "--explain", "Law"):
+            self.skipTest(f"the program has no law {density_law.LAW}")
+        for words in (
+            ["--sand", "dense", "--weight", "1e5"],
+            ["--layer", "0: Sand = loose", "--layer", "1: Relative density = 0.85"],
+            ["--cpt", str(EXAMPLE)],
+        ):
+            entries = self.accepted(*words)
+            self.assertEqual(entries["Soil/Layer 1/Law"], density_law.LAW)
+
+    def test_density_in_run_json(self) -> None:
+        """From there the design methods take it: that of the scene or, of hypoplastic
+        sand, that between its void ratios: (0.84 - 0.6) / 0.31."""
+        path = self.made_directory()
+        short = {"Time/End penetration": 0.51, "Output/Frame penetrations": ""}
+        given = {
+            f"Soil/Layer 1/{name}": value
+            for name, value in (
+                ("Relative density", 0.6),
+                ("Minimum void ratio", 0.5),
+                ("Maximum void ratio", 0.9),
+            )
+        }
+        cases: list[tuple[str, dict[str, float], float | None]] = [
+            ("jack_coarse", {}, None),
+            ("jack_coarse", given, 0.6),
+            ("jack_dense_sand", {}, 0.7741935),
+        ]
+        for name, entries, expected in cases:
+            where = path / f"{name}{len(entries)}"
+            words = [HERE.parent / f"prm/{name}.prm", "--output-directory", where]
+            self.run_program(SUCCESS, *words, entries={**short, **entries})
+            (layer,) = summary(where)["scene"]["layers"]
+            if expected is None:
+                self.assertNotIn("relative_density", layer)
+            else:
+                self.assertAlmostEqual(layer["relative_density"], expected, places=6)
+
+    def test_what_cannot_be_meant(self) -> None:
+        """A line each, and no file."""
+        path = self.made_directory() / "own.prm"
+        for words, said in (
+            (["--sand", "dens"], "did you mean dense?"),
+            (["--density", "85"], "Did you mean 0.85?"),
+            (["--sand", "clay"], "clay is given by --layer"),
+        ):
+            text = self.suggest(path, *words, status=1, layers=())
+            self.assertIn(said, text)
+            self.assertNotIn("Traceback", text)
+            self.assertFalse(path.exists())
+
+
 class ConeTests(SuggestTest):
     """Layers that come from a cone test."""
 
@@ -167,6 +246,7 @@ class ConeTests(SuggestTest):
         path = self.made_directory()
         scene, study = path / "own.prm", path / "own_study.toml"
         words = ["--cpt", str(EXAMPLE), "--study", str(study), "--tops", "0,3"]
+        words += ["--law", "angle"]
         said = self.suggest(scene, *words, layers=())
         self.assertIn("layer 1 has silt from", said)
         self.run_program(SUCCESS, scene, "--validate", "--strict")
@@ -180,7 +260,7 @@ class ConeTests(SuggestTest):
             self.assertAlmostEqual(float(entries[entry]) / value, 1, places=2)
         self.assertEqual(entries["Soil/Layer 2/Top depth"], "3")
         self.assertTrue((path / content["cone"]).samefile(EXAMPLE))
-        refused = "either --layer, or a cone test by --cpt"
+        refused = "either --layer, or a cone test by --cpt, or sand by --sand"
         both, neither = ["--cpt", str(EXAMPLE)], list[str]()
         other = path / "other.prm"
         self.assertIn(refused, self.suggest(other, *both, status=1))
@@ -190,6 +270,7 @@ class ConeTests(SuggestTest):
         """By one command: three runs, all methods, one page."""
         out = self.made_directory() / "out"
         words = ["--wall", "0.4", "--penetration", "0.53", "--out", str(out), "--run"]
+        words += ["--law", "angle"]
         said = self.caisson("cpt", str(EXAMPLE), *words)
         self.assertIn("report.html", said)
         page = (out / "report.html").read_text("utf-8")

@@ -36,6 +36,7 @@ namespace CaissonMPM
     double permeability           = 1e-4;  // vertical, m/s
     double anisotropy             = 1.;    // horizontal over vertical
     bool   loosening_conducts     = false;
+    std::optional<double> relative_density;    // of the layer, if it is given
     std::optional<double> wall_friction_angle; // degrees; none: the body's
     std::optional<double> wall_adhesion;       // Pa; none: the body's
 
@@ -66,6 +67,12 @@ namespace CaissonMPM
     {
       return porosity / (1. - porosity);
     }
+
+    /** The relative density at the start: that of the layer or, of hypoplastic
+     * sand, that between its densest and its critical void ratio at zero
+     * pressure. */
+    std::optional<double>
+    density_index() const;
 
     /** The name of the law. */
     std::string

@@ -15,14 +15,14 @@ from pathlib import Path
 
 from caisson import suggest
 from caisson.cpt import interpretation, page, picture, tables
-from caisson.cpt.correlations import EVERY
 from caisson.cpt.interpretation import Interpretation
 from caisson.paths import RESULTS, scene_or_study, short
 from caisson.runner import RunError
 from caisson.study import StudyError
 from caisson.suggest.cone import REACH
-from caisson.suggest.soil import SuggestError
+from caisson.suggest.entry import SuggestError
 from caisson_design import InputError
+from caisson_design.correlations import EVERY
 
 SIZES = ("diameter", "skirt", "wall")
 SCENE, STUDY = "scene.prm", "study.toml"
@@ -90,7 +90,8 @@ def work(options: argparse.Namespace) -> int:
     report(write(found, directory))
     if has_caisson:
         options.file, options.study = directory / SCENE, directory / STUDY
-        options.layer, options.overwrite = None, True
+        options.layer = options.sand = options.density = None
+        options.overwrite = True
         suggest.write(options)  # which prints the table
         report([options.file, options.study])
     if not options.run:

@@ -14,10 +14,18 @@ from math import hypot, inf
 
 import numpy as np
 
-from caisson.cpt import correlations
-from caisson.cpt.correlations import ANGLE, BEST, DENSITY, HIGH, LOW, MODULUS, STRENGTH
-from caisson.cpt.ground import CLAY, GRAVITY, SAND, SILT, WATER, Ground
 from caisson.cpt.layers import Layer
+from caisson_design import correlations
+from caisson_design.correlations import (
+    ANGLE,
+    BEST,
+    DENSITY,
+    HIGH,
+    LOW,
+    MODULUS,
+    STRENGTH,
+)
+from caisson_design.ground import CLAY, GRAVITY, SAND, SILT, WATER, Ground
 
 ENDS = {"low": LOW, "best": BEST, "high": HIGH}
 QUANTILES = 0.16, 0.84

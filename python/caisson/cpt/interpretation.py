@@ -4,13 +4,14 @@ import argparse
 from dataclasses import dataclass
 from pathlib import Path
 
-from caisson.cpt import correlations, layers
-from caisson.cpt.correlations import BY_NAME
+from caisson.cpt import layers
 from caisson.cpt.estimates import Estimates, estimates_of
-from caisson.cpt.ground import CLAY, SAND, SILT, WATER, Ground, ground_of
+from caisson_design import correlations
 from caisson_design import cone_file
 from caisson_design import InputError
 from caisson_design.cone_file import Test
+from caisson_design.correlations import BY_NAME
+from caisson_design.ground import CLAY, SAND, SILT, WATER, Ground, ground_of
 
 AREA_RATIO = 0.8
 

@@ -21,8 +21,8 @@ from math import inf
 
 import numpy as np
 from scipy.ndimage import median_filter
+from caisson_design.ground import Ground, kind_of
 
-from caisson.cpt.ground import Ground, kind_of
 
 SPACING = 0.05  # m
 STEP = 0.2  # in log10 Q_tn: a factor of 1.6

@@ -10,8 +10,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from caisson.cpt import correlations
-from caisson.cpt.correlations import ANGLE, BEST, MODULUS, STRENGTH
 from caisson.cpt.estimates import (
     ENDS,
     INDEX,
@@ -20,7 +18,9 @@ from caisson.cpt.estimates import (
     Estimates,
     growth_of,
 )
-from caisson.cpt.ground import CLAY, CLAY_ABOVE, SAND, SAND_BELOW, SILT, Ground
+from caisson_design import correlations
+from caisson_design.correlations import ANGLE, BEST, MODULUS, STRENGTH
+from caisson_design.ground import CLAY, CLAY_ABOVE, SAND, SAND_BELOW, SILT, Ground
 
 COLORS = {SAND: "#f3e2b3", SILT: "#d8d3c4", CLAY: "#c9b8a8"}
 LINE, BAND = "#2166ac", "#2166ac"

@@ -6,13 +6,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson.cpt.correlations import (
-    ANGLE,
-    DENSITY,
-    EVERY,
-    MODULUS,
-    STRENGTH,
-)
 from caisson.cpt.estimates import (
     CAN,
     ENDS,
@@ -24,10 +17,17 @@ from caisson.cpt.estimates import (
     Estimate,
     Estimates,
 )
-from caisson.cpt.ground import SAND, kind_of
 from caisson.cpt.interpretation import Interpretation
 from caisson.cpt.layers import BAND
 from caisson.table import markdown, write_csv
+from caisson_design.correlations import (
+    ANGLE,
+    DENSITY,
+    EVERY,
+    MODULUS,
+    STRENGTH,
+)
+from caisson_design.ground import SAND, kind_of
 
 WIDEST_GAP = 1.0  # m between rows; a wider one is reported
 

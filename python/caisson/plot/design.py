@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """design.csv: the forces of a caisson, and with suction its suction, beside what the
 design methods say, over the depth of a run."""
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -48,10 +49,12 @@ def suction_at(history: Table, depth: np.ndarray) -> np.ndarray:
     return np.interp(depth, *known)
 
 
-def column_of(method: theory.Description, case: str, part: str) -> str:
+def column_of(answer: theory.Answer, case: str, part: str) -> str:
     """Return the column with a part of the resistance by a method, such as
-    houlsby_byrne_low_tip_N."""
-    return "_".join([method.key, *case.split(), *part.split(), "N"])
+    houlsby_byrne_low_tip_N or, by a cone that is assumed, dnv_assumed_cone_highest_...
+    """
+    mark = ["assumed_cone"] if answer.assumed else []
+    return "_".join([answer.method.key, *mark, *case.split(), *part.split(), "N"])
 
 
 def columns_of(run: Results) -> Table:
@@ -64,12 +67,17 @@ def columns_of(run: Results) -> Table:
         for case in answer.method.all_cases:
             for part in theory.PARTS:
                 values = answer.forces[case][part] if answer.forces else nothing
-                columns[column_of(answer.method, case, part)] = values
+                columns[column_of(answer, case, part)] = values
+    with suppress(theory.NotApplicable):
+        cone = theory.cone_of(site, float(depth.max()))
+        head = "assumed_cone_resistance_Pa" if cone.assumed else "cone_resistance_Pa"
+        columns[head] = np.array([cone.at(float(h)) for h in depth])
     if SUCTION in history:
         columns[SUCTION] = suction_at(history, depth)
-        found = suction_methods.answers_of(site, depth).suctions
+        found = suction_methods.answers_of(site, depth)
         for name in suction_methods.METHODS:
-            columns[name] = found.get(name, nothing)
+            head = name.replace("_cone", "_assumed_cone") if found.assumed else name
+            columns[head] = found.suctions.get(name, nothing)
     return columns
 
 

@@ -77,7 +77,7 @@ def draw_bands(
             hatch=hatch,
             alpha=0.3 if hatch else 0.15,
             linewidth=0,
-            label=f"{name}, {answer.method.name}{remark}",
+            label=f"{name}, {answer.name}{remark}",
         )
         axes.plot(low, answer.depth, color=color, linewidth=0.8, linestyle="--")
         axes.plot(high, answer.depth, color=color, linewidth=0.8, linestyle=":")
@@ -199,7 +199,7 @@ def draw_methods(axes: Axes, run: Results, answers: list[theory.Answer]) -> None
                 color=method.color,
                 linewidth=1.4,
                 linestyle=line,
-                label=f"{method.name}, {case}",
+                label=f"{answer.name}, {case}",
             )
     set_limits(axes, depth)
     label_axes(axes, "total force, and by design methods")
@@ -227,7 +227,7 @@ def caption(depth: np.ndarray, site: theory.Site, answers: list[theory.Answer]) 
         text += f"; {theory.assumptions_in_words(site.scene)}: dashed low, dotted high"
     reasons = [f"{names}: {why}" for names, why in theory.reasons(answers)]
     silent = f"no answer from {'; '.join(reasons)}" if reasons else ""
-    end = theory.end_of_cone(site, float(depth.max()))
+    end = theory.about_cone(site, float(depth.max()))
     return "\n".join(textwrap.fill(line, 150) for line in (text, silent, end) if line)
 
 

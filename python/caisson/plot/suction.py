@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Suction, exit gradient and heave of the plug over penetration, depth downward."""
+import textwrap
 from pathlib import Path
 
 import numpy as np
@@ -84,7 +85,7 @@ def draw_required(axes: Axes, answers: methods.Answers) -> None:
     if has_line(line):
         label = f"required, {theory.LOWER_BOUND}"
         axes.plot(line, answers.depth, "-.", color=BLUE, linewidth=0.6, label=label)
-    name = "Senders & Randolph (2009)"
+    name = answers.senders_randolph
     draw_band(axes, answers, methods.CONE_LOW, methods.CONE_HIGH, GREEN, name)
 
 
@@ -270,9 +271,8 @@ def draw(directory: Path, run: Results) -> list[Path]:
     for axes, place in zip(panels, ("upper right", "lower left", "upper right")):
         set_depth_axis(axes, depth, place)
     panels[0].set_ylabel("penetration of the skirt tip (m)")
-    text = "\n".join(
-        filter(None, [caption(answers, site), theory.end_of_cone(site, deepest)])
-    )
+    about = textwrap.fill(theory.about_cone(site, deepest), 200)
+    text = "\n".join(filter(None, [caption(answers, site), about]))
     figure.text(0.5, 0.008, text, ha="center", fontsize=8, color="0.3")
     figure.tight_layout(rect=(0, 0.015 + 0.02 * len(text.splitlines()), 1, 1))
     picture = directory / "suction.png"

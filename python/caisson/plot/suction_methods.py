@@ -9,6 +9,7 @@ from math import nan
 import numpy as np
 
 from caisson.plot.theory import (
+    ASSUMED_CONE,
     NotApplicable,
     Scene,
     Site,
@@ -16,10 +17,12 @@ from caisson.plot.theory import (
     senders_randolph_of,
 )
 from caisson_design import suction_installation as installation
+from caisson_design.cone import ConeMethod
 from caisson_design.houlsby_byrne import UNDISTURBED, Caisson, HoulsbyByrne
 from caisson_design.method import Method
 from caisson_design.seepage import feld, ibsen_thilsted
 
+SENDERS_RANDOLPH = "Senders & Randolph (2009)"
 LOW, HIGH = "houlsby_byrne_low_Pa", "houlsby_byrne_high_Pa"
 LOWER_BOUND = "houlsby_byrne_undisturbed_Pa"
 RANGE = (LOW, HIGH)
@@ -54,6 +57,12 @@ class Answers:
     suctions: dict[str, np.ndarray] = field(default_factory=dict)
     rest: dict[str, float] = field(default_factory=dict)
     why_not: str = ""
+    assumed: str = ""  # of the cone resistance: what it rests on
+
+    @property
+    def senders_randolph(self) -> str:
+        """The name of the method from a cone."""
+        return SENDERS_RANDOLPH + (ASSUMED_CONE if self.assumed else "")
 
 
 def weight_of(scene: Scene) -> float:
@@ -114,8 +123,8 @@ def rest_of(byrne: HoulsbyByrne, weight: float, deepest: float) -> dict[str, flo
     return found
 
 
-def cone_method_of(site: Site, deepest: float) -> Method | None:
-    """Return Senders and Randolph from a cone test, None where there is none."""
+def cone_method_of(site: Site, deepest: float) -> ConeMethod | None:
+    """Return Senders and Randolph from a cone, None where there is none."""
     try:
         return senders_randolph_of(site, deepest)
     except NotApplicable:
@@ -132,4 +141,5 @@ def answers_of(site: Site, depth: np.ndarray) -> Answers:
     cone = cone_method_of(site, deepest)
     rows = [suctions_at(byrne, cone, weight, float(h)) for h in depth]
     suctions = {name: np.array([row[name] for row in rows]) for name in METHODS}
-    return Answers(depth, suctions, rest_of(byrne, weight, deepest))
+    assumed = cone.profile.assumed if cone else ""
+    return Answers(depth, suctions, rest_of(byrne, weight, deepest), assumed=assumed)

@@ -5,14 +5,17 @@ hold, and why not where they do not.
 Layers that the tip does not reach do not count.
 """
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from caisson.density_law import BY_DENSITY
 from caisson.results import Results
 from caisson_design import andersen, clay, dnv, houlsby_byrne, senders_randolph
-from caisson_design.cone import Profile, Skirt, of_run
+from caisson_design.assumed_cone import STEP, Sand, SandGround, assumed_cone
+from caisson_design.cone import ConeMethod, Profile, Skirt, of_run
 from caisson_design.houlsby_byrne import (
     UNDISTURBED,
     Assumptions,
@@ -25,9 +28,9 @@ Scene = Mapping[str, Any]
 # The laws whose strength is one friction angle; run.json names the law of a layer.
 LAWS = ("Mohr-Coulomb", "Mohr-Coulomb with stiffness by stress")
 SOFTENING = "Mohr-Coulomb with softening"
-SAND = "hypoplastic sand"
 SIZES = ("diameter_m", "wall_thickness_m")
 PARTS = ("tip", "inner friction", "outer friction", "total")
+ASSUMED_CONE = " (cone ASSUMED)"  # behind the name of a method
 # in pictures, of Houlsby & Byrne with K0 tan(delta) and without enhancement
 LOWER_BOUND = "undisturbed ground (K0), a lower bound"
 
@@ -71,11 +74,44 @@ def top_of(entry: Scene) -> float:
     return float(entry.get("top_depth_m") or 0)
 
 
+def sand_of(entry: Scene, number: int) -> Sand:
+    """Return what a cone resistance follows from in a layer of run.json. Raises
+    NotApplicable."""
+    density, angle = entry.get("relative_density"), entry.get("friction_angle_deg")
+    if density is None and (entry.get("law") in BY_DENSITY or not angle):
+        law = entry.get("law", LAWS[0])
+        raise NotApplicable(f"layer {number} is {law}, and run.json has no density")
+    weight = float(entry["submerged_unit_weight_N_m3"])
+    k0 = entry.get("K0")
+    return Sand(top_of(entry), weight, 0.5 if k0 is None else k0, density, angle or 0)
+
+
+def layers_of(site: Site, deepest: float) -> list[Layer]:
+    """Return the layers of run.json down to a depth (m); one whose strength follows
+    from its density in pieces, with the friction angle of their middle. Raises
+    NotApplicable."""
+    found, above = list[Layer](), list[Sand]()
+    entries = site.layers(deepest)
+    bottoms = [top_of(entry) for _, entry in entries[1:]] + [deepest]
+    for (number, entry), bottom in zip(entries, bottoms):
+        layer, top = layer_of(entry, number), top_of(entry)
+        above.append(sand_of(entry, number))
+        n = max(int(np.ceil((bottom - top) / STEP - 1e-9)), 1)
+        if entry.get("law") not in BY_DENSITY:
+            found.append(layer)
+            continue
+        angle_at = SandGround(above).angle_at
+        for z in (top + STEP * i for i in range(n)):
+            angle = angle_at(z + STEP / 2)
+            found.append(replace(layer, top=z, friction_angle=angle))
+    return found
+
+
 def layer_of(entry: Scene, number: int) -> Layer:
     """Return a layer of run.json. Raises NotApplicable where the theory, which is
     made for sand without cohesion and with one friction angle, does not know it."""
     law = entry.get("law", LAWS[0])
-    if law not in LAWS:
+    if law not in (*LAWS, *BY_DENSITY):
         raise NotApplicable(f"layer {number} is {law}")
     if not entry.get("friction_angle_deg"):
         raise NotApplicable(f"layer {number} has no friction angle")
@@ -132,7 +168,7 @@ def wall_friction(scene: Scene, side: str) -> float:
 def soil_of(entry: Scene, number: int) -> str:
     """Return whether a layer is sand or clay. Raises NotApplicable."""
     law = entry.get("law", LAWS[0])
-    if law == SAND:
+    if law in BY_DENSITY:
         return "sand"
     if law not in (*LAWS, SOFTENING):
         raise NotApplicable(f"layer {number} is {law}, neither sand nor clay")
@@ -169,11 +205,26 @@ def only(site: Site, deepest: float, soil: str) -> None:
             )
 
 
-def cone_of(site: Site) -> Profile:
-    """Return the cone test. Raises NotApplicable."""
-    if site.cone is None:
-        raise NotApplicable("a cone test is needed (--cpt FILE)")
-    return site.cone
+CONE_NEEDED = "a cone test is needed (--cpt FILE)"
+
+
+def cone_of(site: Site, deepest: float) -> Profile:
+    """Return the cone test or, without one, what is assumed for sand down to a depth
+    (m). Raises NotApplicable."""
+    if site.cone is not None:
+        return site.cone
+    for (number, _), (_, soil) in zip(site.layers(deepest), soils_of(site, deepest)):
+        if soil != "sand":
+            raise NotApplicable(
+                f"{CONE_NEEDED}; none is assumed for layer {number}, which is {soil}"
+            )
+    try:
+        sands = tuple(sand_of(entry, i) for i, entry in site.layers(deepest))
+    except KeyError as error:
+        raise NotApplicable(f"run.json has no {error.args[0]}") from error
+    except NotApplicable as reason:
+        raise NotApplicable(f"{CONE_NEEDED}; none is assumed: {reason}") from reason
+    return assumed_cone(sands, deepest)
 
 
 def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
@@ -181,7 +232,7 @@ def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
     NotApplicable."""
     skirt = skirt_of(site)
     try:
-        layers = [layer_of(entry, i) for i, entry in site.layers(deepest)]
+        layers = layers_of(site, deepest)
     except KeyError as error:
         raise NotApplicable(f"run.json has no {error.args[0]}") from error
     refuse_undrained(site)
@@ -197,21 +248,21 @@ def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
 def dnv_of(site: Site, deepest: float) -> Method:
     """Return DNV for a site. Raises NotApplicable."""
     skirt, soils = skirt_of(site), soils_of(site, deepest)
-    return dnv.method(skirt, cone_of(site), soils)
+    return dnv.method(skirt, cone_of(site, deepest), soils)
 
 
-def senders_randolph_of(site: Site, deepest: float) -> Method:
+def senders_randolph_of(site: Site, deepest: float) -> ConeMethod:
     """Return Senders and Randolph for a site. Raises NotApplicable."""
     skirt = skirt_of(site)
     only(site, deepest, "sand")
-    return senders_randolph.method(skirt, cone_of(site))
+    return senders_randolph.method(skirt, cone_of(site, deepest))
 
 
 def andersen_of(site: Site, deepest: float) -> Method:
     """Return Andersen et al. for a site. Raises NotApplicable."""
     skirt = skirt_of(site)
     only(site, deepest, "sand")
-    return andersen.method(skirt, cone_of(site))
+    return andersen.method(skirt, cone_of(site, deepest))
 
 
 def clay_of(site: Site, deepest: float) -> Method:
@@ -285,6 +336,12 @@ class Answer:
     depth: np.ndarray
     forces: dict[str, dict[str, np.ndarray]] = field(default_factory=dict)
     why_not: str = ""
+    assumed: str = ""  # of a cone resistance: what it rests on
+
+    @property
+    def name(self) -> str:
+        """The name of the method, marked where its cone resistance is assumed."""
+        return self.method.name + (ASSUMED_CONE if self.assumed else "")
 
     def band(self, part: str) -> tuple[np.ndarray, np.ndarray]:
         """Return a part in the lower and in the upper case (N)."""
@@ -332,7 +389,8 @@ def answers_of(site: Site, depth: np.ndarray) -> list[Answer]:
             case: by_part([known.forces(float(h), case) for h in depth])
             for case in method.all_cases
         }
-        found.append(Answer(method, depth, forces))
+        assumed = known.profile.assumed if isinstance(known, ConeMethod) else ""
+        found.append(Answer(method, depth, forces, assumed=assumed))
     return found
 
 
@@ -350,11 +408,24 @@ def reasons(answers: list[Answer]) -> list[tuple[str, str]]:
     return [(", ".join(names), reason) for reason, names in found.items()]
 
 
-def end_of_cone(site: Site, deepest: float) -> str:
-    """Return a sentence where the cone test ends above an embedment (m)."""
-    if site.cone is None or site.cone.depth[-1] >= deepest - 1e-9:
-        return ""
-    return (
-        f"The cone test ends at {site.cone.depth[-1]:.4g} m; below, the methods that"
-        " need it have no answer."
-    )
+def about_cone(site: Site, deepest: float) -> str:
+    """Return a sentence where the cone test ends above an embedment (m), or what a
+    cone resistance that is assumed rests on; with the friction angle of sand whose
+    strength follows from its density."""
+    if site.cone is None:
+        answers = answers_of(site, np.array([deepest]))
+        found = [next((a.assumed for a in answers if a.assumed), "")]
+    elif site.cone.depth[-1] < deepest - 1e-9:
+        end = f"The cone test ends at {site.cone.depth[-1]:.4g} m; below, the methods"
+        found = [f"{end} that need it have no answer."]
+    else:
+        found = []
+    if any(e.get("law") in BY_DENSITY for _, e in site.layers(deepest)):
+        with suppress(NotApplicable):
+            angles = [layer.friction_angle for layer in layers_of(site, deepest)]
+            ends = text_of_range((round(min(angles), 1), round(max(angles), 1)))
+            found.append(
+                f"Houlsby & Byrne: friction angle ASSUMED, {ends} degrees, by Bolton"
+                " (1986) from density and stress under a tip."
+            )
+    return " ".join(filter(None, found))

@@ -75,6 +75,13 @@ def print_pdf(path: Path) -> Path:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson report`."""
     add_cone_arguments(parser)
+    parser.add_argument(
+        "--jacked",
+        type=Path,
+        metavar="DIR",
+        help="the scene of a run under suction, jacked: it tells what suction leaves of"
+        " tip and friction; its history is kept as jacked.csv",
+    )
     parser.add_argument("directories", nargs="+", type=Path, metavar="DIR")
     parser.add_argument("--pdf", action="store_true", help="print it to report.pdf too")
     parser.add_argument(
@@ -84,12 +91,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(options: argparse.Namespace) -> int:
     """Write the report of each run; a run that has none is named."""
+    from caisson.report import relief
+
     status = 0
     for directory in options.directories:
         try:
             if options.cpt is not None:
                 keep_cone(options.cpt, directory)
                 draw(directory)
+            if options.jacked is not None:
+                relief.adopt(options.jacked, directory)
             path = follow(directory, INTERVAL) if options.follow else write(directory)
             print(f"report: {path}")
             if options.pdf:

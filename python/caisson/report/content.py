@@ -25,8 +25,8 @@ from caisson.plot.suction import (
     upper_end,
 )
 from caisson.plot.suction_methods import CONE_HIGH, CONE_LOW, HIGH, LOW
-from caisson.report.methods import text_of
 from caisson.results import Results, Table
+from caisson_design.reasons import text_of
 
 SHOWN = ("tip", "total")  # parts of the methods in the interactive picture
 MANY = 1500  # points of a curve that a screen can show
@@ -73,7 +73,7 @@ def method_curves(run: Results, deepest: float) -> list[Curve]:
         first = answer.method is theory.METHODS[0]
         for part in (theory.PARTS if first else SHOWN) if answer.forces else ():
             low, high = [force / 1e3 for force in answer.band(part)]
-            label = f"{part}, {answer.method.name}{remark}"
+            label = f"{part}, {answer.name}{remark}"
             color = COLORS[part] if first else answer.method.color
             curve = band(label, color, low, high, answer.depth)
             found.append(
@@ -116,7 +116,7 @@ def method_suctions(run: Results) -> list[Curve]:
     found = []
     for name, color, low, high in (
         ("Houlsby & Byrne (2005)", BLUE, LOW, HIGH),
-        ("Senders & Randolph (2009)", GREEN, CONE_LOW, CONE_HIGH),
+        (answers.senders_randolph, GREEN, CONE_LOW, CONE_HIGH),
     ):
         upper = upper_end(answers, low, high) / 1e3
         found.append(band(f"required, {name}", color, kilopascals[low], upper, depth))

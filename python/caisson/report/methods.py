@@ -1,52 +1,35 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a report says of the design methods: their numbers beside those of the run,
 computed over method, and why the run is where it is."""
-import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from caisson import curves
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import penetration
+from caisson.report import relief
 from caisson.results import Results
 from caisson_design import suction_installation as installation
 from caisson_design.houlsby_byrne import STILL, UNDISTURBED
 from caisson_design.method import Forces
+from caisson_design.reasons import (
+    ASSUMED_CONE,
+    ByCone,
+    Compared,
+    of_cone,
+    of_houlsby_byrne,
+    of_undisturbed,
+    ratio_in_words,
+    relieved,
+    text_of,
+)
 
-RAISED = 1.5  # K tan(delta) over that of undisturbed ground, beyond which a wall grips
 UNDISTURBED_IS = (
     f"{UNDISTURBED}: K0 tan \N{GREEK SMALL LETTER DELTA} without stress enhancement, a"
     " lower bound"
 )
-NOTHING: dict[str, Any] = {"tables": [], "why": "", "reasons": [], "notes": []}
-
-
-def text_of(value: float) -> str:
-    """Return three digits, more before the point."""
-    if not math.isfinite(value):
-        return ""
-    if abs(value) >= 100:
-        return f"{value:.0f}"
-    return f"{value:.3g}"
-
-
-def ratio_in_words(computed: float, low: float, high: float) -> str:
-    """Return computed over method, from that of the upper to that of the lower case;
-    an end is open where the method has 0 or no answer."""
-    if not computed > 0:
-        return ""
-    least = computed / high if math.isfinite(high) and high > 0 else None
-    most = computed / low if low > 0 else None
-    ends = [
-        f"{end:.2f}" if end < 10 else f"{end:.0f}"
-        for end in (least, most)
-        if end is not None
-    ]
-    if least is None or most is None:
-        words = "at least " if most is None else "at most "
-        return words + ends[0] if ends else ""
-    return " to ".join(dict.fromkeys(ends))
+NOTHING: dict[str, Any] = {"tables": [], "why": [], "reasons": [], "notes": []}
 
 
 def ratios(computed: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[str]:
@@ -76,11 +59,14 @@ def forces_beside(
         columns["computed"] = computed
     for answer in answers:
         for case, forces in answer.forces.items():
-            columns[f"{answer.method.name}, {case}"] = forces["total"] / 1e3
+            columns[f"{answer.name}, {case}"] = forces["total"] / 1e3
         if answer.forces and computed is not None:
             low, high = [force / 1e3 for force in answer.band("total")]
-            name = f"computed / {answer.method.name}"
+            name = f"computed / {answer.name}"
             columns[name] = ratios(computed, low, high)
+            for bound in answer.method.bound:
+                force = answer.forces[bound]["total"] / 1e3
+                columns[f"computed / {bound}"] = ratios(computed, force, force)
     title = "Force of jacking (kN)" if computed is None else "Total force (kN)"
     return table(title, columns)
 
@@ -96,9 +82,10 @@ def required_at(run: Results, at: np.ndarray) -> np.ndarray:
 def suctions_beside(run: Results, at: np.ndarray, site: theory.Site) -> dict[str, Any]:
     """Return the table of required and critical suctions (kPa)."""
     computed = np.maximum(required_at(run, at), 0) / 1e3
-    found = suction_methods.answers_of(site, at).suctions
+    answers = suction_methods.answers_of(site, at)
+    found, senders = answers.suctions, answers.senders_randolph
     columns: dict[str, Any] = {"depth (m)": at, "computed": computed}
-    byrne, senders = "Houlsby & Byrne (2005)", "Senders & Randolph (2009)"
+    byrne = "Houlsby & Byrne (2005)"
     for name, cases in (
         (byrne, suction_methods.CASES),
         (
@@ -113,9 +100,15 @@ def suctions_beside(run: Results, at: np.ndarray, site: theory.Site) -> dict[str
             columns[f"required, {name}, {case}"] = values
         low, high = kilopascals[:2]
         columns[f"computed / {name}"] = ratios(computed, low, high)
+        if name == byrne:
+            bound = kilopascals[2]
+            columns[f"computed / {UNDISTURBED}"] = ratios(computed, bound, bound)
     for name, column in (
         (byrne, suction_methods.PIPING),
-        (senders, suction_methods.CRITICAL_SENDERS_RANDOLPH),
+        (
+            suction_methods.SENDERS_RANDOLPH,
+            suction_methods.CRITICAL_SENDERS_RANDOLPH,
+        ),
     ):
         if column in found:
             columns[f"critical, {name}"] = found[column] / 1e3
@@ -123,21 +116,6 @@ def suctions_beside(run: Results, at: np.ndarray, site: theory.Site) -> dict[str
 
 
 # ------------------------------------------------------------------ why
-
-
-class Compared(NamedTuple):
-    """A run beside Houlsby & Byrne at one depth; the method's forces are those under
-    the suction of the run."""
-
-    h: float  # m
-    suction: float  # of the run (Pa), 0 where it is jacked
-    ratio: str  # computed over method: of the suction, or of the force of jacking
-    computed: Forces
-    low: Forces
-    high: Forces
-    enhanced: bool  # whether the method has stress enhancement
-    k_tan_delta: float  # of the outer wall in the run
-    undisturbed: float  # the same of undisturbed ground
 
 
 def compared(run: Results, h: float) -> Compared | None:
@@ -172,47 +150,6 @@ def compared(run: Results, h: float) -> Compared | None:
     return Compared(h, suction, ratio, computed, low, high, enhanced, *walls)
 
 
-def beside(computed: float, low: float, high: float, mark: str = "") -> str:
-    """Return a force of the run in kN, and that of the method in brackets."""
-    ends = [text_of(end / 1e3) for end in (low, high)]
-    return f"{text_of(computed / 1e3)} kN ({mark}{' to '.join(dict.fromkeys(ends))})"
-
-
-def cause_of_tip(found: Compared) -> str:
-    """Return why the tip force is not that of the method; nothing within its range."""
-    if found.low.tip <= found.computed.tip <= found.high.tip:
-        return ""
-    if found.computed.tip < found.low.tip:
-        cause = "the stress enhancement of the method grows exponentially with depth"
-        return f", because {cause}," if found.enhanced else ""
-    if found.suction > 0:
-        return (
-            ", because the method counts only the stress of the plug, which the flow"
-            " takes away, and no strength of the sand beside the wall,"
-        )
-    return (
-        ", because a footing at the surface leaves out the strength of the sand beside"
-        " the wall,"
-    )
-
-
-def state_of_walls(found: Compared) -> str:
-    """Return what the friction on the outer wall says of the stress on it."""
-    k, k0 = found.k_tan_delta, found.undisturbed
-    if not (math.isfinite(k) and k0 > 0):
-        return ""
-    name = "K tan \N{GREEK SMALL LETTER DELTA}"
-    if k > RAISED * k0:
-        return (
-            f"; the sand that the wall has pushed aside has raised {name} outside from"
-            f" {k0:.2f} in undisturbed ground to {k:.2f}"
-        )
-    return (
-        f"; the walls do not grip yet, and {name} outside is {k:.2f}, where undisturbed"
-        f" ground has {k0:.2f}"
-    )
-
-
 def why_of(run: Results, at: np.ndarray) -> str:
     """Return a sentence on where the run is beside Houlsby & Byrne, and why, at the
     deepest of depths [n] (m) with an answer; nothing without one."""
@@ -220,19 +157,53 @@ def why_of(run: Results, at: np.ndarray) -> str:
     found = next((answer for answer in answers if answer), None)
     if found is None:
         return ""
-    by_part = zip(found.computed, found.low, found.high)
-    tip, inner, outer = (
-        beside(*forces, mark) for forces, mark in zip(by_part, ("method: ", "", ""))
-    )
-    what = "force"
-    if found.suction > 0:
-        what = "suction"
-        tip += f" under its suction of {text_of(found.suction / 1e3)} kPa"
-    return (
-        f"At {found.h:g} m the run has {found.ratio} times the {what} of Houlsby &"
-        f" Byrne (2005): its tip bears {tip}{cause_of_tip(found)} and its walls {inner}"
-        f" inside and {outer} outside{state_of_walls(found)}."
-    )
+    return of_houlsby_byrne(found)
+
+
+def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]:
+    """Return why the run is not like undisturbed ground and the methods from a cone, a
+    sentence for each that is not, at a depth; answers: of jacking, at this depth. With
+    suction only methods for suction are compared."""
+    at, history = np.array([h]), run.history
+    known = design.forces_at(history, at)
+    if set(known) != set(design.FORCES):
+        return []
+    computed = Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
+    mine, what, left, suctions = computed.total, "force", None, dict[str, Any]()
+    if design.SUCTION in history:
+        mine, what = float(required_at(run, at)[0]), "suction"
+        suctions = suction_methods.answers_of(theory.site_of(run), at).suctions
+        if not suctions:
+            return []
+        left = 1 - mine / suctions[suction_methods.CRITICAL_SENDERS_RANDOLPH][0]
+    found, sentences = list[str](), list[str]()
+    for answer in filter(lambda answer: answer.forces, answers):
+        parts = {c: by_case(answer, c) for c in answer.method.all_cases}
+        low, high = (parts[case] for case in answer.method.cases)
+        ends = mine, low.total, high.total
+        for bound in answer.method.bound:
+            force = parts[bound].total
+            if suctions:
+                force = float(suctions[suction_methods.LOWER_BOUND][0])
+            found.append(of_undisturbed(h, mine, force, what))
+        if left is not None and answer.method.key == "senders_randolph":
+            low, high = relieved(low, left), relieved(high, left)
+            cases = suction_methods.CONE_LOW, suction_methods.CONE_HIGH
+            needed = [float(suctions[case][0]) for case in cases]
+            ends = mine, needed[0], needed[1]
+        elif answer.method.bound or left is not None or answer.method.key == "clay":
+            continue
+        name = answer.name
+        by_cone = ByCone(name, h, what, ends, computed, low, high, left)
+        sentences.append(of_cone(by_cone))
+    if any(sentences) and any(answer.assumed for answer in answers):
+        sentences.append(ASSUMED_CONE)
+    return [sentence for sentence in [*found, *sentences] if sentence]
+
+
+def by_case(answer: theory.Answer, case: str) -> Forces:
+    """Return the forces of an answer at its first depth."""
+    return Forces(*(float(answer.forces[case][part][0]) for part in theory.PARTS[:3]))
 
 
 # ------------------------------------------------------------------ all
@@ -254,15 +225,24 @@ def methods_of(run: Results) -> dict[str, Any]:
     computed = None
     if total in history and not with_suction:
         computed = design.forces_at(history, at)[total] / 1e3
-    tables = [suctions_beside(run, at, site)] if with_suction else []
-    tables.append(forces_beside(computed, at, answers))
-    notes = [theory.end_of_cone(site, float(at.max()))]
+    tables, meaning = [forces_beside(computed, at, answers)], ""
+    if with_suction:
+        columns, meaning = relief.table_of(run, at)
+        left = [table("What suction leaves of the forces", columns)] if columns else []
+        tables = [suctions_beside(run, at, site), *left, *tables]
+    # the deepest of them that a cone test reaches
+    end = site.cone.depth[-1] if site.cone else np.inf
+    h = float(max((z for z in at if z <= end), default=at[-1]))
+    why = [why_of(run, at), *others_of(run, h, theory.answers_of(site, np.array([h])))]
+    notes = [theory.about_cone(site, float(at.max()))]
+    if meaning:
+        notes.append(f"What suction leaves: {meaning[0].lower()}{meaning[1:]}")
     if answers[0].forces:
         assumed = theory.assumptions_in_words(site.scene)
         notes.insert(0, f"{assumed}; {UNDISTURBED_IS}.")
     return {
         "tables": [table for table in tables if len(table["heads"]) > 2],
-        "why": why_of(run, at),
+        "why": [sentence for sentence in why if sentence],
         "reasons": theory.reasons(answers),
         "notes": [note for note in notes if note],
     }

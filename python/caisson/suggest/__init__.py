@@ -11,6 +11,10 @@ degrees. With --weight the caisson sinks by its weight and is then drawn in by
 suction; without, it is jacked. In place of layers a cone test may be given,
 
     caisson suggest --diameter 10 --skirt 8 --wall 40mm --cpt FILE.csv own.prm
+
+or, of sand, no more than its density:
+
+    caisson suggest --diameter 4 --skirt 2.5 --wall 20mm --sand dense own.prm
 """
 import argparse
 import os
@@ -22,11 +26,13 @@ from pathlib import Path
 
 import jinja2
 
+from caisson import density_law
 from caisson.cpt import interpretation, tables
 from caisson.cpt.interpretation import Interpretation
 from caisson.paths import INSTALLED
 from caisson.runner import RunError, query, read_parameters
-from caisson.suggest import cone
+from caisson.suggest import cone, sand
+from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.sizes import (
     LEVELS,
     Body,
@@ -35,10 +41,12 @@ from caisson.suggest.sizes import (
     mesh_of,
     start_of,
 )
-from caisson.suggest.soil import Entry, Layer, SuggestError, layers_of
+from caisson.suggest.soil import layers_of
 from caisson_design import InputError
 
-CHANGES = (-4, -2, 0, 2, 4)  # degrees, of a study of the friction angle
+# of a study: of the friction angle (degrees), or of the relative density
+CHANGES = (-4, -2, 0, 2, 4)
+CHANGES_OF_DENSITY = (-0.2, -0.1, 0, 0.1, 0.2)
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "": 1.0}
 
 
@@ -71,7 +79,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE.csv",
         help="a cone test that gives the layers, in place of --layer",
     )
-    text = "write a study, too: of the friction angle, or of a cone test's estimates"
+    add("--sand", metavar="WORD", help=f"all of it sand: {', '.join(sand.WORDS)}")
+    text = "all of it sand of this relative density, a share of 1 as 0.85"
+    add("--density", metavar="D", help=text)
+    text = "write a study, too: of angle or density, or of a cone test's estimates"
     add("--study", type=Path, metavar="FILE.toml", help=text)
     add("--overwrite", action="store_true", help="replace files that exist")
     interpretation.add_arguments(parser)
@@ -90,16 +101,30 @@ def add_caisson_arguments(parser: argparse.ArgumentParser, required: bool) -> No
     add("--penetration", type=length, metavar="M", help="where the run ends")
     add("--weight", type=float, metavar="N", help="in water; the rest takes suction")
     add("--water-depth", type=float, metavar="M", help="bounds the suction")
+    add(
+        "--law",
+        choices=(*sand.LAWS, sand.ONE_ANGLE),
+        help="of sand given by its density or a cone test: by density and stress"
+        " (default), hypoplastic, or with one friction angle (cone test only)",
+    )
     add("--error", type=int, choices=LEVELS, default=10, help="wanted, in %%")
 
 
 def check(options: argparse.Namespace) -> None:
     """Refuse what cannot be meant. Raises SuggestError."""
     body, end = options, options.penetration
-    if bool(options.layer) == bool(options.cpt):
-        raise SuggestError("give the soil: either --layer, or a cone test by --cpt")
+    soils = options.layer, options.cpt, options.sand, options.density
+    if sum(map(bool, soils)) != 1:
+        raise SuggestError(
+            "give the soil: either --layer, or a cone test by --cpt, or sand by --sand"
+            " or --density"
+        )
+    if options.law == sand.ONE_ANGLE and not options.cpt:
+        raise SuggestError(
+            f"--law {options.law} is for a cone test, --cpt; give the angle by --layer"
+        )
     for name in ("tops", "correlation", "soil", "unit_weight"):
-        if options.layer and getattr(options, name):
+        if not options.cpt and getattr(options, name):
             raise SuggestError(f"--{name.replace('_', '-')} is for a cone test, --cpt")
     if body.wall > body.diameter / 10:
         raise SuggestError(
@@ -139,22 +164,30 @@ def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
     layers = [x for x in layers if not x.value("Friction angle of the walls")]
     if given is not None or not layers:
         return Entry("", f"{given or 0:g}")
-    angles = [layer.value("Friction angle") for layer in layers]
+    others = [layer for layer in layers if not is_by_density(layer)]
+    angles = [layer.value("Friction angle") for layer in others]
     try:
-        least = min(map(float, angles))
+        least = min(map(float, angles), default=90.0)
     except ValueError as error:
         raise SuggestError(
             "not all layers have a friction angle: give --wall-friction"
         ) from error
-    if least == 0 < max(map(float, angles)):
+    if least == 0 and (len(others) < len(layers) or max(map(float, angles)) > 0):
         raise SuggestError(
             "clay and sand have no common wall friction: give each layer 'Friction"
             " angle of the walls' and 'Adhesion factor of the walls', or all of them"
             " --wall-friction"
         )
+    if len(others) < len(layers) and 2 / 3 * least > float(sand.WALL_FRICTION.value):
+        return sand.WALL_FRICTION
     return Entry(
         "", f"{2 / 3 * least:.3g}", " # ASSUMED: 2/3 of the smallest of the soil"
     )
+
+
+def is_by_density(layer: Layer) -> bool:
+    """Return whether the strength of a layer follows from its density."""
+    return layer.value("Law") in sand.LAWS.values()
 
 
 def with_adhesion(layers: Sequence[Layer]) -> list[Layer]:
@@ -201,6 +234,20 @@ def end_of(options: argparse.Namespace) -> float:
     return float(options.penetration or options.skirt - start_of(options.skirt))
 
 
+def law_of(options: argparse.Namespace) -> str:
+    """Return the law of sand, a name of sand.LAWS or sand.ONE_ANGLE."""
+    return options.law or next(iter(sand.LAWS))
+
+
+def texts_of(options: argparse.Namespace) -> list[str]:
+    """Return the layers in words."""
+    if options.sand:
+        return [f"0: {sand.SAND} = {options.sand}"]
+    if options.density:
+        return [f"0: {density_law.DENSITY} = {options.density}"]
+    return list(options.layer)
+
+
 def reached(options: argparse.Namespace, layers: Sequence[Layer]) -> list[Layer]:
     """Return the layers that the skirt reaches."""
     return [layer for layer in layers if layer.top < end_of(options)]
@@ -212,37 +259,52 @@ def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
         scene=os.path.relpath(options.file, options.study.parent),
         cone=os.path.relpath(options.cpt, options.study.parent),
         name=options.cpt.name,
-        follows=options.wall_friction is None,
-        choices=cone.choices_of(found, end_of(options), options.wall_friction),
+        follows=options.wall_friction is None and law_of(options) not in sand.LAWS,
+        choices=cone.choices_of(
+            found, end_of(options), options.wall_friction, law_of(options)
+        ),
     )
 
 
 def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
-    """Return the text of a study with five friction angles of each layer. Raises
-    SuggestError where a layer has none."""
-    follows = options.wall_friction is None
+    """Return the text of a study with five friction angles or, of sand by its density,
+    relative densities of each layer. Raises SuggestError where a layer has none."""
+    by_density = all(map(is_by_density, layers))
+    follows = options.wall_friction is None and not by_density
     choices = {}
-    for change in CHANGES:
-        entries = {}
-        for number, layer in enumerate(layers, 1):
-            try:
-                angle = float(layer.value("Friction angle")) + change
-            except ValueError as error:
-                raise SuggestError("--study: a layer has no friction angle") from error
-            if not 0 < angle < 60:
-                raise SuggestError(f"--study: {angle:g} degrees is no friction angle")
-            entries[f"Soil/Layer {number}/Friction angle"] = angle
-        name = ", ".join(f"{angle:g}" for angle in entries.values())
+    for change in CHANGES_OF_DENSITY if by_density else CHANGES:
+        change_of = density_after if by_density else angle_after
+        numbers = [change_of(layer, change) for layer in layers]
+        quantity = density_law.DENSITY if by_density else "Friction angle"
+        entries = {f"Soil/Layer {i}/{quantity}": n for i, n in enumerate(numbers, 1)}
+        name = ", ".join(f"{number:g}" for number in numbers)
         if follows:
-            least = min(list(entries.values())[: len(reached(options, layers))])
+            least = min(numbers[: len(reached(options, layers))])
             wall = float(f"{2 / 3 * least:.3g}")
             for side in ("outer", "inner"):
                 entries[f"Rigid body/Friction angle of the {side} wall"] = wall
         choices[name] = entries
     scene = os.path.relpath(options.file, options.study.parent)
     return template("study.toml.jinja").render(
-        scene=scene, follows=follows, choices=choices
+        scene=scene, follows=follows, choices=choices, by_density=by_density
     )
+
+
+def angle_after(layer: Layer, change: float) -> float:
+    """Return the friction angle of a layer with a change. Raises SuggestError."""
+    try:
+        angle = float(layer.value("Friction angle")) + change
+    except ValueError as error:
+        raise SuggestError("--study: a layer has no friction angle") from error
+    if not 0 < angle < 60:
+        raise SuggestError(f"--study: {angle:g} degrees is no friction angle")
+    return angle
+
+
+def density_after(layer: Layer, change: float) -> float:
+    """Return the relative density of a layer with a change, within 0 and 1."""
+    share = float(layer.value(density_law.DENSITY)) + change
+    return round(min(max(share, 0.0), 1.0), 4)
 
 
 def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level) -> str:
@@ -302,11 +364,15 @@ def write(options: argparse.Namespace) -> None:
         deepest = cone.REACH * options.skirt
         found = interpretation.interpret(options.cpt, options, deepest)
         print(tables.text_of_test(found))
-        layers = cone.layers_of(found, end_of(options), bool(options.weight))
+        layers = cone.layers_of(
+            found, end_of(options), law_of(options), bool(options.weight)
+        )
         if warning := cone.end_of_test(found, end_of(options)):
             print(warning)
     else:
-        layers = layers_of(options.layer, entries_of_layers())
+        layers = layers_of(texts_of(options), entries_of_layers(), law_of(options))
+        if options.law and not any(map(is_by_density, layers)):
+            raise SuggestError("--law is for sand by its density: no layer is")
     texts = {options.file: scene_of(options, layers, LEVELS[options.error])}
     if options.study:
         texts[options.study] = (
@@ -316,6 +382,8 @@ def write(options: argparse.Namespace) -> None:
     for file, text in texts.items():  # all or none
         file.write_text(text, encoding="utf-8")
     print(cost)
+    assumed = texts[options.file].count(ASSUMPTION)
+    print(f"assumed: {assumed} lines of {options.file} are marked ASSUMED: check them")
 
 
 def main(options: argparse.Namespace) -> int:

@@ -2,7 +2,6 @@
 """Layers of a scene, and low, best and high estimates for a study, from a cone test."""
 from typing import Any
 
-from caisson.cpt.correlations import ANGLE, MODULUS, STRENGTH
 from caisson.cpt.estimates import (
     CAN,
     ENDS,
@@ -12,13 +11,16 @@ from caisson.cpt.estimates import (
     WEIGHT,
     Estimates,
 )
-from caisson.cpt.ground import CLAY, SAND
 from caisson.cpt.interpretation import Interpretation
 from caisson.cpt.tables import SHOWN, text_of
-from caisson.suggest.soil import ASSUMED, BY_STRESS, Entry, Layer, SuggestError
+from caisson import density_law
+from caisson.suggest import sand
+from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
+from caisson.suggest.soil import ASSUMED, BY_STRESS
+from caisson_design.correlations import ANGLE, DENSITY, MODULUS, STRENGTH
+from caisson_design.ground import CLAY, SAND
 
 REACH = 1.5  # times the skirt: the test counts to this depth
-ASSUMPTION = " # ASSUMED"
 # of walls in clay, over its strength
 ADHESION_OF_CLAY = Entry(
     "Adhesion factor of the walls", "0.5", f"{ASSUMPTION}: remoulded"
@@ -81,9 +83,35 @@ def number(value: float) -> str:
     return f"{value:.4g}"
 
 
+def sand_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
+    """Return the entries of sand whose strength follows from its density. Relative
+    density, unit weight and, if the law has one, modulus are those of the test."""
+    name = sand.LAWS[law]
+    share = number(e.values[DENSITY].best)
+    density = Entry(density_law.DENSITY, share, remark(found, e, DENSITY))
+    known = [Entry("K0", number(e.values[K0].best), " # FROM CPT")]
+    if name == density_law.LAW:
+        void_ratio = e.porosity() / (1 - e.porosity())
+        densest, loosest = sand.KARLSRUHE
+        shift = void_ratio - loosest + float(share) * (loosest - densest)
+        why = (
+            f"{ASSUMPTION}: the range of Karlsruhe sand, about the unit weight FROM CPT"
+        )
+        known += [
+            Entry(density_law.DENSEST, number(densest + shift), why),
+            Entry(density_law.LOOSEST, number(loosest + shift), why),
+            Entry(
+                density_law.MODULUS,
+                number(e.values[REFERENCE].best),
+                remark(found, e, REFERENCE),
+            ),
+        ]
+    return sand.entries_of(density, name, known)
+
+
 def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
-    """Return law, strength and stiffness of a layer; clay, and silt below the skirt,
-    are undrained."""
+    """Return law, strength and stiffness of a layer with one friction angle; clay, and
+    silt below the skirt, are undrained."""
     if e.layer.kind == SAND:
         return [
             Entry("Law", BY_STRESS),
@@ -113,8 +141,10 @@ def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
     ]
 
 
-def entries_of(found: Interpretation, e: Estimates) -> list[Entry]:
+def entries_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
     """Return the entries of a layer with the best estimates."""
+    if e.layer.kind == SAND and law in sand.LAWS:
+        return sand_of(found, e, law)
     return [
         *strength_of(found, e),
         Entry("Dilatancy angle", ASSUMED["Dilatancy angle"], ASSUMPTION),
@@ -123,26 +153,35 @@ def entries_of(found: Interpretation, e: Estimates) -> list[Entry]:
     ]
 
 
-def layers_of(found: Interpretation, end: float, flows: bool = False) -> list[Layer]:
-    """Return the layers of a scene whose skirt ends at a depth (m); flows: water flows
-    through the ground. Raises SuggestError."""
+def layers_of(
+    found: Interpretation, end: float, law: str, flows: bool = False
+) -> list[Layer]:
+    """Return the layers of a scene whose skirt ends at a depth (m). law: of sand, a
+    name of sand.LAWS or sand.ONE_ANGLE; flows: water flows through the ground. Raises
+    SuggestError."""
     refuse_fines(found, end, flows)
     refuse_no_strength(found)
-    return [Layer(e.layer.top, entries_of(found, e)) for e in found.layers]
+    return [Layer(e.layer.top, entries_of(found, e, law)) for e in found.layers]
 
 
 def choices_of(
-    found: Interpretation, end: float, wall_friction: float | None
+    found: Interpretation, end: float, wall_friction: float | None, law: str
 ) -> dict[str, dict[str, float]]:
-    """Return the entries of the low, the best and the high estimate: strength and
-    stiffness of all layers together, and the friction of the walls that follows."""
+    """Return the entries of the low, the best and the high estimate: density or
+    strength, and stiffness of all layers together, and the friction of the walls where
+    it follows from a friction angle."""
     choices: dict[str, dict[str, float]] = {}
     for name in ENDS:
         entries: dict[str, Any] = {}
         angles = []
         for place, e in enumerate(found.layers, 1):
             head = f"Soil/Layer {place}"
-            if e.layer.kind == SAND:
+            if e.layer.kind == SAND and law in sand.LAWS:
+                share = float(number(e.values[DENSITY].at(name)))
+                entries[f"{head}/{density_law.DENSITY}"] = share
+                if sand.LAWS[law] == density_law.HYPOPLASTIC:
+                    continue  # its stiffness follows, too
+            elif e.layer.kind == SAND:
                 angle = float(number(e.values[ANGLE].at(name)))
                 entries[f"{head}/Friction angle"] = angle
                 angles += [angle] if e.layer.top < end else []

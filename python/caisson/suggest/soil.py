@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Layers of soil as they are given in words: "TOP: ENTRY = VALUE, ENTRY = VALUE"."""
+"""Layers of soil as they are given in words: "TOP: ENTRY = VALUE, ENTRY = VALUE". Sand
+may be given by its density: "TOP: Sand = dense", "TOP: Relative density = 0.85"."""
 import difflib
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+
+from caisson.suggest import sand
+from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 
 MOHR_COULOMB = "Mohr-Coulomb"
 BY_STRESS = "Mohr-Coulomb with stiffness by stress"
@@ -18,34 +21,9 @@ ASSUMED = {
 NEEDED = ("Friction angle", "Youngs modulus")
 
 
-class SuggestError(Exception):
-    """What is wrong with what was given; the text is for the user."""
-
-
-@dataclass(frozen=True)
-class Entry:
-    """An entry of a layer; remark says in the file where it comes from."""
-
-    name: str
-    value: str
-    remark: str = ""
-
-
-@dataclass(frozen=True)
-class Layer:
-    """A layer of soil from top (m below the surface) down to the next one."""
-
-    top: float
-    entries: list[Entry]
-
-    def value(self, name: str) -> str:
-        """Return an entry, "" where the layer has none of this name."""
-        return next((e.value for e in self.entries if e.name == name), "")
-
-
 def name_of(word: str, known: Sequence[str]) -> str:
     """Return the entry meant. Raises SuggestError."""
-    by_lower = {name.lower(): name for name in known}
+    by_lower = {name.lower(): name for name in (*known, sand.SAND)}
     if word.lower() in by_lower:
         return by_lower[word.lower()]
     near = difflib.get_close_matches(word.lower(), by_lower, n=3, cutoff=0.4)
@@ -68,9 +46,9 @@ def parts_of(text: str) -> list[str]:
     return [part.strip() for part in parts if part.strip()]
 
 
-def layer_of(text: str, known: Sequence[str]) -> Layer:
-    """Return a layer. known: the names of all entries of a layer. Raises
-    SuggestError."""
+def layer_of(text: str, known: Sequence[str], law: str) -> Layer:
+    """Return a layer. known: the names of all entries of a layer; law: of sand by its
+    density, a name of sand.LAWS. Raises SuggestError."""
     head, colon, rest = text.partition(":")
     try:
         top = float(head)
@@ -87,6 +65,8 @@ def layer_of(text: str, known: Sequence[str]) -> Layer:
         if not equals or not value:
             raise SuggestError(f"--layer: {part!r} is not of the form ENTRY = VALUE")
         given[name_of(word, known)] = value
+    if sand.is_by_density(given):
+        return Layer(top, sand.sand_of(given, law))
     return Layer(top, entries_of(given, text))
 
 
@@ -97,17 +77,20 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
         return [Entry(*pair) for pair in given.items()]
     missing = [name for name in NEEDED if name not in given]
     if missing:
-        raise SuggestError(f"--layer {text!r} needs {' and '.join(missing)}")
+        raise SuggestError(
+            f"--layer {text!r} needs {' and '.join(missing)}; or, of sand,"
+            f' "{sand.SAND} = dense"'
+        )
     assumed = {n: v for n, v in ASSUMED.items() if n not in given}
     return [
-        *(Entry(n, v, "" if n == "Law" else " # ASSUMED") for n, v in assumed.items()),
+        *(Entry(n, v, "" if n == "Law" else ASSUMPTION) for n, v in assumed.items()),
         *(Entry(*pair) for pair in given.items()),
     ]
 
 
-def layers_of(texts: Iterable[str], known: Sequence[str]) -> list[Layer]:
-    """Return all layers. Raises SuggestError."""
-    layers = [layer_of(text, known) for text in texts]
+def layers_of(texts: Iterable[str], known: Sequence[str], law: str) -> list[Layer]:
+    """Return all layers. law: of sand by its density. Raises SuggestError."""
+    layers = [layer_of(text, known, law) for text in texts]
     tops = [layer.top for layer in layers]
     if tops[:1] != [0.0]:
         raise SuggestError("the first --layer must begin at 0")

@@ -53,14 +53,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson.cpt.ground import ATMOSPHERE, Ground
+from caisson_design.density import bolton_angle, density_of_resistance
+from caisson_design.ground import ATMOSPHERE, Ground
 
 DENSITY, ANGLE = "relative density", "friction angle"
 MODULUS, STRENGTH = "Young's modulus", "undrained strength"
 SCATTER_OF_RESISTANCE = 1.3  # a factor of q_c, for D_r
 SCATTER_OF_ANGLE = 2.8  # degrees, of Kulhawy & Mayne
 SCATTER_OF_BOLTON = 2.0
-CRITICAL_ANGLE = 33.0  # of quartz
 CONE_FACTORS = (18.0, 14.0, 10.0)  # for the low, the best and the high strength
 MODULUS_RATIOS = (2.0, 2.5, 3.5)
 SCATTER_OF_MODULUS = 1.5  # a factor
@@ -135,9 +135,8 @@ def mean_stress(ground: Ground, k0: np.ndarray) -> np.ndarray:
 
 def jamiolkowski(ground: Ground, k0: np.ndarray, end: int) -> np.ndarray:
     """Return D_r [n] of Jamiolkowski et al. (2003)."""
-    resistance = ground.resistance * SCATTER_OF_RESISTANCE**end / ATMOSPHERE
-    stress = (mean_stress(ground, k0) / ATMOSPHERE) ** 0.46
-    return limited(np.log(np.maximum(resistance, 1e-9) / (24.94 * stress)) / 2.96)
+    resistance = ground.resistance * SCATTER_OF_RESISTANCE**end
+    return limited(density_of_resistance(resistance, mean_stress(ground, k0)))
 
 
 def baldi(ground: Ground, _: np.ndarray, end: int) -> np.ndarray:
@@ -162,12 +161,6 @@ def kulhawy_mayne(ground: Ground, end: int) -> np.ndarray:
     return np.clip(angle + end * SCATTER_OF_ANGLE, *ANGLES)
 
 
-def bolton_of_density(stress: np.ndarray, density: np.ndarray) -> np.ndarray:
-    """Return phi [n] of Bolton (1986); stress: mean effective stress (Pa) [n]."""
-    index = density * (10 - np.log(stress / 1e3)) - 1
-    return CRITICAL_ANGLE + 3 * np.clip(index, 0.0, 4.0)
-
-
 def stress_at_tip(ground: Ground, _: np.ndarray) -> np.ndarray:
     """Return the mean stress (Pa) [n] under which sand fails at a tip."""
     return np.sqrt(np.maximum(ground.tip, ground.stress) * ground.stress)
@@ -182,9 +175,9 @@ def bolton(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
     k0 = np.full(len(ground.depth), 0.5)
     for _ in range(ROUNDS):
         stress = stress_of(ground, k0)
-        angle = bolton_of_density(stress, density(ground, k0, BEST))
+        angle = bolton_angle(density(ground, k0, BEST), stress)
         k0 = at_rest(angle)
-    other = bolton_of_density(stress_of(ground, k0), density(ground, k0, end))
+    other = bolton_angle(density(ground, k0, end), stress_of(ground, k0))
     angle = angle + end * np.hypot(SCATTER_OF_BOLTON, other - angle)
     return np.clip(angle, *ANGLES)
 

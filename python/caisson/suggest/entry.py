@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What scenes of suggest are made of."""
+from dataclasses import dataclass
+
+ASSUMPTION = " # ASSUMED"
+
+
+class SuggestError(Exception):
+    """What is wrong with what was given; the text is for the user."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """An entry of a layer; remark says in the file where it comes from."""
+
+    name: str
+    value: str
+    remark: str = ""
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A layer of soil from top (m below the surface) down to the next one."""
+
+    top: float
+    entries: list[Entry]
+
+    def value(self, name: str) -> str:
+        """Return an entry, "" where the layer has none of this name."""
+        return next((e.value for e in self.entries if e.name == name), "")

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Entries of sand that is given by its density: a word, or the relative density.
+
+What is not given is that of quartz sand of the sea bed, with its source in a few words.
+The modulus is that of the cone resistance which the design methods assume for this
+density (caisson_design.density), so that scene and methods have the same sand.
+"""
+import difflib
+from collections.abc import Iterable, Mapping
+
+from caisson import density_law as names
+from caisson.suggest.entry import ASSUMPTION, Entry, SuggestError
+from caisson_design.correlations import MODULUS_RATIOS
+from caisson_design.density import ATMOSPHERE, CRITICAL_ANGLE, cone_resistance
+
+# relative density in the middle of a class, and its ends in % (ISO 14688-2)
+WORDS = {
+    "loose": (0.25, "15 to 35 %"),
+    "medium": (0.5, "35 to 65 %"),
+    "dense": (0.75, "65 to 85 %"),
+    "very dense": (0.925, "85 to 100 %"),
+}
+LAWS = {"density": names.LAW, "hypoplastic": names.HYPOPLASTIC}
+LAW_REMARKS = {
+    names.LAW: " # phi and psi of each point follow from both (Bolton 1986)",
+    names.HYPOPLASTIC: " # Karlsruhe sand; very dense, its tip is probably too strong",
+}
+ONE_ANGLE = "angle"  # the choice of a law with one friction angle, from a cone test
+SAND = "Sand"  # in place of an entry: one of WORDS
+KARLSRUHE = (0.53, 0.84)  # void ratios of the relative densities 1 and 0
+OF_KARLSRUHE = f"{ASSUMPTION}: Karlsruhe sand (Herle & Gudehus 1999)"
+GRAVITY, SOLID, WATER = 9.81, 2650.0, 1000.0  # m/s2, kg/m3
+# of tan = 0.55, the largest of UWA-05 for steel piles in sand; quoted, unconfirmed
+WALL_FRICTION = Entry("", "29", f"{ASSUMPTION}: steel in sand, UWA-05, any density")
+# what no law by density has
+FOREIGN = ("Friction angle", "Dilatancy angle", "Cohesion", "Porosity")
+
+
+def density_of_word(text: str) -> Entry:
+    """Return the relative density of a word. Raises SuggestError."""
+    word = " ".join(text.lower().split())
+    if word not in WORDS:
+        near = difflib.get_close_matches(word, WORDS, n=1)
+        hint = f"; did you mean {near[0]}?" if near else ""
+        raise SuggestError(
+            f"{text!r} is no density of sand, which is one of {', '.join(WORDS)}{hint}"
+            ' (clay is given by --layer "0: Friction angle = 0, Cohesion = ...")'
+        )
+    density, ends = WORDS[word]
+    remark = f"{ASSUMPTION}: middle of {word!r}, {ends} (ISO 14688-2)"
+    return Entry(names.DENSITY, f"{density:g}", remark)
+
+
+def density_of_number(text: str) -> Entry:
+    """Return a relative density that is given. Raises SuggestError."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if 1 < value <= 100:
+        raise SuggestError(
+            f"a relative density of {text} is not from 0 to 1: it is a share of 1. Did"
+            f" you mean {value / 100:g}?"
+        )
+    if not 0 <= value <= 1:
+        raise SuggestError(f"a relative density of {text} is no number from 0 to 1")
+    return Entry(names.DENSITY, text)
+
+
+def is_by_density(given: Mapping[str, str]) -> bool:
+    """Return whether a layer is sand by its density, from the entries given."""
+    if SAND in given or given.get("Law") == names.LAW:
+        return True
+    has_law = given.get("Law", names.LAW) in LAWS.values()
+    return names.DENSITY in given and has_law and not set(FOREIGN) & set(given)
+
+
+def sand_of(given: Mapping[str, str], law: str) -> list[Entry]:
+    """Return the entries of a layer of sand: those given, and what is assumed. law: a
+    name of LAWS, for a layer that has none. Raises SuggestError."""
+    rest = dict(given)
+    law = rest.pop("Law", LAWS[law])
+    if law not in LAWS.values():
+        raise SuggestError(f"{SAND} goes with the laws {', '.join(LAWS.values())} only")
+    if foreign := sorted(set(rest) & set(FOREIGN)):
+        raise SuggestError(
+            f"sand by its density has no {' and no '.join(foreign)} of its own; the law"
+            f" {law!r} takes them from the density. Leave out either"
+        )
+    word, number = rest.pop(SAND, None), rest.pop(names.DENSITY, None)
+    if (word is None) == (number is None):
+        raise SuggestError(f"sand needs one of {SAND} and {names.DENSITY}")
+    density = density_of_word(word) if word else density_of_number(number or "")
+    return entries_of(density, law, [Entry(*pair) for pair in rest.items()])
+
+
+def entries_of(density: Entry, law: str, known: Iterable[Entry]) -> list[Entry]:
+    """Return the entries of sand of a relative density: those known, and what is
+    assumed."""
+    by_name = {entry.name: entry for entry in known}
+    limits = [
+        by_name.get(name, Entry(name, f"{value:g}", OF_KARLSRUHE))
+        for name, value in zip((names.DENSEST, names.LOOSEST), KARLSRUHE)
+    ]
+    densest, loosest = (float(entry.value) for entry in limits)
+    share = float(density.value)
+    void_ratio = loosest - share * (loosest - densest)
+    assumed = [
+        Entry("Law", law, LAW_REMARKS[law]),
+        density,
+        *limits,
+        *numbers_of(law, share, void_ratio),
+    ]
+    found = {entry.name: entry for entry in assumed} | by_name
+    return list(found.values())
+
+
+def numbers_of(law: str, density: float, void_ratio: float) -> list[Entry]:
+    """Return what is assumed of sand of a relative density, at the start."""
+    weight = (SOLID - WATER) * GRAVITY / (1 + void_ratio) / 1e3
+    own, k0, angle = list[Entry](), "0.5", "30"  # of Karlsruhe sand
+    if law == names.LAW:
+        k0, angle = "0.46", f"{CRITICAL_ANGLE:g}"
+        cone = cone_resistance(density, ATMOSPHERE)
+        own = [
+            Entry(
+                names.CRITICAL_ANGLE,
+                angle,
+                f"{ASSUMPTION}: quartz (Bolton 1986); the peak follows from density",
+            ),
+            Entry(
+                names.MODULUS,
+                f"{MODULUS_RATIOS[1] * cone:.3g}",
+                f"{ASSUMPTION}: 2.5 q_c (Schmertmann 1978), q_c by Jamiolkowski (2003)",
+            ),
+            Entry(names.REFERENCE_STRESS, f"{ATMOSPHERE:g}"),
+            Entry(names.EXPONENT, "0.5", ASSUMPTION),
+            Entry(
+                names.REFERENCE_VOID_RATIO,
+                f"{void_ratio:.4g}",
+                " # that of the start: sand that dilates becomes softer (Hardin)",
+            ),
+            Entry(names.POISSON, "0.3", ASSUMPTION),
+        ]
+    return [
+        *own,
+        Entry(
+            "K0",
+            k0,
+            f"{ASSUMPTION}: 1 - sin {angle} (Jaky 1948); an old sea bed may have 1",
+        ),
+        Entry(
+            "Solid density",
+            f"{SOLID:g}",
+            f"{ASSUMPTION}: quartz; the unit weight in water is {weight:.3g} kN/m3",
+        ),
+    ]

@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Sand by its density in `caisson suggest`: the text of scenes and studies. That the
+program accepts them is in tests/program/test_suggest.py."""
+import argparse
+import re
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from caisson import density_law, suggest
+from caisson.cpt import interpretation
+from caisson.cpt.estimates import K0, REFERENCE
+from caisson.paths import SCENES
+from caisson.suggest import cone, sand
+from caisson.suggest.entry import Layer, SuggestError
+from caisson.suggest.sizes import LEVELS
+from caisson.suggest.soil import layers_of
+from caisson_design.assumed_cone import AssumedCone, Sand
+from caisson_design.correlations import DENSITY
+
+EXAMPLE = SCENES / "cpt_example.csv"
+KNOWN = ["Cohesion", "Friction angle", "K0", "Permeability", "Youngs modulus"]
+KNOWN += ["Law", "Porosity", density_law.DENSITY, density_law.DENSEST]
+SIZES = ["--diameter", "4", "--skirt", "2.5", "--wall", "20mm", "own.prm"]
+
+
+def how_to_read(*words: str) -> argparse.Namespace:
+    """Return the options that say how a cone test is read."""
+    parser = argparse.ArgumentParser()
+    interpretation.add_arguments(parser)
+    return parser.parse_args(words)
+
+
+READ = how_to_read()
+
+
+def options_of(*words: str) -> argparse.Namespace:
+    """Return the options of the command for a caisson of 4 m."""
+    parser = argparse.ArgumentParser()
+    suggest.add_arguments(parser)
+    options = parser.parse_args([*SIZES, *words])
+    suggest.check(options)
+    return options
+
+
+def layers_in(*words: str) -> list[Layer]:
+    """Return the layers of the command."""
+    options = options_of(*words)
+    return layers_of(suggest.texts_of(options), KNOWN, suggest.law_of(options))
+
+
+def scene_in(*words: str) -> dict[str, str]:
+    """Return the lines of a scene by entry."""
+    text = suggest.scene_of(options_of(*words), layers_in(*words), LEVELS[10])
+    pairs = re.findall(r"set (.*?) *= (.*)", text)
+    return {name: value for name, value in pairs}
+
+
+class Entries(unittest.TestCase):
+    """What a scene has."""
+
+    def test_dense(self) -> None:
+        """e = 0.84 - 0.75 0.31 = 0.6075; 1650 9.81 / 1.6075 = 10.07 kN/m3. q_c at 100
+        kPa is 2494 kPa exp(2.22) = 22.96 MPa, and E 2.5 times that."""
+        lines = scene_in("--sand", "dense", "--weight", "1e5")
+        expected = {
+            "Law": density_law.LAW,
+            density_law.DENSITY: "0.75",
+            density_law.DENSEST: "0.53",
+            density_law.LOOSEST: "0.84",
+            density_law.CRITICAL_ANGLE: "33",
+            density_law.MODULUS: "5.74e+07",
+            density_law.REFERENCE_STRESS: "100000",
+            density_law.EXPONENT: "0.5",
+            density_law.REFERENCE_VOID_RATIO: "0.6075",
+            "K0": "0.46",
+            "Permeability": "1e-4",
+            "Friction angle of the outer wall": "29",
+            "Friction angle of the inner wall": "29",
+        }
+        for name, value in expected.items():
+            self.assertEqual(lines[name].split(" # ")[0], value, name)
+        self.assertIn("10.1 kN/m3", lines["Solid density"])
+        for name in ("Porosity", "Cohesion", "Friction angle", "Dilatancy angle"):
+            self.assertNotIn(name, lines)
+        for name in expected:
+            if name not in ("Law", density_law.REFERENCE_STRESS):
+                marks = lines[name].partition("# ")[2]
+                self.assertRegex(marks, "ASSUMED|that of the start", name)
+
+    def test_what_is_given_is_not_assumed(self) -> None:
+        (layer,) = layers_in("--layer", "0: sand = Very  Dense, K0 = 0.8")
+        self.assertEqual(layer.value("K0"), "0.8")
+        self.assertEqual(layer.value(density_law.DENSITY), "0.925")
+        remarks = {entry.name: entry.remark for entry in layer.entries}
+        self.assertEqual(remarks["K0"], "")
+        (layer,) = layers_in("--density", "0.85")
+        remarks = {entry.name: entry.remark for entry in layer.entries}
+        self.assertEqual(remarks[density_law.DENSITY], "")
+
+    def test_hypoplastic(self) -> None:
+        lines = scene_in("--sand", "loose", "--law", "hypoplastic")
+        self.assertTrue(lines["Law"].startswith(density_law.HYPOPLASTIC))
+        self.assertTrue(lines[density_law.DENSITY].startswith("0.25"))
+        self.assertNotIn(density_law.MODULUS, lines)
+        self.assertNotIn(density_law.CRITICAL_ANGLE, lines)
+
+    def test_denser_is_stiffer_and_heavier(self) -> None:
+        found = [layers_in("--sand", word)[0] for word in sand.WORDS]
+        moduli = [float(layer.value(density_law.MODULUS)) for layer in found]
+        self.assertTrue(all(np.diff(moduli) > 0))
+
+    def test_layers(self) -> None:
+        """Words and numbers by layer, beside soil with one friction angle, of which the
+        walls take the smaller friction."""
+        other = "2: Friction angle = 30, Youngs modulus = 2e7"
+        words = ["--layer", "0: Sand = loose", "--layer", "1: Relative density = 0.85"]
+        layers = layers_in(*words, "--layer", other)
+        laws = [layer.value("Law") for layer in layers]
+        self.assertEqual(laws, [density_law.LAW] * 2 + ["Mohr-Coulomb"])
+        self.assertEqual(suggest.wall_friction_of(None, layers[:2]).value, "29")
+        self.assertEqual(suggest.wall_friction_of(None, layers).value, "20")
+        self.assertEqual(suggest.wall_friction_of(25, layers).value, "25")
+        # a density that goes with a friction angle is only that of the start
+        text = f"0: Relative density = 0.7, {other[3:]}"
+        self.assertEqual(layers_in("--layer", text)[0].value("Law"), "Mohr-Coulomb")
+
+    def test_scene_and_design_methods_have_the_same_sand(self) -> None:
+        """A cone test of the resistance that is assumed for dense sand says that it is
+        dense. K0 = 1 - sin phi of the test is not that of the scene."""
+        assumed = AssumedCone([Sand(0, 10.07e3, 0.35, 0.75, 33)], 6)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "cone.csv")
+            rows = zip(assumed.depth, assumed.resistance / 1e6)
+            lines = [f"{z:.6f},{q:.6f}" for z, q in rows if z > 0.3]
+            path.write_text("\n".join(["depth_m,qc_MPa", *lines]), encoding="utf-8")
+            words = ["--soil", "sand", "--unit-weight", "19.88", "--tops", "0"]
+            found = interpretation.interpret(path, how_to_read(*words))
+        self.assertAlmostEqual(found.layers[0].values[DENSITY].best, 0.75, delta=0.01)
+
+
+class FromACone(unittest.TestCase):
+    """Sand by its density from the example of a cone test."""
+
+    def test_sand_by_its_density(self) -> None:
+        """Density, modulus, K0 and unit weight are those of the test; hypoplastic sand
+        has its own void ratios and stiffness."""
+        found = interpretation.interpret(EXAMPLE, READ, 12.0)
+        best = found.layers[0]
+        layer = cone.layers_of(found, 8.0, "density")[0]
+        self.assertEqual(layer.value("Law"), density_law.LAW)
+        self.assertEqual(layer.value("Friction angle"), "")
+        share, densest, loosest, modulus, k0 = (
+            float(layer.value(name))
+            for name in (
+                density_law.DENSITY,
+                density_law.DENSEST,
+                density_law.LOOSEST,
+                "Youngs modulus",
+                "K0",
+            )
+        )
+        self.assertAlmostEqual(share, best.values[DENSITY].best, places=4)
+        self.assertAlmostEqual(loosest - densest, 0.31, places=3)
+        void_ratio = loosest - share * (loosest - densest)
+        self.assertAlmostEqual(void_ratio / (1 + void_ratio), best.porosity(), places=3)
+        self.assertAlmostEqual(modulus / best.values[REFERENCE].best, 1, places=3)
+        self.assertAlmostEqual(k0, best.values[K0].best, places=3)
+        remarks = {entry.name: entry.remark for entry in layer.entries}
+        self.assertIn("FROM CPT (jamiolkowski-2003)", remarks[density_law.DENSITY])
+        other = cone.layers_of(found, 8.0, "hypoplastic")[0]
+        self.assertEqual(other.value("Law"), density_law.HYPOPLASTIC)
+        self.assertEqual(other.value(density_law.DENSEST), "0.53")
+        self.assertEqual(other.value("Youngs modulus"), "")
+
+    def test_choices_of_density(self) -> None:
+        """They grow; the walls do not follow, and a hypoplastic law has no modulus."""
+        found = interpretation.interpret(EXAMPLE, READ, 12.0)
+        for law, ends in (
+            ("density", (density_law.DENSITY, "Youngs modulus")),
+            ("hypoplastic", (density_law.DENSITY,)),
+        ):
+            choices = cone.choices_of(found, 8.0, None, law)
+            names = [f"Soil/Layer {i}/{end}" for i in (1, 2) for end in ends]
+            self.assertEqual(list(choices["best"]), names)
+            for entry in names:
+                low, best, high = (choices[name][entry] for name in choices)
+                self.assertTrue(low < best < high, entry)
+
+
+class Studies(unittest.TestCase):
+    """Of the density."""
+
+    def test_study(self) -> None:
+        """It stays within 0 and 1, and the walls do not follow."""
+        layers = layers_in("--density", "0.85")
+        options = options_of("--density", "0.85", "--study", "own.toml")
+        content = tomllib.loads(suggest.study_of(options, layers))
+        choices = content["parameters"]["relative density"]["choices"]
+        self.assertEqual(list(choices), ["0.65", "0.75", "0.85", "0.95", "1"])
+        entry = f"Soil/Layer 1/{density_law.DENSITY}"
+        self.assertEqual(choices["0.65"], {entry: 0.65})
+        self.assertIn("relative density", content["title"])
+
+
+class Refusals(unittest.TestCase):
+    """One clear line each."""
+
+    def test_words_and_numbers(self) -> None:
+        for words, said in (
+            (["--sand", "densse"], "did you mean dense?"),
+            (["--sand", "85"], "one of loose, medium, dense, very dense"),
+            (["--sand", "clay"], "clay is given by --layer"),
+            (["--density", "85"], "share of 1. Did you mean 0.85?"),
+            (["--density", "-0.1"], "no number from 0 to 1"),
+            (["--density", "thick"], "no number from 0 to 1"),
+            (["--layer", "0: Relative density = 85"], "Did you mean 0.85?"),
+            (["--layer", "0: Sand = dense, Cohesion = 2e4"], "has no Cohesion"),
+            (["--layer", "0: Sand = dense, Friction angle = 40"], "no Friction angle"),
+            (["--layer", "0: Sand = dense, Relative density = 0.8"], "needs one of"),
+            (["--layer", "0: Law = Mohr-Coulomb, Sand = dense"], "goes with the laws"),
+            (["--layer", f"0: Law = {density_law.LAW}"], "needs one of"),
+            (["--layer", "0: Youngs modulus = 1e7"], '"Sand = dense"'),
+            (["--sand", "dense", "--density", "0.8"], "give the soil: either"),
+            (["--sand", "dense", "--layer", "0: Sand = loose"], "give the soil"),
+            (["--sand", "dense", "--law", "angle"], "--law angle is for a cone test"),
+            (["--sand", "dense", "--tops", "0,1"], "--tops is for a cone test"),
+        ):
+            with self.subTest(words=words), self.assertRaises(SuggestError) as caught:
+                layers_in(*words)
+            self.assertIn(said, str(caught.exception))
+
+    def test_clay_beside_sand(self) -> None:
+        clay = "1: Friction angle = 0, Cohesion = 2e4, Youngs modulus = 4e6"
+        layers = layers_in("--layer", "0: Sand = dense", "--layer", clay)
+        with self.assertRaisesRegex(SuggestError, "no common wall friction"):
+            suggest.wall_friction_of(None, layers)
+
+
+if __name__ == "__main__":
+    unittest.main()
