@@ -37,7 +37,8 @@ namespace CaissonMPM
     add_parameter("Initial penetration",
                   depth,
                   "The depth of the tip's lowest point at the start, to which "
-                  "a caisson or cone is wished in place. Units: m.",
+                  "a caisson or cone is wished in place; 0 is on the surface. "
+                  "Units: m.",
                   prm,
                   Patterns::Double(0.));
   }

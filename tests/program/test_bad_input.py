@@ -96,7 +96,6 @@ CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
     (["Wall thickness", "plug"], {f"{BODY}/Wall thickness": 3.5}),
     (["even number"], {f"{BODY}/Cells across the wall": 3}),
     (["Tip angle", "Reduce"], {f"{BODY}/Skirt length": 0.05}),
-    (["Initial penetration", "tip"], {f"{BODY}/Initial penetration": 0.05}),
     (["End penetration", "0.4"], {"Time/End penetration": 0.4}),
     (["no end"], {"Time/End penetration": 0, "Time/End time": 0}),
     (["no end"], {f"{BODY}/Velocity": 0}),

@@ -52,12 +52,6 @@ namespace CaissonMPM
         throw BadInput("Rigid body/Skirt length = " + to_text(length) +
                        " m must exceed the height of the cone, " +
                        to_text(tip_height()) + " m.");
-      if (initial_penetration <= tip_height())
-        throw BadInput(
-          "Rigid body/Initial penetration = " + to_text(initial_penetration) +
-          " m leaves the cone, which is " + to_text(tip_height()) +
-          " m high, partly above the soil surface. Increase the "
-          "penetration.");
     }
 
     double

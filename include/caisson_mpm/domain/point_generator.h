@@ -103,8 +103,10 @@ namespace CaissonMPM
     /** Throw BadInput where these are too many, by zone. */
     void
     check_number(const std::array<double, 3> &n_points) const;
-    bool
-    may_hold_soil(const GridLines &lines, const GlobalCell cell) const;
+    /** Return the part of a cell that soil fills; without height where none
+     * does. */
+    Kernels::CellGeometry
+    soil_of(const GridLines &lines, const GlobalCell cell) const;
     bool
     is_in_region(const dealii::Point<2> &place,
                  const Expression       &further) const;
