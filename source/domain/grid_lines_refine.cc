@@ -38,7 +38,7 @@ namespace CaissonMPM
                        "Cells up to this distance from the tip are halved "
                        "Refinement levels times, those up to twice this "
                        "distance once less, and so on; auto takes twice the "
-                       "thickness of the wall, or twice the radius of a cone. "
+                       "thickness of the wall, or twice the radius of a cone or pile. "
                        "Units: m.",
                        positive);
     add_parameter("Refinement levels along wall",
