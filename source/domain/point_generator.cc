@@ -232,7 +232,8 @@ namespace CaissonMPM
   PointGenerator::Parts
   PointGenerator::number_of_parts(const GridLines &lines,
                                   const BodyShape &body,
-                                  const GlobalCell cell) const
+                                  const GlobalCell cell,
+                                  const bool       splits) const
   {
     const auto   g      = soil_of(lines, cell);
     const double height = std::max(g.height_left, g.height_right);
@@ -244,7 +245,7 @@ namespace CaissonMPM
     const auto parts = [n](const double size, const double smallest) {
       return static_cast<unsigned int>(std::ceil(n * size / smallest - 1e-6));
     };
-    if (adaptive)
+    if (splits)
       return {
         {n, parts(height, std::max(whole.height_left, whole.height_right))}};
     return {{parts(g.width, lines.smallest_width_met(cell)),
@@ -261,12 +262,25 @@ namespace CaissonMPM
       {
         const auto      g    = lines.initial_geometry(GlobalCell(c));
         const PointZone zone = zone_of(g, body, lines.total_travel());
-        parts.push_back(number_of_parts(lines, body, GlobalCell(c)));
+        parts.push_back(number_of_parts(lines, body, GlobalCell(c), adaptive));
         n_points[static_cast<unsigned int>(zone)] +=
           double(parts[c][radial]) * parts[c][vertical];
       }
     check_number(n_points);
     return parts;
+  }
+
+  double
+  PointGenerator::n_points_that_split(const GridLines &lines,
+                                      const BodyShape &body) const
+  {
+    double n = 0.;
+    for (unsigned int c = 0; c < lines.n_cells(); ++c)
+      {
+        const Parts parts = number_of_parts(lines, body, GlobalCell(c), true);
+        n += double(parts[radial]) * parts[vertical];
+      }
+    return n;
   }
 
   void

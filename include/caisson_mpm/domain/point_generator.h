@@ -65,6 +65,11 @@ namespace CaissonMPM
       return adaptive;
     }
 
+    /** Return with how many points a run would begin if they were split and
+     * merged. */
+    double
+    n_points_that_split(const GridLines &lines, const BodyShape &body) const;
+
     unsigned int
     points_per_direction_in_path() const
     {
@@ -97,7 +102,8 @@ namespace CaissonMPM
     Parts
     number_of_parts(const GridLines &lines,
                     const BodyShape &body,
-                    const GlobalCell cell) const;
+                    const GlobalCell cell,
+                    const bool       splits) const;
     std::vector<Parts> // [n_global_cells]
     number_of_parts(const GridLines &lines, const BodyShape &body) const;
     /** Throw BadInput where these are too many, by zone. */
