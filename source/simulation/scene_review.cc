@@ -13,7 +13,9 @@ namespace CaissonMPM
     // What lies outside of these is hardly meant in SI units, where a body goes
     // into the ground; tests of the method take other numbers.
     constexpr double least_modulus = 1e4, largest_modulus = 1e12,
-                     largest_strength      = 1e9;   // Pa
+                     least_hardness         = 1e7,
+                     least_reference_stress = 1e3,
+                     largest_strength       = 1e9;  // Pa
     constexpr double least_solid_density   = 1000., // kg/m3
       largest_solid_density                = 6000.; // kg/m3
     constexpr double least_fluid_density   = 500.,  // kg/m3
@@ -111,14 +113,18 @@ namespace CaissonMPM
   void
   SceneReview::stiffness_and_strength(const SoilMaterial &soil)
   {
-    for (const std::string name : {"Youngs modulus", "Granular hardness"})
+    const std::pair<std::string, double> moduli[] = {
+      {"Youngs modulus", least_modulus},
+      {"Granulate hardness", least_hardness},
+      {"Reference stress", least_reference_stress}};
+    for (const auto &[name, least] : moduli)
       if (const auto value = soil.law_value(name))
-        if (*value < least_modulus || *value > largest_modulus)
+        if (*value < least || *value > largest_modulus)
           doubt(soil.section() + "/" + name,
                 *value,
                 "Pa",
-                "is not the stiffness of a soil. Check the unit, Pa: 1 MPa is "
-                "1e6 Pa.");
+                "is not that of a soil. Check the unit, Pa: 1 kPa is 1000 Pa, "
+                "and 1 MPa is 1e6 Pa.");
     constexpr double stiff_volume = .4;
     if (const auto nu = soil.law_value("Poisson ratio"))
       if (*nu > stiff_volume && !scene.method.uses_mean_volume())

@@ -395,11 +395,13 @@ namespace CaissonMPM
                                sizeof(message.text),
                                "Porosity = %g, a void ratio of %g, is looser "
                                "than the loosest state, %g, at the mean stress "
-                               "%g Pa of the start. Lower it.",
+                               "%g Pa of the start. Lower it, or check "
+                               "Granulate hardness = %g Pa: 1 GPa is 1e9 Pa.",
                                context.void_ratio / (1. + context.void_ratio),
                                context.void_ratio,
                                loosest,
-                               context.mean_stress);
+                               context.mean_stress,
+                               values[1]);
             return false;
           }
         if (!(denominator(p) > 0.))
