@@ -218,6 +218,7 @@ namespace CaissonMPM
                            motions,
                            "Rigid body/Motion is " + motion().name());
     shape().name_unused_entries(origins);
+    surface().name_unused_entries(origins);
     motion().name_unused_entries(origins);
   }
 } // namespace CaissonMPM

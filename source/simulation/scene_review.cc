@@ -158,13 +158,24 @@ namespace CaissonMPM
   void
   SceneReview::solid_density(const SoilMaterial &soil)
   {
-    const double density = soil.solid_density;
-    if (density < least_solid_density || density > largest_solid_density)
+    const double      density = soil.solid_density;
+    const std::string grains  = "the density of grains, which is about 2650 "
+                                "kg/m3." +
+                               other_unit_of_density(density),
+                      dry = soil.section() + "/Dry density";
+    if (density >= least_solid_density && density <= largest_solid_density)
+      return;
+    if (origins.is_set(dry))
+      doubt(dry,
+            soil.dry_density(),
+            "kg/m3",
+            "makes a solid density of " + to_text(density, 4) +
+              " kg/m3. That is not " + grains);
+    else
       doubt(soil.section() + "/Solid density",
             density,
             "kg/m3",
-            "is not the density of grains, which is about 2650 kg/m3." +
-              other_unit_of_density(density));
+            "is not " + grains);
   }
 
   void
@@ -289,7 +300,7 @@ namespace CaissonMPM
   SceneReview::friction()
   {
     const BodyShape    &shape   = scene.body.shape();
-    const auto         &angles  = scene.body.surface().friction_angle;
+    const auto          angles  = scene.body.surface().friction_angles();
     const double        depth   = shape.expands() ?
                                     scene.lines.depth() :
                                     scene.lines.total_travel() - shape.bottom();
