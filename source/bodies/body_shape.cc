@@ -23,24 +23,26 @@ namespace CaissonMPM
   void
   BodyShape::add_skirt_length(double &length)
   {
-    add_parameter("Skirt length",
-                  length,
-                  "The length of a caisson's skirt, of a pile, or of a cone "
-                  "with its shaft, measured from the lowest point of the tip. Units: m.",
-                  prm,
-                  Patterns::Double(1e-9));
+    add_parameter(
+      "Skirt length",
+      length,
+      "The length of a caisson's skirt, of a pile, or of a cone "
+      "with its shaft, measured from the lowest point of the tip. Units: m.",
+      prm,
+      Patterns::Double(1e-9));
   }
 
   void
   BodyShape::add_initial_penetration(double &depth)
   {
-    add_parameter("Initial penetration",
-                  depth,
-                  "The depth of the tip's lowest point at the start, to which "
-                  "a caisson, cone or pile is wished in place; 0 is on the surface. "
-                  "Units: m.",
-                  prm,
-                  Patterns::Double(0.));
+    add_parameter(
+      "Initial penetration",
+      depth,
+      "The depth of the tip's lowest point at the start, to which "
+      "a caisson, cone or pile is wished in place; 0 is on the surface. "
+      "Units: m.",
+      prm,
+      Patterns::Double(0.));
   }
 
   void

@@ -135,13 +135,8 @@ namespace CaissonMPM
 
   RigidBody::RigidBody()
     : ParameterAcceptor("/Rigid body")
-    , shapes(one_of_each<BodyShape,
-                         NoShape,
-                         Caisson,
-                         Box,
-                         Cone,
-                         Pile,
-                         Cylinder>())
+    , shapes(
+        one_of_each<BodyShape, NoShape, Caisson, Box, Cone, Pile, Cylinder>())
     , motions(one_of_each<BodyMotion,
                           NoMotion,
                           PrescribedMotion,

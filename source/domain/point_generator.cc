@@ -223,8 +223,7 @@ namespace CaissonMPM
     auto         g      = region_top > 0. ? whole : part_below(whole, 0.);
     const double center = g.bottom_left + .5 * g.height_left;
     if (lines.is_body_cell(cell) || center > region_top ||
-        center < region_bottom ||
-        height_of(g) < nothing * height_of(whole))
+        center < region_bottom || height_of(g) < nothing * height_of(whole))
       g.height_left = g.height_right = 0.;
     return g;
   }
@@ -409,8 +408,8 @@ namespace CaissonMPM
   PointGenerator::is_in_region(const Point<2>   &place,
                                const Expression &further) const
   {
-    const double r = place[radial];
-    const bool is_above_surface = region_top <= 0. && place[vertical] > 0.;
+    const double r                = place[radial];
+    const bool   is_above_surface = region_top <= 0. && place[vertical] > 0.;
     if (r < region_left || r > region_right || is_above_surface)
       return false;
     if (further.empty())

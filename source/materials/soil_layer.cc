@@ -69,6 +69,15 @@ namespace CaissonMPM
                   "surface, which must be 0 for layer 1. Units: m.",
                   prm,
                   Patterns::Double(0.));
+    // fill_like_layers() reads it
+    add_entry(*this,
+              "Like layer",
+              "none",
+              "The layer takes all entries that it does not set itself, but "
+              "for Top depth, from the layer above of this number. Units: "
+              "none.",
+              WordOrNumber("none", {}, Patterns::Integer(1)),
+              [](const std::string &) {});
     add_parameter("Law",
                   law,
                   "The constitutive law gives the stress in the layer. Units: "
@@ -412,9 +421,9 @@ namespace CaissonMPM
   SoilMaterial
   SoilLayer::weight_at(const double depth) const
   {
-    SoilMaterial result  = soil;
-    result.top_depth     = depth;
-    result.porosity      = porosity_at({depth, 0., 0.});
+    SoilMaterial result = soil;
+    result.top_depth    = depth;
+    result.porosity     = porosity_at({depth, 0., 0.});
     result.solid_density =
       dry_density ? (*dry_density)({depth, 0., 0.}) / (1. - result.porosity) :
                     solid_density({depth, 0., 0.});

@@ -13,9 +13,8 @@ namespace CaissonMPM
     // What lies outside of these is hardly meant in SI units, where a body goes
     // into the ground; tests of the method take other numbers.
     constexpr double least_modulus = 1e4, largest_modulus = 1e12,
-                     least_hardness         = 1e7,
-                     least_reference_stress = 1e3,
-                     largest_strength       = 1e9;  // Pa
+                     least_hardness = 1e7, least_reference_stress = 1e3,
+                     largest_strength      = 1e9;   // Pa
     constexpr double least_solid_density   = 1000., // kg/m3
       largest_solid_density                = 6000.; // kg/m3
     constexpr double least_fluid_density   = 500.,  // kg/m3

@@ -189,8 +189,8 @@ namespace CaissonMPM
     cost.n_ranks = grid.n_ranks();
     cost.peak_bytes =
       Utilities::MPI::sum(peak_memory_bytes(), grid.communicator());
-    constexpr double long_run  = 60.; // s
-    const double     grows     = cost.stiffens ? 4. : 1.; // about
+    constexpr double long_run = 60.;                     // s
+    const double     grows    = cost.stiffens ? 4. : 1.; // about
     if (grows * cost.n_steps * cost.seconds_per_step > long_run)
       cost.savings = ways_to_save(cost.n_points);
     return cost;
@@ -208,8 +208,8 @@ namespace CaissonMPM
                          to_text(n, 8) + " points instead of " +
                          to_text(n_points, 8) +
                          ", and makes more where they are needed");
-    const double             scaling = soil.mass_scaling();
-    const auto               cells   = body.shape().cells_across_wall();
+    const double scaling = soil.mass_scaling();
+    const auto   cells   = body.shape().cells_across_wall();
     if (body.shape().exists() && !body.motion().follows_loads() &&
         !water->traits().follows_soil && scaling < usual_scaling &&
         !time_step.has_inertia_tolerance())

@@ -209,8 +209,8 @@ check_start_at_surface()
         for (unsigned int c = 0; c < s.grid.n_cells(); ++c)
           lowest_row = std::min(lowest_row, height_of(s.grid.geometry(c)));
         const bool   is_flat = std::string(tip) == "flat";
-        const double area    = is_flat ? .2 * depth :
-                                         depth * depth / std::tan(pi / 3.),
+        const double area =
+                       is_flat ? .2 * depth : depth * depth / std::tan(pi / 3.),
                      missing = 8. * 8. / 2. * 7. - 2.9 * area - volume,
                      cell    = 2.9 * .1 * .1;
         std::printf("%s tip at %.2f m: ", tip, depth);

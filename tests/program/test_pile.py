@@ -4,7 +4,7 @@
 import unittest
 from typing import Any
 
-from program import SUCCESS, ProgramTest, history, user_scene
+from program import SUCCESS, ProgramTest, history, scene, user_scene
 
 BODY = "Rigid body"
 LAYER = "Soil/Layer 1"
@@ -121,6 +121,55 @@ class SoilAndWalls(ProgramTest):
             "t/m3",
         ):
             self.assertIn(words, said)
+
+class LikeLayer(ProgramTest):
+    """A layer that takes the entries of another."""
+
+    def printed(self, entries: dict[str, Any]) -> str:
+        """Return layer 2 as --print-parameters has it."""
+        said = self.run_program(
+            SUCCESS, scene("jack"), "--print-parameters", entries=entries
+        )
+        return said.split("subsection Layer 2")[1].split("  end\n")[0]
+
+    def test_entries_are_taken_over(self) -> None:
+        """But for the depth, what the layer sets, and what says the same."""
+        entries: dict[str, Any] = {
+            "Soil/Number of layers": 2,
+            f"{LAYER}/Friction angle": 33,
+            f"{LAYER}/Youngs modulus": 7e6,
+            f"{LAYER}/Porosity": 0.44,
+            f"{LAYER}/K0": 0.6,
+            "Soil/Layer 2/Top depth": 2,
+            "Soil/Layer 2/Youngs modulus": 9e6,
+            "Soil/Layer 2/Void ratio": 0.7,
+            "Soil/Layer 2/Like layer": 1,
+        }
+        layer = self.printed(entries)
+        for name, value in (
+            ("Friction angle", "33"),
+            ("Youngs modulus", "9e6|9000000.0"),
+            ("Void ratio", "0.7"),
+            ("K0", "0.6"),
+            ("Top depth", "2"),
+        ):
+            self.assertRegex(layer, rf"set {name} += ({value})\n")
+        self.assertNotRegex(layer, r"set Porosity += 0.44\n")
+        said = self.run_scene(
+            "jack", self.directory(), SUCCESS, "--validate", entries=entries
+        )
+        self.assertNotIn("warning", said)
+
+    def test_refusals(self) -> None:
+        for number in (2, 7):
+            self.refused(
+                [f"Soil/Layer 2/Like layer = {number}", "a layer above", "--set"],
+                entries={
+                    "Soil/Number of layers": 2,
+                    "Soil/Layer 2/Top depth": 2,
+                    "Soil/Layer 2/Like layer": number,
+                },
+            )
 
 
 if __name__ == "__main__":
