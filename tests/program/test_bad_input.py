@@ -115,10 +115,6 @@ CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
         ["Lid thickness", "only a caisson"],
         {f"{BODY}/Lid thickness": 0.1, f"{BODY}/Kind": "box"},
     ),
-    (
-        ["cone", "partly above", "5.19"],
-        {f"{BODY}/Kind": "cone", f"{BODY}/Skirt length": 6},
-    ),
     (["height of the cone", "Skirt length"], {f"{BODY}/Kind": "cone"}),
     (
         ["only grow"],
