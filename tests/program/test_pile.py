@@ -54,6 +54,7 @@ class Start(ProgramTest):
             self.assertLess(max(forces), 1.15 * min(forces), (name, forces))
             self.assertGreater(min(forces), 0)
 
+
 class SoilAndWalls(ProgramTest):
     """Other numbers for the same soil and the same wall."""
 
@@ -121,6 +122,7 @@ class SoilAndWalls(ProgramTest):
             "t/m3",
         ):
             self.assertIn(words, said)
+
 
 class LikeLayer(ProgramTest):
     """A layer that takes the entries of another."""

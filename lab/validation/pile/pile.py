@@ -120,7 +120,9 @@ def draw(figure: Figure, study: Study, table: Table) -> None:
                 mfc="none",
                 label=f"{label}, theirs",
             )
-    for axes, what in zip(panels, ("base resistance (MPa)", "mean shaft friction (kPa)")):
+    for axes, what in zip(
+        panels, ("base resistance (MPa)", "mean shaft friction (kPa)")
+    ):
         axes.set(xlabel=what, ylabel="depth of the base (m)")
         axes.invert_yaxis()
         axes.grid(color="0.9")
