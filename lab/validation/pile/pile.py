@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A closed pile jacked into hypoplastic sand, beside runs of another group with another
-program: base resistance and shaft friction over depth, for two densities; and what cells,
-inertia and the width of the mesh change."""
+program: base resistance and shaft friction over depth, for two densities; and what
+cells, inertia and the width of the mesh change."""
 from pathlib import Path
 from typing import Any
 
