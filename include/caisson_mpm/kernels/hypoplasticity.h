@@ -395,13 +395,11 @@ namespace CaissonMPM
                                sizeof(message.text),
                                "Porosity = %g, a void ratio of %g, is looser "
                                "than the loosest state, %g, at the mean stress "
-                               "%g Pa of the start. Lower it, or check "
-                               "Granulate hardness = %g Pa: 1 GPa is 1e9 Pa.",
+                               "%g Pa. Lower it, or check Granulate hardness.",
                                context.void_ratio / (1. + context.void_ratio),
                                context.void_ratio,
                                loosest,
-                               context.mean_stress,
-                               values[1]);
+                               context.mean_stress);
             return false;
           }
         if (!(denominator(p) > 0.))
