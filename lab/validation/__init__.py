@@ -35,6 +35,8 @@ COMPARISONS = {
     "cone_quick": "cone_sand",
     "cone_sand": "cone_sand",
     "model_caisson": "model_caisson",
+    "pile": "pile",
+    "pile_quick": "pile",
 }
 
 

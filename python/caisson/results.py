@@ -104,6 +104,13 @@ class Results:
         return self.summary.get("scene") or {}
 
     @property
+    def body(self) -> str:
+        """The kind of the body; a caisson where a run has left no run.json yet."""
+        if not (self.directory / "run.json").is_file():
+            return "caisson"
+        return str(self.summary.get("entries", {}).get("Rigid body/Kind", "caisson"))
+
+    @property
     def title(self) -> str:
         """The scene's title or file, and where the results are."""
         if not (self.directory / "run.json").is_file():

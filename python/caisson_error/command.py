@@ -215,7 +215,7 @@ class Plan:
     def meshes(self) -> list[float]:
         """Return the refinements that fit the body and that the program accepts."""
         kind = self.entries["Rigid body/Kind"]
-        if kind not in ("caisson", "box", "cone"):
+        if kind not in ("caisson", "box", "cone", "pile"):
             raise StudyError("the scene has no body that is pushed into the soil")
         has_wall = kind != "box"
         cells = 0

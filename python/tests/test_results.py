@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from caisson import curve, plot, table, units
+from caisson.plot import forces
 from caisson.plot.cells import CellMeans, cell_of
 from caisson.plot.fields import chosen, window_of
 from caisson.results import Results, ResultsError, read_table
@@ -107,6 +108,21 @@ class Pictures(Directory):
         for picture in [file for file in files if file.suffix == ".png"]:
             self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
             self.assertGreater(picture.stat().st_size, 10_000)
+
+    def test_forces_of_a_pile(self) -> None:
+        """A pile has no inner wall, and its base penetrates."""
+        for kind, has_wall, lowest in (
+            ("caisson", True, "skirt tip"),
+            ("pile", False, "pile base"),
+        ):
+            run = Results(shutil.copytree(TINY, self.path / kind))
+            run.summary["entries"] = {"Rigid body/Kind": kind}
+            panels = forces.draw_over_depth(run, run.history["penetration_m"]).axes
+            names = [line.get_label() for panel in panels for line in panel.lines]
+            self.assertEqual("inner friction" in names, has_wall)
+            self.assertIn("outer friction", names)
+            for panel in panels:
+                self.assertEqual(panel.get_ylabel(), f"penetration of the {lowest} (m)")
 
     def test_frames_of_another_version(self) -> None:
         path = Path(shutil.copytree(TINY, self.path / "run"))

@@ -14,8 +14,8 @@ namespace CaissonMPM
   {
     add_parameter("Outer diameter",
                   diameter,
-                  "The outer diameter of a caisson, of a cone and its shaft, "
-                  "or of a cylinder at the start. Units: m.",
+                  "The outer diameter of a caisson, of a pile, of a cone and "
+                  "its shaft, or of a cylinder at the start. Units: m.",
                   prm,
                   Patterns::Double(1e-9));
   }
@@ -23,23 +23,26 @@ namespace CaissonMPM
   void
   BodyShape::add_skirt_length(double &length)
   {
-    add_parameter("Skirt length",
-                  length,
-                  "The length of a caisson's skirt, or of a cone with its "
-                  "shaft, measured from the lowest point of the tip. Units: m.",
-                  prm,
-                  Patterns::Double(1e-9));
+    add_parameter(
+      "Skirt length",
+      length,
+      "The length of a caisson's skirt, of a pile, or of a cone "
+      "with its shaft, measured from the lowest point of the tip. Units: m.",
+      prm,
+      Patterns::Double(1e-9));
   }
 
   void
   BodyShape::add_initial_penetration(double &depth)
   {
-    add_parameter("Initial penetration",
-                  depth,
-                  "The depth of the tip's lowest point at the start, to which "
-                  "a caisson or cone is wished in place. Units: m.",
-                  prm,
-                  Patterns::Double(0.));
+    add_parameter(
+      "Initial penetration",
+      depth,
+      "The depth of the tip's lowest point at the start, to which "
+      "a caisson, cone or pile is wished in place; 0 is on the surface. "
+      "Units: m.",
+      prm,
+      Patterns::Double(0.));
   }
 
   void
@@ -49,7 +52,7 @@ namespace CaissonMPM
       "Cells across the wall",
       n,
       "The number of cells across the wall of a caisson, or across the radius "
-      "of a cone or cylinder: the width of the cells at the tip is the "
+      "of a cone, pile or cylinder: the width of the cells at the tip is the "
       "thickness over this number, which must be even for a triangular tip. "
       "Units: none.",
       prm,

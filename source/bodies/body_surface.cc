@@ -45,6 +45,17 @@ namespace CaissonMPM
                         name + ". Units: degrees.",
                       prm,
                       Patterns::Double(0., 89.));
+        add_word_or_number(*this,
+                           "Friction coefficient of the " + name,
+                           coefficient[s],
+                           "by angle",
+                           {},
+                           "The coefficient of friction between soil and the "
+                           "body's " +
+                             name +
+                             ", which is the tangent of the friction angle, "
+                             "instead of that angle. Units: none.",
+                           Patterns::Double(0.));
         add_parameter("Adhesion of the " + name,
                       adhesion[s],
                       "The adhesion between soil and the body's " + name +
@@ -57,6 +68,28 @@ namespace CaissonMPM
   double
   BodySurface::friction_coefficient(const Surface surface) const
   {
-    return std::tan(radians(friction_angle[surface]));
+    return coefficient[surface].value_or(
+      std::tan(radians(friction_angle[surface])));
+  }
+
+  std::array<double, n_surfaces>
+  BodySurface::friction_angles() const
+  {
+    std::array<double, n_surfaces> result = friction_angle;
+    for (unsigned int s = 0; s < n_surfaces; ++s)
+      if (coefficient[s])
+        result[s] = std::atan(*coefficient[s]) * 180. / pi;
+    return result;
+  }
+
+  void
+  BodySurface::name_unused_entries(ParameterOrigins &origins) const
+  {
+    for (unsigned int s = 0; s < n_surfaces; ++s)
+      if (const std::string &name = name_of(static_cast<Surface>(s));
+          coefficient[s])
+        origins.add_unused({"Rigid body/Friction angle of the " + name},
+                           "Rigid body/Friction coefficient of the " + name +
+                             " is set");
   }
 } // namespace CaissonMPM

@@ -7,6 +7,7 @@
 #include <caisson_mpm/bodies/cylinder.h>
 #include <caisson_mpm/bodies/dropped_motion.h>
 #include <caisson_mpm/bodies/lowered_motion.h>
+#include <caisson_mpm/bodies/pile.h>
 #include <caisson_mpm/bodies/prescribed_motion.h>
 #include <caisson_mpm/bodies/rigid_body.h>
 
@@ -134,7 +135,8 @@ namespace CaissonMPM
 
   RigidBody::RigidBody()
     : ParameterAcceptor("/Rigid body")
-    , shapes(one_of_each<BodyShape, NoShape, Caisson, Box, Cone, Cylinder>())
+    , shapes(
+        one_of_each<BodyShape, NoShape, Caisson, Box, Cone, Pile, Cylinder>())
     , motions(one_of_each<BodyMotion,
                           NoMotion,
                           PrescribedMotion,
@@ -211,6 +213,7 @@ namespace CaissonMPM
                            motions,
                            "Rigid body/Motion is " + motion().name());
     shape().name_unused_entries(origins);
+    surface().name_unused_entries(origins);
     motion().name_unused_entries(origins);
   }
 } // namespace CaissonMPM

@@ -106,7 +106,7 @@ namespace CaissonMPM
     add_parameter("Fine width",
                   fine_width,
                   "Cells up to this distance from the wall, on both sides, are "
-                  "as wide as those of the wall (or of the cone, the "
+                  "as wide as those of the wall (or of the cone, the pile, the "
                   "cylinder). Units: m.",
                   prm,
                   not_negative);
@@ -124,8 +124,8 @@ namespace CaissonMPM
                        "The finest cells have this width and height; those of "
                        "a body are narrower if its width is not a multiple of "
                        "it; auto takes what Rigid body/Cells across the wall "
-                       "gives for a caisson, cone or cylinder, and Cell width "
-                       "and Cell height for a box. Units: m.",
+                       "gives for a caisson, cone, pile or cylinder, and Cell "
+                       "width and Cell height for a box. Units: m.",
                        positive);
   }
 

@@ -212,7 +212,11 @@ namespace CaissonMPM
       fixed.push_back({body.lower_face_of_lid(), "the lid of the body"});
     const auto   finest = finest_cell(body, cell_height, "Grid/Cell height");
     const double fine   = finest.first * (1u << levels);
-    const auto   size   = [=](const double z) {
+    // a flat row between both lines would only make the time step small
+    constexpr double flat = .75; // of a cell
+    if (shoulder != 0. && std::abs(shoulder) < flat * fine)
+      fixed.erase(fixed.begin() + 1);
+    const auto size = [=](const double z) {
       const double distance = std::abs(z - shoulder) - fine_height;
       return size_at(distance, fine, cell_height);
     };

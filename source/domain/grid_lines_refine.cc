@@ -30,17 +30,18 @@ namespace CaissonMPM
                   "none.",
                   prm,
                   times);
-    add_word_or_number(*this,
-                       "Refined distance",
-                       refined_distance,
-                       "auto",
-                       0.,
-                       "Cells up to this distance from the tip are halved "
-                       "Refinement levels times, those up to twice this "
-                       "distance once less, and so on; auto takes twice the "
-                       "thickness of the wall, or twice the radius of a cone. "
-                       "Units: m.",
-                       positive);
+    add_word_or_number(
+      *this,
+      "Refined distance",
+      refined_distance,
+      "auto",
+      0.,
+      "Cells up to this distance from the tip are halved "
+      "Refinement levels times, those up to twice this "
+      "distance once less, and so on; auto takes twice the "
+      "thickness of the wall, or twice the radius of a cone or pile. "
+      "Units: m.",
+      positive);
     add_parameter("Refinement levels along wall",
                   levels_at_wall,
                   "Cells along the wall above the tip are halved in both "

@@ -214,33 +214,41 @@ namespace CaissonMPM
     };
   } // namespace
 
-  bool
-  PointGenerator::may_hold_soil(const GridLines &lines,
-                                const GlobalCell cell) const
+  Kernels::CellGeometry
+  PointGenerator::soil_of(const GridLines &lines, const GlobalCell cell) const
   {
-    const auto   g        = lines.initial_geometry(cell);
-    const double center_z = g.bottom_left + .5 * g.height_left;
-    return !lines.is_body_cell(cell) && center_z <= region_top &&
-           center_z >= region_bottom;
+    constexpr double nothing = 1e-6; // of a cell
+    const auto       whole   = lines.initial_geometry(cell);
+    // rows that bend around a tip cross the soil surface
+    auto         g      = region_top > 0. ? whole : part_below(whole, 0.);
+    const double center = g.bottom_left + .5 * g.height_left;
+    if (lines.is_body_cell(cell) || center > region_top ||
+        center < region_bottom || height_of(g) < nothing * height_of(whole))
+      g.height_left = g.height_right = 0.;
+    return g;
   }
 
   PointGenerator::Parts
   PointGenerator::number_of_parts(const GridLines &lines,
                                   const BodyShape &body,
-                                  const GlobalCell cell) const
+                                  const GlobalCell cell,
+                                  const bool       splits) const
   {
-    if (!may_hold_soil(lines, cell))
+    const auto   g      = soil_of(lines, cell);
+    const double height = std::max(g.height_left, g.height_right);
+    if (height == 0.)
       return {{0, 0}};
-    const auto         g = lines.initial_geometry(cell);
-    const unsigned int n = points_per_direction(g, body, lines.total_travel());
-    if (adaptive)
-      return {{n, n}};
+    const auto         whole = lines.initial_geometry(cell);
+    const unsigned int n =
+      points_per_direction(whole, body, lines.total_travel());
     const auto parts = [n](const double size, const double smallest) {
       return static_cast<unsigned int>(std::ceil(n * size / smallest - 1e-6));
     };
+    if (splits)
+      return {
+        {n, parts(height, std::max(whole.height_left, whole.height_right))}};
     return {{parts(g.width, lines.smallest_width_met(cell)),
-             parts(std::max(g.height_left, g.height_right),
-                   lines.smallest_height_met(cell))}};
+             parts(height, lines.smallest_height_met(cell))}};
   }
 
   std::vector<PointGenerator::Parts>
@@ -253,12 +261,25 @@ namespace CaissonMPM
       {
         const auto      g    = lines.initial_geometry(GlobalCell(c));
         const PointZone zone = zone_of(g, body, lines.total_travel());
-        parts.push_back(number_of_parts(lines, body, GlobalCell(c)));
+        parts.push_back(number_of_parts(lines, body, GlobalCell(c), adaptive));
         n_points[static_cast<unsigned int>(zone)] +=
           double(parts[c][radial]) * parts[c][vertical];
       }
     check_number(n_points);
     return parts;
+  }
+
+  double
+  PointGenerator::n_points_that_split(const GridLines &lines,
+                                      const BodyShape &body) const
+  {
+    double n = 0.;
+    for (unsigned int c = 0; c < lines.n_cells(); ++c)
+      {
+        const Parts parts = number_of_parts(lines, body, GlobalCell(c), true);
+        n += double(parts[radial]) * parts[vertical];
+      }
+    return n;
   }
 
   void
@@ -387,8 +408,9 @@ namespace CaissonMPM
   PointGenerator::is_in_region(const Point<2>   &place,
                                const Expression &further) const
   {
-    const double r = place[radial];
-    if (r < region_left || r > region_right)
+    const double r                = place[radial];
+    const bool   is_above_surface = region_top <= 0. && place[vertical] > 0.;
+    if (r < region_left || r > region_right || is_above_surface)
       return false;
     if (further.empty())
       return true;
@@ -421,7 +443,7 @@ namespace CaissonMPM
     // Every rank goes through all cells, so that a point's number and random
     // position do not depend on the number of ranks.
     for (unsigned int c = 0; c < lines.n_cells(); ++c)
-      for_each_part(lines.initial_geometry(GlobalCell(c)),
+      for_each_part(soil_of(lines, GlobalCell(c)),
                     lines.axisymmetric(),
                     parts[c],
                     random,

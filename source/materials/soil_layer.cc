@@ -74,6 +74,15 @@ namespace CaissonMPM
                   "surface, which must be 0 for layer 1. Units: m.",
                   prm,
                   Patterns::Double(0.));
+    // fill_like_layers() reads it
+    add_entry(*this,
+              "Like layer",
+              "none",
+              "The layer takes all entries that it does not set itself, but "
+              "for Top depth, from the layer above of this number. Units: "
+              "none.",
+              WordOrNumber("none", {}, Patterns::Integer(1)),
+              [](const std::string &) {});
     add_parameter("Law",
                   law,
                   "The constitutive law gives the stress in the layer. Units: "
@@ -156,6 +165,21 @@ namespace CaissonMPM
       "The relative density D gives the void ratio at the start as e_max - D "
       "(e_max - e_min), instead of Porosity. Units: none.",
       Patterns::Double(-0.2, 1.3));
+    add_word_or_profile(*this,
+                        "Void ratio",
+                        void_ratio,
+                        "by porosity",
+                        "The void ratio e at the start gives the porosity as e "
+                        "/ (1 + e), instead of Porosity. Units: none.",
+                        Patterns::Double(0., 19.));
+    add_word_or_profile(*this,
+                        "Dry density",
+                        dry_density,
+                        "by solids",
+                        "The dry density at the start is the mass of the "
+                        "grains over the volume of the soil, instead of Solid "
+                        "density. Units: kg/m3.",
+                        Patterns::Double(1e-12));
   }
 
   void
@@ -254,6 +278,12 @@ namespace CaissonMPM
     if (relative_density)
       origins.add_unused({section() + "/Porosity"},
                          section() + "/Relative density is set");
+    if (void_ratio)
+      origins.add_unused({section() + "/Porosity"},
+                         section() + "/Void ratio is set");
+    if (dry_density)
+      origins.add_unused({section() + "/Solid density"},
+                         section() + "/Dry density is set");
   }
 
   bool
@@ -276,10 +306,9 @@ namespace CaissonMPM
   std::vector<const Profile *>
   SoilLayer::profiles() const
   {
-    std::vector<const Profile *> result = {relative_density ?
-                                             relative_density.get() :
-                                             &porosity,
-                                           &solid_density,
+    std::vector<const Profile *> result = {&density_of_state(),
+                                           dry_density ? dry_density.get() :
+                                                         &solid_density,
                                            &permeability,
                                            k0 ? k0.get() : &overconsolidation};
     if (relative_density)
@@ -296,6 +325,14 @@ namespace CaissonMPM
     for (int i = 0; i < description.n_entries; ++i)
       result.push_back(&values.at(description.entries[i].name));
     return result;
+  }
+
+  const Profile &
+  SoilLayer::density_of_state() const
+  {
+    return relative_density ? *relative_density :
+           void_ratio       ? *void_ratio :
+                              porosity;
   }
 
   bool
@@ -332,10 +369,13 @@ namespace CaissonMPM
   void
   SoilLayer::check_parameters() const
   {
+    if (relative_density && void_ratio)
+      throw BadInput(relative_density->name() + " and " + void_ratio->name() +
+                     " both set how dense the layer is. Remove one of them.");
     for (const Profile *const p :
-         {&porosity,
+         {&density_of_state(),
           &solid_density,
-          static_cast<const Profile *>(relative_density.get()),
+          static_cast<const Profile *>(dry_density.get()),
           &values.at(minimum_void_ratio),
           &values.at(maximum_void_ratio)})
       if (p != nullptr && p->knows_stress())
@@ -353,6 +393,8 @@ namespace CaissonMPM
   double
   SoilLayer::porosity_at(const PlaceInGround &place) const
   {
+    if (void_ratio)
+      return (*void_ratio)(place) / (1. + (*void_ratio)(place));
     if (!relative_density)
       return porosity(place);
     const double e_min = values.at(minimum_void_ratio)(place),
@@ -378,7 +420,9 @@ namespace CaissonMPM
     result.porosity     = porosity_at({depth, 0., 0.});
     if (relative_density)
       result.relative_density = (*relative_density)({depth, 0., 0.});
-    result.solid_density = solid_density({depth, 0., 0.});
+    result.solid_density =
+      dry_density ? (*dry_density)({depth, 0., 0.}) / (1. - result.porosity) :
+                    solid_density({depth, 0., 0.});
     return result;
   }
 

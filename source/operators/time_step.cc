@@ -3,6 +3,7 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/kernels/cells.h>
+#include <caisson_mpm/kernels/views.h>
 #include <caisson_mpm/operators/time_step.h>
 
 #include <deal.II/base/mpi.h>

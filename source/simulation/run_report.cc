@@ -176,7 +176,7 @@ namespace CaissonMPM
       Json::Members members = Json::numbers(parts.body.shape().dimensions());
       if (members.empty())
         return members;
-      const auto &angles = parts.body.surface().friction_angle;
+      const auto angles = parts.body.surface().friction_angles();
       append(
         members,
         {{"inner_wall_friction_angle_deg", Json::number(angles[inner_wall])},

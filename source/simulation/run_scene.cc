@@ -3,6 +3,7 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/parameter_file.h>
 #include <caisson_mpm/base/text.h>
+#include <caisson_mpm/materials/like_layer.h>
 #include <caisson_mpm/simulation/run_scene.h>
 #include <caisson_mpm/simulation/simulation.h>
 
@@ -105,6 +106,9 @@ namespace CaissonMPM
                                    [&simulation](const std::string &path) {
                                      return simulation.declare_subsection(path);
                                    });
+    with_places(origins, [&]() {
+      fill_like_layers(dealii::ParameterAcceptor::prm, origins);
+    });
     if (command_line.print_parameters || !command_line.explain.empty())
       {
         print_parameters(origins, command_line.explain, out);

@@ -13,6 +13,7 @@ namespace CaissonMPM
     // What lies outside of these is hardly meant in SI units, where a body goes
     // into the ground; tests of the method take other numbers.
     constexpr double least_modulus = 1e4, largest_modulus = 1e12,
+                     least_hardness = 1e7, least_reference_stress = 1e3,
                      largest_strength      = 1e9;   // Pa
     constexpr double least_solid_density   = 1000., // kg/m3
       largest_solid_density                = 6000.; // kg/m3
@@ -111,14 +112,18 @@ namespace CaissonMPM
   void
   SceneReview::stiffness_and_strength(const SoilMaterial &soil)
   {
-    for (const std::string name : {"Youngs modulus", "Granular hardness"})
+    const std::pair<std::string, double> moduli[] = {
+      {"Youngs modulus", least_modulus},
+      {"Granulate hardness", least_hardness},
+      {"Reference stress", least_reference_stress}};
+    for (const auto &[name, least] : moduli)
       if (const auto value = soil.law_value(name))
-        if (*value < least_modulus || *value > largest_modulus)
+        if (*value < least || *value > largest_modulus)
           doubt(soil.section() + "/" + name,
                 *value,
                 "Pa",
-                "is not the stiffness of a soil. Check the unit, Pa: 1 MPa is "
-                "1e6 Pa.");
+                "is not that of a soil. Check the unit, Pa: 1 kPa is 1000 Pa, "
+                "and 1 MPa is 1e6 Pa.");
     constexpr double stiff_volume = .4;
     if (const auto nu = soil.law_value("Poisson ratio"))
       if (*nu > stiff_volume && !scene.method.uses_mean_volume())
@@ -152,13 +157,24 @@ namespace CaissonMPM
   void
   SceneReview::solid_density(const SoilMaterial &soil)
   {
-    const double density = soil.solid_density;
-    if (density < least_solid_density || density > largest_solid_density)
+    const double      density = soil.solid_density;
+    const std::string grains  = "the density of grains, which is about 2650 "
+                                "kg/m3." +
+                               other_unit_of_density(density),
+                      dry = soil.section() + "/Dry density";
+    if (density >= least_solid_density && density <= largest_solid_density)
+      return;
+    if (origins.is_set(dry))
+      doubt(dry,
+            soil.dry_density(),
+            "kg/m3",
+            "makes a solid density of " + to_text(density, 4) +
+              " kg/m3. That is not " + grains);
+    else
       doubt(soil.section() + "/Solid density",
             density,
             "kg/m3",
-            "is not the density of grains, which is about 2650 kg/m3." +
-              other_unit_of_density(density));
+            "is not " + grains);
   }
 
   void
@@ -283,7 +299,7 @@ namespace CaissonMPM
   SceneReview::friction()
   {
     const BodyShape    &shape   = scene.body.shape();
-    const auto         &angles  = scene.body.surface().friction_angle;
+    const auto          angles  = scene.body.surface().friction_angles();
     const double        depth   = shape.expands() ?
                                     scene.lines.depth() :
                                     scene.lines.total_travel() - shape.bottom();

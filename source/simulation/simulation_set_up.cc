@@ -189,19 +189,27 @@ namespace CaissonMPM
     cost.n_ranks = grid.n_ranks();
     cost.peak_bytes =
       Utilities::MPI::sum(peak_memory_bytes(), grid.communicator());
-    constexpr double long_run = 120.; // s
-    if (cost.n_steps * cost.seconds_per_step > long_run)
-      cost.savings = ways_to_save();
+    constexpr double long_run = 60.;                     // s
+    const double     grows    = cost.stiffens ? 4. : 1.; // about
+    if (grows * cost.n_steps * cost.seconds_per_step > long_run)
+      cost.savings = ways_to_save(cost.n_points);
     return cost;
   }
 
   std::vector<std::string>
-  Simulation::ways_to_save() const
+  Simulation::ways_to_save(const double n_points) const
   {
-    constexpr double         usual_scaling = 100.;
+    constexpr double         usual_scaling = 100., far_fewer = .8;
     std::vector<std::string> result;
-    const double             scaling = soil.mass_scaling();
-    const auto               cells   = body.shape().cells_across_wall();
+    if (body.shape().exists() && !generator.splits_and_merges())
+      if (const double n = generator.n_points_that_split(lines, body.shape());
+          n < far_fewer * n_points)
+        result.push_back("Material points/Split and merge = true begins with " +
+                         to_text(n, 8) + " points instead of " +
+                         to_text(n_points, 8) +
+                         ", and makes more where they are needed");
+    const double scaling = soil.mass_scaling();
+    const auto   cells   = body.shape().cells_across_wall();
     if (body.shape().exists() && !body.motion().follows_loads() &&
         !water->traits().follows_soil && scaling < usual_scaling &&
         !time_step.has_inertia_tolerance())
@@ -212,9 +220,6 @@ namespace CaissonMPM
     if (cells > 0 && lines.tree().root_size() == 1)
       result.push_back("Grid/Refinement levels = 1 halves cells only at the "
                        "tip, as in prm/jack_refined.prm");
-    if (cells > 0 && !generator.splits_and_merges())
-      result.push_back("Material points/Split and merge = true keeps fewer "
-                       "points around a thin wall");
     if (cells > 2)
       result.push_back("Rigid body/Cells across the wall = 2 instead of " +
                        to_text(cells) +

@@ -188,6 +188,42 @@ check_point_options()
 
 
 
+/** Soil ends at the surface, where a body also begins there or just below, and
+ * no row between the surface and the tip is flat. */
+void
+check_start_at_surface()
+{
+  for (const double depth : {0., .02, .1})
+    for (const char *tip : {"flat", "triangular"})
+      {
+        Scene s(caisson + "subsection Rigid body\nset Initial penetration = " +
+                  std::to_string(depth) + "\nset Tip = " + tip + "\nend\n",
+                1.);
+        s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+        double volume = 0., highest = -1.;
+        s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+          volume += p.volume;
+          highest = std::max(highest, p.position[vertical]);
+        });
+        double lowest_row = 1e9;
+        for (unsigned int c = 0; c < s.grid.n_cells(); ++c)
+          lowest_row = std::min(lowest_row, height_of(s.grid.geometry(c)));
+        const bool   is_flat = std::string(tip) == "flat";
+        const double area =
+                       is_flat ? .2 * depth : depth * depth / std::tan(pi / 3.),
+                     missing = 8. * 8. / 2. * 7. - 2.9 * area - volume,
+                     cell    = 2.9 * .1 * .1;
+        std::printf("%s tip at %.2f m: ", tip, depth);
+        // a quarter of each cell that both the surface and the tip cross
+        verdict("volume error in cells", std::abs(missing) / cell, 1.);
+        verdict("soil above the surface", std::max(0., highest), 0.);
+        verdict("flattest row, cells too flat",
+                std::max(0., .5 - lowest_row / .1),
+                0.);
+      }
+}
+
+
 /** Refinement and distortion: sides, surface and layers stay where they are. */
 void
 check_distortion()
@@ -293,6 +329,8 @@ main(int argc, char *argv[])
   check_point_options();
   heading("points in a refined and distorted mesh");
   check_distortion();
+  heading("a body that starts on the surface");
+  check_start_at_surface();
   heading("padding of blocks");
   check_padding();
 }

@@ -96,7 +96,6 @@ CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
     (["Wall thickness", "plug"], {f"{BODY}/Wall thickness": 3.5}),
     (["even number"], {f"{BODY}/Cells across the wall": 3}),
     (["Tip angle", "Reduce"], {f"{BODY}/Skirt length": 0.05}),
-    (["Initial penetration", "tip"], {f"{BODY}/Initial penetration": 0.05}),
     (["End penetration", "0.4"], {"Time/End penetration": 0.4}),
     (["no end"], {"Time/End penetration": 0, "Time/End time": 0}),
     (["no end"], {f"{BODY}/Velocity": 0}),
@@ -115,10 +114,6 @@ CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
     (
         ["Lid thickness", "only a caisson"],
         {f"{BODY}/Lid thickness": 0.1, f"{BODY}/Kind": "box"},
-    ),
-    (
-        ["cone", "partly above", "5.19"],
-        {f"{BODY}/Kind": "cone", f"{BODY}/Skirt length": 6},
     ),
     (["height of the cone", "Skirt length"], {f"{BODY}/Kind": "cone"}),
     (

@@ -68,6 +68,17 @@ class Options(ProgramTest):
         long = self.run_program(SUCCESS, scene("jack"), "--validate", entries=entries)
         self.assertIn("Time/Mass scaling = 100 takes 0.5 times as many steps", long)
         self.assertIn("Grid/Refinement levels", long)
+        first = re.search(r"cheaper +Material points/Split and merge.*?(\d+) .*", long)
+        assert first, long
+        self.assertLess(long.index(first[0]), long.index("Mass scaling = 100"))
+        fewer = self.run_program(
+            SUCCESS,
+            scene("jack"),
+            "--validate",
+            entries={**entries, "Material points/Split and merge": "true"},
+        )
+        self.assertRegex(fewer, rf"points +{first[1]}\n")
+        self.assertNotIn("Split and merge", fewer)
         entries["Time/Mass scaling"] = 100
         long = self.run_program(SUCCESS, scene("jack"), "--validate", entries=entries)
         self.assertNotIn("Mass scaling", long)

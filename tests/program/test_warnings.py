@@ -26,11 +26,18 @@ CLAY: Entries = {
     f"{LAYER}/Friction angle of the walls": 0,
     f"{BODY}/Friction angle of the tip": 0,
 }
+HYPOPLASTIC: Entries = {f"{LAYER}/Law": "hypoplastic sand", f"{LAYER}/Porosity": 0.36}
+STIFFENING: Entries = {f"{LAYER}/Law": "Mohr-Coulomb with stiffness by stress"}
 
 # words of the warning, entries of a scene that have it, entries that do not
 DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
     (["Youngs modulus = 5 Pa", "1e6 Pa"], {f"{LAYER}/Youngs modulus": 5}, {}),
-    (["Youngs modulus", "stiffness"], {f"{LAYER}/Youngs modulus": 1e14}, {}),
+    (["Youngs modulus", "Check the unit"], {f"{LAYER}/Youngs modulus": 1e14}, {}),
+    (
+        ["Reference stress = 100 Pa", "1 kPa is 1000 Pa"],
+        {**STIFFENING, f"{LAYER}/Reference stress": 100},
+        {**STIFFENING, f"{LAYER}/Reference stress": 1e5},
+    ),
     (["Cohesion", "strength"], {f"{LAYER}/Cohesion": 1e10}, {}),
     (
         ["Solid density = 2.65", "t/m3"],
@@ -170,6 +177,10 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
 
 # words of the message, entries
 REFUSED: tuple[tuple[list[str], Entries], ...] = (
+    (
+        ["looser than the loosest", "check Granulate hardness"],
+        {**HYPOPLASTIC, f"{LAYER}/Granulate hardness": 1.3e6},
+    ),
     (["upward", "in tension", "0, -9.81"], {"Soil/Gravity": "0, 9.81"}),
     (["depends on r or z"], {"Loads/Surrounding pressure": "100 + r"}),
     (["Region = 1/0 is inf"], {"Material points/Region": "1/0"}),
@@ -209,6 +220,15 @@ class Review(ProgramTest):
         return self.run_program(
             SUCCESS, user_scene(name), "--validate", entries=entries
         )
+
+    def test_hardness_in_kilopascals(self) -> None:
+        """Of sand that is dense enough to exist at all with such a hardness."""
+        for hardness, is_doubtful in ((5e6, True), (5e9, False)):
+            said = self.validate(
+                "jack_coarse", {**HYPOPLASTIC, f"{LAYER}/Granulate hardness": hardness}
+            )
+            words = "Granulate hardness = 5e+06 Pa is not that of a soil"
+            self.assertEqual(words in said, is_doubtful, said)
 
     def test_doubts(self) -> None:
         """A warning, and none where the entry is just as it should be."""

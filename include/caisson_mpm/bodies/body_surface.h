@@ -4,9 +4,12 @@
 #ifndef caisson_mpm_bodies_body_surface_h
 #define caisson_mpm_bodies_body_surface_h
 
+#include <caisson_mpm/base/parameter_origins.h>
+
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <array>
+#include <optional>
 #include <string>
 
 namespace CaissonMPM
@@ -45,16 +48,27 @@ namespace CaissonMPM
 
     BodySurface();
 
+    /** Report which friction angles a coefficient leaves without effect. */
+    void
+    name_unused_entries(ParameterOrigins &origins) const;
+
     /** The tangent of the friction angle. */
     double
     friction_coefficient(const Surface surface) const;
 
     /** Contact friction angles by surface. Units: degrees. */
-    std::array<double, n_surfaces> friction_angle = {{20., 20., 20., 20., 20.}};
+    std::array<double, n_surfaces>
+    friction_angles() const;
+
     /** Contact adhesion by surface. Units: Pa. */
     std::array<double, n_surfaces> adhesion = {{0., 0., 0., 0., 0.}};
 
     CornerNormals corner_normals = CornerNormals::split;
+
+  private:
+    std::array<double, n_surfaces> friction_angle = {{20., 20., 20., 20., 20.}};
+    // instead of the angles, where they are set
+    std::array<std::optional<double>, n_surfaces> coefficient;
   };
 } // namespace CaissonMPM
 

@@ -234,12 +234,6 @@ namespace CaissonMPM
         throw BadInput("Rigid body/Tip angle = " + to_text(tip_angle) +
                        " degrees makes the tip longer than Skirt length = " +
                        to_text(skirt_length) + " m. Reduce the angle.");
-      if (initial_penetration > 0. && initial_penetration <= tip_height())
-        throw BadInput(
-          "Rigid body/Initial penetration = " + to_text(initial_penetration) +
-          " m leaves the tip, which is " + to_text(tip_height()) +
-          " m high, partly above the soil surface. Increase the "
-          "penetration, or set 0.");
     }
 
     double       outer_diameter      = 6.;

@@ -20,16 +20,13 @@ namespace CaissonMPM
   {
   public:
     Cone()
+      : Cone(60.)
     {
-      add_outer_diameter(outer_diameter);
-      add_skirt_length(length);
-      add_cells_across(cells_across);
       add_parameter("Apex angle",
                     apex_angle,
                     "The full angle of a cone at its point. Units: degrees.",
                     prm,
                     dealii::Patterns::Double(20., 170.));
-      add_initial_penetration(initial_penetration);
     }
 
     std::string
@@ -52,12 +49,6 @@ namespace CaissonMPM
         throw BadInput("Rigid body/Skirt length = " + to_text(length) +
                        " m must exceed the height of the cone, " +
                        to_text(tip_height()) + " m.");
-      if (initial_penetration <= tip_height())
-        throw BadInput(
-          "Rigid body/Initial penetration = " + to_text(initial_penetration) +
-          " m leaves the cone, which is " + to_text(tip_height()) +
-          " m high, partly above the soil surface. Increase the "
-          "penetration.");
     }
 
     double
@@ -122,11 +113,22 @@ namespace CaissonMPM
              start[1] > lower_surface(start[0]) + round_off;
     }
 
+  protected:
+    /** A cone of this full angle, in degrees, that declares no entry for it. */
+    explicit Cone(const double apex_angle)
+      : apex_angle(apex_angle)
+    {
+      add_outer_diameter(outer_diameter);
+      add_skirt_length(length);
+      add_cells_across(cells_across);
+      add_initial_penetration(initial_penetration);
+    }
+
   private:
-    double       outer_diameter      = 6.;
-    double       length              = 7.;
-    unsigned int cells_across        = 2;
-    double       apex_angle          = 60.;
+    double       outer_diameter = 6.;
+    double       length         = 7.;
+    unsigned int cells_across   = 2;
+    double       apex_angle;
     double       initial_penetration = 0.5;
   };
 } // namespace CaissonMPM

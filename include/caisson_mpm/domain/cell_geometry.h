@@ -10,6 +10,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <algorithm>
 #include <array>
 
 namespace CaissonMPM
@@ -40,6 +41,16 @@ namespace CaissonMPM
   height_of(const Kernels::CellGeometry &g)
   {
     return .5 * (g.height_left + g.height_right);
+  }
+
+  /** Return the part of a cell below a height; without height where the cell
+   * lies above it. Units: m. */
+  inline Kernels::CellGeometry
+  part_below(Kernels::CellGeometry g, const double z)
+  {
+    g.height_left  = std::clamp(z - g.bottom_left, 0., g.height_left);
+    g.height_right = std::clamp(z - g.bottom_right, 0., g.height_right);
+    return g;
   }
 
   /** Return the areas of the upper or lower side of a cell, seen from above,

@@ -65,6 +65,11 @@ namespace CaissonMPM
       return adaptive;
     }
 
+    /** Return with how many points a run would begin if they were split and
+     * merged. */
+    double
+    n_points_that_split(const GridLines &lines, const BodyShape &body) const;
+
     unsigned int
     points_per_direction_in_path() const
     {
@@ -97,14 +102,17 @@ namespace CaissonMPM
     Parts
     number_of_parts(const GridLines &lines,
                     const BodyShape &body,
-                    const GlobalCell cell) const;
+                    const GlobalCell cell,
+                    const bool       splits) const;
     std::vector<Parts> // [n_global_cells]
     number_of_parts(const GridLines &lines, const BodyShape &body) const;
     /** Throw BadInput where these are too many, by zone. */
     void
     check_number(const std::array<double, 3> &n_points) const;
-    bool
-    may_hold_soil(const GridLines &lines, const GlobalCell cell) const;
+    /** Return the part of a cell that soil fills; without height where none
+     * does. */
+    Kernels::CellGeometry
+    soil_of(const GridLines &lines, const GlobalCell cell) const;
     bool
     is_in_region(const dealii::Point<2> &place,
                  const Expression       &further) const;

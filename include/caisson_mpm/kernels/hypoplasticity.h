@@ -388,7 +388,7 @@ namespace CaissonMPM
                                sizeof(message.text),
                                "Porosity = %g, a void ratio of %g, is looser "
                                "than the loosest state, %g, at the mean stress "
-                               "%g Pa of the start. Lower it.",
+                               "%g Pa. Lower it, or check Granulate hardness.",
                                context.void_ratio / (1. + context.void_ratio),
                                context.void_ratio,
                                loosest,

@@ -94,6 +94,10 @@ namespace CaissonMPM
     std::vector<const Profile *>
     profiles() const;
 
+    /** The profile that says how dense the soil is. */
+    const Profile &
+    density_of_state() const;
+
     double
     porosity_at(const PlaceInGround &place) const;
 
@@ -113,6 +117,8 @@ namespace CaissonMPM
     Profile      porosity, solid_density, permeability, overconsolidation;
     std::unique_ptr<Profile> k0;                  // none: the law's own
     std::unique_ptr<Profile> relative_density;    // none: the porosity counts
+    std::unique_ptr<Profile> void_ratio;          // none: the same
+    std::unique_ptr<Profile> dry_density;         // none: the solid one counts
     std::unique_ptr<Profile> wall_friction_angle; // none: that of the body
     std::unique_ptr<Profile> adhesion_factor;     // none: the body's adhesion
     Profile                  sensitivity;

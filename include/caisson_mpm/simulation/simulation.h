@@ -136,7 +136,7 @@ namespace CaissonMPM
     number_of_steps() const;
     /** What would make a long run shorter, in words. */
     std::vector<std::string>
-    ways_to_save() const;
+    ways_to_save(const double n_points) const;
     /** Return the strength of a face: that of the body's entries, or on a wall
      * that of the layer at its depth. */
     FaceStrength

@@ -19,6 +19,8 @@ COLORS = {
     "outer friction": "#2e8b57",
 }
 FRICTION = ("inner friction", "outer friction")
+# where the penetration of a body is measured
+LOWEST = {"caisson": "skirt tip", "pile": "pile base", "box": "base"}
 MEAN = 1.8  # width of the line of a running mean, and of no other
 
 
@@ -153,12 +155,12 @@ def set_limits(axes: Axes, depth: np.ndarray) -> None:
     axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
 
 
-def label_axes(axes: Axes, name: str) -> None:
+def label_axes(axes: Axes, name: str, body: str) -> None:
     """Name the force of a panel, and place its axes and its legend."""
     axes.xaxis.set_label_position("top")
     axes.xaxis.tick_top()
     axes.set_xlabel(f"{name} (kN)")
-    axes.set_ylabel("penetration of the skirt tip (m)")
+    axes.set_ylabel(f"penetration of the {LOWEST.get(body, 'tip')} (m)")
     axes.legend(fontsize=8, framealpha=0.9, loc="upper right")
 
 
@@ -168,7 +170,8 @@ def draw_panel(
     """Draw some forces over the penetration, beside those of Houlsby and Byrne."""
     history, depth = run.history, run.history["penetration_m"]
     for name in names:
-        if column_of(name) in history:
+        has_wall = name != "inner friction" or run.body == "caisson"
+        if column_of(name) in history and has_wall:
             draw_curve(axes, depth, history[column_of(name)], name)
     friction_only = names == FRICTION
     draw_bands(
@@ -177,7 +180,7 @@ def draw_panel(
     if not friction_only:
         draw_error_bars(axes, run.error_bounds)
     set_limits(axes, depth)
-    label_axes(axes, "wall friction" if friction_only else "force")
+    label_axes(axes, "wall friction" if friction_only else "force", run.body)
 
 
 def has_line(answer: theory.Answer) -> bool:
@@ -202,7 +205,7 @@ def draw_methods(axes: Axes, run: Results, answers: list[theory.Answer]) -> None
                 label=f"{answer.name}, {case}",
             )
     set_limits(axes, depth)
-    label_axes(axes, "total force, and by design methods")
+    label_axes(axes, "total force, and by design methods", run.body)
 
 
 def draw_over_time(axes: Axes, history: Table) -> None:
