@@ -48,10 +48,17 @@ namespace CaissonMPM
   std::optional<double>
   SoilMaterial::density_index() const
   {
-    const auto densest = law_value("Densest void ratio"),
-               loosest = law_value("Critical void ratio");
-    if (relative_density || !densest || !loosest || *densest >= *loosest)
+    if (relative_density)
       return relative_density;
+    auto densest = law_value("Densest void ratio"),
+         loosest = law_value("Critical void ratio");
+    if (!densest)
+      {
+        densest = law_value("Minimum void ratio");
+        loosest = law_value("Maximum void ratio");
+      }
+    if (!densest || !loosest || *densest >= *loosest)
+      return {};
     return (*loosest - void_ratio()) / (*loosest - *densest);
   }
 
@@ -64,7 +71,7 @@ namespace CaissonMPM
   bool
   SoilMaterial::yields_by_friction() const
   {
-    return law_value("Cohesion").has_value() &&
+    return law_value("Youngs modulus").has_value() &&
            friction_angle().value_or(0.) > 0.;
   }
 

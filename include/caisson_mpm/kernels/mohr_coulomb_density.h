@@ -287,9 +287,11 @@ namespace CaissonMPM
         [[gnu::always_inline]] static inline Number
         hardin(const Number void_ratio)
         {
-          // F falls to 0 at 2.17, far looser than any sand
-          const Number left = max(Number(2.17) - void_ratio, Number(.1));
-          return left * left / (Number(1.) + void_ratio);
+          // empty lanes have no void ratio; F falls to 0 at 2.17, far looser
+          // than any sand
+          const Number e    = max(void_ratio, Number(0.)),
+                       left = max(Number(2.17) - e, Number(.1));
+          return left * left / (Number(1.) + e);
         }
 
         /** E / E_ref. */
