@@ -78,6 +78,7 @@ class Entries(unittest.TestCase):
             density_law.REFERENCE_VOID_RATIO: "0.6075",
             "K0": "0.46",
             "Permeability": "1e-4",
+            "Permeability by void ratio": "true",
             "Friction angle of the outer wall": "29",
             "Friction angle of the inner wall": "29",
         }

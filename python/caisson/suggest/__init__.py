@@ -203,17 +203,23 @@ def with_adhesion(layers: Sequence[Layer]) -> list[Layer]:
 
 
 def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
-    """Return the layers with a permeability. Raises SuggestError where only some
-    have one."""
+    """Return the layers with a permeability, which follows the density in sand by
+    density. Raises SuggestError where only some have one."""
     have = [bool(layer.value("Permeability")) for layer in layers]
-    if all(have):
-        return list(layers)
-    if any(have):
+    if any(have) and not all(have):
         raise SuggestError("give Permeability (m/s) for all layers, or for none")
     same = Entry(
         "Permeability", "1e-4", " # ASSUMED; does not matter where it is the same"
     )
-    return [Layer(layer.top, [*layer.entries, same]) for layer in layers]
+    name = "Permeability by void ratio"
+    follows = Entry(name, "true", " # ASSUMED: a loosened plug conducts more")
+    found = []
+    for layer in layers:
+        added = [] if all(have) else [same]
+        if is_by_density(layer) and not layer.value(name):
+            added.append(follows)
+        found.append(Layer(layer.top, [*layer.entries, *added]))
+    return found
 
 
 def template(name: str) -> jinja2.Template:
