@@ -144,7 +144,7 @@ namespace CaissonMPM
       set_law(Material &material, const typename Law::Parameters &parameters)
       {
         static_assert(sizeof(parameters) <= sizeof(material.parameters),
-                      "enlarge Material::parameters (layout.h)");
+                      "enlarge Material::parameters (material.h)");
         material.law             = law_id<Law>;
         material.volume_in_shear = volume_in_shear<Law>(parameters, 0);
         material.has_loosest_state =
@@ -219,7 +219,7 @@ namespace CaissonMPM
         using Parameters = typename Law::Parameters;
 
         static_assert(Law::n_state <= n_state_variables,
-                      "enlarge n_state_variables (layout.h)");
+                      "enlarge n_state_variables (material.h)");
 
         static const Parameters &
         parameters(const Material &material)

@@ -45,7 +45,7 @@ namespace CaissonMPM
       double        initial_void_ratio;
       double        initial_density; // of the scaled mass, kg/m3
       double        overstress_time; // kernels/overstress.h; 0: none (s)
-      alignas(16) unsigned char parameters[256];
+      alignas(16) unsigned char parameters[320];
     };
   } // namespace Kernels
 } // namespace CaissonMPM

@@ -142,8 +142,11 @@ namespace CaissonMPM
         {
           return values[3] > 0. ?
                    "Mohr-Coulomb sand with a dilatancy angle grows in volume at "
-                   "the same rate up to Largest void ratio: set the one of the "
-                   "loosest state, or take a law with a critical state" :
+                   "the same rate up to Largest void ratio. A plug then heaves "
+                   "two to three times as much as the wall displaces, and the "
+                   "outer friction is too large. Set Law = Mohr-Coulomb by "
+                   "density and stress, or the Largest void ratio of the "
+                   "loosest state" :
                    nullptr;
         }
 

@@ -95,6 +95,7 @@ namespace CaissonMPM
           // critical friction angle and no dilatancy; stiffness; e_max
           MohrCoulombStiffening::Parameters critical;
           double                            phi_c;
+          double critical_volume;                  // 1 + e_c below p_s
           double inverse_range;                    // 1 / (e_max - e_min)
           double ln_crushing;                      // of 1 kPa exp(Q), in Pa
           double angle_per_index, smallest_stress; // rad, Pa
@@ -115,10 +116,15 @@ namespace CaissonMPM
                                          values[9],
                                          values[10]};
           constexpr double ln_kPa     = 6.907755278982137; // ln 1000
+          const double     range      = values[4] - values[3],
+                       ln_crushing    = values[5] + ln_kPa,
+                       of_strength    = ln_crushing - __builtin_log(values[7]);
           return {MohrCoulombStiffening::make(critical),
                   values[2] * radians_per_degree,
-                  1. / (values[4] - values[3]),
-                  values[5] + ln_kPa,
+                  1. + values[4] -
+                    range / (of_strength > 1. ? of_strength : 1.),
+                  1. / range,
+                  ln_crushing,
                   values[6] * radians_per_degree,
                   values[7],
                   values[11] > 0. ? 1. / hardin(Lanes<1>(values[11]))[0] : 0.};
@@ -139,6 +145,8 @@ namespace CaissonMPM
           return Number(e_max(p));
         }
 
+        /** Whether sand is as loose as in its critical state below p_s, and
+         * takes no growth of its cell from denser points. */
         template <typename Number>
         [[gnu::always_inline]] static inline typename Number::Mask
         is_loosest(const StressState<Number> & /*sigma*/,
@@ -146,10 +154,7 @@ namespace CaissonMPM
                    const Number      volume_of_solids,
                    const Parameters &p)
         {
-          return MohrCoulomb::is_loosest(Number(0.),
-                                         volume,
-                                         volume_of_solids,
-                                         p.critical.reference);
+          return volume > Number(p.critical_volume) * volume_of_solids;
         }
 
         static bool
@@ -242,9 +247,8 @@ namespace CaissonMPM
           StressState<Number> trial = sigma;
           const bool          is_elastic =
             MohrCoulomb::update_elastic(trial, stiffer, reference);
-          const auto loose =
-            is_loosest(sigma, Number(1.) + state.void_ratio, Number(1.), p);
-          if (is_elastic && !any(loose))
+          const auto has_gap = state.void_ratio > Number(e_max(p));
+          if (is_elastic && !any(has_gap))
             {
               sigma = trial;
               return;
@@ -257,9 +261,9 @@ namespace CaissonMPM
             state,
             reference.elastic,
             strength(sigma, state.void_ratio, p));
-          if (any(loose))
+          if (any(has_gap))
             MohrCoulomb::close_gap(sigma,
-                                   loose,
+                                   has_gap,
                                    Number(0.),
                                    factor * Number(reference.elastic.bulk),
                                    MohrCoulomb::grown(state.void_ratio, de),
