@@ -133,15 +133,26 @@ namespace CaissonMPM
     return {otherwise / refinement, entry + " = " + meters(otherwise)};
   }
 
+  double
+  GridLines::inset_of_footing(const BodyShape &body) const
+  {
+    if (!body.has_flat_base() || body.bottom() < 0.)
+      return 0.;
+    const double half =
+      .5 * finest_cell(body, cell_width, "Grid/Cell width").first;
+    return travel_to_hold <= half ? half : 0.;
+  }
+
   std::pair<double, double>
   GridLines::sides_of_body(const BodyShape &body) const
   {
     if (body.expands())
       return {inner_radius, body.right()};
-    const double width = finest_cell(body, cell_width, "Grid/Cell width").first,
-                 inset = body.inset_of_sides() * width;
-    const bool at_axis = body.left() <= inner_radius;
-    return {body.left() + (at_axis ? 0. : inset), body.right() - inset};
+    const double inset   = inset_of_footing(body);
+    const bool   at_axis = body.left() <= inner_radius,
+               at_side   = body.right() >= outer_radius;
+    return {body.left() + (at_axis ? 0. : inset),
+            body.right() - (at_side ? 0. : inset)};
   }
 
   GridLines::Spacing
@@ -355,7 +366,7 @@ namespace CaissonMPM
   {
     constexpr double   tolerance = .01; // of the size
     const unsigned int n         = body_column_end - body_column_begin;
-    if (!fine_size || n == 0 || body.expands() || body.inset_of_sides() > 0.)
+    if (!fine_size || n == 0 || body.expands() || inset_of_footing(body) > 0.)
       return "";
     const double width  = columns[body_column_end] - columns[body_column_begin],
                  actual = width / n, wanted = *fine_size / refinement;

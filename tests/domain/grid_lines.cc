@@ -104,35 +104,45 @@ check_cells()
               lines.sides_of(1, 1));
 }
 
-/** The mesh has the edges of a footing half a cell inside those of the box. */
+/** The mesh has the free edges of a footing half a cell inside those of the
+ * box, but not those of a box that goes deeper, or that begins below the
+ * surface. */
 void
-check_inset_edges()
+check_edges_of_footing()
 {
-  for (const char *inset : {"false", "true"})
-    for (const char *left : {"0", "1"})
-      {
-        const Lines s(std::string("subsection Rigid body\nset Kind = box\n"
-                                  "set Box right = 2\nset Box bottom = 0\n"
-                                  "set Box top = 1\nset Box left = ") +
-                      left + "\nset Inset edges = " + inset +
-                      "\nend\nsubsection Grid\nset Outer radius = 4\n"
-                      "set Bottom = -2\nset Top = 2\nset Cell width = 0.5\n"
-                      "set Fine cell size = 0.25\nset Refinement = 2\n"
-                      "end\n");
-        double      from = 1e9, to = 0.;
-        for (unsigned int c = 0; c < s.lines.n_cells(); ++c)
-          if (s.lines.is_body_cell(GlobalCell{c}))
-            {
-              const auto g = s.lines.initial_geometry(GlobalCell{c});
-              from         = std::min(from, g.left);
-              to           = std::max(to, g.left + g.width);
-            }
-        std::printf("box from %s to 2, inset %s: cells from %.4f to %.4f\n",
-                    left,
-                    inset,
-                    from,
-                    to);
-      }
+  for (const char *bottom : {"0", "-0.5"})
+    for (const double travel : {0.05, 0.5})
+      for (const char *left : {"0", "1"})
+        for (const char *side : {"4", "2"})
+          {
+            const Lines s(std::string("subsection Rigid body\nset Kind = box\n"
+                                      "set Box right = 2\nset Box top = 1\n"
+                                      "set Box bottom = ") +
+                            bottom + "\nset Box left = " + left +
+                            "\nend\nsubsection Grid\nset Outer radius = " +
+                            side +
+                            "\nset Bottom = -4\nset Top = 2\n"
+                            "set Cell width = 0.5\nset Fine cell size = 0.25\n"
+                            "set Refinement = 2\nend\n",
+                          travel);
+            double      from = 1e9, to = 0.;
+            for (unsigned int c = 0; c < s.lines.n_cells(); ++c)
+              if (s.lines.is_body_cell(GlobalCell{c}))
+                {
+                  const auto g = s.lines.initial_geometry(GlobalCell{c});
+                  from         = std::min(from, g.left);
+                  to           = std::max(to, g.left + g.width);
+                }
+            std::printf(
+              "box from %s to 2 of %s, bottom %s, sinks by %.2f: cells "
+              "from %.4f to %.4f\n",
+              left,
+              side,
+              bottom,
+              travel,
+              from,
+              to);
+          }
 }
 
 /** The number of cells of a row of lines from the first of them to @p x, with a
@@ -294,7 +304,7 @@ main()
 {
   check_lines();
   check_cells();
-  check_inset_edges();
+  check_edges_of_footing();
   check_similar_meshes();
   check_motion();
   check_refusals();

@@ -149,12 +149,12 @@ namespace CaissonMPM
       return "";
     }
 
-    /** Return by how many cells the mesh puts the sides of the body inside
-     * left() and right(). Units: cells. */
-    virtual double
-    inset_of_sides() const
+    /** Whether the lower face is level: on the surface the body is a footing.
+     */
+    virtual bool
+    has_flat_base() const
     {
-      return 0.;
+      return false;
     }
 
     /** Return the number of cells across a thin wall; 0 without one. */

@@ -14,12 +14,6 @@ namespace CaissonMPM
 {
   /**
    * Its lower face is flat. The cells at it are those of the mesh.
-   *
-   * A node at the edge of a footing moves with it, and the velocity falls to
-   * that of the free surface within the next cell, of width h. The pressure p
-   * of the footing does the work p V int N ds = p V h / 2 there: the mesh
-   * carries the load of a footing that is half a cell wider. With inset edges,
-   * the sides of the mesh's body are therefore h / 2 inside those of the box.
    */
   class Box : public BodyShape
   {
@@ -34,12 +28,6 @@ namespace CaissonMPM
       add_parameter("Box right", right_, "The largest r of a box. Units: m.");
       add_parameter("Box bottom", bottom_, "The lowest z of a box. Units: m.");
       add_parameter("Box top", top_, "The highest z of a box. Units: m.");
-      add_parameter("Inset edges",
-                    inset_edges,
-                    "The mesh puts the sides of a box half a cell inside Box "
-                    "left and Box right, since the nodes at the edges of a "
-                    "footing bear on half a cell more on either side. Units: "
-                    "none.");
     }
 
     std::string
@@ -89,10 +77,10 @@ namespace CaissonMPM
       return top_;
     }
 
-    double
-    inset_of_sides() const override
+    bool
+    has_flat_base() const override
     {
-      return inset_edges ? .5 : 0.;
+      return true;
     }
 
     bool
@@ -103,7 +91,6 @@ namespace CaissonMPM
 
   private:
     double left_ = 0., right_ = 1., bottom_ = -1., top_ = 0.;
-    bool   inset_edges = false;
   };
 } // namespace CaissonMPM
 

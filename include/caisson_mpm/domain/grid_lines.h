@@ -241,7 +241,7 @@ namespace CaissonMPM
     }
 
     /** Return a warning if the body has smaller cells than Fine cell size, or
-     * an empty text; edges that are inset by half a cell leave half a cell. */
+     * an empty text; the edges of a footing leave half a cell. */
     std::string
     known_limit(const BodyShape &body) const;
 
@@ -289,6 +289,19 @@ namespace CaissonMPM
     /** Find the zones that follow the body. */
     void
     follow(const BodyShape &body);
+    /**
+     * Return by how much the mesh puts the free edges of a footing inside its
+     * sides: half a cell, if the body has a flat base on the soil surface and
+     * sinks by no more than that; otherwise 0. A node at the edge of a footing
+     * moves with it, and the velocity falls to that of the free surface within
+     * the next cell, of width h. The pressure p of the footing does the work
+     * p V int N ds = p V h / 2 there, so that the mesh carries the load of a
+     * footing that is wider by h / 2. A body that goes deeper needs its whole
+     * volume. Units: m.
+     */
+    double
+    inset_of_footing(const BodyShape &body) const;
+
     /** Return where the mesh has the left and right side of the body. */
     std::pair<double, double>
     sides_of_body(const BodyShape &body) const;
