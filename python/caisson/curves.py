@@ -64,10 +64,13 @@ def window_rms(position: np.ndarray, values: np.ndarray, width: float) -> np.nda
 
 
 def smoothed_at(position: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Return the means over FORCE_WINDOW about each of at [m]: [m]; where the window
-    is not whole, the values there, linear between the positions [n], which grow."""
+    """Return the means over FORCE_WINDOW about each of at [m]: [m]; near the ends of
+    the positions [n], which grow, over as much as fits, and beyond them the last value.
+    """
     means = window_means(position, values, at, FORCE_WINDOW)
-    return np.where(np.isfinite(means), means, np.interp(at, position, values))
+    short = means_to_the_ends(position, values, at, FORCE_WINDOW)
+    short = np.where(np.isfinite(short), short, np.interp(at, position, values))
+    return np.where(np.isfinite(means), means, short)
 
 
 def integral(position: np.ndarray, values: np.ndarray, to: np.ndarray) -> np.ndarray:

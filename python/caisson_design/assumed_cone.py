@@ -20,6 +20,7 @@ from caisson_design.cone import Profile
 
 SOURCE = "Jamiolkowski et al. (2003)"
 LEAST_STRESS = 10.0  # Pa, at the mudline
+LEAST_OF_STRENGTH = 150e3  # Pa, that a strength by Bolton follows
 STEP = 0.25  # m, of angles that change with depth
 JUMP = 1e-6  # m, half of the distance of two rows at the top of a layer
 
@@ -74,8 +75,10 @@ class SandGround:
 
     def angle_at(self, z: float) -> float:
         """Return the peak friction angle by Bolton under a tip; of a layer with a known
-        density."""
+        density. Below 150 kPa the stress has no more influence (Bolton 1987), as in the
+        law by density and stress."""
         under_tip = np.sqrt(self.resistance_at(z) * self.stress_at(z))
+        under_tip = max(under_tip, LEAST_OF_STRENGTH)
         critical = self.layer_at(z).friction_angle
         return float(density.bolton_angle(self.density_at(z), under_tip, critical))
 

@@ -4,15 +4,14 @@
 // (Bolton 1986). With the relative density D and the mean effective stress p,
 //
 //   I = D (Q - ln(max(p, p_s) / kPa)) - 1,  D = (e_max - e) / (e_max - e_min),
-//   phi = phi_c + A max(I, 0),              sin psi = 0.3 I / (2 + 0.3 I),
+//   phi = phi_c + A I,                      sin psi = 0.3 I / (2 + 0.3 I),
 //
-// I at most 4. A is 3 degrees in triaxial and 5 in plane strain; 0.3 I is the
+// I from 0 to 4. A is 3 degrees in triaxial and 5 in plane strain; 0.3 I is the
 // rate of dilation -de_v / de_1 of both. Below p_s = 150 kPa tests show no
-// further influence of p (Bolton 1987). Bolton correlated I >= 0. With I < 0
-// the sand is looser than in its critical state, I = 0: it has the strength of
-// that state, and contracts by the same equation, at most with I = -1, the
-// index for D = 0. As the void ratio e follows the volume, shearing ends in the
-// critical state, e_c = e_max - (e_max - e_min) / (Q - ln(max(p, p_s) / kPa)).
+// further influence of p (Bolton 1987). As the void ratio e follows the volume,
+// shearing of dense sand ends in the critical state, I = 0, with
+// e_c = e_max - (e_max - e_min) / (Q - ln(max(p, p_s) / kPa)). Looser sand has
+// the strength of that state, and shears at constant volume.
 //
 // Young's modulus is that of mohr_coulomb_stiffening.h, and follows the density
 // too if e_r, "Reference void ratio", is given (Hardin & Richart 1963):
@@ -193,23 +192,62 @@ namespace CaissonMPM
                 psi);
               return false;
             }
-          if (context.void_ratio > e_max)
+          const double density = (e_max - context.void_ratio) / (e_max - e_min),
+                       reference    = values[11],
+                       of_reference = (e_max - reference) / (e_max - e_min),
+                       critical =
+                         1. / (values[5] - __builtin_log(values[7] / 1e3));
+          if (density < -1e-9 || density > densest)
             {
               __builtin_snprintf(
                 message.text,
                 sizeof(message.text),
-                "The void ratio at the start, %g, exceeds Maximum void ratio = "
-                "%g. Raise that, or the density of the sand.",
+                "The void ratio at the start, %g, is a relative density of %.3g "
+                "with Minimum void ratio = %g and Maximum void ratio = %g. It "
+                "must be from 0 to %g: change one of them.",
                 context.void_ratio,
+                density,
+                e_min,
+                e_max,
+                densest);
+              return false;
+            }
+          if (reference > 0. && (of_reference < 0. || of_reference > densest))
+            {
+              __builtin_snprintf(
+                message.text,
+                sizeof(message.text),
+                "Reference void ratio = %g is a relative density of %.3g with "
+                "Minimum void ratio = %g and Maximum void ratio = %g. Set the "
+                "void ratio that Youngs modulus belongs to, or 0.",
+                reference,
+                of_reference,
+                e_min,
                 e_max);
               return false;
             }
-          return check_strength(values[2], 0., 0., context, message);
+          if (!(critical > 0. && critical < largest_critical_density))
+            {
+              __builtin_snprintf(
+                message.text,
+                sizeof(message.text),
+                "Bolton Q = %g and Smallest stress of strength = %g Pa leave "
+                "the sand no critical state below a relative density of %g. "
+                "Raise the one or reduce the other.",
+                values[5],
+                values[7],
+                largest_critical_density);
+              return false;
+            }
+          return check_at_rest(values, context, message);
         }
 
         static const char *
         warning(const double *values)
         {
+          if (values[7] < 1e3)
+            return "Smallest stress of strength is usually 1.5e5 Pa: check its "
+                   "unit";
           return warning_of_stiffness(values[8], values[10]);
         }
 
@@ -277,8 +315,38 @@ namespace CaissonMPM
         }
 
       private:
-        static constexpr double smallest_index = -1., largest_index = 4.,
-                                dilation_per_index = .3;
+        static constexpr double largest_index = 4., dilation_per_index = .3,
+                                densest = 1.3, largest_critical_density = .8;
+
+        /** Whether the sand carries K0 at its density and mean stress. */
+        static bool
+        check_at_rest(const double     *values,
+                      const LawContext &context,
+                      LawMessage       &message)
+        {
+          const double mean = context.mean_stress;
+          const double s =
+            strength(StressState<Lanes<1>>{-mean, -mean, -mean, 0.},
+                     Lanes<1>(context.void_ratio),
+                     make(values))
+              .sin_phi[0];
+          const double passive = (1. + s) / (1. - s),
+                       k       = context.earth_pressure_at_rest;
+          if (k <= passive && k >= 1. / passive)
+            return true;
+          __builtin_snprintf(
+            message.text,
+            sizeof(message.text),
+            "K0 = %g lies outside what sand of the void ratio %g carries with "
+            "Critical friction angle = %g degrees (%.3g to %.3g). Change one of "
+            "them.",
+            k,
+            context.void_ratio,
+            values[2],
+            1. / passive,
+            passive);
+          return false;
+        }
 
         static double
         e_max(const Parameters &p)
@@ -334,11 +402,10 @@ namespace CaissonMPM
           const Number index =
             min(max(density * (Number(p.ln_crushing) - log(p_mean)) -
                       Number(1.),
-                    Number(smallest_index)),
+                    Number(0.)),
                 Number(largest_index));
           const Number sin_phi =
-            sin(Number(p.phi_c) +
-                Number(p.angle_per_index) * max(index, Number(0.)));
+            sin(Number(p.phi_c) + Number(p.angle_per_index) * index);
           return MohrCoulombStrength<Number>::make(p.critical.reference.elastic,
                                                    sin_phi,
                                                    sqrt(Number(1.) -

@@ -6,6 +6,7 @@ The modulus is that of the cone resistance which the design methods assume for t
 density (caisson_design.density), so that scene and methods have the same sand.
 """
 import difflib
+import math
 from collections.abc import Iterable, Mapping
 
 from caisson import density_law as names
@@ -23,7 +24,7 @@ WORDS = {
 LAWS = {"density": names.LAW, "hypoplastic": names.HYPOPLASTIC}
 LAW_REMARKS = {
     names.LAW: " # phi and psi of each point follow from both (Bolton 1986)",
-    names.HYPOPLASTIC: " # Karlsruhe sand; very dense, its tip is probably too strong",
+    names.HYPOPLASTIC: " # of Karlsruhe sand; its tip is too strong if very dense",
 }
 ONE_ANGLE = "angle"  # the choice of a law with one friction angle, from a cone test
 SAND = "Sand"  # in place of an entry: one of WORDS
@@ -109,18 +110,33 @@ def entries_of(density: Entry, law: str, known: Iterable[Entry]) -> list[Entry]:
         Entry("Law", law, LAW_REMARKS[law]),
         density,
         *limits,
-        *numbers_of(law, share, void_ratio),
+        *numbers_of(law, share, void_ratio, by_name),
     ]
     found = {entry.name: entry for entry in assumed} | by_name
     return list(found.values())
 
 
-def numbers_of(law: str, density: float, void_ratio: float) -> list[Entry]:
-    """Return what is assumed of sand of a relative density, at the start."""
+def at_rest(angle: str) -> list[Entry]:
+    """Return K0 for a critical angle (degrees); nothing for an expression, whose K0 the
+    program finds."""
+    try:
+        k0 = 1 - math.sin(math.radians(float(angle)))
+    except ValueError:
+        return []
+    why = f"{ASSUMPTION}: 1 - sin {angle} (Jaky 1948); an old sea bed may have 1"
+    return [Entry("K0", f"{k0:.2g}", why)]
+
+
+def numbers_of(
+    law: str, density: float, void_ratio: float, given: Mapping[str, Entry]
+) -> list[Entry]:
+    """Return what is assumed of sand of a relative density, at the start, beside the
+    entries that are given. With an overconsolidation ratio K0 is left to the program.
+    """
     weight = (SOLID - WATER) * GRAVITY / (1 + void_ratio) / 1e3
-    own, k0, angle = list[Entry](), "0.5", "30"  # of Karlsruhe sand
+    own, angle = list[Entry](), "30"  # of Karlsruhe sand
     if law == names.LAW:
-        k0, angle = "0.46", f"{CRITICAL_ANGLE:g}"
+        angle = f"{CRITICAL_ANGLE:g}"
         cone = cone_resistance(density, ATMOSPHERE)
         own = [
             Entry(
@@ -142,13 +158,11 @@ def numbers_of(law: str, density: float, void_ratio: float) -> list[Entry]:
             ),
             Entry(names.POISSON, "0.3", ASSUMPTION),
         ]
+    if names.CRITICAL_ANGLE in given:
+        angle = given[names.CRITICAL_ANGLE].value
     return [
         *own,
-        Entry(
-            "K0",
-            k0,
-            f"{ASSUMPTION}: 1 - sin {angle} (Jaky 1948); an old sea bed may have 1",
-        ),
+        *([] if "Overconsolidation ratio" in given else at_rest(angle)),
         Entry(
             "Solid density",
             f"{SOLID:g}",
