@@ -192,54 +192,8 @@ namespace CaissonMPM
                 psi);
               return false;
             }
-          const double density = (e_max - context.void_ratio) / (e_max - e_min),
-                       reference    = values[11],
-                       of_reference = (e_max - reference) / (e_max - e_min),
-                       critical =
-                         1. / (values[5] - __builtin_log(values[7] / 1e3));
-          if (density < -1e-9 || density > densest)
-            {
-              __builtin_snprintf(
-                message.text,
-                sizeof(message.text),
-                "The void ratio at the start, %g, is a relative density of %.3g "
-                "with Minimum void ratio = %g and Maximum void ratio = %g. It "
-                "must be from 0 to %g: change one of them.",
-                context.void_ratio,
-                density,
-                e_min,
-                e_max,
-                densest);
-              return false;
-            }
-          if (reference > 0. && (of_reference < 0. || of_reference > densest))
-            {
-              __builtin_snprintf(
-                message.text,
-                sizeof(message.text),
-                "Reference void ratio = %g is a relative density of %.3g with "
-                "Minimum void ratio = %g and Maximum void ratio = %g. Set the "
-                "void ratio that Youngs modulus belongs to, or 0.",
-                reference,
-                of_reference,
-                e_min,
-                e_max);
-              return false;
-            }
-          if (!(critical > 0. && critical < largest_critical_density))
-            {
-              __builtin_snprintf(
-                message.text,
-                sizeof(message.text),
-                "Bolton Q = %g and Smallest stress of strength = %g Pa leave "
-                "the sand no critical state below a relative density of %g. "
-                "Raise the one or reduce the other.",
-                values[5],
-                values[7],
-                largest_critical_density);
-              return false;
-            }
-          return check_at_rest(values, context, message);
+          return check_density(values, context, message) &&
+                 check_at_rest(values, context, message);
         }
 
         static const char *
@@ -317,6 +271,64 @@ namespace CaissonMPM
       private:
         static constexpr double largest_index = 4., dilation_per_index = .3,
                                 densest = 1.3, largest_critical_density = .8;
+
+        /** Whether the void ratios, and Bolton's numbers, are those of a sand.
+         */
+        static bool
+        check_density(const double     *values,
+                      const LawContext &context,
+                      LawMessage       &message)
+        {
+          const double e_min = values[3], e_max = values[4];
+          const double density = (e_max - context.void_ratio) / (e_max - e_min),
+                       reference    = values[11],
+                       of_reference = (e_max - reference) / (e_max - e_min),
+                       critical =
+                         1. / (values[5] - __builtin_log(values[7] / 1e3));
+          if (density < -1e-9 || density > densest)
+            {
+              __builtin_snprintf(
+                message.text,
+                sizeof(message.text),
+                "The void ratio at the start, %g, is a relative density of %.3g "
+                "with Minimum void ratio = %g and Maximum void ratio = %g. It "
+                "must be from 0 to %g: change one of them.",
+                context.void_ratio,
+                density,
+                e_min,
+                e_max,
+                densest);
+              return false;
+            }
+          if (reference > 0. && (of_reference < 0. || of_reference > densest))
+            {
+              __builtin_snprintf(
+                message.text,
+                sizeof(message.text),
+                "Reference void ratio = %g is a relative density of %.3g with "
+                "Minimum void ratio = %g and Maximum void ratio = %g. Set the "
+                "void ratio that Youngs modulus belongs to, or 0.",
+                reference,
+                of_reference,
+                e_min,
+                e_max);
+              return false;
+            }
+          if (!(critical > 0. && critical < largest_critical_density))
+            {
+              __builtin_snprintf(
+                message.text,
+                sizeof(message.text),
+                "Bolton Q = %g and Smallest stress of strength = %g Pa leave "
+                "the sand no critical state below a relative density of %g. "
+                "Raise the one or reduce the other.",
+                values[5],
+                values[7],
+                largest_critical_density);
+              return false;
+            }
+          return true;
+        }
 
         /** Whether the sand carries K0 at its density and mean stress. */
         static bool
