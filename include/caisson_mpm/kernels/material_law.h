@@ -116,6 +116,20 @@ namespace CaissonMPM
         Number variable[n_state_variables];
       };
 
+      /** Scale the plastic strain of a step, that since @p before. */
+      template <typename Number>
+      [[gnu::always_inline]] inline void
+      scale_plastic_strain(const Number            factor,
+                           const LawState<Number> &before,
+                           LawState<Number>       &state)
+      {
+        const auto scale = [&](const Number &old, Number &now) {
+          now = old + factor * (now - old);
+        };
+        scale(before.plastic_deviatoric, state.plastic_deviatoric);
+        scale(before.plastic_volumetric, state.plastic_volumetric);
+      }
+
       /** Soil is in its loosest state if the ratio of its volume to that of its
        * solids has this share of the largest one: but for round-off. */
       constexpr double at_loosest = 1. - 1e-7;

@@ -120,8 +120,7 @@ namespace CaissonMPM
                        of_strength    = ln_crushing - __builtin_log(values[7]);
           return {MohrCoulombStiffening::make(critical),
                   values[2] * radians_per_degree,
-                  1. + values[4] -
-                    range / (of_strength > 1. ? of_strength : 1.),
+                  1. + values[4] - range / of_strength,
                   1. / range,
                   ln_crushing,
                   values[6] * radians_per_degree,
@@ -231,10 +230,7 @@ namespace CaissonMPM
         {
           const MohrCoulomb::Parameters &reference = p.critical.reference;
           const Number factor = stiffening(sigma, state.void_ratio, p);
-          const StrainIncrement<Number> stiffer{factor * de.rr,
-                                                factor * de.zz,
-                                                factor * de.tt,
-                                                factor * de.rz};
+          const StrainIncrement<Number> stiffer = scaled(factor, de);
           // most sand is far from yield even with its critical strength
           StressState<Number> trial = sigma;
           const bool          is_elastic =
@@ -245,8 +241,7 @@ namespace CaissonMPM
               sigma = trial;
               return;
             }
-          const Number deviatoric = state.plastic_deviatoric,
-                       volumetric = state.plastic_volumetric;
+          const LawState<Number> before = state;
           MohrCoulombReturn<Number, MohrCoulombStrength<Number>>::update(
             sigma,
             stiffer,
@@ -261,11 +256,7 @@ namespace CaissonMPM
                                    MohrCoulomb::grown(state.void_ratio, de),
                                    state,
                                    reference);
-          const Number inverse = Number(1.) / factor;
-          state.plastic_deviatoric =
-            deviatoric + inverse * (state.plastic_deviatoric - deviatoric);
-          state.plastic_volumetric =
-            volumetric + inverse * (state.plastic_volumetric - volumetric);
+          scale_plastic_strain(Number(1.) / factor, before, state);
         }
 
       private:

@@ -29,6 +29,13 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
+      template <typename Number>
+      [[gnu::always_inline]] inline StrainIncrement<Number>
+      scaled(const Number factor, const StrainIncrement<Number> &de)
+      {
+        return {factor * de.rr, factor * de.zz, factor * de.tt, factor * de.rz};
+      }
+
       /** What is known against the stresses p_ref and p_min, or null. */
       inline const char *
       warning_of_stiffness(const double reference, const double smallest)
@@ -206,13 +213,9 @@ namespace CaissonMPM
                LawState<Number>              &state,
                const Parameters              &p)
         {
-          const Number factor     = stiffening(sigma, p);
-          const Number deviatoric = state.plastic_deviatoric,
-                       volumetric = state.plastic_volumetric;
-          const StrainIncrement<Number> stiffer{factor * de.rr,
-                                                factor * de.zz,
-                                                factor * de.tt,
-                                                factor * de.rz};
+          const Number                  factor  = stiffening(sigma, p);
+          const LawState<Number>        before  = state;
+          const StrainIncrement<Number> stiffer = scaled(factor, de);
           if (needs_void_ratio(p))
             update_dilatant(sigma, stiffer, de, state, p);
           else
@@ -220,11 +223,7 @@ namespace CaissonMPM
                                                   stiffer,
                                                   state,
                                                   p.reference);
-          const Number inverse = Number(1.) / factor;
-          state.plastic_deviatoric =
-            deviatoric + inverse * (state.plastic_deviatoric - deviatoric);
-          state.plastic_volumetric =
-            volumetric + inverse * (state.plastic_volumetric - volumetric);
+          scale_plastic_strain(Number(1.) / factor, before, state);
         }
 
       private:

@@ -427,10 +427,9 @@ namespace CaissonMPM
         StrainIncrement<Number> strain    = step.strain;
         const bool              kirchhoff = //
           material.stress_measure == StressMeasure::kirchhoff;
-        const Number deviatoric = state.plastic_deviatoric,
-                     volumetric = state.plastic_volumetric;
-        const Number growth     = Number(1.) + step.volume_change,
-                     after      = relative_volume * growth;
+        const LawState<Number> before = state;
+        const Number           growth = Number(1.) + step.volume_change,
+                     after            = relative_volume * growth;
         if (kirchhoff)
           {
             stress             = scaled(Number(1.) / growth, stress);
@@ -454,12 +453,7 @@ namespace CaissonMPM
         else
           Law::update(stress, strain, state, material.parameters);
         if (kirchhoff)
-          {
-            state.plastic_deviatoric =
-              deviatoric + after * (state.plastic_deviatoric - deviatoric);
-            state.plastic_volumetric =
-              volumetric + after * (state.plastic_volumetric - volumetric);
-          }
+          scale_plastic_strain(after, before, state);
       }
 
       /** Set the points in the lanes from @p lane on to the end of the step,
