@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/conventions.h>
+#include <caisson_mpm/bodies/body_shape.h>
 #include <caisson_mpm/bodies/body_surface.h>
 
 #include <deal.II/base/patterns.h>
@@ -82,14 +83,30 @@ namespace CaissonMPM
     return result;
   }
 
+  std::string
+  BodySurface::friction_entry(const Surface surface) const
+  {
+    return "Rigid body/Friction " +
+           std::string(has_coefficient(surface) ? "coefficient" : "angle") +
+           " of the " + name_of(surface);
+  }
+
   void
-  BodySurface::name_unused_entries(ParameterOrigins &origins) const
+  BodySurface::name_unused_entries(ParameterOrigins &origins,
+                                   const BodyShape  &shape) const
   {
     for (unsigned int s = 0; s < n_surfaces; ++s)
-      if (const std::string &name = name_of(static_cast<Surface>(s));
-          coefficient[s])
-        origins.add_unused({"Rigid body/Friction angle of the " + name},
-                           "Rigid body/Friction coefficient of the " + name +
-                             " is set");
+      if (coefficient[s])
+        origins.add_unused({"Rigid body/Friction angle of the " +
+                            name_of(static_cast<Surface>(s))},
+                           friction_entry(static_cast<Surface>(s)) + " is set");
+    if (shape.left() > 0.)
+      return;
+    const std::string of = " of the " + name_of(inner_wall);
+    origins.add_unused({"Rigid body/Friction angle" + of,
+                        "Rigid body/Friction coefficient" + of,
+                        "Rigid body/Adhesion" + of},
+                       "the body has no inner wall: Rigid body/Kind is " +
+                         shape.name());
   }
 } // namespace CaissonMPM

@@ -213,7 +213,7 @@ namespace CaissonMPM
                            motions,
                            "Rigid body/Motion is " + motion().name());
     shape().name_unused_entries(origins);
-    surface().name_unused_entries(origins);
+    surface().name_unused_entries(origins, shape());
     motion().name_unused_entries(origins);
   }
 } // namespace CaissonMPM

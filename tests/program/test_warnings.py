@@ -96,6 +96,11 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
         {f"{BODY}/Friction angle of the tip": 30},
     ),
     (
+        ["coefficient of the tip = 0.7 is an angle of 34.99 degrees. It exceeds"],
+        {f"{BODY}/Friction coefficient of the tip": 0.7},
+        {f"{BODY}/Friction coefficient of the tip": 0.5},
+    ),
+    (
         ["Cohesion = 0 Pa", "no strength at all"],
         {**CLAY, f"{LAYER}/Cohesion": 0},
         CLAY,
@@ -228,6 +233,29 @@ class Review(ProgramTest):
                 "jack_coarse", {**HYPOPLASTIC, f"{LAYER}/Granulate hardness": hardness}
             )
             words = "Granulate hardness = 5e+06 Pa is not that of a soil"
+            self.assertEqual(words in said, is_doubtful, said)
+
+    def test_closed_body(self) -> None:
+        """A pile needs more room than a caisson, and has no inner wall."""
+        pile = "validation/pile"
+        self.assertNotIn("warning", self.validate(pile, {}))
+        for entries, words in (
+            ({"Grid/Outer radius": 7}, ["6.7 m from the wall", "at least 7.5 m"]),
+            (
+                {f"{BODY}/Adhesion of the inner wall": 1e3},
+                ["is set but not used", "no inner wall", "Kind is pile"],
+            ),
+        ):
+            with self.subTest(entries=entries):
+                said = self.validate(pile, entries)
+                self.assert_words(["warning: ", *words], said)
+
+    def test_density_not_given(self) -> None:
+        """A law by density, in a scene that does not say how dense the sand is."""
+        law = {f"{LAYER}/Law": "hypoplastic sand"}
+        words = "Porosity = 0.4 is only the default"
+        for density, is_doubtful in (({}, True), ({f"{LAYER}/Porosity": 0.4}, False)):
+            said = self.validate("verification/seepage_skirt", {**law, **density})
             self.assertEqual(words in said, is_doubtful, said)
 
     def test_doubts(self) -> None:

@@ -14,6 +14,8 @@
 
 namespace CaissonMPM
 {
+  class BodyShape;
+
   /** The surfaces of a body, for friction and for the split of its forces. */
   enum Surface : unsigned int
   {
@@ -48,9 +50,24 @@ namespace CaissonMPM
 
     BodySurface();
 
-    /** Report which friction angles a coefficient leaves without effect. */
+    /**
+     * Report which friction angles a coefficient leaves without effect, and the
+     * entries of surfaces that the body does not have.
+     */
     void
-    name_unused_entries(ParameterOrigins &origins) const;
+    name_unused_entries(ParameterOrigins &origins,
+                        const BodyShape  &shape) const;
+
+    /** Whether a coefficient sets the friction of a surface, not an angle. */
+    bool
+    has_coefficient(const Surface surface) const
+    {
+      return coefficient[surface].has_value();
+    }
+
+    /** The entry that sets the friction of a surface, with its section. */
+    std::string
+    friction_entry(const Surface surface) const;
 
     /** The tangent of the friction angle. */
     double

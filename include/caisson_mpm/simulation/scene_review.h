@@ -58,6 +58,9 @@ namespace CaissonMPM
     stiffness_and_strength(const SoilMaterial &soil);
     void
     solid_density(const SoilMaterial &soil);
+    /** Warn of a law by density where no entry says how dense the soil is. */
+    void
+    density_of_state(const SoilMaterial &soil);
     void
     gravity();
     void
@@ -80,6 +83,10 @@ namespace CaissonMPM
     friction_of_walls(const SoilMaterial &soil,
                       const double        outer,
                       const double        inner);
+    /** Warn of a surface of the body that is rougher than a soil.
+     * @p exceeds: a sentence without its subject and stop. */
+    void
+    too_rough(const Surface surface, const std::string &exceeds);
     void
     boundaries();
     /** Whether the body is a box: a plate, a block or a piston. */
