@@ -111,7 +111,7 @@ class Files(WithFiles):
         assert test.friction is not None and test.pore_pressure is not None
         np.testing.assert_allclose(test.friction, [0, 2e4])
         np.testing.assert_allclose(test.pore_pressure, [0, 9.8e3])
-        self.assertEqual(test.unread, ("tilt_deg",))
+        self.assertEqual(test.remarks, ("columns that were not read: tilt_deg",))
 
     def test_each_wrong_row_is_named(self) -> None:
         rows = [
@@ -172,7 +172,7 @@ class Files(WithFiles):
                 cone_file.read(self.written(HEAD + rows))
 
     def test_decimal_commas_among_commas(self) -> None:
-        with self.assertRaisesRegex(InputError, "row 3: 5 cells, and 4 in the first"):
+        with self.assertRaisesRegex(InputError, "row 3: 5 cells, and 4 columns"):
             cone_file.read(self.written(HEAD + "0,1,5,0\n1,2,20,4,0\n"))
         # cells without a number at the end of rows, and rows of them, are no mistake
         test = cone_file.read(self.written(HEAD + "0,1,5,0,\n,,,\n1,2,20,4,,\n"))

@@ -19,14 +19,13 @@ AREA_RATIO = 0.8
 @dataclass(frozen=True)
 class Interpretation:
     """A test: its ground, the correlations by quantity, and its layers with their
-    estimates; unread: heads of columns that were left out; weight: where the unit
-    weight comes from."""
+    estimates; weight: where the unit weight comes from."""
 
     file: Path
+    test: Test
     ground: Ground
     names: dict[str, str]
     layers: list[Estimates]
-    unread: tuple[str, ...]
     weight: str
 
 
@@ -54,6 +53,12 @@ def positive(text: str) -> float:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options that say how a test is read."""
     add = parser.add_argument_group("how the cone test is read").add_argument
+    add(
+        "--location",
+        default="",
+        metavar="NAME",
+        help="one of the tests in a file of AGS",
+    )
     add(
         "--tops",
         type=depths,
@@ -133,7 +138,7 @@ def interpret(
 ) -> Interpretation:
     """Return what a test says. deepest: below it (m) it does not count. Raises
     InputError."""
-    test = cone_file.read(file)
+    test = cone_file.read(file, location=options.location)
     check(file, test, options)
     if deepest is not None:
         test = test.down_to(deepest)
@@ -149,9 +154,9 @@ def interpret(
         raise InputError(f"{file}: {error}; {tops_are}") from error
     return Interpretation(
         file,
+        test,
         ground,
         names,
         estimates_of(ground, found, names),
-        test.unread,
         "robertson-cabal-2010" if weight is None else "--unit-weight",
     )

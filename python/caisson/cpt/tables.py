@@ -122,9 +122,7 @@ def remarks(test: Interpretation) -> list[str]:
         for a, b in zip(depth, depth[1:])
         if b - a > WIDEST_GAP
     ]
-    if test.unread:
-        found.append(f"columns that were not read: {', '.join(test.unread)}")
-    return found
+    return [*found, *test.test.remarks]
 
 
 def write(path: Path, every: Sequence[Estimates]) -> Path:

@@ -42,7 +42,7 @@ from caisson.suggest.sizes import (
     start_of,
 )
 from caisson.suggest.soil import layers_of
-from caisson_design import InputError
+from caisson_design import InputError, cone_file
 
 # of a study: of the friction angle (degrees), or of the relative density
 CHANGES = (-4, -2, 0, 2, 4)
@@ -76,8 +76,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "--cpt",
         type=Path,
-        metavar="FILE.csv",
-        help="a cone test that gives the layers, in place of --layer",
+        metavar="FILE",
+        help="a cone test that gives the layers, in place of --layer: CSV, AGS 4, GEF",
     )
     add("--sand", metavar="WORD", help=f"all of it sand: {', '.join(sand.WORDS)}")
     text = "all of it sand of this relative density, a share of 1 as 0.85"
@@ -123,7 +123,7 @@ def check(options: argparse.Namespace) -> None:
         raise SuggestError(
             f"--law {options.law} is for a cone test, --cpt; give the angle by --layer"
         )
-    for name in ("tops", "correlation", "soil", "unit_weight"):
+    for name in ("location", "tops", "correlation", "soil", "unit_weight"):
         if not options.cpt and getattr(options, name):
             raise SuggestError(f"--{name.replace('_', '-')} is for a cone test, --cpt")
     if body.wall > body.diameter / 10:
@@ -259,11 +259,19 @@ def reached(options: argparse.Namespace, layers: Sequence[Layer]) -> list[Layer]
     return [layer for layer in layers if layer.top < end_of(options)]
 
 
+def table_of_cone(options: argparse.Namespace) -> Path:
+    """Return the cone test as a table, beside the study if the file is none."""
+    if cone_file.is_a_table(options.cpt):
+        return Path(options.cpt)
+    study: Path = options.study
+    return study.with_name(f"{study.stem}_cone.csv")
+
+
 def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
     """Return the text of a study with low, best and high estimate of a cone test."""
     return template("soil_study.toml.jinja").render(
         scene=os.path.relpath(options.file, options.study.parent),
-        cone=os.path.relpath(options.cpt, options.study.parent),
+        cone=os.path.relpath(table_of_cone(options), options.study.parent),
         name=options.cpt.name,
         follows=options.wall_friction is None and law_of(options) not in sand.LAWS,
         choices=cone.choices_of(
@@ -387,6 +395,8 @@ def write(options: argparse.Namespace) -> None:
     cost = cost_of(options.file, texts[options.file])
     for file, text in texts.items():  # all or none
         file.write_text(text, encoding="utf-8")
+    if options.study and found and (table := table_of_cone(options)) != options.cpt:
+        cone_file.write(table, found.test)
     print(cost)
     assumed = texts[options.file].count(ASSUMPTION)
     print(f"assumed: {assumed} lines of {options.file} are marked ASSUMED: check them")
