@@ -12,7 +12,7 @@ import numpy as np
 
 from caisson import density_law, suggest
 from caisson.cpt import interpretation
-from caisson.cpt.estimates import K0, REFERENCE
+from caisson_design.cone_estimates import K0, REFERENCE
 from caisson.paths import SCENES
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import Layer, SuggestError

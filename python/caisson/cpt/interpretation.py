@@ -4,8 +4,8 @@ import argparse
 from dataclasses import dataclass
 from pathlib import Path
 
-from caisson.cpt import layers
-from caisson.cpt.estimates import Estimates, estimates_of
+from caisson_design import cone_layers as layers
+from caisson_design.cone_estimates import Estimates, estimates_of
 from caisson_design import correlations
 from caisson_design import cone_file
 from caisson_design import InputError

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from caisson.cpt.estimates import (
+from caisson_design.cone_estimates import (
     ENDS,
     INDEX,
     REFERENCE,

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson.cpt.estimates import (
+from caisson_design.cone_estimates import (
     CAN,
     ENDS,
     INDEX,
@@ -18,7 +18,7 @@ from caisson.cpt.estimates import (
     Estimates,
 )
 from caisson.cpt.interpretation import Interpretation
-from caisson.cpt.layers import BAND
+from caisson_design.cone_layers import BAND
 from caisson.table import markdown, write_csv
 from caisson_design.correlations import (
     ANGLE,

@@ -2,7 +2,7 @@
 """Layers of a scene, and low, best and high estimates for a study, from a cone test."""
 from typing import Any
 
-from caisson.cpt.estimates import (
+from caisson_design.cone_estimates import (
     CAN,
     ENDS,
     K0,
