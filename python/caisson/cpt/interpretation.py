@@ -6,6 +6,7 @@ from pathlib import Path
 
 from caisson_design import cone_layers as layers
 from caisson_design.cone_estimates import Estimates, estimates_of
+from caisson.quantity import length, number
 from caisson_design import correlations
 from caisson_design import cone_file
 from caisson_design import InputError
@@ -43,13 +44,6 @@ def depths(text: str) -> list[float]:
     return found
 
 
-def positive(text: str) -> float:
-    """Return a positive number."""
-    if not 0 < float(text) < 1e6:
-        raise argparse.ArgumentTypeError(f"{text!r} is no positive number")
-    return float(text)
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options that say how a test is read."""
     add = parser.add_argument_group("how the cone test is read").add_argument
@@ -67,7 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add(
         "--thinnest",
-        type=positive,
+        type=length,
         default=layers.THINNEST,
         metavar="M",
         help="thickness of the thinnest layer, default %(default)g m",
@@ -87,13 +81,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add(
         "--unit-weight",
-        type=positive,
+        type=number("kN/m3"),
         metavar="KN/M3",
         help="of the wet soil; needed where the test has no sleeve friction",
     )
     add(
         "--area-ratio",
-        type=positive,
+        type=number(""),
         default=AREA_RATIO,
         metavar="A",
         help="net area ratio of the cone, for u2, default %(default)g",

@@ -16,7 +16,7 @@ from caisson.cpt.tables import SHOWN, text_of
 from caisson import density_law
 from caisson.suggest import sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson.suggest.soil import ASSUMED, BY_STRESS
+from caisson.suggest.soil import ASSUMED, BY_STRESS, POISSON_OF_CLAY
 from caisson_design.correlations import ANGLE, DENSITY, MODULUS, STRENGTH
 from caisson_design.ground import CLAY, SAND
 
@@ -25,7 +25,6 @@ REACH = 1.5  # times the skirt: the test counts to this depth
 ADHESION_OF_CLAY = Entry(
     "Adhesion factor of the walls", "0.5", f"{ASSUMPTION}: remoulded"
 )
-POISSON_OF_CLAY = "0.45"  # hardly any change of volume, as without drainage
 
 
 def refuse_fines(found: Interpretation, end: float, flows: bool) -> None:
