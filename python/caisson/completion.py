@@ -59,7 +59,7 @@ def candidates(words: Sequence[str], commands: Commands) -> list[str]:
     """Return what the last word may become; the words follow `caisson`."""
     *before, begin = words or [""]
     if not before:
-        found = [*commands, "--help"]
+        found = [*commands, "--help", "--version"]
     elif before[0] not in commands:
         found = []
     elif begin.startswith("-"):
