@@ -215,7 +215,9 @@ class Commands(WithFiles):
     def test_list(self) -> None:
         """Where the file does not say how long runs take, the program does."""
         self.write(PHI + "values = [30, 32, 34, 36, 38]")
-        words = "5 runs, about 7.5 to 22 min on one core, by the speed of the first steps\n"
+        words = (
+            "5 runs, about 7.5 to 22 min on one core, by the speed of the first steps\n"
+        )
         self.assertEqual(self.study("--list")[1], f"s: s, {words}")
         self.write("seconds = 30\n" + PHI + "values = [30, 32]")
         self.assertIn("2 runs, about 60 s on one core\n", self.study("--list")[1])

@@ -3,9 +3,11 @@
 forces of all estimates beside the design methods, on one page."""
 import argparse
 import base64
+import re
 from pathlib import Path
 
 import jinja2
+import markupsafe
 import numpy as np
 
 from caisson import plot, report, study_command
@@ -21,6 +23,7 @@ from caisson.study import Options, Study, file_name
 
 HERE = Path(__file__).parent
 NAME = "report.html"
+WIDEST = 5  # layers side by side
 
 
 def run_study(file: Path, directory: Path, jobs: int | None) -> int:
@@ -63,6 +66,25 @@ def range_of(low: float, high: float) -> str:
     if not np.isfinite(low + high):
         return ""
     return f"{text_of(low)} to {text_of(high)}"
+
+
+def by_layer(
+    heads: list[str], rows: list[list[str]]
+) -> list[tuple[list[str], list[list[str]]]]:
+    """Return a table of layers as tables with a column for each layer and few of them,
+    which fit on a page."""
+    found = []
+    for first in range(0, len(rows), WIDEST):
+        columns = [heads, *rows[first : first + WIDEST]]
+        lines = [list(line) for line in zip(*columns)]
+        found.append((lines[0], lines[1:]))
+    return found
+
+
+def with_subscripts(text: str) -> markupsafe.Markup:
+    """Return a text for the page, with q_c and its like as one writes them."""
+    safe = str(markupsafe.escape(text))
+    return markupsafe.Markup(re.sub(r"\b([A-Za-z])_(\w+)", r"\1<sub>\2</sub>", safe))
 
 
 def picture_of(path: Path) -> str:
@@ -111,6 +133,7 @@ def write(test: Interpretation, file: Path, directory: Path) -> Path:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["sub"] = with_subscripts
     css = Path(report.__file__).parent / "page.css"
     path = directory / NAME
     path.write_text(
@@ -118,7 +141,7 @@ def write(test: Interpretation, file: Path, directory: Path) -> Path:
             title=study.title,
             test=test.file.name,
             troubles=troubles_of(outcomes),
-            soil=tables.cells_of(test.layers),
+            soil=by_layer(*tables.cells_of(test.layers)),
             remarks=tables.remarks(test),
             forces=forces_of(answers),
             reasons=theory.reasons(answers.answers[0]),
