@@ -43,11 +43,12 @@ def study_of(file: Path, directory: Path) -> Study:
 
 
 def forces_of(found: Answers) -> tuple[list[str], list[list[str]]]:
-    """Return heads and rows of the total force (kN) at each meter: of each run, and
-    the range of each method."""
+    """Return heads and rows of the total force (kN) at each meter and at the end: of
+    each run, and the range of each method."""
     meters = np.arange(1, int(found.depth[-1] + 1e-6) + 1)
     at = np.searchsorted(found.depth, meters - 1e-6)
-    heads = ["depth (m)", *(f"computed, {name}" for name in found.names)]
+    at = np.unique([*at, len(found.depth) - 1])
+    heads = ["Depth (m)", *(f"Computed, {name}" for name in found.names)]
     columns = [[text_of(depth) for depth in found.depth[at]]]
     for force in found.computed:
         columns.append([text_of(value / 1e3) for value in force[at]])
@@ -76,14 +77,19 @@ def by_layer(
     found = []
     for first in range(0, len(rows), WIDEST):
         columns = [heads, *rows[first : first + WIDEST]]
-        lines = [list(line) for line in zip(*columns)]
+        lines = [[capital(head), *rest] for head, *rest in zip(*columns)]
         found.append((lines[0], lines[1:]))
     return found
 
 
+def capital(head: str) -> str:
+    """Return a head as a title, but for symbols."""
+    return re.sub("^[a-z]{4,}", lambda word: word[0].capitalize(), head)
+
+
 def with_subscripts(text: str) -> markupsafe.Markup:
     """Return a text for the page, with q_c and its like as one writes them."""
-    safe = str(markupsafe.escape(text))
+    safe = str(markupsafe.escape(text)).replace("phi (deg)", "φ (°)")
     return markupsafe.Markup(re.sub(r"\b([A-Za-z])_(\w+)", r"\1<sub>\2</sub>", safe))
 
 

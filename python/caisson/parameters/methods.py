@@ -24,7 +24,8 @@ INTERVAL = 0.1  # m
 FEW = 5  # runs that a legend names one by one
 STEPS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)  # m, between depths at which methods are shown
 MOST_BARS = 7
-WIDEST = 2.0  # of the axis, over the largest computed force
+SPREAD = 0.5  # of the bars about their depth, over the least distance of depths
+WIDEST = 1.5  # of the axis, over the largest computed force
 
 
 class Answers(NamedTuple):
@@ -102,20 +103,21 @@ def depths_of_bars(deepest: float) -> np.ndarray:
 
 
 def draw_methods(axes: Axes, found: Answers, limit: float) -> None:
-    """Draw the range of each method as a bar at some depths, side by side; what goes
-    beyond the axis (kN) is an arrow with its end in words."""
+    """Draw the range of each method as a bar at some depths, side by side about them;
+    of what goes beyond the axis (kN) the end is written."""
     depths = depths_of_bars(float(found.depth[-1]))
     methods = [i for i in range(len(theory.METHODS)) if found.band(i) is not None]
-    apart = 0.75 * float(np.diff([0.0, *depths]).min()) / (len(methods) or 1)
+    spread = SPREAD * float(np.diff([0.0, *depths]).min())
     for depth in depths:
-        axes.axhspan(
-            depth - apart * len(methods), depth, color="0.94", linewidth=0, zorder=0
-        )
+        around = depth - spread / 2, depth + spread / 2
+        axes.axhspan(*around, color="0.95", linewidth=0, zorder=0)
+        axes.axhline(depth, color="0.6", linewidth=0.8, zorder=1)
+    axes.set_ylim(depths[-1] + 0.55 * spread, 0)
     for place, i in enumerate(methods):
         band, method = found.band(i), theory.METHODS[i]
         assert band is not None
         low, high = (np.interp(depths, found.depth, end) / 1e3 for end in band)
-        where = depths - apart * (len(methods) - place - 0.5)
+        where = depths + spread * ((place + 0.5) / len(methods) - 0.5)
         ends = np.minimum(high, limit)
         axes.errorbar(
             (low + ends) / 2,
@@ -139,7 +141,7 @@ def draw_methods(axes: Axes, found: Answers, limit: float) -> None:
                 va="center",
                 fontsize=7,
                 color=method.color,
-                backgroundcolor="white",
+                bbox={"color": "white", "pad": 0.5},
                 zorder=5,
             )
 
@@ -177,7 +179,6 @@ def draw(path: Path, found: Answers, outcomes: Outcomes) -> Path:
     tops = [float(np.nanmax(band[1])) / 1e3 for band in bands if band is not None]
     limit = 1.05 * max(largest, min(max(tops, default=0.0), WIDEST * largest))
     axes.set_xlim(0, limit)
-    axes.set_ylim(1.01 * float(found.depth.max()), 0)
     draw_methods(axes, found, limit)
     draw_runs(axes, found)
     axes.grid(color="0.9", axis="x")
@@ -188,7 +189,7 @@ def draw(path: Path, found: Answers, outcomes: Outcomes) -> Path:
     axes.set_ylabel("Penetration of the skirt tip (m)")
     axes.legend(fontsize=8, framealpha=0.9, loc="upper right")
     figure.suptitle(outcomes.study.title, fontsize=11)
-    note = "bars end above the depth they are for: both cases with the soil of all runs"
+    note = "bars, beside the line of their depth: both cases with the soil of all runs"
     byrne = theory.assumptions_in_words(found.runs[0].run.results.scene)
     if found.band(0) is None:
         byrne = ""
