@@ -41,7 +41,7 @@ def value_of(text: str, unit: str) -> float:
     if re.match(r"[+-]?\d*,\d", text.strip()):
         point = text.strip().replace(",", ".", 1)
         raise ValueError(f"{text!r} has a decimal comma; write {point}")
-    found = re.fullmatch(rf"({NUMBER})\s*(\D.*|)", text.strip())
+    found = re.fullmatch(rf"({NUMBER})\s*([^\d\s].*|)", text.strip())
     if not found:
         raise ValueError(f"{text!r} is no number")
     factor = factor_of(text, found[2], unit) if found[2] else 1.0

@@ -147,8 +147,8 @@ def lines_of(path: Path) -> list[str]:
         raise InputError(f"{path} cannot be read as a cone test: {error}") from error
     if content.startswith(b"PK") or b"\0" in content:
         raise InputError(
-            f"{path} cannot be read as a cone test: it is no text, or in UTF-16; save it"
-            " as CSV in UTF-8"
+            f"{path} cannot be read as a cone test: it is no text, or in UTF-16; save"
+            " it as CSV in UTF-8"
         )
     try:
         return content.decode("utf-8-sig").splitlines()

@@ -200,7 +200,7 @@ class Tables(Reading):
             "Tiefe [m];Spitzendruck qc [MN/m²];Mantelreibung fs [kPa];u1 [kPa]",
             "Tiefe in m;Spitzenwiderstand (MPa);lokale Mantelreibung (kN/m²);Rf (%)",
             "Diepte (m);Conusweerstand (MPa);Plaatselijke wrijving (kPa);Helling (gr)",
-            "Profondeur (m);Résistance de pointe (MPa);Frottement latéral (kPa);qt (MPa)",
+            "Profondeur (m);Résistance de pointe (MPa);Frottement latéral (kPa);t (s)",
             "Depth, m;Cone resistance (MPa);Sleeve friction (kPa);qt (MPa)",
             "Tiefe;Spitzendruck;Mantelreibung;Zeit\nm;MPa;kPa;s",
         ):

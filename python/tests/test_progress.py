@@ -60,7 +60,7 @@ class Bars(unittest.TestCase):
         self.assertEqual(terminal.getvalue(), "")
 
     def test_lines_in_a_log_file(self) -> None:
-        """Whole ones, after each twentieth of the work, by what a run says of itself."""
+        """Whole ones, after each twentieth of the work, by what runs say themselves."""
         told = iter([0.0, 0.02, 0.4, 0.41, 0.9])
         stream = io.StringIO()
         shown = Progress([1e3], stream, lambda _: share)
