@@ -14,15 +14,16 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
-from caisson.cpt import command, interpretation, tables
-from caisson_design.cone_estimates import K0, REFERENCE, WEIGHT, reference_moduli
+from caisson.cpt import command, tables
 from caisson.paths import SCENES
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import SuggestError
-from caisson_design import correlations
+from caisson_design import InputError
 from caisson_design import cone_file
 from caisson_design import cone_layers as layers
-from caisson_design import InputError
+from caisson_design import correlations
+from caisson_design import interpretation
+from caisson_design.cone_estimates import K0, REFERENCE, WEIGHT, reference_moduli
 from caisson_design.correlations import (
     ANGLE,
     BEST,

@@ -5,11 +5,11 @@ import contextlib
 import io
 import unittest
 
-import caisson.__main__
 from caisson import paths
-from caisson.quantity import length, number, value_of, without_unit
+import caisson.__main__
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.soil import layer_of
+from caisson_design.quantity import length, number, value_of, without_unit
 
 KNOWN = {
     "Law": "",

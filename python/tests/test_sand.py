@@ -11,14 +11,14 @@ from pathlib import Path
 import numpy as np
 
 from caisson import density_law, suggest
-from caisson.cpt import interpretation
-from caisson_design.cone_estimates import K0, REFERENCE
 from caisson.paths import SCENES
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.sizes import LEVELS
 from caisson.suggest.soil import layers_of
+from caisson_design import interpretation
 from caisson_design.assumed_cone import AssumedCone, Sand
+from caisson_design.cone_estimates import K0, REFERENCE
 from caisson_design.correlations import DENSITY
 
 EXAMPLE = SCENES / "cpt_example.csv"

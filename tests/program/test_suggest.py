@@ -177,8 +177,13 @@ class Words(SuggestTest):
             words = ["--weight", weight, "--error", "20%"]
             self.suggest(path / name, *words, layers=(layer,))
             found.append(read_parameters([str(path / name)]))
-            del found[-1]["Output/Directory"]
-        self.assertEqual(*found)
+        short, long = found
+        for entry in ("Friction angle", "Youngs modulus", "Cohesion", "Poisson ratio"):
+            name = f"Soil/Layer 1/{entry}"
+            self.assertEqual(float(short[name]), float(long[name]), name)
+        for name in ("Overconsolidation ratio", "Porosity", "Permeability"):
+            self.assertEqual(*(entries[f"Soil/Layer 1/{name}"] for entries in found))
+        self.assertEqual(float(short["Rigid body/Submerged weight"]), 2.5e6)
         clay = "0: su = 20 kPa, E = 4 MPa, gamma = 17 kN/m3"
         self.suggest(path / "clay.prm", layers=(clay,))
         self.run_program(SUCCESS, path / "clay.prm", "--validate", "--strict")

@@ -15,15 +15,16 @@ import sys
 from pathlib import Path
 
 from caisson import suggest
-from caisson.cpt import interpretation, page, picture, tables
-from caisson.cpt.interpretation import Interpretation
+from caisson.cpt import page, picture, tables
 from caisson.paths import RESULTS, scene_or_study, short
 from caisson.runner import RunError
 from caisson.study import StudyError
 from caisson.suggest.cone import REACH
 from caisson.suggest.entry import SuggestError
 from caisson_design import InputError
+from caisson_design import interpretation
 from caisson_design.correlations import EVERY
+from caisson_design.interpretation import Interpretation
 
 SIZES = ("diameter", "skirt", "wall")
 SCENE, STUDY = "scene.prm", "study.toml"

@@ -12,7 +12,6 @@ import numpy as np
 
 from caisson import plot, report, study_command
 from caisson.cpt import tables
-from caisson.cpt.interpretation import Interpretation
 from caisson.parameters import methods
 from caisson.parameters.methods import TOTAL, Answers
 from caisson.parameters.outcome import Outcomes, words_of
@@ -20,6 +19,7 @@ from caisson.plot import theory
 from caisson.report.methods import text_of
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
+from caisson_design.interpretation import Interpretation
 
 HERE = Path(__file__).parent
 NAME = "report.html"

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from caisson_design import correlations
 from caisson_design.cone_estimates import (
     ENDS,
     INDEX,
@@ -18,7 +19,6 @@ from caisson_design.cone_estimates import (
     Estimates,
     growth_of,
 )
-from caisson_design import correlations
 from caisson_design.correlations import ANGLE, BEST, DENSITY, MODULUS, STRENGTH
 from caisson_design.ground import CLAY, CLAY_ABOVE, SAND, SAND_BELOW, SILT, Ground
 

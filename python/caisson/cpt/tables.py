@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from caisson.table import markdown, write_csv
 from caisson_design.cone_estimates import (
     CAN,
     ENDS,
@@ -17,9 +18,7 @@ from caisson_design.cone_estimates import (
     Estimate,
     Estimates,
 )
-from caisson.cpt.interpretation import Interpretation
 from caisson_design.cone_layers import BAND
-from caisson.table import markdown, write_csv
 from caisson_design.correlations import (
     ANGLE,
     DENSITY,
@@ -28,6 +27,7 @@ from caisson_design.correlations import (
     STRENGTH,
 )
 from caisson_design.ground import SAND, kind_of
+from caisson_design.interpretation import Interpretation
 
 WIDEST_GAP = 1.0  # m between rows; a wider one is reported
 

@@ -29,10 +29,8 @@ from pathlib import Path
 import jinja2
 
 from caisson import density_law
-from caisson.cpt import interpretation, tables
-from caisson.cpt.interpretation import Interpretation
+from caisson.cpt import tables
 from caisson.paths import INSTALLED
-from caisson.quantity import length, number
 from caisson.runner import RunError, query
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
@@ -46,6 +44,9 @@ from caisson.suggest.sizes import (
 )
 from caisson.suggest.soil import layers_of
 from caisson_design import InputError, cone_file
+from caisson_design import interpretation
+from caisson_design.interpretation import Interpretation
+from caisson_design.quantity import length, number
 
 # of a study: of the friction angle (degrees), or of the relative density
 CHANGES = (-4, -2, 0, 2, 4)

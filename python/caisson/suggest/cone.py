@@ -2,6 +2,11 @@
 """Layers of a scene, and low, best and high estimates for a study, from a cone test."""
 from typing import Any
 
+from caisson import density_law
+from caisson.cpt.tables import SHOWN, text_of
+from caisson.suggest import sand
+from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
+from caisson.suggest.soil import ASSUMED, BY_STRESS, POISSON_OF_CLAY
 from caisson_design.cone_estimates import (
     CAN,
     ENDS,
@@ -11,14 +16,9 @@ from caisson_design.cone_estimates import (
     WEIGHT,
     Estimates,
 )
-from caisson.cpt.interpretation import Interpretation
-from caisson.cpt.tables import SHOWN, text_of
-from caisson import density_law
-from caisson.suggest import sand
-from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson.suggest.soil import ASSUMED, BY_STRESS, POISSON_OF_CLAY
 from caisson_design.correlations import ANGLE, DENSITY, MODULUS, STRENGTH
 from caisson_design.ground import CLAY, SAND
+from caisson_design.interpretation import Interpretation
 
 REACH = 1.5  # times the skirt: the test counts to this depth
 # of walls in clay, over its strength

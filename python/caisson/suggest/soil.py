@@ -7,9 +7,9 @@ import re
 from collections.abc import Collection, Iterable, Mapping
 
 from caisson import density_law as names
-from caisson import quantity
 from caisson.suggest import sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
+from caisson_design import quantity
 
 MOHR_COULOMB = "Mohr-Coulomb"
 BY_STRESS = "Mohr-Coulomb with stiffness by stress"

@@ -4,15 +4,15 @@ import argparse
 from dataclasses import dataclass
 from pathlib import Path
 
-from caisson_design import cone_layers as layers
-from caisson_design.cone_estimates import Estimates, estimates_of
-from caisson.quantity import length, number
-from caisson_design import correlations
-from caisson_design import cone_file
 from caisson_design import InputError
+from caisson_design import cone_file
+from caisson_design import cone_layers as layers
+from caisson_design import correlations
+from caisson_design.cone_estimates import Estimates, estimates_of
 from caisson_design.cone_file import Test
 from caisson_design.correlations import BY_NAME
 from caisson_design.ground import CLAY, SAND, SILT, WATER, Ground, ground_of
+from caisson_design.quantity import length, number
 
 AREA_RATIO = 0.8
 
