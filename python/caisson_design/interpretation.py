@@ -132,10 +132,9 @@ def interpret(
 ) -> Interpretation:
     """Return what a test says. deepest: below it (m) it does not count. Raises
     InputError."""
-    test = cone_file.read(file, location=options.location)
-    check(file, test, options)
-    if deepest is not None:
-        test = test.down_to(deepest)
+    whole = cone_file.read(file, location=options.location)
+    check(file, whole, options)
+    test = whole if deepest is None else whole.down_to(deepest)
     weight = options.unit_weight
     ground = ground_of(test, options.area_ratio, weight and 1e3 * weight)
     names = correlations.chosen(options.correlation)
@@ -148,7 +147,7 @@ def interpret(
         raise InputError(f"{file}: {error}; {tops_are}") from error
     return Interpretation(
         file,
-        test,
+        whole,
         ground,
         names,
         estimates_of(ground, found, names),

@@ -24,6 +24,7 @@ from caisson_design.correlations import DENSITY
 EXAMPLE = SCENES / "cpt_example.csv"
 KNOWN = ["Cohesion", "Friction angle", "K0", "Permeability", "Youngs modulus"]
 KNOWN += ["Law", "Porosity", density_law.DENSITY, density_law.DENSEST]
+UNITS = dict.fromkeys(KNOWN, "")
 SIZES = ["--diameter", "4", "--skirt", "2.5", "--wall", "20mm", "own.prm"]
 
 
@@ -49,7 +50,7 @@ def options_of(*words: str) -> argparse.Namespace:
 def layers_in(*words: str) -> list[Layer]:
     """Return the layers of the command."""
     options = options_of(*words)
-    return layers_of(suggest.texts_of(options), KNOWN, suggest.law_of(options))
+    return layers_of(suggest.texts_of(options), UNITS, suggest.law_of(options))
 
 
 def scene_in(*words: str) -> dict[str, str]:
