@@ -18,7 +18,7 @@ from caisson import suggest
 from caisson.cpt import page, picture, tables
 from caisson.paths import RESULTS, scene_or_study, short
 from caisson.runner import RunError
-from caisson.study import StudyError
+from caisson.study import StudyError, file_name
 from caisson.suggest.cone import REACH
 from caisson.suggest.entry import SuggestError
 from caisson_design import InputError
@@ -63,11 +63,13 @@ def check(options: argparse.Namespace) -> bool:
     return bool(given)
 
 
-def write(found: Interpretation, directory: Path, tip: float | None) -> list[Path]:
+def write(
+    found: Interpretation, directory: Path, tip: float | None, location: str
+) -> list[Path]:
     """Write table and picture into a directory; return the files. tip: the depth to
-    which a skirt goes (m)."""
+    which a skirt goes (m); location: of the test, in a file of several."""
     directory.mkdir(parents=True, exist_ok=True)
-    title = f"Cone test {found.file.name}"
+    title = f"Cone test {found.file.name} {location}".rstrip()
     return [
         tables.write(directory / "layers.csv", found.layers),
         picture.draw(
@@ -92,11 +94,12 @@ def work(options: argparse.Namespace) -> int:
     has_caisson = check(options)
     deepest = REACH * options.skirt if has_caisson else None
     found = interpretation.interpret(options.cpt, options, deepest)
-    directory: Path = options.out or RESULTS / "cpt" / options.cpt.stem
+    name = f"{options.cpt.stem} {options.location}".rstrip()
+    directory: Path = options.out or RESULTS / "cpt" / file_name(name)
     if not has_caisson:
         print(tables.text_of_test(found))
     tip = suggest.end_of(options) if has_caisson else None
-    report(write(found, directory, tip))
+    report(write(found, directory, tip, options.location))
     if has_caisson:
         options.file, options.study = directory / SCENE, directory / STUDY
         options.layer = options.sand = options.density = None
