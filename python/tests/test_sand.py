@@ -218,7 +218,6 @@ class Refusals(unittest.TestCase):
             (["--sand", "clay"], "clay is given by --layer"),
             (["--density", "85"], "share of 1. Did you mean 0.85?"),
             (["--density", "-0.1"], "no number from 0 to 1"),
-            (["--density", "thick"], "no number from 0 to 1"),
             (["--layer", "0: Relative density = 85"], "Did you mean 0.85?"),
             (["--layer", "0: Sand = dense, Cohesion = 2e4"], "has no Cohesion"),
             (["--layer", "0: Sand = dense, Friction angle = 40"], "no Friction angle"),

@@ -3,11 +3,11 @@
 forces of all estimates beside the design methods, on one page."""
 import argparse
 import base64
+import html
 import re
 from pathlib import Path
 
 import jinja2
-import markupsafe
 import numpy as np
 
 from caisson import plot, report, study_command
@@ -87,10 +87,10 @@ def capital(head: str) -> str:
     return re.sub("^[a-z]{4,}", lambda word: word[0].capitalize(), head)
 
 
-def with_subscripts(text: str) -> markupsafe.Markup:
-    """Return a text for the page, with q_c and its like as one writes them."""
-    safe = str(markupsafe.escape(text)).replace("phi (deg)", "φ (°)")
-    return markupsafe.Markup(re.sub(r"\b([A-Za-z])_(\w+)", r"\1<sub>\2</sub>", safe))
+def with_subscripts(text: str) -> str:
+    """Return a text as HTML, with q_c and its like as one writes them."""
+    safe = html.escape(text).replace("phi (deg)", "φ (°)")
+    return re.sub(r"\b([A-Za-z])_(\w+)", r"\1<sub>\2</sub>", safe)
 
 
 def picture_of(path: Path) -> str:
