@@ -583,7 +583,7 @@ class Page(unittest.TestCase):
     """What the page and its picture of the methods show."""
 
     def test_layers_side_by_side(self) -> None:
-        """Few in a table, so that none is cut off; heads are titles, but for symbols."""
+        """Few in a table, which fit on a page; heads are titles, but for symbols."""
         rows = [[str(n), "sand", f"{n}.5"] for n in range(1, 8)]
         found = page.by_layer(["layer", "soil", "q_c (MPa)"], rows)
         self.assertEqual(found[0][0], ["Layer", "1", "2", "3", "4", "5"])
