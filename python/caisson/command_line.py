@@ -9,11 +9,12 @@ import argparse
 import difflib
 import importlib
 import os
+import re
 import sys
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import NoReturn
 
-from caisson import needed
+from caisson import needed, paths
 
 # group: subcommand: its module, and what it does
 Groups = Mapping[str, Mapping[str, tuple[str, str]]]
@@ -33,6 +34,19 @@ def help_of(groups: Groups) -> str:
         )
         for group, c in groups.items()
     )
+
+
+class Parser(argparse.ArgumentParser):
+    """Says in a line what is wrong, with the nearest option to one that is not known,
+    and not all options beside it."""
+
+    def error(self, message: str) -> NoReturn:
+        """End the process."""
+        options = [word for action in self._actions for word in action.option_strings]
+        unknown = re.search(r"unrecognized arguments: (--[\w-]+)", message)
+        near = difflib.get_close_matches(unknown[1], options, n=1) if unknown else []
+        hint = f"; did you mean {near[0]}?" if near else ""
+        self.exit(2, f"{self.prog}: {message}{hint}\n(--help lists all options)\n")
 
 
 def run_command(
@@ -61,6 +75,8 @@ def run_command(
         formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog=help_of(groups),
     )
+    version = f"{program} of caisson_mpm {paths.version()}"
+    parser.add_argument("--version", action="version", version=version)
     parser.add_argument("command", choices=commands, metavar="COMMAND ...")
     if not argv:
         parser.print_help()
@@ -73,7 +89,7 @@ def run_command(
     except ModuleNotFoundError as error:
         print(f"{program} {name}: {needed.complaint() or error}", file=sys.stderr)
         return 1
-    own = argparse.ArgumentParser(
+    own = Parser(
         prog=f"{program} {name}",
         description=module.__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,

@@ -17,7 +17,12 @@ from caisson.runner import RunError, query
 
 SCRIPT = Path(__file__).with_name("completion.bash")
 # the ends of the files that a command takes; all others take directories
-FILES = {"run": ".prm", "suggest": ".prm", "study": ".toml", "cpt": ".csv"}
+FILES: dict[str, str | tuple[str, ...]] = {
+    "run": ".prm",
+    "suggest": ".prm",
+    "study": ".toml",
+    "cpt": (".csv", ".ags", ".gef"),
+}
 Commands = Mapping[str, tuple[str, str]]
 
 
@@ -42,7 +47,7 @@ def options_of(command: str, commands: Commands) -> dict[str, list[str]]:
     return found
 
 
-def paths(begin: str, end: str) -> Iterator[str]:
+def paths(begin: str, end: str | tuple[str, ...]) -> Iterator[str]:
     """Yield the directories, and the files with this end, whose paths begin so."""
     pattern = glob.escape(os.path.expanduser(begin)) + "*"
     for path in sorted(glob.glob(pattern)):
@@ -54,7 +59,7 @@ def candidates(words: Sequence[str], commands: Commands) -> list[str]:
     """Return what the last word may become; the words follow `caisson`."""
     *before, begin = words or [""]
     if not before:
-        found = [*commands, "--help"]
+        found = [*commands, "--help", "--version"]
     elif before[0] not in commands:
         found = []
     elif begin.startswith("-"):

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How far many runs are: a bar at the foot of a terminal, and nothing elsewhere, so
-that a log file has whole lines only."""
+"""How far many runs are: a bar at the foot of a terminal; elsewhere a line now and
+then, so that a log file has whole lines only."""
 import os
 import shutil
 import sys
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Self, TextIO
 
 INTERVAL = 1.0  # s
+# of lines in a log file: the least time (s), and the least part of the work
+SILENCE, STEP = 10.0, 0.05
 BAR = 24  # characters
 ALMOST = 0.95  # a run that takes longer than expected counts so much until its end
 
@@ -21,24 +23,41 @@ def duration(seconds: float) -> str:
     return f"{seconds / 60:.2g} min" if seconds < 5400 else f"{seconds / 3600:.2g} h"
 
 
+def span(least: float, most: float) -> str:
+    """Return a range of times: "3 to 6 min"."""
+    first, last = duration(least), duration(most)
+    unit = " " + last.split()[1]
+    return last if first == last else f"{first.removesuffix(unit)} to {last}"
+
+
 def is_terminal(stream: TextIO) -> bool:
     """Return whether a line on the stream can be written over."""
     return stream.isatty() and os.environ.get("TERM", "dumb") != "dumb"
 
 
 class Progress:
-    """What is done of some runs, drawn each INTERVAL on a terminal.
+    """What is done of some runs, drawn each INTERVAL on a terminal, and said elsewhere
+    after each STEP.
 
     Safe to use from several threads. A context: the bar is gone at its end.
     """
 
-    def __init__(self, durations: Sequence[float], stream: TextIO | None = None):
+    def __init__(
+        self,
+        durations: Sequence[float],
+        stream: TextIO | None = None,
+        share_of: Callable[[int], float] = lambda _: 0.0,
+    ):
         """durations: of the runs (s); those of 0 are not known and count as the mean of
-        the others. stream: of the bar, default: the errors of this process."""
+        the others. stream: of the bar, default: the errors of this process. share_of:
+        what part of a run is done, as far as that run says it, else 0."""
         known = [x for x in durations if x > 0] or [1.0]
         mean = sum(known) / len(known)
         self.expected = [x if x > 0 else mean for x in durations]
         self.stream = stream or sys.stderr
+        self.has_bar = is_terminal(self.stream)
+        self.share_of = share_of
+        self.said = 0.0, time.monotonic()  # share and time of the last line
         self.begin = time.monotonic()
         self.begins: dict[int, float] = {}  # of the runs that are running
         self.took: dict[int, float] = {}  # those that have ended (s)
@@ -48,7 +67,7 @@ class Progress:
 
     def __enter__(self) -> Self:
         """Begin to draw."""
-        if self.expected and is_terminal(self.stream):
+        if self.expected:
             self.thread.start()
         return self
 
@@ -89,29 +108,44 @@ class Progress:
         now, work = time.monotonic(), sum(self.expected[i] for i in self.took)
         scale = max(self.scale, 1e-9)
         for number, begin in self.begins.items():
-            work += min((now - begin) / scale, ALMOST * self.expected[number])
+            expected = self.expected[number]
+            told = self.share_of(number) * expected
+            work += told or min((now - begin) / scale, ALMOST * expected)
         return work / sum(self.expected)
+
+    def words(self) -> tuple[float, str]:
+        """Return the share, and in words how far the runs are."""
+        with self.lock:
+            share, n_done = self.share, len(self.took)
+            is_told = any(self.share_of(number) > STEP for number in self.begins)
+        text = f"{n_done} of {len(self.expected)} runs, {100 * share:.0f} %"
+        if n_done or is_told:  # else it is not known how good the expectations are
+            left = (time.monotonic() - self.begin) * (1 - share) / share
+            text += f", about {duration(left)} left"
+        return share, text
 
     def line(self, width: int) -> str:
         """Return the bar for a terminal of so many characters."""
-        with self.lock:
-            share, n_done = self.share, len(self.took)
+        share, text = self.words()
         full = int(BAR * share)
-        text = f"[{'#' * full}{'.' * (BAR - full)}] {n_done} of {len(self.expected)}"
-        text += f" runs, {100 * share:.0f} %"
-        if n_done:  # before, it is not known how good the expectations are
-            left = (time.monotonic() - self.begin) * (1 - share) / share
-            text += f", about {duration(left)} left"
-        return text[: width - 1]
+        return f"[{'#' * full}{'.' * (BAR - full)}] {text}"[: width - 1]
 
     def _clear(self) -> None:
         """Remove the bar from a terminal."""
-        if self.thread.is_alive():
+        if self.has_bar and self.thread.is_alive():
             self.stream.write("\r\x1b[K")
             self.stream.flush()
 
     def _draw(self) -> None:
-        """Write the bar over the last one."""
+        """Write the bar over the last one, or a line where there is something to say
+        that is new."""
+        if not self.has_bar:
+            share, text = self.words()
+            now = time.monotonic()
+            if share >= self.said[0] + STEP and now >= self.said[1] + SILENCE:
+                self.said = share, now
+                print(text, file=self.stream, flush=True)
+            return
         width = shutil.get_terminal_size().columns
         self.stream.write(f"\r\x1b[K{self.line(width)}")
         self.stream.flush()

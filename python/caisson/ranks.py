@@ -93,11 +93,12 @@ def choose(points: int) -> tuple[int, str]:
 
 @dataclass(frozen=True)
 class Size:
-    """What a run is going to take: its points, and seconds on one core, both 0 where
-    they are not known."""
+    """What a run is going to take: its points, and the most and the least seconds on
+    one core, all 0 where they are not known."""
 
     points: int = 0
     seconds: float = 0.0
+    least: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -21,10 +21,6 @@ from caisson.paths import PROGRAM, WORK
 from caisson.ranks import Size
 
 Entries = Mapping[str, Any]
-# the factor by which growing stiffness lengthens a run beyond what its first steps
-# suggest: a caisson of 10 m in sand of a cone test, down to 7.5 m, took 4 to 6 times
-# as long
-STIFFENING = 4
 
 
 class Status(enum.IntEnum):
@@ -102,15 +98,14 @@ def query(arguments: Sequence[str], program: Path = PROGRAM) -> str:
 
 
 def size_in(output: str) -> Size:
-    """Return the size of a run of which --validate has said this: its time is that at
-    the speed of the first steps, STIFFENING times as long where soil grows stiffer."""
+    """Return the size of a run of which --validate has said this."""
     points = re.search(r"^ *points +(\d+)$", output, re.M)
-    found = re.search(r"^ *duration +about ([\d.]+) (s|min|h)\b", output, re.M)
-    seconds = 0.0
-    if found is not None:
-        seconds = float(found[1]) * {"s": 1, "min": 60, "h": 3600}[found[2]]
-        seconds *= STIFFENING if "grows stiffer under a tip" in output else 1
-    return Size(int(points[1]) if points else 0, seconds)
+    found = re.search(
+        r"^ *duration +about ([\d.]+) to ([\d.]+) (s|min|h)\b", output, re.M
+    )
+    unit = {"s": 1.0, "min": 60.0, "h": 3600.0}[found[3]] if found else 0.0
+    least, most = (float(found[i]) * unit if found else 0.0 for i in (1, 2))
+    return Size(int(points[1]) if points else 0, most, least)
 
 
 def read_parameters(
@@ -217,6 +212,16 @@ class Run:
             return json.loads((self.directory / self.RECORD).read_text("utf-8"))
         except (OSError, ValueError):
             return None
+
+    def share_done(self) -> float:
+        """Return what part of a run is done by its own words, 0 where it says none."""
+        try:
+            with open(self.directory / "log", "rb") as log:
+                log.seek(-min(log.seek(0, os.SEEK_END), 1000), os.SEEK_END)
+                found = re.findall(rb"\| +([\d.]+) % \|", log.read())
+        except OSError:
+            return 0.0
+        return float(found[-1]) / 100 if found else 0.0
 
     def is_complete(self) -> bool:
         """Return whether the results there are those of this run."""

@@ -334,11 +334,14 @@ def execute(
     ranks: int | None = None,
 ) -> None:
     """Run all that are not complete, some at a time, the longest first; ranks: others
-    than those of the runs. A run that cannot be made says why in its trouble. On a
-    terminal a bar shows how far they are."""
+    than those of the runs. A run that cannot be made says why in its trouble. A bar, or
+    in a log file a line now and then, shows how far they are."""
     ordered = longest_first(runs)
     with (
-        Progress([run.duration for run in ordered]) as progress,
+        Progress(
+            [run.duration for run in ordered],
+            share_of=lambda number: ordered[number].run.share_done(),
+        ) as progress,
         concurrent.futures.ThreadPoolExecutor(jobs) as pool,
     ):
 

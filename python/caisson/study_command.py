@@ -16,7 +16,7 @@ from types import ModuleType
 
 from caisson import needed
 from caisson.paths import PROGRAM, RESULTS, scene_or_study
-from caisson.progress import duration
+from caisson.progress import span
 from caisson.ranks import Size, cores, plan
 from caisson.runner import RunError, Status
 from caisson.study import (
@@ -107,8 +107,8 @@ def query_size(run: StudyRun) -> None:
 
 
 def cost_of(study: Study) -> str:
-    """Return how long the runs of a study take on one core. Where the file does not
-    say it, the program is asked for the first, the middle and the last of them."""
+    """Return how long the runs of a study take on one core, as a range. Where the file
+    does not say it, the program is asked for the first, the middle and the last."""
     silent = [run for run in study.runs if not run.seconds]
     asked = silent[:: max(1, (len(silent) - 1) // 2)][:3]
     for run in asked:
@@ -117,10 +117,10 @@ def cost_of(study: Study) -> str:
     if not all(found):
         return "duration not known"
     said = sum(run.seconds for run in study.runs)
-    least, most = (said + len(silent) * end(found or [0]) for end in (min, max))
-    first, last = duration(least), duration(most)
-    text = f"about {last if first == last else f'{first} to {last}'} on one core"
-    return text + (", at the speed of the first steps" if asked else "")
+    least = said + len(silent) * min((run.size.least for run in asked), default=0)
+    most = said + len(silent) * max(found, default=0)
+    text = f"about {span(least, most)} on one core"
+    return text + (", by the speed of the first steps" if asked else "")
 
 
 def print_list(studies: list[Study]) -> None:
@@ -211,7 +211,8 @@ def shares_of(runs: Sequence[StudyRun], jobs: int | None) -> list[Share]:
         how, seconds, n = str(chosen), chosen.seconds, chosen.alone
         at_a_time = chosen.cores // chosen.ranks
         shares = [(runs[:n], cores(), None), (runs[n:], at_a_time, chosen.ranks)]
-    about = f", about {duration(seconds)}" if all(times) else ""
+    least = sum(run.seconds or run.size.least for run in runs) / (sum(times) or 1)
+    about = f", about {span(least * seconds, seconds)}" if all(times) else ""
     print(f"runs to do: {len(runs)}{about}, {how}" if runs else "runs to do: 0")
     sys.stdout.flush()
     return shares

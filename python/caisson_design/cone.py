@@ -145,13 +145,15 @@ def read(path: Path) -> Profile:
 
 
 def adopt(path: Path, directory: Path) -> None:
-    """Copy a test into the directory of a run, where pictures and report find it.
-    Raises InputError where it cannot be read."""
-    read(path)
+    """Copy a test into the directory of a run, where pictures and report find it; AGS
+    and GEF become a table. Raises InputError where it cannot be read."""
+    test = cone_file.read(path, with_friction=False)
     if not directory.is_dir():
         raise InputError(f"no directory {directory}")
     target = directory / NAME
-    if not (target.exists() and target.samefile(path)):
+    if not cone_file.is_a_table(path):
+        cone_file.write(target, test)
+    elif not (target.exists() and target.samefile(path)):
         shutil.copyfile(path, target)
 
 

@@ -1,14 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Files of cone penetration tests: the only reader of them.
 
-A file is a table. Its first row names quantity and unit of each column: depth_m, qc_MPa
-(cone resistance), fs_kPa (sleeve friction) and u2_kPa (pore pressure behind the cone),
-also as "depth (m)" or "qc [MPa]"; stresses may be in Pa, kPa or MPa. Cells are divided
-by commas, semicolons or tabs. Rows that are empty or begin with "#" are left out, but
-count. What is wrong is reported for each row.
+A file is a table of text (caisson_design.cone_csv), AGS 4 (cone_ags) or GEF (cone_gef),
+which its content tells and not its name. Numbers have a decimal point, or all of them a
+decimal comma. What is wrong is reported for each row.
 """
-import csv
-import io
 import re
 from collections.abc import Mapping, Sequence
 from math import isfinite, nan
@@ -17,42 +13,28 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson_design import InputError
+from caisson_design import InputError, cone_ags, cone_csv, cone_gef
+from caisson_design.cone_table import NAMES, NEEDED, UNITS, Column, Table, refuse
 
-
-PASCAL = {"pa": 1.0, "kpa": 1e3, "mpa": 1e6}
-UNITS: dict[str, Mapping[str, float]] = {
-    "depth": {"m": 1.0},
-    "qc": PASCAL,
-    "fs": PASCAL,
-    "u2": PASCAL,
-}
-HEADS = "depth_m and qc_MPa (or qc_kPa, qc_Pa)"
-MORE_HEADS = "fs_kPa and u2_kPa (or in Pa or MPa)"
-NAMES = {
-    "qc": "cone resistance",
-    "fs": "sleeve friction",
-    "u2": "pore pressure",
-}
 # Pa; more and less than any test has
 RANGES = {"qc": (0.0, 200e6), "fs": (0.0, 5e6), "u2": (-0.5e6, 20e6)}
 WEAKEST = 20e3  # Pa; the largest resistance of a test is more
 SMOOTHEST = 2e-4  # f_s / q_c; the median of a test is more
 HIGHEST_START = 1.0  # m, of the first row
 DEEPEST = 200.0  # m
-MOST = 10  # rows that a message names
+COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")  # a number with a decimal comma
 
 
 class Test(NamedTuple):
     """A test: depth (m), cone resistance, sleeve friction and pore pressure (Pa), [n]
-    each, the last two None where the file has none; and the heads that were not read.
+    each, the last two None where the file has none; and what was not read, in words.
     """
 
     depth: np.ndarray
     resistance: np.ndarray
     friction: np.ndarray | None
     pore_pressure: np.ndarray | None
-    unread: tuple[str, ...]
+    remarks: tuple[str, ...]
 
     def down_to(self, deepest: float) -> "Test":
         """Return the rows down to a depth (m), at least two."""
@@ -62,70 +44,27 @@ class Test(NamedTuple):
             self.resistance[:n],
             None if self.friction is None else self.friction[:n],
             None if self.pore_pressure is None else self.pore_pressure[:n],
-            self.unread,
+            self.remarks,
         )
 
 
-class Column(NamedTuple):
-    """Where a quantity is, and its unit in m or Pa."""
-
-    place: int
-    unit: float
-
-
-def head_of(text: str) -> tuple[str, str]:
-    """Return quantity and unit of a head such as depth_m, "qc (MPa)" or qc [kPa]."""
-    words = re.findall(r"[a-z][a-z0-9]*", text.lower())
-    return ("".join(words[:-1]), words[-1]) if words else ("", "")
-
-
-def columns_of(
-    path: Path, heads: Sequence[str], wanted: Sequence[str]
-) -> dict[str, Column]:
-    """Return the columns of the quantities that are wanted and there; depth and q_c
-    must be there."""
-    found: dict[str, Column] = {}
-    for place, head in enumerate(heads):
-        quantity, unit = head_of(head)
-        # a head of one word is a quantity without a unit
-        quantity, unit = (quantity, unit) if quantity else (unit, "")
-        if quantity not in wanted:
-            continue
-        if unit not in UNITS[quantity] and quantity in NAMES and wanted[2:]:
-            raise InputError(
-                f"{path}: the column {head!r} has no unit that is known; columns that"
-                f" are read are {HEADS}, {MORE_HEADS}"
+def number_of(text: str, unit: float, has_points: bool) -> float:
+    """Return a cell in m or Pa. has_points: numbers of the file have a decimal point,
+    so that a comma is none. Raises ValueError with what is wrong."""
+    if COMMA.fullmatch(text):
+        if has_points:
+            raise ValueError(
+                f"{text!r} has a comma where other rows have a decimal point; write all"
+                " numbers with a point"
             )
-        if unit not in UNITS[quantity]:
-            continue
-        if quantity in found:
-            raise InputError(
-                f"{path}: two columns of {quantity}; the first row must name one column"
-                f" of depth and one of cone resistance, {HEADS}; it is"
-                f" {', '.join(heads)!r}"
-            )
-        found[quantity] = Column(place, UNITS[quantity][unit])
-    if not {"depth", "qc"} <= set(found):
-        raise InputError(
-            f"{path}: the first row must name one column of depth and one of cone"
-            f" resistance, {HEADS}; it is {', '.join(heads)!r}"
-        )
-    return found
-
-
-def number_of(cells: Sequence[str], column: Column) -> float:
-    """Return a cell in m or Pa. Raises ValueError with what is wrong."""
-    text = cells[column.place].strip() if column.place < len(cells) else ""
+        text = text.replace(",", ".")
     try:
         value = float(text)
     except ValueError:
         value = nan
     if not isfinite(value):
-        raise ValueError(
-            f"{text!r} is no number; write numbers with a point and leave out rows"
-            " without one"
-        )
-    return value * column.unit
+        raise ValueError(f"{text!r} is no number; leave out rows without one")
+    return value * unit
 
 
 def check_depth(z: float, above: float | None) -> None:
@@ -144,22 +83,23 @@ def check_depth(z: float, above: float | None) -> None:
         raise ValueError(f"a depth of {z:g} m is no length in meters of a cone test")
 
 
-def check_stresses(values: Mapping[str, float]) -> None:
-    """Refuse stresses (Pa) that cannot be meant. Raises ValueError."""
+def check_stresses(values: Mapping[str, float], units_are: str) -> None:
+    """Refuse stresses (Pa) that cannot be meant. units_are: where the units stand.
+    Raises ValueError."""
     for quantity, (low, high) in RANGES.items():
         value = values.get(quantity, low)
         if not low <= value <= high:
             raise ValueError(
                 f"the {NAMES[quantity]} is {value / 1e6:g} MPa, which is not between"
-                f" {low / 1e6:g} and {high / 1e6:g} MPa; check the unit in the first"
-                " row"
+                f" {low / 1e6:g} and {high / 1e6:g} MPa; check the unit in"
+                f" {units_are}"
             )
     friction = values.get("fs", 0.0)
     if friction > values["qc"]:
         raise ValueError(
             f"the sleeve friction of {friction / 1e3:g} kPa is more than the cone"
-            f" resistance of {values['qc'] / 1e3:g} kPa; check both units in the first"
-            " row"
+            f" resistance of {values['qc'] / 1e3:g} kPa; check both units in"
+            f" {units_are}"
         )
 
 
@@ -176,90 +116,150 @@ def check_friction(path: Path, friction: np.ndarray, resistance: np.ndarray) -> 
 
 
 def row_of(
-    cells: Sequence[str],
-    columns: Mapping[str, Column],
-    n_heads: int,
-    above: float | None,
+    cells: Sequence[str], table: Table, above: float | None, has_points: bool
 ) -> dict[str, float]:
     """Return the values of a row in m and Pa. Raises ValueError."""
-    if any(cell.strip() for cell in cells[n_heads:]):
+    if any(cell.strip() for cell in cells[table.n_cells :]):
         raise ValueError(
-            f"{len(cells)} cells, and {n_heads} in the first row; write numbers with a"
-            " point, not with a comma"
+            f"{len(cells)} cells, and {table.n_cells} columns; where numbers have"
+            " commas, divide cells by semicolons"
         )
-    values = {name: number_of(cells, column) for name, column in columns.items()}
+    values = {
+        name: number_of(cell_of(cells, column), column.unit, has_points)
+        for name, column in table.columns.items()
+    }
     check_depth(values["depth"], above)
-    check_stresses(values)
+    check_stresses(values, table.units_are)
     return values
 
 
-def cells_of(path: Path) -> list[tuple[int, list[str]]]:
-    """Return the numbers and cells of all rows that count, the heads first."""
+def cell_of(cells: Sequence[str], column: Column) -> str:
+    """Return the text of a cell, "" for none."""
+    return cells[column.place].strip() if column.place < len(cells) else ""
+
+
+def lines_of(path: Path) -> list[str]:
+    """Return the lines of a file: in UTF-8, or as Western European programs write it.
+    Raises InputError."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise InputError(
-            f"{path} cannot be read as a cone test: it is not in UTF-8; save it so"
-        ) from error
+        content = path.read_bytes()
     except OSError as error:
         raise InputError(f"{path} cannot be read as a cone test: {error}") from error
-    lines = [
-        (row, line)
-        for row, line in enumerate(text.splitlines(), 1)
-        if line.strip(" \t,;") and not line.startswith("#")
-    ]
-    if len(lines) < 3:
+    if content.startswith(b"PK") or b"\0" in content:
         raise InputError(
-            f"{path}: a cone test needs a row of heads, {HEADS}, and two rows of"
-            " numbers"
+            f"{path} cannot be read as a cone test: it is no text, or in UTF-16; save"
+            " it as CSV in UTF-8"
         )
-    divider = next((mark for mark in ";\t" if mark in lines[0][1]), ",")
-    found = csv.reader(
-        io.StringIO("\n".join(line for _, line in lines)), delimiter=divider
+    try:
+        return content.decode("utf-8-sig").splitlines()
+    except UnicodeDecodeError:
+        return content.decode("latin-1").splitlines()
+
+
+def table_of(path: Path, wanted: Sequence[str], location: str) -> Table:
+    """Return the table of a file; location: of the test, where a file has several.
+    Raises InputError."""
+    lines = lines_of(path)
+    if cone_ags.is_in(lines):
+        return cone_ags.table_of(path, lines, wanted, location)
+    if location:
+        raise InputError(f"--location is for AGS 4, which {path} is not")
+    if cone_gef.is_in(lines):
+        return cone_gef.table_of(path, lines, wanted)
+    return cone_csv.table_of(path, lines, wanted)
+
+
+def is_a_table(path: Path) -> bool:
+    """Return whether a file is a table of text, and not AGS or GEF."""
+    lines = lines_of(path)
+    return not (cone_ags.is_in(lines) or cone_gef.is_in(lines))
+
+
+def with_values(path: Path, table: Table) -> tuple[Table, tuple[str, ...]]:
+    """Return the rows and columns that have values, and in words those without any:
+    cells may be empty in AGS and GEF. Raises InputError."""
+    if not table.may_be_empty:
+        return table, ()
+    short = [(row, cells) for row, cells in table.rows if len(cells) < table.n_cells]
+    refuse(
+        path, [(n, f"{len(c)} cells, and {table.n_cells} columns") for n, c in short]
     )
-    return list(zip((row for row, _ in lines), found))
+    columns = {
+        name: column
+        for name, column in table.columns.items()
+        if name in NEEDED or any(cell_of(cells, column) for _, cells in table.rows)
+    }
+    full: list[tuple[int, list[str]]] = []
+    empty: list[tuple[int, list[str]]] = []
+    for row, cells in table.rows:
+        is_full = all(cell_of(cells, column) for column in columns.values())
+        (full if is_full else empty).append((row, cells))
+    if len(full) < 2:
+        raise InputError(
+            f"{path}: a cone test needs two rows with a depth and a cone resistance;"
+            f" there are {len(full)}"
+        )
+    found = [
+        f"the column of {NAMES[name]} has no values"
+        for name in table.columns
+        if name not in columns
+    ]
+    if empty:
+        text = ", ".join(str(row) for row, _ in empty[:5])
+        found.append(
+            f"rows without a value, which were left out: {len(empty)}, those of number"
+            f" {text}{', ...' if len(empty) > 5 else ''}"
+        )
+    chosen = Table(
+        columns, full, table.n_cells, table.unread, table.units_are, table.may_be_empty
+    )
+    return chosen, tuple(found)
 
 
-def refuse(path: Path, wrong: Sequence[tuple[int, str]]) -> None:
-    """Raise InputError with all rows that are wrong, if there are some."""
-    if not wrong:
-        return
-    texts = [f"{path}, row {row}: {why}" for row, why in wrong[:MOST]]
-    if len(wrong) > MOST:
-        rows = ", ".join(str(row) for row, _ in wrong[MOST : 3 * MOST])
-        more = ", ..." if len(wrong) > 3 * MOST else ""
-        texts.append(f"{path}: {len(wrong) - MOST} more rows are wrong: {rows}{more}")
-    raise InputError("\n".join(texts))
-
-
-def read(path: Path, with_friction: bool = True) -> Test:
-    """Return the test of a file. Without friction only depth and q_c are read, and
-    nothing else is looked at. Raises InputError, with the rows."""
-    wanted = list(UNITS) if with_friction else ["depth", "qc"]
-    heads, *rows = cells_of(path)
-    columns = columns_of(path, heads[1], wanted)
-    table: dict[str, list[float]] = {name: [] for name in columns}
+def read(path: Path, with_friction: bool = True, location: str = "") -> Test:
+    """Return the test of a file; location: which one of a file of AGS. Without friction
+    only depth and q_c are read, and nothing else is looked at. Raises InputError, with
+    the rows."""
+    wanted = list(UNITS) if with_friction else list(NEEDED)
+    table, remarks = with_values(path, table_of(path, wanted, location))
+    texts = [cell_of(row, c) for _, row in table.rows for c in table.columns.values()]
+    has_points = any("." in text for text in texts)
+    found: dict[str, list[float]] = {name: [] for name in table.columns}
     wrong = []
-    for place, (row, cells) in enumerate(rows):
-        above = table["depth"][-1] if table["depth"] else nan if place else None
+    for place, (row, cells) in enumerate(table.rows):
+        above = found["depth"][-1] if found["depth"] else nan if place else None
         try:
-            values = row_of(cells, columns, len(heads[1]), above)
+            values = row_of(cells, table, above, has_points)
         except ValueError as error:
             wrong.append((row, str(error)))
             continue
         for name, value in values.items():
-            table[name].append(value)
+            found[name].append(value)
     refuse(path, wrong)
-    arrays = {name: np.array(values) for name, values in table.items()}
+    arrays = {name: np.array(values) for name, values in found.items()}
     if arrays["qc"].max() < WEAKEST:
         raise InputError(
             f"{path}: the largest cone resistance is {arrays['qc'].max():g} Pa, less"
-            " than any soil has; check the unit in the first row"
+            f" than any soil has; check the unit in {table.units_are}"
         )
     if "fs" in arrays:
         check_friction(path, arrays["fs"], arrays["qc"])
-    places = {column.place for column in columns.values()}
-    unread = tuple(h.strip() for i, h in enumerate(heads[1]) if i not in places)
+    if table.unread:
+        remarks += (f"columns that were not read: {', '.join(table.unread)}",)
     return Test(
-        arrays["depth"], arrays["qc"], arrays.get("fs"), arrays.get("u2"), unread
+        arrays["depth"], arrays["qc"], arrays.get("fs"), arrays.get("u2"), remarks
     )
+
+
+def write(path: Path, test: Test) -> Path:
+    """Write a test as a table of text."""
+    columns = {
+        "depth_m": test.depth,
+        "qc_kPa": test.resistance / 1e3,
+        "fs_kPa": None if test.friction is None else test.friction / 1e3,
+        "u2_kPa": None if test.pore_pressure is None else test.pore_pressure / 1e3,
+    }
+    there = {head: values for head, values in columns.items() if values is not None}
+    rows = [",".join(f"{x:.8g}" for x in row) for row in zip(*there.values())]
+    path.write_text("\n".join([",".join(there), *rows, ""]), encoding="utf-8")
+    return path

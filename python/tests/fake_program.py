@@ -77,7 +77,9 @@ def main() -> int:
     print("a.prm is valid")
     if points := os.environ.get("FAKE_PROGRAM_POINTS"):
         print(f"  points     {points}")
-    print("  duration   about 1.5 min on one core at the speed of the first steps")
+    print(
+        "  duration   about 1.5 to 4.5 min on one core: at the speed of the first steps"
+    )
     return 0
 
 

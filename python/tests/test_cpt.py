@@ -14,14 +14,17 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
-from caisson.cpt import command, interpretation, layers, tables
-from caisson.cpt.estimates import K0, REFERENCE, WEIGHT, reference_moduli
+from caisson.cpt import command, page, tables
+from caisson.parameters.methods import depths_of_bars
 from caisson.paths import SCENES
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import SuggestError
-from caisson_design import correlations
-from caisson_design import cone_file
 from caisson_design import InputError
+from caisson_design import cone_file
+from caisson_design import cone_layers as layers
+from caisson_design import correlations
+from caisson_design import interpretation
+from caisson_design.cone_estimates import K0, REFERENCE, WEIGHT, reference_moduli
 from caisson_design.correlations import (
     ANGLE,
     BEST,
@@ -111,7 +114,7 @@ class Files(WithFiles):
         assert test.friction is not None and test.pore_pressure is not None
         np.testing.assert_allclose(test.friction, [0, 2e4])
         np.testing.assert_allclose(test.pore_pressure, [0, 9.8e3])
-        self.assertEqual(test.unread, ("tilt_deg",))
+        self.assertEqual(test.remarks, ("columns that were not read: tilt_deg",))
 
     def test_each_wrong_row_is_named(self) -> None:
         rows = [
@@ -172,7 +175,7 @@ class Files(WithFiles):
                 cone_file.read(self.written(HEAD + rows))
 
     def test_decimal_commas_among_commas(self) -> None:
-        with self.assertRaisesRegex(InputError, "row 3: 5 cells, and 4 in the first"):
+        with self.assertRaisesRegex(InputError, "row 3: 5 cells, and 4 columns"):
             cone_file.read(self.written(HEAD + "0,1,5,0\n1,2,20,4,0\n"))
         # cells without a number at the end of rows, and rows of them, are no mistake
         test = cone_file.read(self.written(HEAD + "0,1,5,0,\n,,,\n1,2,20,4,,\n"))
@@ -574,6 +577,38 @@ class Command(WithFiles):
             self.assertEqual(status, 1)
             self.assertIn(said, text)
         self.assertIn("bolton-1986", self.call("--list")[1])
+
+
+class Page(unittest.TestCase):
+    """What the page and its picture of the methods show."""
+
+    def test_layers_side_by_side(self) -> None:
+        """Few in a table, which fit on a page; heads are titles, but for symbols."""
+        rows = [[str(n), "sand", f"{n}.5"] for n in range(1, 8)]
+        found = page.by_layer(["layer", "soil", "q_c (MPa)"], rows)
+        self.assertEqual(found[0][0], ["Layer", "1", "2", "3", "4", "5"])
+        self.assertEqual(found[1][0], ["Layer", "6", "7"])
+        last = [["Soil", "sand", "sand"], ["q_c (MPa)", "6.5", "7.5"]]
+        self.assertEqual(found[1][1], last)
+
+    def test_subscripts(self) -> None:
+        for text, shown in {
+            "q_c (MPa)": "q<sub>c</sub> (MPa)",
+            "its I_c of 2 <b>": "its I<sub>c</sub> of 2 &lt;b&gt;",
+            "phi (deg)": "φ (°)",
+            "houlsby_byrne": "houlsby_byrne",
+        }.items():
+            self.assertEqual(page.with_subscripts(text), shown)
+
+    def test_depths_of_bars(self) -> None:
+        """Round ones and the last, none just above it."""
+        for deepest, expected in (
+            (4.7, [1, 2, 3, 4, 4.7]),
+            (4.2, [1, 2, 3, 4.2]),
+            (0.6, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
+            (12.0, [2, 4, 6, 8, 10, 12]),
+        ):
+            np.testing.assert_allclose(depths_of_bars(deepest), expected)
 
 
 if __name__ == "__main__":

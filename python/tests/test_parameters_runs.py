@@ -85,7 +85,7 @@ class Commands(WithFiles):
         self.assertIn("Friction angle 42: failed, the soil is too strong", said)
         self.write("depths = [1, 4]\n" + PHI + "values = [30, 34, 42]")
         status, said = self.study("--jobs", "3")
-        self.assertIn("runs to do: 1, about 30 s, 3 at a time", said)
+        self.assertIn("runs to do: 1, about 30 s to 1.5 min, 3 at a time", said)
         made = ["Friction_angle_30", "Friction_angle_34", "Friction_angle_42"]
         self.assertEqual(self.calls(), made)
         rows = self.rows("table.csv")
@@ -206,7 +206,7 @@ class Commands(WithFiles):
             status, said = self.study()
             self.assertEqual(status, 0, said)
             how = "2 of them 2 at a time on one rank each, then 1 at a time on 2 ranks"
-            self.assertIn("runs to do: 3, about 2.4 min, " + how, said)
+            self.assertIn("runs to do: 3, about 2.4 to 7.1 min, " + how, said)
             started = (self.path / "started").read_text(encoding="utf-8")
             self.assertEqual(started.count("-np 2"), 1, started)
             self.assertEqual(len(started.splitlines()), 1, started)
@@ -215,7 +215,9 @@ class Commands(WithFiles):
     def test_list(self) -> None:
         """Where the file does not say how long runs take, the program does."""
         self.write(PHI + "values = [30, 32, 34, 36, 38]")
-        words = "5 runs, about 7.5 min on one core, at the speed of the first steps\n"
+        words = (
+            "5 runs, about 7.5 to 22 min on one core, by the speed of the first steps\n"
+        )
         self.assertEqual(self.study("--list")[1], f"s: s, {words}")
         self.write("seconds = 30\n" + PHI + "values = [30, 32]")
         self.assertIn("2 runs, about 60 s on one core\n", self.study("--list")[1])

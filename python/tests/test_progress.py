@@ -59,6 +59,23 @@ class Bars(unittest.TestCase):
             self.run_two(terminal := Terminal())
         self.assertEqual(terminal.getvalue(), "")
 
+    def test_lines_in_a_log_file(self) -> None:
+        """Whole ones, after each twentieth of the work, by what runs say themselves."""
+        told = iter([0.0, 0.02, 0.4, 0.41, 0.9])
+        stream = io.StringIO()
+        shown = Progress([1e3], stream, lambda _: share)
+        shown.start(0)
+        shown.begin -= 60.0
+        with mock.patch("caisson.progress.SILENCE", 0.0):
+            for share in told:
+                shown._draw()
+        self.assertRegex(
+            stream.getvalue(),
+            r"^0 of 1 runs, 40 %, about 9\d s|1.5 min left\n"
+            r"0 of 1 runs, 90 %, about 6\.\d s left\n$",
+        )
+        self.assertEqual(len(stream.getvalue().splitlines()), 2)
+
     def test_share(self) -> None:
         """By durations; one that is not known counts as the mean of the others, and one
         that takes longer than expected is not done."""

@@ -103,8 +103,9 @@ namespace CaissonMPM
       return "the default";
     // The quoted text of --set would only repeat what a check says anyway.
     const std::string &text = place->second.text;
-    return text.compare(0, 6, "--set ") == 0 ? "set by --set" :
-                                               "set in " + text;
+    return text.compare(0, 2, "--") == 0 ?
+             "set by " + text.substr(0, text.find(' ')) :
+             "set in " + text;
   }
 
   bool

@@ -106,6 +106,8 @@ namespace CaissonMPM
                                    [&simulation](const std::string &path) {
                                      return simulation.declare_subsection(path);
                                    });
+    if (!command_line.output_directory.empty())
+      origins.record("Output/Directory", "--output-directory");
     with_places(origins, [&]() {
       fill_like_layers(dealii::ParameterAcceptor::prm, origins);
     });

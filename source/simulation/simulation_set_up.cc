@@ -152,7 +152,7 @@ namespace CaissonMPM
   Simulation::estimate_cost()
   {
     constexpr double       enough_seconds = .3;
-    constexpr unsigned int enough_steps   = 20;
+    constexpr unsigned int few_steps = 4, enough_steps = 20;
     RunCost                cost;
     cost.grid      = lines.description();
     cost.n_points  = Utilities::MPI::sum<unsigned long>(points.n_points(),
@@ -165,33 +165,31 @@ namespace CaissonMPM
     for (unsigned int i = 0; i < soil.n_materials(); ++i)
       cost.stiffens = cost.stiffens || soil.material(i).stiffness_varies();
 
-    unsigned int  n = 0;
+    unsigned int  n     = 0;
+    double        first = 0.;
     dealii::Timer timer(grid.communicator(), true);
-    const auto    seconds = [&]() {
-      return Utilities::MPI::max(timer.wall_time(), grid.communicator());
-    };
+    // of the processor: others who work beside do not count
+    const auto seconds = [&]() { return timer.cpu_time() / grid.n_ranks(); };
     try
       {
         while (n < enough_steps && !schedule.is_finished() &&
-               seconds() < enough_seconds)
+               (n < few_steps || seconds() < enough_seconds))
           {
             advance();
-            ++n;
+            if (++n > 1)
+              continue;
+            first = seconds(); // longer than others: nothing is in the cache
+            timer.restart();
           }
+        cost.seconds_per_step = n > 1 ? seconds() / (n - 1) : first;
       }
     catch (const RunFailure &)
-      {
-        n = 0; // run() will say why
-      }
-    // of the processor: others who work beside do not count
-    if (n > 0)
-      cost.seconds_per_step = timer.cpu_time() / grid.n_ranks() / n;
+      {} // run() will say why
     cost.n_ranks = grid.n_ranks();
     cost.peak_bytes =
       Utilities::MPI::sum(peak_memory_bytes(), grid.communicator());
-    constexpr double long_run = 60.;                     // s
-    const double     grows    = cost.stiffens ? 4. : 1.; // about
-    if (grows * cost.n_steps * cost.seconds_per_step > long_run)
+    constexpr double long_run = 60.; // s
+    if (cost.seconds().second > long_run)
       cost.savings = ways_to_save(cost.n_points);
     return cost;
   }

@@ -139,6 +139,8 @@ class Options(ProgramTest):
                     BAD_INPUT, scene("jack"), "--validate", *options, entries=entries
                 )
                 self.assertIn(words, said)
+                if words == "a file is in its place":
+                    self.assertIn("Directory is set by --output-directory", said)
         self.assertEqual([file.name for file in path.iterdir()], ["file"])
 
     def test_set_overrides(self) -> None:

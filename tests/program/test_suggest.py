@@ -12,6 +12,7 @@ from program import SUCCESS, HERE, ProgramTest, history, summary
 
 from caisson import density_law
 from caisson.runner import environment, read_parameters
+from caisson_design import cone_file
 
 EXAMPLE = HERE.parent / "prm/cpt_example.csv"
 SAND = "0: Friction angle = 33, Youngs modulus = 20e6"
@@ -159,6 +160,66 @@ class Layers(SuggestTest):
         self.assertNotIn("Friction angle", assumed)
 
 
+class Words(SuggestTest):
+    """Symbols and units of engineers."""
+
+    def test_they_mean_the_same(self) -> None:
+        """As the long names in SI units; a scene of undrained clay is accepted."""
+        path = self.made_directory()
+        pairs = {
+            "short.prm": "0: phi = 33, E = 20 MPa, c = 1 kPa, nu = 0.25, OCR = 2",
+            "long.prm": "0: Friction angle = 33, Youngs modulus = 20e6,"
+            " Cohesion = 1000, Poisson ratio = 0.25, Overconsolidation ratio = 2",
+        }
+        found = []
+        for name, layer in pairs.items():
+            weight = "2500kN" if name == "short.prm" else "2.5e6"
+            words = ["--weight", weight, "--error", "20%"]
+            self.suggest(path / name, *words, layers=(layer,))
+            found.append(read_parameters([str(path / name)]))
+        short, long = found
+        for entry in ("Friction angle", "Youngs modulus", "Cohesion", "Poisson ratio"):
+            name = f"Soil/Layer 1/{entry}"
+            self.assertEqual(float(short[name]), float(long[name]), name)
+        for name in ("Overconsolidation ratio", "Porosity", "Permeability"):
+            self.assertEqual(*(entries[f"Soil/Layer 1/{name}"] for entries in found))
+        self.assertEqual(float(short["Rigid body/Submerged weight"]), 2.5e6)
+        clay = "0: su = 20 kPa, E = 4 MPa, gamma = 17 kN/m3"
+        self.suggest(path / "clay.prm", layers=(clay,))
+        self.run_program(SUCCESS, path / "clay.prm", "--validate", "--strict")
+
+    def test_a_refused_scene_is_not_in_the_way(self) -> None:
+        """Where the program refuses it, neither scene nor study is left."""
+        path = self.made_directory()
+        words = ["--study", str(path / "s.toml")]
+        wrong = SAND + ", nu = 0.7"
+        said = self.suggest(path / "own.prm", *words, status=1, layers=(wrong,))
+        self.assertIn("the program refuses the scene", said)
+        self.assertEqual(list(path.iterdir()), [])
+        self.suggest(path / "own.prm", *words, layers=(SAND,))
+
+    def test_study_of_an_ags_file(self) -> None:
+        """It has the chosen test as a table beside it."""
+        path = self.made_directory()
+        rows = EXAMPLE.read_text("utf-8").splitlines()
+        cells = [r.split(",") for r in rows if r[:1].isdigit()]
+        heads = "LOCA_ID,SCPT_DPTH,SCPT_RES,SCPT_FRES,SCPT_PWP2"
+        lines = [["GROUP", "SCPT"], ["HEADING", *heads.split(",")]]
+        lines.append(["UNIT", "", "m", "MPa", "kPa", "kPa"])
+        lines += [["DATA", name, *row] for name in ("A", "B") for row in cells]
+        text = "\n".join(",".join(f'"{cell}"' for cell in line) for line in lines)
+        (path / "site.ags").write_text(text, "utf-8")
+        words = ["--cpt", str(path / "site.ags"), "--study", str(path / "s.toml")]
+        said = self.suggest(path / "own.prm", *words, status=1, layers=())
+        self.assertIn("2 tests: A, B; choose one by --location", said)
+        self.suggest(path / "own.prm", *words, "--location", "B", layers=())
+        content = tomllib.loads((path / "s.toml").read_text("utf-8"))
+        self.assertEqual(content["cone"], "s_cone.csv")
+        kept, given = (cone_file.read(file) for file in (path / "s_cone.csv", EXAMPLE))
+        self.assertEqual(list(kept.depth), list(given.depth))
+        self.assertLess(abs(kept.resistance / given.resistance - 1).max(), 1e-6)
+
+
 class SandByDensity(SuggestTest):
     """Sand that is given by its density alone; the text is in python/tests."""
 
@@ -169,7 +230,7 @@ class SandByDensity(SuggestTest):
         sizes = ["--diameter", "4", "--skirt", "2.5", "--wall", "20mm"]
         said = self.suggest(path, *sizes, *words, "--error", "20", layers=())
         self.assertRegex(said, r"assumed: \d+ lines of .*own.prm are marked ASSUMED")
-        self.assertRegex(said, "several times as long where soil grows stiffer")
+        self.assertRegex(said, "6 times as long, as where soil grows stiffer")
         self.run_program(SUCCESS, path, "--validate", "--strict")
         return read_parameters([str(path)])
 

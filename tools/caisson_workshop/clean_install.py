@@ -38,8 +38,8 @@ COMMANDS = ["scripts/run prm/jack.prm", "scripts/test"]
 DAY = [
     "scripts/setup build pictures",
     "scripts/caisson suggest --diameter 10 --skirt 8 --wall 40mm --error 20"
-    " --layer '0: Friction angle = 33, Youngs modulus = 20e6'"
-    " --layer '3: Friction angle = 37, Youngs modulus = 40e6'"
+    " --layer '0: phi = 33, E = 20 MPa'"
+    " --layer '3: phi = 37, E = 40 MPa'"
     " own.prm --study own_study.toml",
     "scripts/run own.prm",
     "scripts/caisson study own_study.toml",

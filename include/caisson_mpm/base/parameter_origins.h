@@ -58,7 +58,8 @@ namespace CaissonMPM
     add_unused(const std::vector<std::string> &paths,
                const std::string              &reason);
 
-    /** Return "set in prm/jack.prm:12", "set by --set", or "the default". */
+    /** Return "set in prm/jack.prm:12", "set by --set" or another option, or
+     * "the default". */
     std::string
     origin(const std::string &path) const;
 

@@ -5,6 +5,8 @@
 #define caisson_mpm_simulation_run_cost_h
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace CaissonMPM
 {
@@ -25,6 +27,10 @@ namespace CaissonMPM
     double seconds_per_step = 0.;
     /** Whether the soil grows stiffer with its stress, and the step shorter. */
     bool stiffens = false;
+    /** Return the least and the most time of the processor that the run may
+     * take (s): at the speed of the first steps, and with what slows runs. */
+    std::pair<double, double>
+    seconds() const;
     /** What would make the run shorter, in words. */
     std::vector<std::string> savings;
   };

@@ -2,27 +2,29 @@
 """Layers of soil and their parameters, low, best and high, from a cone test; of a
 caisson also its scene, and a study of the three estimates beside all design methods.
 
-    caisson cpt FILE.csv
-    caisson cpt FILE.csv --diameter 10 --skirt 8 --wall 40mm --run
+    caisson cpt FILE
+    caisson cpt FILE --diameter 10 --skirt 8 --wall 40mm --run
 
-The file is a table with the columns depth_m and qc_MPa and, where they were measured,
-fs_kPa and u2_kPa. Results go to results/cpt/NAME: layers.csv and cpt.png; of a caisson
-scene.prm and study.toml, and with --run report.html.
+The file is AGS 4, GEF or a table with the columns depth_m and qc_MPa and, where they
+were measured, fs_kPa and u2_kPa. Results go to
+results/cpt/NAME: layers.csv and cpt.png; of a caisson scene.prm and study.toml, and
+with --run report.html.
 """
 import argparse
 import sys
 from pathlib import Path
 
 from caisson import suggest
-from caisson.cpt import interpretation, page, picture, tables
-from caisson.cpt.interpretation import Interpretation
+from caisson.cpt import page, picture, tables
 from caisson.paths import RESULTS, scene_or_study, short
 from caisson.runner import RunError
-from caisson.study import StudyError
+from caisson.study import StudyError, file_name
 from caisson.suggest.cone import REACH
 from caisson.suggest.entry import SuggestError
 from caisson_design import InputError
+from caisson_design import interpretation
 from caisson_design.correlations import EVERY
+from caisson_design.interpretation import Interpretation
 
 SIZES = ("diameter", "skirt", "wall")
 SCENE, STUDY = "scene.prm", "study.toml"
@@ -31,7 +33,7 @@ SCENE, STUDY = "scene.prm", "study.toml"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson cpt`."""
     add = parser.add_argument
-    add("cpt", type=scene_or_study, nargs="?", metavar="FILE.csv", help="the test")
+    add("cpt", type=scene_or_study, nargs="?", metavar="FILE", help="the test")
     add("--out", type=Path, metavar="DIR", help="of the results")
     add("--list", action="store_true", help="list the correlations, and do no more")
     add("--run", action="store_true", help="run the study of a caisson")
@@ -61,14 +63,22 @@ def check(options: argparse.Namespace) -> bool:
     return bool(given)
 
 
-def write(found: Interpretation, directory: Path) -> list[Path]:
-    """Write table and picture into a directory; return the files."""
+def write(
+    found: Interpretation, directory: Path, tip: float | None, location: str
+) -> list[Path]:
+    """Write table and picture into a directory; return the files. tip: the depth to
+    which a skirt goes (m); location: of the test, in a file of several."""
     directory.mkdir(parents=True, exist_ok=True)
-    title = f"Cone test {found.file.name}"
+    title = f"Cone test {found.file.name} {location}".rstrip()
     return [
         tables.write(directory / "layers.csv", found.layers),
         picture.draw(
-            directory / "cpt.png", title, found.ground, found.layers, found.names
+            directory / "cpt.png",
+            title,
+            found.ground,
+            found.layers,
+            found.names,
+            tip,
         ),
     ]
 
@@ -84,10 +94,12 @@ def work(options: argparse.Namespace) -> int:
     has_caisson = check(options)
     deepest = REACH * options.skirt if has_caisson else None
     found = interpretation.interpret(options.cpt, options, deepest)
-    directory: Path = options.out or RESULTS / "cpt" / options.cpt.stem
+    name = f"{options.cpt.stem} {options.location}".rstrip()
+    directory: Path = options.out or RESULTS / "cpt" / file_name(name)
     if not has_caisson:
         print(tables.text_of_test(found))
-    report(write(found, directory))
+    tip = suggest.end_of(options) if has_caisson else None
+    report(write(found, directory, tip, options.location))
     if has_caisson:
         options.file, options.study = directory / SCENE, directory / STUDY
         options.layer = options.sand = options.density = None

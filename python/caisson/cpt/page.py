@@ -3,6 +3,8 @@
 forces of all estimates beside the design methods, on one page."""
 import argparse
 import base64
+import html
+import re
 from pathlib import Path
 
 import jinja2
@@ -10,7 +12,6 @@ import numpy as np
 
 from caisson import plot, report, study_command
 from caisson.cpt import tables
-from caisson.cpt.interpretation import Interpretation
 from caisson.parameters import methods
 from caisson.parameters.methods import TOTAL, Answers
 from caisson.parameters.outcome import Outcomes, words_of
@@ -18,9 +19,11 @@ from caisson.plot import theory
 from caisson.report.methods import text_of
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
+from caisson_design.interpretation import Interpretation
 
 HERE = Path(__file__).parent
 NAME = "report.html"
+WIDEST = 5  # layers side by side
 
 
 def run_study(file: Path, directory: Path, jobs: int | None) -> int:
@@ -40,11 +43,12 @@ def study_of(file: Path, directory: Path) -> Study:
 
 
 def forces_of(found: Answers) -> tuple[list[str], list[list[str]]]:
-    """Return heads and rows of the total force (kN) at each meter: of each run, and
-    the range of each method."""
+    """Return heads and rows of the total force (kN) at each meter and at the end: of
+    each run, and the range of each method."""
     meters = np.arange(1, int(found.depth[-1] + 1e-6) + 1)
     at = np.searchsorted(found.depth, meters - 1e-6)
-    heads = ["depth (m)", *(f"computed, {name}" for name in found.names)]
+    at = np.unique([*at, len(found.depth) - 1])
+    heads = ["Depth (m)", *(f"Computed, {name}" for name in found.names)]
     columns = [[text_of(depth) for depth in found.depth[at]]]
     for force in found.computed:
         columns.append([text_of(value / 1e3) for value in force[at]])
@@ -63,6 +67,30 @@ def range_of(low: float, high: float) -> str:
     if not np.isfinite(low + high):
         return ""
     return f"{text_of(low)} to {text_of(high)}"
+
+
+def by_layer(
+    heads: list[str], rows: list[list[str]]
+) -> list[tuple[list[str], list[list[str]]]]:
+    """Return a table of layers as tables with a column for each layer and few of them,
+    which fit on a page."""
+    found = []
+    for first in range(0, len(rows), WIDEST):
+        columns = [heads, *rows[first : first + WIDEST]]
+        lines = [[capital(head), *rest] for head, *rest in zip(*columns)]
+        found.append((lines[0], lines[1:]))
+    return found
+
+
+def capital(head: str) -> str:
+    """Return a head as a title, but for symbols."""
+    return re.sub("^[a-z]{4,}", lambda word: word[0].capitalize(), head)
+
+
+def with_subscripts(text: str) -> str:
+    """Return a text as HTML, with q_c and its like as one writes them."""
+    safe = html.escape(text).replace("phi (deg)", "φ (°)")
+    return re.sub(r"\b([A-Za-z])_(\w+)", r"\1<sub>\2</sub>", safe)
 
 
 def picture_of(path: Path) -> str:
@@ -111,6 +139,7 @@ def write(test: Interpretation, file: Path, directory: Path) -> Path:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["sub"] = with_subscripts
     css = Path(report.__file__).parent / "page.css"
     path = directory / NAME
     path.write_text(
@@ -118,7 +147,7 @@ def write(test: Interpretation, file: Path, directory: Path) -> Path:
             title=study.title,
             test=test.file.name,
             troubles=troubles_of(outcomes),
-            soil=tables.cells_of(test.layers),
+            soil=by_layer(*tables.cells_of(test.layers)),
             remarks=tables.remarks(test),
             forces=forces_of(answers),
             reasons=theory.reasons(answers.answers[0]),

@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from caisson.cpt.estimates import (
+from caisson_design import correlations
+from caisson_design.cone_estimates import (
     ENDS,
     INDEX,
     REFERENCE,
@@ -18,13 +19,12 @@ from caisson.cpt.estimates import (
     Estimates,
     growth_of,
 )
-from caisson_design import correlations
-from caisson_design.correlations import ANGLE, BEST, MODULUS, STRENGTH
+from caisson_design.correlations import ANGLE, BEST, DENSITY, MODULUS, STRENGTH
 from caisson_design.ground import CLAY, CLAY_ABOVE, SAND, SAND_BELOW, SILT, Ground
 
 COLORS = {SAND: "#f3e2b3", SILT: "#d8d3c4", CLAY: "#c9b8a8"}
 LINE, BAND = "#2166ac", "#2166ac"
-PROFILE = "0.35"
+PROFILE, TIP = "0.35", "#b2182b"
 WIDEST = 1.6  # of an axis over the largest estimate, so that no spike hides them
 
 
@@ -50,9 +50,14 @@ def panels_of(
         found.append(Panel("$I_c$", ground.index, INDEX))
     has = {name for e in every for name in e.values}
     sand = rows_with(every, ANGLE, len(ground.depth))
+    if DENSITY in has:
+        rows = rows_with(every, DENSITY, len(ground.depth))
+        density = 100 * correlations.densities_of(ground, names, BEST)
+        shown = np.where(rows, density, np.nan)
+        found.append(Panel("$D_r$ (%)", shown, DENSITY, 100.0))
     if ANGLE in has:
         angle = correlations.angles_of(ground, names, BEST)
-        found.append(Panel("friction angle (°)", np.where(sand, angle, np.nan), ANGLE))
+        found.append(Panel("Friction angle (°)", np.where(sand, angle, np.nan), ANGLE))
     modulus = correlations.moduli_of(ground, names, BEST) * 1e-6
     shown = np.where(sand, modulus, np.nan)
     growth = growth_of(ground, names)
@@ -130,6 +135,8 @@ def draw_panel(
         axes.set_xlim(1, 4)
     elif panel.estimate == ANGLE:
         axes.set_xlim(*correlations.ANGLES)
+    elif panel.estimate == DENSITY:
+        axes.set_xlim(0, 105)
     else:
         shown = panel.profile[np.isfinite(panel.profile)]
         top = 1.05 * float(max(shown, default=0.0)) or 1.0
@@ -160,7 +167,9 @@ def name_layers(axes: Axes, every: Sequence[Estimates]) -> None:
         )
 
 
-def legend_of(figure: Figure, every: Sequence[Estimates], note: str) -> None:
+def legend_of(
+    figure: Figure, every: Sequence[Estimates], note: str, tip: float | None
+) -> None:
     """Draw the legend below the panels, with a note."""
     kinds = {e.layer.kind for e in every}
     lenses = {kind for e in every for _, _, kind in e.layer.lenses}
@@ -175,6 +184,9 @@ def legend_of(figure: Figure, every: Sequence[Estimates], note: str) -> None:
         for k in COLORS
         if k in lenses
     ]
+    if tip is not None:
+        text = f"skirt tip at {tip:g} m"
+        handles.append(Line2D([], [], color=TIP, linestyle="--", label=text))
     figure.legend(
         handles=handles,
         loc="lower center",
@@ -192,8 +204,10 @@ def draw(
     ground: Ground,
     every: Sequence[Estimates],
     names: dict[str, str],
+    tip: float | None = None,
 ) -> Path:
-    """Write the picture. names: the correlation of each quantity."""
+    """Write the picture. names: the correlation of each quantity; tip: the depth to
+    which a skirt goes (m)."""
     panels = panels_of(ground, every, names)
     figure = Figure(figsize=(2.0 + 2.3 * len(panels), 7.5))
     columns = list(figure.subplots(1, len(panels), sharey=True, squeeze=False)[0])
@@ -201,12 +215,15 @@ def draw(
         draw_layers(axes, every)
         draw_panel(axes, panel, ground.depth, every)
     columns[0].set_ylim(every[-1].layer.bottom, 0)
-    columns[0].set_ylabel("depth below the mudline (m)")
+    columns[0].set_ylabel("Depth below the mudline (m)")
     name_layers(columns[0], every)
+    if tip is not None:
+        for axes in columns:
+            axes.axhline(tip, color=TIP, linewidth=1.4, linestyle="--", zorder=5)
     figure.suptitle(title, fontsize=11)
     shown = [p.estimate for p in panels if p.estimate in names]
     note = "; ".join(names[quantity] for quantity in shown)
-    legend_of(figure, every, note)
+    legend_of(figure, every, note, tip)
     figure.tight_layout(rect=(0, 0.06, 1, 1))
     figure.savefig(path, dpi=150)
     return path

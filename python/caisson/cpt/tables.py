@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson.cpt.estimates import (
+from caisson.table import markdown, write_csv
+from caisson_design.cone_estimates import (
     CAN,
     ENDS,
     INDEX,
@@ -17,9 +18,7 @@ from caisson.cpt.estimates import (
     Estimate,
     Estimates,
 )
-from caisson.cpt.interpretation import Interpretation
-from caisson.cpt.layers import BAND
-from caisson.table import markdown, write_csv
+from caisson_design.cone_layers import BAND
 from caisson_design.correlations import (
     ANGLE,
     DENSITY,
@@ -28,6 +27,7 @@ from caisson_design.correlations import (
     STRENGTH,
 )
 from caisson_design.ground import SAND, kind_of
+from caisson_design.interpretation import Interpretation
 
 WIDEST_GAP = 1.0  # m between rows; a wider one is reported
 
@@ -122,9 +122,7 @@ def remarks(test: Interpretation) -> list[str]:
         for a, b in zip(depth, depth[1:])
         if b - a > WIDEST_GAP
     ]
-    if test.unread:
-        found.append(f"columns that were not read: {', '.join(test.unread)}")
-    return found
+    return [*found, *test.test.remarks]
 
 
 def write(path: Path, every: Sequence[Estimates]) -> Path:

@@ -22,6 +22,10 @@ from caisson.table import write_csv
 TOTAL = "total_force_N"
 INTERVAL = 0.1  # m
 FEW = 5  # runs that a legend names one by one
+STEPS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)  # m, between depths at which methods are shown
+MOST_BARS = 7
+SPREAD = 0.5  # of the bars about their depth, over the least distance of depths
+WIDEST = 1.5  # of the axis, over the largest computed force
 
 
 class Answers(NamedTuple):
@@ -91,24 +95,55 @@ def write(path: Path, found: Answers) -> Path:
     return path
 
 
-def draw_methods(axes: Axes, found: Answers) -> None:
-    """Draw the band of each method."""
-    for i, method in enumerate(theory.METHODS):
-        band = found.band(i)
-        if band is None:
-            continue
-        low, high = band[0] / 1e3, band[1] / 1e3
-        axes.fill_betweenx(
-            found.depth,
-            low,
-            high,
-            color=method.color,
-            alpha=0.16,
-            linewidth=0,
+def depths_of_bars(deepest: float) -> np.ndarray:
+    """Return the depths (m) at which methods are shown: round ones, and the last."""
+    step = next((s for s in STEPS if deepest / s <= MOST_BARS), STEPS[-1])
+    round_ones = np.arange(1, int(deepest / step + 1e-6) + 1) * step
+    return np.append(round_ones[round_ones < deepest - step / 2], deepest)
+
+
+def draw_methods(axes: Axes, found: Answers, limit: float) -> None:
+    """Draw the range of each method as a bar at some depths, side by side about them;
+    of what goes beyond the axis (kN) the end is written."""
+    depths = depths_of_bars(float(found.depth[-1]))
+    methods = [i for i in range(len(theory.METHODS)) if found.band(i) is not None]
+    spread = SPREAD * float(np.diff([0.0, *depths]).min())
+    for depth in depths:
+        around = depth - spread / 2, depth + spread / 2
+        axes.axhspan(*around, color="0.95", linewidth=0, zorder=0)
+        axes.axhline(depth, color="0.6", linewidth=0.8, zorder=1)
+    axes.set_ylim(depths[-1] + 0.55 * spread, 0)
+    for place, i in enumerate(methods):
+        band, method = found.band(i), theory.METHODS[i]
+        assert band is not None
+        low, high = (np.interp(depths, found.depth, end) / 1e3 for end in band)
+        where = depths + spread * ((place + 0.5) / len(methods) - 0.5)
+        ends = np.minimum(high, limit)
+        axes.errorbar(
+            (low + ends) / 2,
+            where,
+            xerr=np.maximum(ends - low, 0) / 2,
+            fmt="none",
+            ecolor=method.color,
+            elinewidth=2.4,
+            capsize=3.5,
+            capthick=2.0,
             label=f"{method.name}: {' to '.join(method.cases)}",
+            zorder=3,
         )
-        for end in (low, high):
-            axes.plot(end, found.depth, color=method.color, linewidth=0.9)
+        for y, end in zip(where[high > limit], high[high > limit]):
+            axes.annotate(
+                f"to {end:,.0f} >",
+                (limit, y),
+                (-3, 0),
+                textcoords="offset points",
+                ha="right",
+                va="center",
+                fontsize=7,
+                color=method.color,
+                bbox={"color": "white", "pad": 0.5},
+                zorder=5,
+            )
 
 
 def draw_runs(axes: Axes, found: Answers) -> None:
@@ -139,22 +174,22 @@ def draw(path: Path, found: Answers, outcomes: Outcomes) -> Path:
     """Write the picture."""
     figure = Figure(figsize=(8.5, 8.5))
     axes = figure.subplots()
-    draw_methods(axes, found)
-    draw_runs(axes, found)
-    computed = found.computed[np.isfinite(found.computed)] / 1e3
+    largest = float(found.computed[np.isfinite(found.computed)].max()) / 1e3
     bands = [found.band(i) for i in range(len(theory.METHODS))]
     tops = [float(np.nanmax(band[1])) / 1e3 for band in bands if band is not None]
-    axes.set_xlim(0, 1.05 * max([*tops, float(computed.max())]))
-    axes.set_ylim(float(found.depth.max()), 0)
-    axes.grid(color="0.9")
+    limit = 1.05 * max(largest, min(max(tops, default=0.0), WIDEST * largest))
+    axes.set_xlim(0, limit)
+    draw_methods(axes, found, limit)
+    draw_runs(axes, found)
+    axes.grid(color="0.9", axis="x")
     axes.set_axisbelow(True)
     axes.xaxis.set_label_position("top")
     axes.xaxis.tick_top()
-    axes.set_xlabel("total force (kN)")
-    axes.set_ylabel("penetration of the skirt tip (m)")
+    axes.set_xlabel("Total force (kN)")
+    axes.set_ylabel("Penetration of the skirt tip (m)")
     axes.legend(fontsize=8, framealpha=0.9, loc="upper right")
     figure.suptitle(outcomes.study.title, fontsize=11)
-    note = "bands: both cases of a method with the soil of all runs"
+    note = "bars, beside the line of their depth: both cases with the soil of all runs"
     byrne = theory.assumptions_in_words(found.runs[0].run.results.scene)
     if found.band(0) is None:
         byrne = ""

@@ -3,12 +3,14 @@
 the error that you want, and what it will cost.
 
     caisson suggest --diameter 10 --skirt 8 --wall 40mm --error 10 \\
-      --layer "0: Friction angle = 33, Youngs modulus = 20e6" \\
-      --layer "3: Friction angle = 37, Youngs modulus = 40e6" own.prm
+      --layer "0: phi = 33, E = 20 MPa" \\
+      --layer "3: phi = 37, E = 40 MPa" own.prm
 
-Lengths are in meters, or have a unit: 40mm. All else is in SI units, and angles in
-degrees. With --weight the caisson sinks by its weight and is then drawn in by
-suction; without, it is jacked. In place of layers a cone test may be given,
+Numbers without a unit are in SI units, and angles in degrees; others have theirs: 40mm,
+"45 MPa", 2500kN, 85%. The entries of a layer have symbols, too: phi, c, E, nu, psi,
+gamma (unit weight), su, K0, Dr, OCR, k (permeability), e and n. With --weight the
+caisson sinks by its weight and is then drawn in by suction; without, it is jacked. In
+place of layers a cone test may be given,
 
     caisson suggest --diameter 10 --skirt 8 --wall 40mm --cpt FILE.csv own.prm
 
@@ -27,10 +29,9 @@ from pathlib import Path
 import jinja2
 
 from caisson import density_law
-from caisson.cpt import interpretation, tables
-from caisson.cpt.interpretation import Interpretation
+from caisson.cpt import tables
 from caisson.paths import INSTALLED
-from caisson.runner import RunError, query, read_parameters
+from caisson.runner import RunError, query
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.sizes import (
@@ -42,24 +43,14 @@ from caisson.suggest.sizes import (
     start_of,
 )
 from caisson.suggest.soil import layers_of
-from caisson_design import InputError
+from caisson_design import InputError, cone_file
+from caisson_design import interpretation
+from caisson_design.interpretation import Interpretation
+from caisson_design.quantity import length, number
 
 # of a study: of the friction angle (degrees), or of the relative density
 CHANGES = (-4, -2, 0, 2, 4)
 CHANGES_OF_DENSITY = (-0.2, -0.1, 0, 0.1, 0.2)
-UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "": 1.0}
-
-
-def length(text: str) -> float:
-    """Return a length in m; the text may end with mm, cm or m."""
-    found = re.fullmatch(r"([0-9.eE+-]+)\s*(mm|cm|m|)", text.strip())
-    try:
-        value = float(found[1]) * UNITS[found[2]] if found else 0.0
-    except ValueError:
-        value = 0.0
-    if not 0 < value < 1e4:
-        raise argparse.ArgumentTypeError(f"{text!r} is no length, as 0.04 or 40mm are")
-    return value
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -76,12 +67,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "--cpt",
         type=Path,
-        metavar="FILE.csv",
-        help="a cone test that gives the layers, in place of --layer",
+        metavar="FILE",
+        help="a cone test that gives the layers, in place of --layer: CSV, AGS 4, GEF",
     )
     add("--sand", metavar="WORD", help=f"all of it sand: {', '.join(sand.WORDS)}")
-    text = "all of it sand of this relative density, a share of 1 as 0.85"
-    add("--density", metavar="D", help=text)
+    text = "all of it sand of this relative density, as 0.85 or 85%%"
+    add("--density", type=number(""), metavar="D", help=text)
     text = "write a study, too: of angle or density, or of a cone test's estimates"
     add("--study", type=Path, metavar="FILE.toml", help=text)
     add("--overwrite", action="store_true", help="replace files that exist")
@@ -97,24 +88,39 @@ def add_caisson_arguments(parser: argparse.ArgumentParser, required: bool) -> No
         "wall": "thickness of its wall",
     }.items():
         add(f"--{name}", type=length, required=required, metavar="M", help=what)
-    add("--wall-friction", type=float, metavar="DEGREES", help="on both sides")
+    add(
+        "--wall-friction",
+        type=number("degrees"),
+        metavar="DEGREES",
+        help="on both sides",
+    )
     add("--penetration", type=length, metavar="M", help="where the run ends")
-    add("--weight", type=float, metavar="N", help="in water; the rest takes suction")
-    add("--water-depth", type=float, metavar="M", help="bounds the suction")
+    add(
+        "--weight",
+        type=number("N"),
+        metavar="N",
+        help="in water; the rest takes suction",
+    )
+    add("--water-depth", type=number("m"), metavar="M", help="bounds the suction")
     add(
         "--law",
         choices=(*sand.LAWS, sand.ONE_ANGLE),
         help="of sand given by its density or a cone test: by density and stress"
         " (default), hypoplastic, or with one friction angle (cone test only)",
     )
-    add("--error", type=int, choices=LEVELS, default=10, help="wanted, in %%")
+    add("--error", type=percent, choices=LEVELS, default=10, help="wanted, in %%")
+
+
+def percent(text: str) -> int:
+    """Return a number of percent, which may be named."""
+    return int(text.removesuffix("%"))
 
 
 def check(options: argparse.Namespace) -> None:
     """Refuse what cannot be meant. Raises SuggestError."""
     body, end = options, options.penetration
     soils = options.layer, options.cpt, options.sand, options.density
-    if sum(map(bool, soils)) != 1:
+    if sum(soil is not None for soil in soils) != 1:
         raise SuggestError(
             "give the soil: either --layer, or a cone test by --cpt, or sand by --sand"
             " or --density"
@@ -123,7 +129,7 @@ def check(options: argparse.Namespace) -> None:
         raise SuggestError(
             f"--law {options.law} is for a cone test, --cpt; give the angle by --layer"
         )
-    for name in ("tops", "correlation", "soil", "unit_weight"):
+    for name in ("location", "tops", "correlation", "soil", "unit_weight"):
         if not options.cpt and getattr(options, name):
             raise SuggestError(f"--{name.replace('_', '-')} is for a cone test, --cpt")
     if body.wall > body.diameter / 10:
@@ -249,8 +255,8 @@ def texts_of(options: argparse.Namespace) -> list[str]:
     """Return the layers in words."""
     if options.sand:
         return [f"0: {sand.SAND} = {options.sand}"]
-    if options.density:
-        return [f"0: {density_law.DENSITY} = {options.density}"]
+    if options.density is not None:
+        return [f"0: {density_law.DENSITY} = {options.density:g}"]
     return list(options.layer)
 
 
@@ -259,11 +265,19 @@ def reached(options: argparse.Namespace, layers: Sequence[Layer]) -> list[Layer]
     return [layer for layer in layers if layer.top < end_of(options)]
 
 
+def table_of_cone(options: argparse.Namespace) -> Path:
+    """Return the cone test as a table, beside the study if the file is none."""
+    if cone_file.is_a_table(options.cpt):
+        return Path(options.cpt)
+    study: Path = options.study
+    return study.with_name(f"{study.stem}_cone.csv")
+
+
 def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
     """Return the text of a study with low, best and high estimate of a cone test."""
     return template("soil_study.toml.jinja").render(
         scene=os.path.relpath(options.file, options.study.parent),
-        cone=os.path.relpath(options.cpt, options.study.parent),
+        cone=os.path.relpath(table_of_cone(options), options.study.parent),
         name=options.cpt.name,
         follows=options.wall_friction is None and law_of(options) not in sand.LAWS,
         choices=cone.choices_of(
@@ -340,12 +354,22 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
     )
 
 
-def entries_of_layers() -> list[str]:
-    """Return the names of all entries of a layer, which the program knows. Raises
-    RunError."""
-    head = "Soil/Layer 1/"
-    every = read_parameters(["--set", "Soil/Number of layers=1"])
-    return [name.removeprefix(head) for name in every if name.startswith(head)]
+def entries_of_layers() -> dict[str, str]:
+    """Return the units of all entries of a layer by their names, "" for none, as the
+    program knows them. Raises RunError."""
+    said = query(["--set", "Soil/Number of layers=1", "--print-parameters"])
+    section = said.partition("subsection Layer 1\n")[2]
+    found, remark = {}, ""
+    for line in map(str.strip, section.splitlines()):
+        if line == "end":
+            break
+        if line.startswith("set "):
+            unit = re.search(r"Units: (.+?)\.( |$)", remark)
+            found[line[4:].partition("=")[0].strip()] = unit[1] if unit else ""
+            remark = ""
+        else:
+            remark += line.strip("#")
+    return found
 
 
 def cost_of(file: Path, text: str) -> str:
@@ -387,6 +411,8 @@ def write(options: argparse.Namespace) -> None:
     cost = cost_of(options.file, texts[options.file])
     for file, text in texts.items():  # all or none
         file.write_text(text, encoding="utf-8")
+    if options.study and found and (table := table_of_cone(options)) != options.cpt:
+        cone_file.write(table, found.test)
     print(cost)
     assumed = texts[options.file].count(ASSUMPTION)
     print(f"assumed: {assumed} lines of {options.file} are marked ASSUMED: check them")

@@ -2,7 +2,12 @@
 """Layers of a scene, and low, best and high estimates for a study, from a cone test."""
 from typing import Any
 
-from caisson.cpt.estimates import (
+from caisson import density_law
+from caisson.cpt.tables import SHOWN, text_of
+from caisson.suggest import sand
+from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
+from caisson.suggest.soil import ASSUMED, BY_STRESS, POISSON_OF_CLAY
+from caisson_design.cone_estimates import (
     CAN,
     ENDS,
     K0,
@@ -11,21 +16,15 @@ from caisson.cpt.estimates import (
     WEIGHT,
     Estimates,
 )
-from caisson.cpt.interpretation import Interpretation
-from caisson.cpt.tables import SHOWN, text_of
-from caisson import density_law
-from caisson.suggest import sand
-from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson.suggest.soil import ASSUMED, BY_STRESS
 from caisson_design.correlations import ANGLE, DENSITY, MODULUS, STRENGTH
 from caisson_design.ground import CLAY, SAND
+from caisson_design.interpretation import Interpretation
 
 REACH = 1.5  # times the skirt: the test counts to this depth
 # of walls in clay, over its strength
 ADHESION_OF_CLAY = Entry(
     "Adhesion factor of the walls", "0.5", f"{ASSUMPTION}: remoulded"
 )
-POISSON_OF_CLAY = "0.45"  # hardly any change of volume, as without drainage
 
 
 def refuse_fines(found: Interpretation, end: float, flows: bool) -> None:

@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Layers of soil as they are given in words: "TOP: ENTRY = VALUE, ENTRY = VALUE". Sand
-may be given by its density: "TOP: Sand = dense", "TOP: Relative density = 0.85"."""
+"""Layers of soil as they are given in words: "TOP: ENTRY = VALUE, ENTRY = VALUE", with
+symbols and units as engineers write them: "0: phi = 33, E = 20 MPa". Sand may be given
+by its density: "TOP: Sand = dense", "TOP: Dr = 85%"."""
 import difflib
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Collection, Iterable, Mapping
 
+from caisson import density_law as names
 from caisson.suggest import sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
+from caisson_design import quantity
 
 MOHR_COULOMB = "Mohr-Coulomb"
 BY_STRESS = "Mohr-Coulomb with stiffness by stress"
@@ -19,18 +23,57 @@ ASSUMED = {
     "Solid density": "2650",
 }
 NEEDED = ("Friction angle", "Youngs modulus")
+POISSON_OF_CLAY = "0.45"  # hardly any change of volume, as without drainage
 
 
-def name_of(word: str, known: Sequence[str]) -> str:
-    """Return the entry meant. Raises SuggestError."""
+# how engineers write them
+SYMBOLS = {
+    "phi": "Friction angle",
+    "phi'": "Friction angle",
+    "φ": "Friction angle",
+    "phi_c": names.CRITICAL_ANGLE,
+    "psi": "Dilatancy angle",
+    "ψ": "Dilatancy angle",
+    "c": "Cohesion",
+    "c'": "Cohesion",
+    "E": "Youngs modulus",
+    "nu": "Poisson ratio",
+    "ν": "Poisson ratio",
+    "Dr": names.DENSITY,
+    "D_r": names.DENSITY,
+    "OCR": "Overconsolidation ratio",
+    "k": "Permeability",
+    "e": "Void ratio",
+    "n": "Porosity",
+    "delta": "Friction angle of the walls",
+    "alpha": "Adhesion factor of the walls",
+}
+STRENGTH, WEIGHT = "su", "gamma"  # of undrained clay, and the unit weight
+DERIVED = {
+    **dict.fromkeys((STRENGTH, "s_u", "cu", "c_u"), STRENGTH),
+    **dict.fromkeys((WEIGHT, "gamma'", "γ", "γ'", "unit weight"), WEIGHT),
+}
+UNITS_OF_DERIVED = {STRENGTH: "Pa", WEIGHT: "kN/m3"}
+LIGHTEST_WET = 13.0  # kN/m3; a smaller unit weight is that in water
+POROSITIES = (0.1, 0.9)
+
+
+def name_of(word: str, known: Collection[str]) -> str:
+    """Return the entry meant, or one of DERIVED. Raises SuggestError."""
+    symbols = SYMBOLS | DERIVED
+    if word in symbols:  # E and e are not the same
+        return symbols[word]
     by_lower = {name.lower(): name for name in (*known, sand.SAND)}
+    by_lower |= {s.lower(): name for s, name in symbols.items() if len(s) > 1}
     if word.lower() in by_lower:
         return by_lower[word.lower()]
     near = difflib.get_close_matches(word.lower(), by_lower, n=3, cutoff=0.4)
-    hint = "; did you mean " + " or ".join(by_lower[n] for n in near) if near else ""
-    raise SuggestError(
-        f"--layer: a layer has no entry {word!r}{hint}?".replace("??", "?")
+    hint = (
+        f"; did you mean {' or '.join(by_lower[n] for n in near)}?"
+        if near
+        else "; caisson_mpm --explain 'Layer 1' lists them"
     )
+    raise SuggestError(f"--layer: a layer has no entry {word!r}{hint}")
 
 
 def parts_of(text: str) -> list[str]:
@@ -46,28 +89,104 @@ def parts_of(text: str) -> list[str]:
     return [part.strip() for part in parts if part.strip()]
 
 
-def layer_of(text: str, known: Sequence[str], law: str) -> Layer:
-    """Return a layer. known: the names of all entries of a layer; law: of sand by its
-    density, a name of sand.LAWS. Raises SuggestError."""
+def value_of(name: str, text: str, known: Mapping[str, str]) -> str:
+    """Return the value of an entry in its own unit. Raises SuggestError."""
+    try:
+        return quantity.without_unit(text, (known | UNITS_OF_DERIVED).get(name, ""))
+    except ValueError as error:
+        raise SuggestError(f"--layer: {name} = {error}") from error
+
+
+def given_in(text: str, known: Mapping[str, str]) -> dict[str, str]:
+    """Return what is given of a layer, by names of entries. Raises SuggestError."""
+    given: dict[str, str] = {}
+    for part in parts_of(text):
+        word, equals, value = map(str.strip, part.partition("="))
+        if not equals or not value:
+            comma = "; decimals have a point, as 33.5" if part.isdecimal() else ""
+            raise SuggestError(
+                f"--layer: {part!r} is not of the form ENTRY = VALUE{comma}"
+            )
+        name = name_of(word, known)
+        if name in given:
+            raise SuggestError(f"--layer {text!r} gives {name} twice")
+        if name == WEIGHT and re.fullmatch(quantity.NUMBER, value):
+            raise SuggestError(f"--layer: give the unit of {part!r}, as in 8.5 kN/m3")
+        given[name] = value_of(name, value, known)
+    return given
+
+
+def layer_of(text: str, known: Mapping[str, str], law: str) -> Layer:
+    """Return a layer. known: the units of all entries of a layer by their names; law:
+    of sand by its density, a name of sand.LAWS. Raises SuggestError."""
     head, colon, rest = text.partition(":")
     try:
-        top = float(head)
+        top = quantity.value_of(head, "m")
     except ValueError:
         top = -1.0
     if not colon or top < 0:
         raise SuggestError(
             f"--layer {text!r} must begin with the depth of its top in meters and a"
-            ' colon, as in "0: Friction angle = 33, Youngs modulus = 20e6"'
+            ' colon, as in "0: phi = 33, E = 20 MPa"'
         )
-    given = {}
-    for part in parts_of(rest):
-        word, equals, value = map(str.strip, part.partition("="))
-        if not equals or not value:
-            raise SuggestError(f"--layer: {part!r} is not of the form ENTRY = VALUE")
-        given[name_of(word, known)] = value
-    if sand.is_by_density(given):
+    given = given_in(rest, known)
+    weight, strength = given.pop(WEIGHT, ""), given.pop(STRENGTH, "")
+    derived = (undrained(strength, given) if strength else []) + (
+        weight_of(weight, given) if weight else []
+    )
+    is_by_density = sand.is_by_density(given)
+    if derived and is_by_density:
+        raise SuggestError(
+            f"--layer {text!r}: unit weight and strength of sand by its density follow"
+            f" from that: leave out {' and '.join(e.name for e in derived)}"
+        )
+    if is_by_density:
         return Layer(top, sand.sand_of(given, law))
-    return Layer(top, entries_of(given, text))
+    remarks = {entry.name: entry for entry in derived}
+    entries = entries_of(given | {e.name: e.value for e in derived}, text)
+    return Layer(top, [remarks.get(entry.name, entry) for entry in entries])
+
+
+def undrained(strength: str, given: Mapping[str, str]) -> list[Entry]:
+    """Return the entries of clay with an undrained strength (Pa), beside those given.
+    Raises SuggestError."""
+    if wrong := [name for name in ("Friction angle", "Cohesion") if name in given]:
+        raise SuggestError(
+            f"--layer: {STRENGTH} is the strength of undrained clay, which has no"
+            f" {' and no '.join(wrong)} of its own; leave out either"
+        )
+    found = [
+        Entry("Friction angle", "0", " # undrained"),
+        Entry("Cohesion", strength, " # s_u"),
+        Entry("Poisson ratio", POISSON_OF_CLAY, f"{ASSUMPTION}: undrained"),
+    ]
+    return [entry for entry in found if entry.name not in given]
+
+
+def weight_of(weight: str, given: Mapping[str, str]) -> list[Entry]:
+    """Return the porosity that a unit weight (kN/m3) stands for, with the density of
+    the grains. Raises SuggestError."""
+    if wrong := {"Porosity", "Void ratio", "Dry density", names.DENSITY} & set(given):
+        raise SuggestError(f"--layer: give {WEIGHT} or {', '.join(wrong)}, not both")
+    solid = given.get("Solid density", ASSUMED["Solid density"])
+    try:
+        in_water, grains = float(weight), float(solid)
+    except ValueError as error:
+        raise SuggestError(f"--layer: {WEIGHT} must be a number: {error}") from error
+    water = sand.WATER * sand.GRAVITY / 1e3
+    is_wet = in_water > LIGHTEST_WET
+    in_water -= water if is_wet else 0.0
+    porosity = 1 - in_water / (grains * sand.GRAVITY / 1e3 - water)
+    if not POROSITIES[0] < porosity < POROSITIES[1]:
+        raise SuggestError(
+            f"--layer: with a unit weight of {weight} kN/m3 and grains of {grains:g}"
+            f" kg/m3 the porosity is {porosity:.2f}: check both"
+        )
+    how = "of the wet soil" if is_wet else "in water"
+    found = [Entry("Porosity", f"{porosity:.4f}", f" # {weight} kN/m3 {how}")]
+    if "Solid density" not in given:
+        found.append(Entry("Solid density", solid, ASSUMPTION))
+    return found
 
 
 def entries_of(given: dict[str, str], text: str) -> list[Entry]:
@@ -88,7 +207,7 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
     ]
 
 
-def layers_of(texts: Iterable[str], known: Sequence[str], law: str) -> list[Layer]:
+def layers_of(texts: Iterable[str], known: Mapping[str, str], law: str) -> list[Layer]:
     """Return all layers. law: of sand by its density. Raises SuggestError."""
     layers = [layer_of(text, known, law) for text in texts]
     tops = [layer.top for layer in layers]

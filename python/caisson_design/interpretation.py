@@ -4,14 +4,15 @@ import argparse
 from dataclasses import dataclass
 from pathlib import Path
 
-from caisson.cpt import layers
-from caisson.cpt.estimates import Estimates, estimates_of
-from caisson_design import correlations
-from caisson_design import cone_file
 from caisson_design import InputError
+from caisson_design import cone_file
+from caisson_design import cone_layers as layers
+from caisson_design import correlations
+from caisson_design.cone_estimates import Estimates, estimates_of
 from caisson_design.cone_file import Test
 from caisson_design.correlations import BY_NAME
 from caisson_design.ground import CLAY, SAND, SILT, WATER, Ground, ground_of
+from caisson_design.quantity import length, number
 
 AREA_RATIO = 0.8
 
@@ -19,14 +20,13 @@ AREA_RATIO = 0.8
 @dataclass(frozen=True)
 class Interpretation:
     """A test: its ground, the correlations by quantity, and its layers with their
-    estimates; unread: heads of columns that were left out; weight: where the unit
-    weight comes from."""
+    estimates; weight: where the unit weight comes from."""
 
     file: Path
+    test: Test
     ground: Ground
     names: dict[str, str]
     layers: list[Estimates]
-    unread: tuple[str, ...]
     weight: str
 
 
@@ -44,16 +44,15 @@ def depths(text: str) -> list[float]:
     return found
 
 
-def positive(text: str) -> float:
-    """Return a positive number."""
-    if not 0 < float(text) < 1e6:
-        raise argparse.ArgumentTypeError(f"{text!r} is no positive number")
-    return float(text)
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options that say how a test is read."""
     add = parser.add_argument_group("how the cone test is read").add_argument
+    add(
+        "--location",
+        default="",
+        metavar="NAME",
+        help="one of the tests in a file of AGS",
+    )
     add(
         "--tops",
         type=depths,
@@ -62,7 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add(
         "--thinnest",
-        type=positive,
+        type=length,
         default=layers.THINNEST,
         metavar="M",
         help="thickness of the thinnest layer, default %(default)g m",
@@ -82,13 +81,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add(
         "--unit-weight",
-        type=positive,
+        type=number("kN/m3"),
         metavar="KN/M3",
         help="of the wet soil; needed where the test has no sleeve friction",
     )
     add(
         "--area-ratio",
-        type=positive,
+        type=number(""),
         default=AREA_RATIO,
         metavar="A",
         help="net area ratio of the cone, for u2, default %(default)g",
@@ -133,10 +132,9 @@ def interpret(
 ) -> Interpretation:
     """Return what a test says. deepest: below it (m) it does not count. Raises
     InputError."""
-    test = cone_file.read(file)
-    check(file, test, options)
-    if deepest is not None:
-        test = test.down_to(deepest)
+    whole = cone_file.read(file, location=options.location)
+    check(file, whole, options)
+    test = whole if deepest is None else whole.down_to(deepest)
     weight = options.unit_weight
     ground = ground_of(test, options.area_ratio, weight and 1e3 * weight)
     names = correlations.chosen(options.correlation)
@@ -149,9 +147,9 @@ def interpret(
         raise InputError(f"{file}: {error}; {tops_are}") from error
     return Interpretation(
         file,
+        whole,
         ground,
         names,
         estimates_of(ground, found, names),
-        test.unread,
         "robertson-cabal-2010" if weight is None else "--unit-weight",
     )

@@ -14,8 +14,8 @@ from math import hypot, inf
 
 import numpy as np
 
-from caisson.cpt.layers import Layer
 from caisson_design import correlations
+from caisson_design.cone_layers import Layer
 from caisson_design.correlations import (
     ANGLE,
     BEST,

@@ -1,0 +1,277 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Cone tests in AGS 4, in GEF, and in tables of other countries: read, or refused with
+the row."""
+import argparse
+import contextlib
+import io
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from caisson.cpt import command
+from caisson_design import InputError, cone, cone_file
+
+HEADS = '"HEADING","LOCA_ID","SCPG_TESN","SCPT_DPTH","SCPT_RES","SCPT_FRES","SCPT_PWP2"'
+UNITS = '"UNIT","","","m","MN/m2","kN/m2","kPa"'
+AGS = f""""GROUP","PROJ"
+"HEADING","PROJ_ID"
+"UNIT",""
+"TYPE","ID"
+"DATA","7"
+
+"GROUP","SCPT"
+{HEADS}
+{UNITS}
+"TYPE","ID","X","2DP","2DP","1DP","1DP"
+"DATA","CPT01","1","0.50","1.00","5.0","10"
+"DATA","CPT01","1","1.00","2.50","",""
+"DATA","CPT01","1","1.50","4.00","20.0","15"
+"""
+OTHER = (
+    '"DATA","CPT02","1","0.50","9.00","50.0","1"\n"DATA","CPT02","1","1","9","50","1"\n'
+)
+
+GEF = """#GEFID= 1, 1, 0
+#REPORTCODE= GEF-CPT-Report, 1, 1, 0
+#COLUMN= 5
+#COLUMNINFO= 1, m, Sondeerlengte, 1
+#COLUMNINFO= 2, MPa, Conusweerstand, 2
+#COLUMNINFO= 3, MPa, Plaatselijke wrijving, 3
+#COLUMNINFO= 4, kPa, Waterspanning, 6
+#COLUMNINFO= 5, m, Gecorrigeerde diepte, 11
+#COLUMNVOID= 2, -9999.000
+#COLUMNVOID= 4, -1
+#COLUMNSEPARATOR= ;
+#RECORDSEPARATOR= !
+#EOH=
+0.50;1.00;0.005;-1;0.49;!
+1.00;-9999;0.006;-1;0.98;!
+1.50;4.00;2.0E-002;-1;1.47;!
+"""
+
+
+class Reading(unittest.TestCase):
+    """Has a directory for a file."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name, "mine.txt")
+
+    def read(self, text: str, location: str = "") -> cone_file.Test:
+        """Return the test of a file with this text."""
+        self.path.write_text(text, encoding="utf-8")
+        return cone_file.read(self.path, location=location)
+
+    def refused(self, text: str, words: str) -> None:
+        """Expect words in the refusal of a text."""
+        with self.assertRaisesRegex(InputError, words):
+            self.read(text)
+
+
+class Ags(Reading):
+    """AGS 4."""
+
+    def test_good(self) -> None:
+        """Units of the row UNIT; a row without a value is left out, and said."""
+        test = self.read(AGS)
+        np.testing.assert_allclose(test.depth, [0.5, 1.5])
+        np.testing.assert_allclose(test.resistance, [1e6, 4e6])
+        assert test.friction is not None and test.pore_pressure is not None
+        np.testing.assert_allclose(test.friction, [5e3, 20e3])
+        np.testing.assert_allclose(test.pore_pressure, [10e3, 15e3])
+        self.assertIn("left out: 1, those of number 12", " ".join(test.remarks))
+        # the methods need no friction, and so have all rows
+        np.testing.assert_allclose(cone.read(self.path).depth[-3:], [0.5, 1, 1.5])
+
+    def test_several_tests(self) -> None:
+        """Of two locations, or of two pushes at one of them."""
+        self.refused(AGS + OTHER, "2 tests: CPT01, CPT02; choose one by --location")
+        self.assertEqual(self.read(AGS + OTHER, "CPT02").resistance[0], 9e6)
+        with self.assertRaisesRegex(InputError, "no test 'CPT03'.* CPT01, CPT02"):
+            self.read(AGS + OTHER, "CPT03")
+        pushes = AGS + OTHER.replace('"CPT02","1"', '"CPT01","2"')
+        self.refused(pushes, "CPT01/1, CPT01/2")
+        self.assertEqual(self.read(pushes, "CPT01/2").resistance[0], 9e6)
+
+    def test_wrong_units(self) -> None:
+        """One that is not known, none at all, and megapascals below kilopascals."""
+        self.refused(AGS.replace("MN/m2", "tsf"), "row 9: the unit 'tsf' of SCPT_RES")
+        self.refused(AGS.replace(UNITS + "\n", ""), "row 8: .* has no row UNIT")
+        small = UNITS.replace("MN/m2", "Pa")
+        self.refused(AGS.replace(UNITS, small), "row 11: .*both units in the row UNIT")
+
+    def test_wrong_groups(self) -> None:
+        self.refused(AGS.replace('"SCPT"', '"GEOL"'), "no group SCPT.* are PROJ, GEOL")
+        self.refused(AGS.replace("SCPT_RES", "SCPT_QT"), "row 8: .* heading SCPT_RES")
+        self.refused('"**PROJ"\n"*PROJ_ID"\n"7"\n', r"row 1: '\*\*PROJ' .* of AGS 3")
+
+    def test_wrong_rows(self) -> None:
+        self.refused(AGS.replace('"1.00","2.50"', '"1.00,2.50"'), "row 12: 6 cells, an")
+        self.refused(
+            AGS.replace('"1.50"', '"0.25"'), "row 13: the depth of 0.25 m is n"
+        )
+        self.refused(AGS.replace('"4.00"', '"4,00"'), "row 13: '4,00' has a comma")
+        self.refused(AGS.replace('"4.00"', '"x"'), "row 13: 'x' is no number")
+
+
+class Gef(Reading):
+    """GEF."""
+
+    def test_good(self) -> None:
+        """The corrected depth counts; a column of voids only is none."""
+        test = self.read(GEF)
+        np.testing.assert_allclose(test.depth, [0.49, 1.47])
+        np.testing.assert_allclose(test.resistance, [1e6, 4e6])
+        assert test.friction is not None
+        np.testing.assert_allclose(test.friction, [5e3, 20e3])
+        self.assertIsNone(test.pore_pressure)
+        said = " ".join(test.remarks)
+        self.assertIn("the column of pore pressure has no values", said)
+        self.assertIn("left out: 1, those of number 15", said)
+        self.assertIn("not read: Sondeerlengte", said)
+
+    def test_separators(self) -> None:
+        """Blanks and lines where nothing is said, records on one line, and a length
+        of rods where there is no corrected depth."""
+        head, table = GEF.split("#EOH=\n")
+        plain = "\n".join(x for x in head.splitlines() if "SEPARATOR" not in x)
+        blanks = table.replace(";!", "").replace(";", "  ")
+        one = head + "#EOH=\n" + table.replace("\n", "")
+        rods = head.replace("diepte, 11", "diepte, 12") + "#EOH=\n" + table
+        for text, first in (
+            (f"{plain}\n#EOH=\n{blanks}", 0.49),
+            (one, 0.49),
+            (rods, 0.5),
+        ):
+            test = self.read(text)
+            np.testing.assert_allclose(test.depth[0], first)
+            np.testing.assert_allclose(test.resistance, [1e6, 4e6])
+
+    def test_wrong_heads(self) -> None:
+        for old, new, words in (
+            ("#EOH=\n", "", "no line #EOH="),
+            ("Conusweerstand, 2", "Conusweerstand, 13", "quantity 2, the cone resist"),
+            ("2, MPa", "2, tsf", "row 5: the unit 'tsf' of 'Conusweerstand'"),
+            ("wrijving, 3", "wrijving, x", "row 6: #COLUMNINFO must have number"),
+            ("wrijving, 3", "wrijving, 2", "row 6: a second column of the quantity 2"),
+            ("2, -9999.000", "2", "row 9: #COLUMNVOID must have the number"),
+            ("GEF-CPT-Report", "GEF-BORE-Report", "row 2: .* is a borehole"),
+        ):
+            self.assertIn(old, GEF)
+            self.refused(GEF.replace(old, new), words)
+
+    def test_wrong_units(self) -> None:
+        self.refused(GEF.replace("2, MPa", "2, GPa"), "row 5: the unit 'GPa'")
+        self.refused(GEF.replace("2, MPa", "2, kPa"), "row 14: .* units in #COLUMNINFO")
+
+    def test_wrong_rows(self) -> None:
+        for old, new, words in (
+            ("1.00;-9999;", "1.00;", "row 15: 4 cells, and 5 columns"),
+            (
+                "1.00;-9999;0.006;-1;0.98;!",
+                "1.00;2;!",
+                "row 15: 2 cells, and 5 columns",
+            ),
+            (";1.47", ";0.2", "row 16: the depth of 0.2 m is not below"),
+            ("4.00", "4.0.0", "row 16: '4.0.0' is no number"),
+            ("-9999;", "-999;", "row 15: the cone resistance is -999 MPa"),
+            (";0.49;!", ";0.49;7;!", "row 14: 6 cells, and 5 columns"),
+        ):
+            self.assertIn(old, GEF)
+            self.refused(GEF.replace(old, new), words)
+
+
+class Tables(Reading):
+    """Tables of text as other countries write them."""
+
+    def test_decimal_commas(self) -> None:
+        test = self.read("depth_m;qc_MPa\n0,5;1,25\n1;2,5\n")
+        np.testing.assert_allclose(test.resistance, [1.25e6, 2.5e6])
+        mixed = "depth_m;qc_kPa\n0.5;1250\n1.0;1,300\n"
+        self.refused(mixed, "row 3: '1,300' has a comma where other rows")
+
+    def test_heads(self) -> None:
+        """German, Dutch, French and English; what is no measured resistance or friction
+        is left out."""
+        for head in (
+            "Tiefe [m];Spitzendruck qc [MN/m²];Mantelreibung fs [kPa];u1 [kPa]",
+            "Tiefe in m;Spitzenwiderstand (MPa);lokale Mantelreibung (kN/m²);Rf (%)",
+            "Diepte (m);Conusweerstand (MPa);Plaatselijke wrijving (kPa);Helling (gr)",
+            "Profondeur (m);Résistance de pointe (MPa);Frottement latéral (kPa);t (s)",
+            "Depth, m;Cone resistance (MPa);Sleeve friction (kPa);qt (MPa)",
+            "Tiefe;Spitzendruck;Mantelreibung;Zeit\nm;MPa;kPa;s",
+        ):
+            for encoding in ("utf-8", "latin-1"):
+                self.path.write_text(head + "\n0;1;5;7\n1,5;4;20;7\n", encoding)
+                test = cone_file.read(self.path)
+                np.testing.assert_allclose(test.depth, [0, 1.5])
+                np.testing.assert_allclose(test.resistance, [1e6, 4e6], err_msg=head)
+                assert test.friction is not None
+                np.testing.assert_allclose(test.friction, [5e3, 20e3], err_msg=head)
+                self.assertIsNone(test.pore_pressure)
+
+    def test_pore_pressure(self) -> None:
+        for head in ("Porenwasserdruck u2 (kPa)", "Waterspanning u2 (kPa)", "u2_kPa"):
+            test = self.read(f"depth_m;qc_MPa;{head}\n0;1;5\n1;4;20\n")
+            assert test.pore_pressure is not None
+            np.testing.assert_allclose(test.pore_pressure, [5e3, 20e3])
+
+    def test_no_text(self) -> None:
+        """A spreadsheet, and the UTF-16 of Windows."""
+        for content in (b"PK\x03\x04", "depth_m,qc_MPa\n".encode("utf-16")):
+            self.path.write_bytes(content)
+            with self.assertRaisesRegex(InputError, "save it as CSV in UTF-8"):
+                cone_file.read(self.path)
+
+
+class Command(Reading):
+    """caisson cpt, and what is kept with a run."""
+
+    def call(self, *words: str) -> tuple[int, str]:
+        """Return status and words of `caisson cpt`."""
+        parser = argparse.ArgumentParser()
+        command.add_arguments(parser)
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            out = str(self.path.parent / "out")
+            words = (str(self.path), "--out", out, *words)
+            status = command.main(parser.parse_args(words))
+        return status, said.getvalue()
+
+    def deep(self) -> str:
+        """Return AGS of two tests with enough rows for layers."""
+        rows = [
+            f'"DATA","{name}","1","{z / 20:.2f}","{q * (1 + z / 20):.3f}","30","0"'
+            for name, q in (("CPT01", 5), ("CPT02", 9))
+            for z in range(1, 90)
+        ]
+        return "\n".join([*AGS.splitlines()[:10], *rows, ""])
+
+    def test_location(self) -> None:
+        self.path.write_text(self.deep(), encoding="utf-8")
+        status, said = self.call()
+        self.assertEqual(status, 1)
+        self.assertIn("choose one by --location", said)
+        status, said = self.call("--location", "CPT02")
+        self.assertEqual(status, 0, said)
+        self.assertIn("to 4.45 | sand", said)
+        self.path.write_text(GEF, encoding="utf-8")
+        status, said = self.call("--location", "CPT02")
+        self.assertIn("--location is for AGS 4", said)
+
+    def test_kept_as_a_table(self) -> None:
+        """With a run, and read again from there."""
+        self.path.write_text(GEF, encoding="utf-8")
+        cone.adopt(self.path, self.path.parent)
+        kept = self.path.with_name(cone.NAME)
+        self.assertEqual(kept.read_text("utf-8").splitlines()[0], "depth_m,qc_kPa")
+        profile = cone.of_run(self.path.parent)
+        assert profile is not None
+        np.testing.assert_allclose(profile.resistance[-2:], [1e6, 4e6])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Numbers with units, symbols of layers, and what the command line says of mistakes."""
+import argparse
+import contextlib
+import io
+import unittest
+
+from caisson import paths
+import caisson.__main__
+from caisson.suggest.entry import Layer, SuggestError
+from caisson.suggest.soil import layer_of
+from caisson_design.quantity import length, number, value_of, without_unit
+
+KNOWN = {
+    "Law": "",
+    "Friction angle": "degrees",
+    "Dilatancy angle": "degrees",
+    "Cohesion": "Pa",
+    "Youngs modulus": "Pa",
+    "Poisson ratio": "",
+    "Porosity": "",
+    "Void ratio": "",
+    "Solid density": "kg/m3",
+    "Relative density": "",
+    "Overconsolidation ratio": "",
+    "Permeability": "m/s",
+    "K0": "",
+}
+
+
+class Numbers(unittest.TestCase):
+    """Numbers and expressions with units."""
+
+    def test_units(self) -> None:
+        for text, unit, value in (
+            ("40mm", "m", 0.04),
+            ("0.04", "m", 0.04),
+            ("45 MPa", "Pa", 45e6),
+            ("25e6", "Pa", 25e6),
+            ("2.5e1MN/m²", "Pa", 25e6),
+            ("2500kN", "N", 2.5e6),
+            ("8500 N/m3", "kN/m3", 8.5),
+            ("85 %", "", 0.85),
+            ("33°", "degrees", 33.0),
+            ("1e-3 cm/s", "m/s", 1e-5),
+            ("-.5", "", -0.5),
+        ):
+            self.assertEqual(value_of(text, unit), value, text)
+
+    def test_refusals(self) -> None:
+        for text, unit, words in (
+            ("0,75", "", "decimal comma; write 0.75"),
+            ("9,5 m", "m", "write 9.5 m"),
+            ("45 MPa", "N", "'MPa' is no unit of it; known: N, kN, MN"),
+            ("45 psi", "Pa", "'psi' is no unit"),
+            ("4 5", "Pa", "is no number"),
+            ("x", "Pa", "is no number"),
+        ):
+            with self.assertRaisesRegex(ValueError, words):
+                value_of(text, unit)
+        with self.assertRaisesRegex(argparse.ArgumentTypeError, "no unit of it"):
+            number("N")("3 t")
+        with self.assertRaisesRegex(argparse.ArgumentTypeError, "no length"):
+            length("4 inch")
+
+    def test_expressions(self) -> None:
+        """A unit behind one multiplies all of it; without one nothing changes."""
+        for text, expected in (
+            ("45 MPa", "45000000"),
+            ("(20 + 5*d) MPa", "1e+06*(20 + 5*d)"),
+            ("20 + 5*d + 3 kPa", "1000*(20 + 5*d + 3)"),
+            ("max(5e3, 2e3*d) kPa", "1000*(max(5e3, 2e3*d))"),
+            ("max(5e3, 2e3*d)", "max(5e3, 2e3*d)"),
+            ("2e3*d", "2e3*d"),
+            ("25e6", "25e6"),
+            ("Mohr-Coulomb", "Mohr-Coulomb"),
+        ):
+            self.assertEqual(without_unit(text, "Pa"), expected)
+        with self.assertRaisesRegex(ValueError, "'kN' is no unit of it"):
+            without_unit("(20 + 5*d) kN", "Pa")
+
+
+class Layers(unittest.TestCase):
+    """Entries of a layer as engineers write them."""
+
+    def layer(self, text: str) -> Layer:
+        """Return the layer of a text."""
+        return layer_of(text, KNOWN, "density")
+
+    def test_symbols(self) -> None:
+        """E is not e, and long names stay."""
+        layer = self.layer(
+            "2.5 m: phi' = 39, E = 45 MPa, nu=0.3, psi = 5, c = 1kPa, k = 1e-3 cm/s,"
+            " OCR = 2, k0 = 0.5, e = 0.6"
+        )
+        self.assertEqual(layer.top, 2.5)
+        for name, value in {
+            "Friction angle": "39",
+            "Youngs modulus": "45000000",
+            "Poisson ratio": "0.3",
+            "Dilatancy angle": "5",
+            "Cohesion": "1000",
+            "Permeability": "1e-05",
+            "Overconsolidation ratio": "2",
+            "K0": "0.5",
+            "Void ratio": "0.6",
+        }.items():
+            self.assertEqual(layer.value(name), value, name)
+        self.assertEqual(self.layer("0: Dr = 85%").value("Relative density"), "0.85")
+
+    def test_unit_weight(self) -> None:
+        """In water or of the wet soil: 1 - 8.5 / (2.65 - 1) / 9.81."""
+        for weight in ("8.5 kN/m3", "18.31 kN/m³", "8500 N/m3"):
+            layer = self.layer(f"0: phi = 33, E = 20 MPa, gamma = {weight}")
+            self.assertAlmostEqual(float(layer.value("Porosity")), 0.4749, 4)
+        remark = [e.remark for e in layer.entries if e.name == "Porosity"][0]
+        self.assertEqual(remark, " # 8.5 kN/m3 in water")
+
+    def test_undrained_strength(self) -> None:
+        layer = self.layer("0: su = 20 kPa, E = 4 MPa")
+        self.assertEqual(layer.value("Cohesion"), "20000")
+        self.assertEqual(layer.value("Friction angle"), "0")
+        self.assertEqual(layer.value("Poisson ratio"), "0.45")
+
+    def test_refusals(self) -> None:
+        sand = "0: phi = 33, E = 20 MPa, "
+        for text, words in (
+            (sand + "gamma = 8.5", "give the unit of 'gamma = 8.5'"),
+            (sand + "gamma = 40 kN/m3", "porosity is -0.87"),
+            (sand + "gamma = 8 kN/m3, e = 0.6", "give gamma or Void ratio"),
+            (sand + "Friction angle = 34", "gives Friction angle twice"),
+            (sand + "su = 20 kPa", "which has no Friction angle"),
+            ("0: phi = 33,5, E = 20 MPa", "'5' is not .* decimals have a point"),
+            ("0: phi = 33 kPa, E = 2", "'kPa' is no unit of it; known: degrees"),
+            ("0: Dr = 0.8, su = 3 kPa", "leave out"),
+            ("0: Frction = 33", r"did you mean Friction angle"),
+            ("0: xyzzy = 3", "--explain 'Layer 1' lists them"),
+        ):
+            with self.assertRaisesRegex(SuggestError, words):
+                self.layer(text)
+
+
+class CommandLine(unittest.TestCase):
+    """Mistakes and the version."""
+
+    def call(self, *words: str) -> tuple[int, str]:
+        """Return the exit status and the words of a call."""
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            try:
+                status = caisson.__main__.main(words)
+            except SystemExit as end:
+                status = int(end.code or 0)
+        return status, said.getvalue()
+
+    def test_version(self) -> None:
+        self.assertEqual(
+            self.call("--version"), (0, f"caisson of caisson_mpm {paths.version()}\n")
+        )
+
+    def test_nearest(self) -> None:
+        """Of a command or an option, in a line or two."""
+        self.assertIn("Did you mean suggest?", self.call("sugest")[1])
+        status, said = self.call("cpt", "--skrt", "3")
+        self.assertEqual(status, 2)
+        self.assertIn("did you mean --skirt?", said)
+        self.assertEqual(len(said.splitlines()), 2)
+        said = self.call("suggest", "--weight", "2500t")[1]
+        self.assertIn("--weight: '2500t': 't' is no unit of it; known: N, kN, MN", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
