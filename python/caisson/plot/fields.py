@@ -6,7 +6,12 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import EllipseCollection, PolyCollection
+from matplotlib.collections import (
+    EllipseCollection,
+    LineCollection,
+    PolyCollection,
+)
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from caisson.curves import depth_at
@@ -24,6 +29,8 @@ MOST_FRAMES = 4  # of a picture
 SLENDEREST = 0.3  # width over height of a picture on one side of the axis, at least
 RIGID = "#8c8c8c"
 NEEDED = {"whole_volume", "stress_zz", "displacement"}  # of the fields of a point
+RATIO = "vertical_stress_over_stress_at_rest"
+LEFT, RIGHT = (-1,), (1,)  # sides of the axis
 
 
 class Frame:
@@ -35,20 +42,23 @@ class Frame:
         """files: of the points; grids: the series of the background grid. Raises
         ResultsError where a field is missing."""
         points = read_points(files)
-        missing = NEEDED - points.keys()
+        nearest = min(grids, key=lambda entry: abs(entry[0] - time))
+        cells = read_cells(nearest[1])
+        missing = (NEEDED - points.keys()) | ({RATIO, "layer"} - cells.keys())
         if missing:
             raise ResultsError(
                 f"{files[0]} has no field {', '.join(sorted(missing))}: it is of"
                 " another version of the program"
             )
-        material = points.get("material", np.zeros(len(points["position"])))
-        self.soil = {name: values[material >= 0] for name, values in points.items()}
-        nearest = min(grids, key=lambda entry: abs(entry[0] - time))
-        corners, material = read_cells(nearest[1])
-        self.body = corners[material == 1]
+        self.soil = points
+        corners, rigid = cells["corners"], cells["material_id"] == 1
+        self.body = corners[rigid]
         self.means = CellMeans(
-            self.soil["position"], self.soil["whole_volume"], corners, material == 1
+            points["position"], points["whole_volume"], corners, rigid
         )
+        self.ratio, self.layer = [
+            cells[name][self.means.used].astype(float) for name in (RATIO, "layer")
+        ]
         self.time = time
         self.label = f"t = {time:.3g} s"
         if penetration(history) is not None:
@@ -59,14 +69,18 @@ def chosen(series: Series, history: Table, wanted: Sequence[float]) -> Series:
     """Return the frames to draw, MOST_FRAMES at most.
 
     wanted: the penetrations at which the scene asks for frames (m). Without any,
-    and where a run has not come to the last of them, frames are taken evenly.
+    and where a run has not come to the last of them, frames are taken evenly. The last
+    frame is always among them.
     """
     positions = np.array([time for time, _ in series])
     if penetration(history) is not None:
         positions = np.array([depth_at(time, history) for time in positions])
     low, high = positions.min(), positions.max()
     goals = [x for x in wanted if low - 1e-3 <= x <= high + 1e-3]
-    if len(goals) < max(len(wanted), 2) or len(goals) > MOST_FRAMES:
+    is_whole = len(goals) >= max(len(wanted), 2)
+    if goals and abs(goals[-1] - positions[-1]) > 1e-3:
+        goals.append(positions[-1])
+    if not is_whole or len(goals) > MOST_FRAMES:
         goals = list(np.linspace(positions[0], positions[-1], MOST_FRAMES))
     picks = {int(np.argmin(np.abs(positions - x))) for x in goals}
     return [series[i] for i in sorted(picks)]
@@ -105,12 +119,34 @@ def paint_cells(
         np.concatenate([polygons * [side, 1] for side in sides]),
         array=np.tile(values, len(sides)),
         cmap=style["cmap"],
+        norm=style.get("norm"),
         edgecolors="face",
         linewidths=0.4,
     )
-    painted.set_clim(style["vmin"], style["vmax"])
+    if "norm" not in style:
+        painted.set_clim(style["vmin"], style["vmax"])
     axes.add_collection(painted)
     return painted
+
+
+def layer_boundaries(polygons: np.ndarray, layer: np.ndarray) -> np.ndarray:
+    """Return the sides [n, 2, 2] between cells [n, 4, 2] of different layers that lie
+    on top of each other."""
+    middle = polygons[..., 1].mean(axis=1)
+    order = np.lexsort((middle, polygons[:, 1, 0], polygons[:, 0, 0]))
+    lower, upper = polygons[order[:-1]], polygons[order[1:]]
+    touching = np.isclose(lower[:, [3, 2]], upper[:, :2]).all(axis=(1, 2))
+    return upper[touching & (np.diff(layer[order]) != 0), :2]
+
+
+def draw_layers(axes: Axes, frame: Frame) -> None:
+    """Draw the boundaries between layers where they are now: white with dark edges,
+    to be seen on all colors."""
+    sides = layer_boundaries(frame.means.polygons, frame.layer)
+    both = np.concatenate([sides, sides * [-1, 1]])
+    for color, width in (("0.2", 1.8), ("white", 0.9)):
+        style: Style = {"colors": color, "linewidths": width, "zorder": 2.4}
+        axes.add_collection(LineCollection(both, **style))
 
 
 def draw_body(axes: Axes, frame: Frame) -> None:
@@ -139,6 +175,7 @@ def draw_mirrored(
 def draw_about(axes: Axes, frame: Frame, window: Window) -> None:
     """Draw what is about a field: the body, the axis and the frame of the panel."""
     radius, bottom, top = window
+    draw_layers(axes, frame)
     draw_body(axes, frame)
     axes.axvline(0, color="0.4", linewidth=0.5, dashes=(8, 4, 2, 4))
     axes.set_aspect("equal")
@@ -197,8 +234,7 @@ def draw_frames(
         extend="both" if style["vmin"] else "max",
         shrink=0.7,
         pad=0.02,
-        label=label,
-    )
+    ).set_label(label, labelpad=8)
     figure.savefig(path, dpi=150)
     return path
 
@@ -223,17 +259,49 @@ def stress_of(
     return fields, {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
 
 
+def ratio_of(frames: Sequence[Frame]) -> tuple[list[np.ndarray], Style]:
+    """Return the vertical effective stress over that at rest of each frame, and its
+    colors: white where the stress is as before."""
+    shown = [np.maximum(frame.ratio, 1e-6) for frame in frames]  # none is below 0
+    return shown, {"cmap": "BrBG_r", "norm": LogNorm(0.1, 10)}
+
+
+def halves_of(
+    frames: Sequence[Frame],
+    window: Window,
+    sides: Sequence[tuple[str, Sequence[np.ndarray], Style]],
+) -> tuple[Figure, np.ndarray]:
+    """Return a figure with a panel for each frame and the color bars of both halves
+    below: label, cell means [frame][cell] and colors of the left and the right one."""
+    figure, axes = panels(len(frames), window)
+    figure.set_figheight(figure.get_figheight() + 1.2)
+    for i, (panel, frame) in enumerate(zip(axes.flat, frames)):
+        painted = [
+            paint_cells(panel, frame.means.polygons, fields[i], style, side)
+            for (_, fields, style), side in zip(sides, (LEFT, RIGHT))
+        ]
+        draw_about(panel, frame, window)
+        panel.label_outer()
+    for panel in axes[:, 0]:
+        panel.set_ylabel("z (m)")
+    for artist, (label, _, style), place in zip(painted, sides, axes.T[[0, -1]]):
+        bar: Style = {"location": "bottom", "aspect": 35, "shrink": 0.9, "label": label}
+        extend = "max" if style.get("vmin") == 0 else "both"
+        colors = figure.colorbar(artist, ax=place, extend=extend, **bar)
+        if "norm" in style:
+            colors.set_ticks(steps := [0.1, 0.2, 0.5, 1, 2, 5, 10], labels=steps)
+    return figure, axes
+
+
 def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
-    """Draw the vertical effective stress at each frame."""
-    fields, style = stress_of(frames, window)
-    return draw_frames(
-        path,
-        frames,
-        window,
-        fields,
-        style,
-        "vertical effective stress (kPa),\n" "compression positive, mean of each cell",
-    )
+    """Draw the vertical effective stress at each frame, and its ratio to that at
+    rest."""
+    sides = [
+        ("left halves: vertical effective stress (kPa)", *stress_of(frames, window)),
+        ("right halves: the same over that at rest (-)", *ratio_of(frames)),
+    ]
+    halves_of(frames, window, sides)[0].savefig(path, dpi=150)
+    return path
 
 
 def draw_void_ratio(path: Path, frames: Sequence[Frame], window: Window) -> Path | None:
@@ -285,6 +353,7 @@ def draw_tip(
     discs.set_array(values[shown])
     discs.set_clim(style["vmin"], style["vmax"])
     axes.add_collection(discs)
+    draw_layers(axes, frame)
     draw_body(axes, frame)
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)
@@ -328,7 +397,8 @@ def draw_displacement(
         label = "plastic deviatoric strain (-)"
         fields.append((label, soil["plastic_deviatoric"], "magma_r"))
     n = 1 + len(fields) if box else 1
-    figure = Figure(figsize=(5.3 * n, 4.5), constrained_layout=True)
+    figure = Figure(figsize=(5.5 * n, 4.5), layout="constrained")
+    figure.get_layout_engine().set(w_pad=0.15)  # between a color bar and its neighbor
     axes = figure.subplots(1, n, squeeze=False)[0]
     draw_all(axes[0], frame, moved, window)
     if box:
