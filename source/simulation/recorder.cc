@@ -61,6 +61,7 @@ namespace CaissonMPM
     totals.sum("impulse_on_soil_z", impulse_on_soil[vertical]);
     totals.keep("last_record", last_record);
     totals.keep("travel_at_record", travel_at_record);
+    totals.keep("time_of_last_frame", last_frame);
     totals.keep("walls_are_requested", wants_walls);
     totals.keep("max_points_in_body", max_in_body);
     totals.keep("fingerprint_of_history", files.history);
@@ -205,7 +206,7 @@ namespace CaissonMPM
         if (wall_file)
           wall_file->resume(parts.clock.time);
       }
-    visualization->resume(parts.clock.time);
+    visualization->resume(last_frame);
     warn_of_changed_files();
     begin();
   }

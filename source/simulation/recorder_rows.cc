@@ -247,6 +247,7 @@ namespace CaissonMPM
                                parts.soil,
                                parts.water->traits().has_excess_pressure,
                                parts.clock.time);
+    last_frame = parts.clock.time;
     store_file_hashes();
   }
 } // namespace CaissonMPM

@@ -480,6 +480,9 @@ namespace CaissonMPM
   Simulation::stop(const std::string &reason)
   {
     save_checkpoint();
+    // for pictures of the last state: the run that goes on removes it
+    water->write_pressure_to_points();
+    recorder.write_frame();
     recorder.review_run();
     recorder.write_summary("stopped");
     recorder.message("stopped: " + reason + "; resume with --restart");

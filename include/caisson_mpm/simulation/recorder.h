@@ -252,6 +252,7 @@ namespace CaissonMPM
     SurfaceForces impulse_on_body  = {};
     Vector2       impulse_on_soil  = Vector2();
     double        last_record      = 0.;
+    double        last_frame       = 0.; // of all, before a stop
     double        travel_at_record = 0.;
     WallForces    walls;
     bool          wants_walls = false;
