@@ -55,6 +55,7 @@ def show_field(source, view, field, title, place):
     bar.Orientation, bar.WindowLocation = "Horizontal", "Any Location"
     bar.Position, bar.ScalarBarLength = place, 0.33
     bar.TitleFontSize = bar.LabelFontSize = 14
+    bar.RangeLabelFormat = "%.3g"
     shown.SetScalarBarVisibility(view, True)
     return colors
 

@@ -2,14 +2,20 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the frames for ParaView contain: points, means of cells, the body."""
 import math
+import os
+import re
+import shutil
+import subprocess
 import unittest
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.image import imread
 from program import FAILURE, SUCCESS, Entries, ProgramTest, history, summary
 
 from caisson import plot
+from caisson.paths import ROOT
 from caisson.plot.cells import cell_of
 from caisson.plot.vtu import (
     corners_of,
@@ -284,6 +290,44 @@ class Body(FramesTest):
         path = self.frames_of("compaction", {"Time/End time": 1e-3})
         self.assertEqual(len(files(path, "grid")), 2)
         self.assertEqual(list(path.glob("body*")), [])
+
+
+class Manual(FramesTest):
+    """doc/how_to/paraview.md."""
+
+    page = (ROOT / "doc/how_to/paraview.md").read_text(encoding="utf-8")
+
+    def test_arrays(self) -> None:
+        """The tables have all arrays but the strains of single laws, and no other."""
+        path = self.frames_of("jack", {})
+        for series, known in (("points", POINTS), ("grid", CELLS | STRESS)):
+            table = self.page.split(f"| array of `{series}.pvd`")[1].split("\n\n")[0]
+            rows = [row.split("|")[1] for row in table.splitlines()[2:]]
+            names = set(re.findall("`([^`]+)`", " ".join(rows)))
+            there = set(read(files(path, series)[-1])[1])
+            self.assertEqual(names - {"pore_pressure_Pa"}, there)
+            self.assertEqual(there - {"void_ratio"}, known - {"void_ratio"})
+
+    @unittest.skipUnless(shutil.which("pvpython"), "ParaView is not installed")
+    def test_picture(self) -> None:
+        """The command of the page draws soil in many colors on white, and the body."""
+        (words,) = re.findall("^pvpython .*$", self.page, re.M)
+        folder = self.made_directory()
+        (folder / "python").symlink_to(ROOT / "python")
+        self.frames_of("jack", {}, directory="files/results/jack")
+        display = [] if os.environ.get("DISPLAY") else ["xvfb-run", "-a"]
+        subprocess.run([*display, *words.split()], cwd=folder, check=True)
+        picture = imread(folder / "results/jack/paraview.png")[..., :3]
+        colors = np.round(picture * 255).astype(int)
+        for corner in (colors[0, -1], colors[60, 5]):
+            self.assertEqual(corner.tolist(), [255] * 3)
+        gray = np.ptp(colors, axis=-1) < 3
+        self.assertGreater((gray & (abs(colors[..., 0] - 115) < 3)).mean(), 0.005)
+        for half in np.array_split(colors, 2, axis=1):
+            soil = half[300:700].reshape(-1, 3)
+            soil = soil[np.ptp(soil, axis=1) > 10]
+            self.assertGreater(len(soil), 0.3 * 400 * half.shape[1])
+            self.assertGreater(len(np.unique(soil, axis=0)), 20)
 
 
 class Files(FramesTest):

@@ -125,8 +125,8 @@ class Installation(WallsTest):
         entries: Entries = {
             **ENTRIES,
             "Output/Record interval": 100,
-            "Output/Frame penetrations": "0.51, 0.95",
-            "Time/End penetration": 1,
+            "Output/Frame penetrations": "0.51, 1.15",
+            "Time/End penetration": 1.2,
         }
         words = self.command(
             scene("jack"), "--output-directory", path, entries=entries
@@ -134,6 +134,7 @@ class Installation(WallsTest):
         with subprocess.Popen(words, stdout=subprocess.DEVNULL, env=ALONE) as process:
             while process.poll() is None and not (path / "points_0001.vtu").exists():
                 time.sleep(0.01)
+            time.sleep(0.3)  # some steps more
             process.send_signal(signal.SIGTERM)
         self.assertEqual(process.returncode, STOPPED)
         self.assertEqual(len(Results(path).frames()), 3)
