@@ -76,8 +76,7 @@ class Results:
 
     @functools.cached_property
     def walls(self) -> Table:
-        """Stresses along the walls at the frames, a row for each depth; empty where
-        there are none yet, or no body: wall.csv."""
+        """Stresses along the walls at the frames: wall.csv; empty where it has none."""
         try:
             return self.table("wall.csv", "depth_m")
         except ResultsError:

@@ -28,7 +28,9 @@ class WallsTest(ProgramTest):
     def walls_of(self, name: str, ranks: int = 1, **entries: object) -> Path:
         """Run a scene; return its directory."""
         path = self.directory(f"{name}_{ranks}")
-        words = {key.replace("__", "/").replace("_", " "): v for key, v in entries.items()}
+        words = {
+            key.replace("__", "/").replace("_", " "): v for key, v in entries.items()
+        }
         self.run_scene(name, path, entries={**ENTRIES, **words}, ranks=ranks)
         return path
 
@@ -45,7 +47,8 @@ class WallsTest(ProgramTest):
             self.assertTrue((depth == history["penetration_m"][record]).all())
             for wall in walls:
                 area, stress = [
-                    table[f"{wall}_{name}"][rows] for name in ("area_m2", "shear_stress_Pa")
+                    table[f"{wall}_{name}"][rows]
+                    for name in ("area_m2", "shear_stress_Pa")
                 ]
                 force = history[f"{wall}_friction_N"][record]
                 self.assertGreater(abs(force), 100)
@@ -128,9 +131,7 @@ class Installation(WallsTest):
             "Output/Frame penetrations": "0.51, 1.15",
             "Time/End penetration": 1.2,
         }
-        words = self.command(
-            scene("jack"), "--output-directory", path, entries=entries
-        )
+        words = self.command(scene("jack"), "--output-directory", path, entries=entries)
         with subprocess.Popen(words, stdout=subprocess.DEVNULL, env=ALONE) as process:
             while process.poll() is None and not (path / "points_0001.vtu").exists():
                 time.sleep(0.01)
@@ -162,7 +163,9 @@ class Others(WallsTest):
 
     def test_no_wall(self) -> None:
         for name in ("compaction", "cavity"):
-            path = self.walls_of(name, Time__End_time=1e-3, Output__Frame_penetrations="")
+            path = self.walls_of(
+                name, Time__End_time=1e-3, Output__Frame_penetrations=""
+            )
             self.assertFalse((path / "wall.csv").exists())
 
 

@@ -114,22 +114,16 @@ def draw(
         return None
     style = style_of(low, high)
     flows = "flow_iterations" in run.history  # not in undrained soil
-    ratio = fields.ratio_of(frames)
-    sides = [
-        ("left halves: excess pore pressure (kPa)", pressures, style),
-        ("right halves: vertical effective stress over that at rest (-)", *ratio),
-    ]
-    figure, axes = fields.halves_of(frames, window, sides)
+    pressure = ("left halves: excess pore pressure (kPa)", pressures, style)
+    label = "right halves: vertical effective stress over that at rest (-)"
+    sides = [pressure, fields.ratio_of(label, frames)]
+    figure, axes = fields.figure_of(frames, window, sides)
     least = LEAST * max(-style["vmin"], style["vmax"]) if flows else None
     for panel, frame in zip(axes.flat, frames):
         draw_water(panel, frame, window, least)
         panel.set_title(title_of(frame, run.history), fontsize=10)
     if flows:
-        inches = figure.get_figheight()
-        figure.get_layout_engine().set(rect=(0, 0.3 / inches, 1, 1 - 0.3 / inches))
-        figure.text(
-            0.5, 0.1 / inches, caption(frames), ha="center", fontsize=8, color="0.3"
-        )
+        figure.supxlabel(f"\n{caption(frames)}", fontsize=8, color="0.3")
     path = run.directory / "pore_pressure.png"
-    figure.savefig(path, dpi=150, bbox_inches="tight")
+    figure.savefig(path, dpi=150)
     return path

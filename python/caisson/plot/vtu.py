@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Material points and cells of .vtu and .pvtu files as arrays."""
+"""Material points and cells of .vtu files as arrays."""
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -7,32 +7,23 @@ from typing import Any
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
-from vtkmodules.vtkIOXML import (
-    vtkXMLPUnstructuredGridReader,
-    vtkXMLUnstructuredGridReader,
-)
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from caisson.units import split
 
 TENSOR = ("rr", "zz", "tt", "rz")  # components before those that are 0
 
+
 def read_grid(file: Path) -> Any:
-    """Return the vtkUnstructuredGrid of a .vtu or .pvtu file."""
-    reader = (
-        vtkXMLPUnstructuredGridReader()
-        if file.suffix == ".pvtu"
-        else vtkXMLUnstructuredGridReader()
-    )
+    """Return the vtkUnstructuredGrid of a .vtu file."""
+    reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(file))
     reader.Update()
     return reader.GetOutput()
 
 
 def joined(grids: Sequence[Any]) -> Any:
-    """Return one vtkUnstructuredGrid of those of a frame, of which old runs have
-    written one for each rank."""
-    if len(grids) == 1:
-        return grids[0]
+    """Return one vtkUnstructuredGrid of those of a frame."""
     append = vtkAppendFilter()
     for grid in grids:
         append.AddInputData(grid)
@@ -73,15 +64,10 @@ def corners_of(grid: Any) -> np.ndarray:
 def read_points(files: Sequence[Path]) -> dict[str, np.ndarray]:
     """Return the fields of all material points, [n] or [n, components]; "position"
     [n, 2] (m) is among them. Raises OSError where there is no point."""
-    parts = []
-    for grid in map(read_grid, files):
-        if grid.GetNumberOfPoints() > 0:
-            parts.append(arrays_of(grid.GetPointData()))
-            parts[-1]["position"] = positions_of(grid)
-    if not parts:
+    grid = joined([read_grid(file) for file in files])
+    if grid.GetNumberOfPoints() == 0:
         raise OSError(f"no material points can be read from {files[0]}")
-    names = set.intersection(*[set(part) for part in parts])
-    return {name: np.concatenate([part[name] for part in parts]) for name in names}
+    return {**arrays_of(grid.GetPointData()), "position": positions_of(grid)}
 
 
 def read_cells(files: Sequence[Path]) -> dict[str, np.ndarray]:

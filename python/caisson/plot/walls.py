@@ -20,24 +20,23 @@ AT_REST: dict[str, Any] = {"color": "0.35", "linewidth": 1.4, "linestyle": "--"}
 
 
 def shown_times(walls: Table) -> np.ndarray:
-    """Return the times that are drawn, MOST_FRAMES at most, the last among them."""
+    """Return the times to draw, MOST_FRAMES at most, the last among them."""
     times = np.unique(walls["time_s"])
     picks = np.linspace(0, len(times) - 1, min(MOST_FRAMES, len(times)))
     return times[np.round(picks).astype(int)]
 
 
 def draw_panel(
-    axes: Axes, walls: Table, column: str, at_rest: tuple[float, str]
+    axes: Axes, walls: Table, column: str, factor: float, label: str
 ) -> None:
     """Draw a column over depth at each time, and a multiple of the horizontal stress
-    at rest: factor and label."""
+    at rest."""
     times = shown_times(walls)
     for time, share in zip(times, np.linspace(0.85, 0, len(times))):
-        rows = np.flatnonzero(walls["time_s"] == time)
-        depth = f"{walls['penetration_m'][rows[0]]:.2f} m"
-        style = {"color": colormaps["viridis"](share), "label": depth}
+        rows = walls["time_s"] == time
+        name = f"{walls['penetration_m'][rows][0]:.2f} m"
+        style = {"color": colormaps["viridis"](share), "label": name}
         axes.plot(walls[column][rows] / 1e3, walls["depth_m"][rows], **style)
-    factor, label = at_rest
     # the rows of the last time, which are the deepest in an installation
     stress = factor * walls["horizontal_stress_at_rest_Pa"][rows] / 1e3
     axes.plot(stress, walls["depth_m"][rows], label=label, **AT_REST)
@@ -51,14 +50,13 @@ def draw(path: Path, run: Results) -> Path | None:
     names = [n for n in ("inner", "outer") if f"{n}_area_m2" in walls]
     if not names:
         return None
-    size = (4.4 * len(names) + 1, 8.4)
-    figure = Figure(figsize=size, layout="constrained")
+    figure = Figure(figsize=(4.4 * len(names) + 1, 8.4), layout="constrained")
     axes = figure.subplots(2, len(names), squeeze=False, sharey=True, sharex="row")
     for row, (stress, (label, beside)) in zip(axes, STRESSES.items()):
         for panel, name in zip(row, names):
             angle = run.scene.get(f"{name}_wall_friction_angle_deg", np.nan)
             factor = 1.0 if stress == "normal_stress" else np.tan(np.radians(angle))
-            draw_panel(panel, walls, f"{name}_{stress}_Pa", (factor, beside))
+            draw_panel(panel, walls, f"{name}_{stress}_Pa", factor, beside)
             panel.set_xlabel(f"{label} (kPa)")
             panel.set_title(f"{name} wall", fontsize=10)
         row[0].set_ylabel("depth (m)")
