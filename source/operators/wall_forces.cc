@@ -20,10 +20,10 @@ namespace CaissonMPM
     enum SumOfWall : unsigned int
     {
       area,
-      friction,  // times area
-      adhesion,  // times area
-      wet_area,  // of cells with points
-      pressure,  // times wet area
+      friction, // times area
+      adhesion, // times area
+      wet_area, // of cells with points
+      pressure, // times wet area
       n_sums_of_wall
     };
 
@@ -44,13 +44,15 @@ namespace CaissonMPM
   WallForces::initialize(const BackgroundGrid &grid, const Contact &contact)
   {
     std::vector<double> own;
-    contact.for_each_end(
-      [&](const ContactFace &face, const unsigned int end, const FaceStrength &) {
-        if (is_wall(face.surface))
-          own.push_back(grid.z_of(face.nodes[end]));
-      });
+    contact.for_each_end([&](const ContactFace &face,
+                             const unsigned int end,
+                             const FaceStrength &) {
+      if (is_wall(face.surface))
+        own.push_back(grid.z_of(face.nodes[end]));
+    });
     heights.clear();
-    for (const auto &part : Utilities::MPI::all_gather(grid.communicator(), own))
+    for (const auto &part :
+         Utilities::MPI::all_gather(grid.communicator(), own))
       heights.insert(heights.end(), part.begin(), part.end());
     std::sort(heights.begin(), heights.end());
     heights.erase(std::unique(heights.begin(),
@@ -61,16 +63,16 @@ namespace CaissonMPM
                   heights.end());
     impulses.resize(heights.size());
     row_of_node.assign(grid.n_nodes(), -1);
-    contact.for_each_end(
-      [&](const ContactFace &face, const unsigned int end, const FaceStrength &) {
-        const unsigned int node = face.nodes[end];
-        if (is_wall(face.surface))
-          row_of_node[node] =
-            std::upper_bound(heights.begin(),
-                             heights.end(),
-                             grid.z_of(node) + same_height) -
-            heights.begin() - 1;
-      });
+    contact.for_each_end([&](const ContactFace &face,
+                             const unsigned int end,
+                             const FaceStrength &) {
+      const unsigned int node = face.nodes[end];
+      if (is_wall(face.surface))
+        row_of_node[node] = std::upper_bound(heights.begin(),
+                                             heights.end(),
+                                             grid.z_of(node) + same_height) -
+                            heights.begin() - 1;
+    });
   }
 
   void
@@ -156,11 +158,12 @@ namespace CaissonMPM
   WallForces::area_of_tip(const BackgroundGrid &grid, const Contact &contact)
   {
     double own = 0.;
-    contact.for_each_end(
-      [&](const ContactFace &face, const unsigned int end, const FaceStrength &) {
-        if (face.surface == tip && face.nodes[end] < grid.n_owned_nodes())
-          own += face.areas[end] * std::abs(face.normal[vertical]);
-      });
+    contact.for_each_end([&](const ContactFace &face,
+                             const unsigned int end,
+                             const FaceStrength &) {
+      if (face.surface == tip && face.nodes[end] < grid.n_owned_nodes())
+        own += face.areas[end] * std::abs(face.normal[vertical]);
+    });
     return grid.circumference() * Utilities::MPI::sum(own, grid.communicator());
   }
 } // namespace CaissonMPM

@@ -72,7 +72,7 @@ namespace CaissonMPM
                                                         {"zz", {1, 6}},
                                                         {"tt", {2, 6}},
                                                         {"rz", {3, 6}}};
-      const auto found = slots.find(component);
+      const auto                               found = slots.find(component);
       return found == slots.end() ? Slot{0, 1} : found->second;
     }
 
@@ -83,7 +83,7 @@ namespace CaissonMPM
     {
       std::string                                  name;
       unsigned int                                 n_components = 1;
-      std::vector<std::pair<unsigned int, Values>> parts = {};
+      std::vector<std::pair<unsigned int, Values>> parts        = {};
     };
 
     /** The quantities of points that @p is_written chooses. */
@@ -120,10 +120,9 @@ namespace CaissonMPM
     vertical_stress_at_rest(const Soil &soil)
     {
       return [&soil](const MaterialPoint &p) {
-        const double at_rest =
-          p.position[vertical] < 0. ?
-            -soil.initial_stress(p.position)[zz] / 1000. :
-            0.;
+        const double at_rest = p.position[vertical] < 0. ?
+                                 -soil.initial_stress(p.position)[zz] / 1000. :
+                                 0.;
         return at_rest > 0. ? at_rest : unknown;
       };
     }
@@ -138,7 +137,8 @@ namespace CaissonMPM
     }
 
     const char *const name_of_vertical_stress = "vertical_effective_stress_kPa",
-                     *const name_of_ratio = "vertical_stress_over_stress_at_rest";
+                      *const name_of_ratio =
+                        "vertical_stress_over_stress_at_rest";
 
     /** The values of a point that are written, but for its number. */
     std::vector<FrameField>
@@ -146,7 +146,7 @@ namespace CaissonMPM
                      const double circumference,
                      const bool   with_pore_pressure)
     {
-      auto fields = fields_of([&](const PointField &field) {
+      auto         fields  = fields_of([&](const PointField &field) {
         return field.in_frames == InFrames::drawn ||
                (with_pore_pressure && is_pore_pressure(field));
       });

@@ -92,7 +92,7 @@ namespace CaissonMPM
   {
     for (Series &series : all_series)
       {
-        const std::string path = directory + "/" + series.name;
+        const std::string             path = directory + "/" + series.name;
         std::map<std::string, double> penetrations;
         for (const auto &[depth, file] : read_series(path + by_penetration))
           penetrations[file] = depth;
@@ -167,8 +167,7 @@ namespace CaissonMPM
   Visualization::drop_frames_from(const double time)
   {
     for (Series &series : all_series)
-      while (!series.frames.empty() &&
-             !before(series.frames.back().time, time))
+      while (!series.frames.empty() && !before(series.frames.back().time, time))
         series.frames.pop_back();
   }
 

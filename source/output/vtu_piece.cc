@@ -28,14 +28,13 @@ namespace CaissonMPM
     {
       uLongf                     n = compressBound(size);
       std::vector<unsigned char> block(n);
-      const int error = compress2(block.data(),
+      const int                  error = compress2(block.data(),
                                   &n,
                                   static_cast<const Bytef *>(bytes),
                                   size,
                                   Z_BEST_SPEED);
       AssertThrow(error == Z_OK, ExcInternalError());
-      const std::uint32_t all    = size,
-                          head[] = {1, all, all, std::uint32_t(n)};
+      const std::uint32_t all = size, head[] = {1, all, all, std::uint32_t(n)};
       return encoded(head, sizeof(head)) + encoded(block.data(), n);
     }
 

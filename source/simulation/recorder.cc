@@ -158,13 +158,12 @@ namespace CaissonMPM
     records = std::make_unique<Records>(directory, observations, count_names());
     visualization = std::make_unique<Visualization>(directory);
     if (has_walls())
-      wall_file =
-        std::make_unique<WallFile>(directory,
-                                   WallFile::Scene{
-                                     parts.soil,
-                                     parts.body.shape().right(),
-                                     parts.body.shape().left() > 0.,
-                                     parts.water->traits().has_excess_pressure});
+      wall_file = std::make_unique<WallFile>(
+        directory,
+        WallFile::Scene{parts.soil,
+                        parts.body.shape().right(),
+                        parts.body.shape().left() > 0.,
+                        parts.water->traits().has_excess_pressure});
   }
 
   void

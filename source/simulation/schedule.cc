@@ -236,9 +236,8 @@ namespace CaissonMPM
         const auto is_close = [&](const double time) {
           return std::abs(time - at) < close * *frame_interval;
         };
-        while (is_close(end) || std::any_of(frame_times.begin(),
-                                            frame_times.end(),
-                                            is_close))
+        while (is_close(end) ||
+               std::any_of(frame_times.begin(), frame_times.end(), is_close))
           at += *frame_interval;
         if (at < end - tolerance)
           next = std::min(next, at);
@@ -289,9 +288,9 @@ namespace CaissonMPM
     const double now      = clock.time + tolerance;
     const bool   finished = is_finished();
     Due          due;
-    due.record = finished || now >= next_record;
+    due.record            = finished || now >= next_record;
     const bool is_at_time = now >= next_frame_time();
-    due.frame = finished || (is_at_time && !follows_a_frame()) ||
+    due.frame             = finished || (is_at_time && !follows_a_frame()) ||
                 std::any_of(frame_depths.begin(),
                             frame_depths.end(),
                             [this](const double d) { return has_reached(d); });

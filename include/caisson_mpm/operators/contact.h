@@ -159,13 +159,12 @@ namespace CaissonMPM
           action(nodes[i].node,
                  surface_of(nodes[i]),
                  circumference * results[i].impulse);
-      corners_.for_each_reaction(
-        [&](const unsigned int            node,
-            const std::array<Surface, 2> &surfaces,
-            const CornerReaction         &reaction) {
-          for (unsigned int i = 0; node < n_owned_nodes && i < 2; ++i)
-            action(node, surfaces[i], circumference * reaction.impulse[i]);
-        });
+      corners_.for_each_reaction([&](const unsigned int            node,
+                                     const std::array<Surface, 2> &surfaces,
+                                     const CornerReaction         &reaction) {
+        for (unsigned int i = 0; node < n_owned_nodes && i < 2; ++i)
+          action(node, surfaces[i], circumference * reaction.impulse[i]);
+      });
     }
 
     /** Call action(face, end, strength) for the two ends of each face, as far

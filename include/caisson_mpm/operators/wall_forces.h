@@ -16,7 +16,7 @@ namespace CaissonMPM
   /** One wall at one height, for the whole circumference. */
   struct WallPart
   {
-    double  area     = 0.; // of the wall that belongs to the nodes, m2
+    double  area = 0.;     // of the wall that belongs to the nodes, m2
     Vector2 impulse;       // on the body since the last record, N s
     double  friction = 0.; // mean tangent of the friction angle
     double  adhesion = 0.; // mean, Pa

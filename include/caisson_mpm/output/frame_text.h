@@ -12,9 +12,10 @@
 // plane strain per meter.
 //
 // A vector has the components r, z and 0. A symmetric tensor has six: rr, zz,
-// tt (around the axis), rz, 0 and 0, in the order of VTK. The vertical effective
-// stress is once more positive in compression and in kPa, beside its ratio to
-// that at rest at the same place; a layer has its number in the entries.
+// tt (around the axis), rz, 0 and 0, in the order of VTK. The vertical
+// effective stress is once more positive in compression and in kPa, beside its
+// ratio to that at rest at the same place; a layer has its number in the
+// entries.
 //
 // An array is called as the quantity and its unit, as the columns of
 // history.csv are: stress_zz_Pa. The files have no other place for units that

@@ -20,8 +20,8 @@ namespace CaissonMPM
   /**
    * Writes points_0000.vtu, grid_0000.vtu and body_0000.vtu, points_0001.vtu,
    * ..., and the series points.pvd, grid.pvd and body.pvd that list them with
-   * their times, and points_by_penetration.pvd and so on with the penetration in
-   * the place of the time. Without a body the last of each and those by
+   * their times, and points_by_penetration.pvd and so on with the penetration
+   * in the place of the time. Without a body the last of each and those by
    * penetration are missing. The files are the same on any number of ranks.
    *
    * A frame is listed only when all of its files are complete, and the series

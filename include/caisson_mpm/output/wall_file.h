@@ -23,10 +23,10 @@ namespace CaissonMPM
   };
 
   /**
-   * Writes a row for each row of nodes on the walls that is below the surface of
-   * the ground at the start or bears a force. Normal stress and shear stress are
-   * the radial and the vertical traction: their integrals are the forces on the
-   * walls. Owned by one rank; not collective.
+   * Writes a row for each row of nodes on the walls that is below the surface
+   * of the ground at the start or bears a force. Normal stress and shear stress
+   * are the radial and the vertical traction: their integrals are the forces on
+   * the walls. Owned by one rank; not collective.
    */
   class WallFile
   {
@@ -35,8 +35,8 @@ namespace CaissonMPM
     struct Scene
     {
       const Soil &soil;
-      double      radius;              // at which the stress at rest is taken, m
-      bool        has_inner, is_wet;   // an inner wall, excess pore pressure
+      double      radius;            // at which the stress at rest is taken, m
+      bool        has_inner, is_wet; // an inner wall, excess pore pressure
     };
 
     WallFile(const std::string &directory, const Scene &scene);

@@ -188,8 +188,8 @@ namespace CaissonMPM
     double              next_record = 0.;
     double              passed      = 0.; // frames up to here are written
     double              last_frame  = 0.;
-    std::vector<double> frame_times;      // of penetrations, increasing
-    std::vector<double> frame_depths;     // whose times are not known
+    std::vector<double> frame_times;  // of penetrations, increasing
+    std::vector<double> frame_depths; // whose times are not known
   };
 } // namespace CaissonMPM
 

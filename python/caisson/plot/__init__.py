@@ -12,9 +12,9 @@ def draw(directory: Path) -> list[Path]:
     """Write all pictures of a run; return their paths.
 
     forces.png, with suction also suction.png, for a caisson that goes down also
-    design.csv and walls.png, and where there are frames stress.png, displacement.png and, where
-    the soil changes its volume, void_ratio.png, and with excess pore pressure
-    pore_pressure.png. Raises ResultsError.
+    design.csv and walls.png, and where there are frames stress.png, displacement.png
+    and, where the soil changes its volume, void_ratio.png, and with excess pore
+    pressure pore_pressure.png. Raises ResultsError.
     """
     from caisson.plot import design, fields, forces, pore_pressure, suction, walls
 

@@ -20,6 +20,7 @@ Series = list[tuple[float, list[Path]]]  # [(time, [files])]
 Window = tuple[float, float, float]  # radius, bottom, top (m)
 Box = tuple[float, float, float, float]  # left, right, bottom, top (m)
 Style = dict[str, Any]
+Sides = tuple[int, ...]  # of the axis: -1 left, 1 right
 Field = tuple[str, Sequence[np.ndarray], Style]  # label, means [frame][cell], colors
 
 MOST_FRAMES = 4  # of a picture
@@ -27,7 +28,6 @@ SLENDEREST = 0.3  # width over height of a picture on one side of the axis, at l
 RIGID = "#8c8c8c"
 NEEDED = {"whole_volume", "stress_zz", "displacement"}  # of the fields of a point
 RATIO = "vertical_stress_over_stress_at_rest"
-LEFT, RIGHT = (-1,), (1,)  # sides of the axis
 
 
 class Frame:
@@ -109,7 +109,7 @@ def paint_cells(
     polygons: np.ndarray,
     values: np.ndarray,
     style: Style,
-    sides: tuple[int, ...] = (1, -1),
+    sides: Sides = (1, -1),
 ) -> PolyCollection:
     """Draw cells [n, 4, 2] in the color of their values, on both sides of the axis."""
     painted = PolyCollection(
@@ -232,7 +232,7 @@ def figure_of(
     """Return a figure with a panel for each frame and the color bars below: of one
     field, or of the fields of the left and the right halves."""
     figure, axes = panels(len(frames), window)
-    both = [LEFT, RIGHT] if len(fields) > 1 else [LEFT + RIGHT]
+    both: tuple[Sides, ...] = ((-1,), (1,)) if len(fields) > 1 else ((-1, 1),)
     for i, (panel, frame) in enumerate(zip(axes.flat, frames)):
         painted = [
             paint_cells(panel, frame.means.polygons, means[i], style, sides)
@@ -242,7 +242,7 @@ def figure_of(
         panel.label_outer()
     for panel in axes[:, 0]:
         panel.set_ylabel("z (m)")
-    places = axes.T[[0, -1]] if len(fields) > 1 else [axes]
+    places: list[Any] = list(axes.T[[0, -1]]) if len(fields) > 1 else [axes]
     for artist, (label, _, style), place in zip(painted, fields, places):
         bar: Style = {"location": "bottom", "aspect": 35, "shrink": 0.9, "label": label}
         extend = "max" if style.get("vmin") == 0 else "both"
@@ -348,8 +348,9 @@ def draw_displacement(
     painted = [paint_cells(axes[0], frame.means.polygons, means, style)]
     draw_about(axes[0], frame, window)
     axes[0].set_ylabel("z (m)")
-    for panel, (_, values, colors) in zip(axes[1:], fields):
-        painted.append(draw_tip(panel, frame, values, box, {"cmap": colors}))
+    if box:
+        for panel, (_, values, colors) in zip(axes[1:], fields):
+            painted.append(draw_tip(panel, frame, values, box, {"cmap": colors}))
     labels = ["displacement (m), mean of each cell", *[label for label, *_ in fields]]
     for panel, artist, label in zip(axes, painted, labels):
         figure.colorbar(artist, ax=panel, extend="max", shrink=0.8, label=label)
