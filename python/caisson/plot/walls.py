@@ -40,7 +40,6 @@ def draw_panel(
     # the rows of the last time, which are the deepest in an installation
     stress = factor * walls["horizontal_stress_at_rest_Pa"][rows] / 1e3
     axes.plot(stress, walls["depth_m"][rows], label=label, **AT_REST)
-    axes.axhline(0, color="0.6", linewidth=0.6)
     axes.grid(color="0.9")
 
 
