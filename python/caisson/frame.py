@@ -77,7 +77,7 @@ class Frame:
         without any. "material_id" is 1 in the body, "material_points" their number in
         the cell. Raises ResultsError where the file is gone.
         """
-        return reader().with_cell_data(self._read("grid"))
+        return self._read("grid")
 
     @functools.cached_property
     def points(self) -> Any:
@@ -99,8 +99,9 @@ class Frame:
 
     @functools.cached_property
     def point_data(self) -> Arrays:
-        """The fields of the material points by name: [n_points], and [n_points, 3] of
-        vectors, whose components are r, z and 0. The arrays are those of points."""
+        """The fields of the material points by name: [n_points], [n_points, 3] of
+        vectors, r, z and 0, and [n_points, 6] of stress, whose components are rr, zz,
+        tt, rz, 0 and 0. The arrays are those of points."""
         return reader().named_arrays(self.points.GetPointData())
 
     @functools.cached_property

@@ -75,6 +75,14 @@ class Results:
         return self.table("observations.csv", "time_s")
 
     @functools.cached_property
+    def walls(self) -> Table:
+        """Stresses along the walls at the frames: wall.csv; empty where it has none."""
+        try:
+            return self.table("wall.csv", "depth_m")
+        except ResultsError:
+            return {}
+
+    @functools.cached_property
     def error_bounds(self) -> Table:
         """Lower and upper bounds of forces; empty where there are none."""
         if not (self.directory / "history_error.csv").is_file():

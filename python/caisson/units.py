@@ -11,6 +11,7 @@ UNITS = {
     "N_m3": "N/m3",
     "m3": "m3",
     "m2": "m2",
+    "kPa": "kPa",
     "Pa": "Pa",
     "kg": "kg",
     "deg": "degree",

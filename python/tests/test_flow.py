@@ -138,13 +138,13 @@ class Picture(unittest.TestCase):
             self.assertGreater(min(white[:3]), 0.93, "white is 0")
 
     def run_with_pressure(self) -> Path:
-        """Return a copy of the run, with radial stresses as pore pressures."""
+        """Return a copy of the run, with deviators as pore pressures."""
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         path = Path(shutil.copytree(TINY, Path(temporary.name) / "run"))
         for file in path.glob("points_*.vtu"):
             text = file.read_text(encoding="utf-8")
-            file.write_text(text.replace('"stress_rr"', '"pore_pressure"'))
+            file.write_text(text.replace('"deviator_Pa"', '"pore_pressure_Pa"'))
         return path
 
     def test_drawn_where_points_have_the_field(self) -> None:

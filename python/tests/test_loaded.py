@@ -126,7 +126,7 @@ class Load(Directory):
                 self.run_there.history
 
     def test_summary(self) -> None:
-        self.assertEqual(self.run_there.summary["steps"], 279)
+        self.assertEqual(self.run_there.summary["steps"], 370)
         self.assertEqual(self.run_there.status, "finished")
         self.assertRegex(repr(self.run_there), "<run in .*/run: finished, 3 frames>")
 
@@ -180,11 +180,11 @@ class Frames(Directory):
     def test_cells(self) -> None:
         frame = self.run_there.frame(index=1)
         self.assertEqual(frame.mesh.GetClassName(), "vtkUnstructuredGrid")
-        self.assertEqual(frame.mesh.GetNumberOfCells(), 210)
+        self.assertEqual(frame.mesh.GetNumberOfCells(), 196)
         self.assertEqual(frame.mesh.GetPointData().GetNumberOfArrays(), 0)
         count = frame.cell_data["material_points"]
-        self.assertEqual(count.shape, (210,))
-        self.assertEqual(frame.corners.shape, (210, 4, 2))
+        self.assertEqual(count.shape, (196,))
+        self.assertEqual(frame.corners.shape, (196, 4, 2))
         width = frame.corners[:, 1, 0] - frame.corners[:, 0, 0]
         height = frame.corners[:, 3, 1] - frame.corners[:, 0, 1]
         self.assertGreater(min(width.min(), height.min()), 0)
@@ -198,8 +198,8 @@ class Frames(Directory):
         frame = self.run_there.frame(index=1)
         n = frame.points.GetNumberOfPoints()
         self.assertEqual(frame.positions.shape, (n, 2))
-        self.assertEqual(frame.point_data["stress_zz"].shape, (n,))
-        self.assertEqual(frame.point_data["velocity"].shape, (n, 3))
+        self.assertEqual(frame.point_data["stress_Pa"].shape, (n, 6))
+        self.assertEqual(frame.point_data["velocity_m_s"].shape, (n, 3))
         self.assertEqual(frame.units["void_ratio"], "1")
 
     def test_files_that_are_gone(self) -> None:

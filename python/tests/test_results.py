@@ -14,7 +14,9 @@ import numpy as np
 from caisson import curve, plot, table, units
 from caisson.plot import forces
 from caisson.plot.cells import CellMeans, cell_of
-from caisson.plot.fields import chosen, window_of
+from caisson.plot.fields import chosen, layer_boundaries, window_of
+from caisson.plot.walls import draw as draw_walls
+from caisson.plot.walls import shown_times
 from caisson.results import Results, ResultsError, read_table
 
 TINY = Path(__file__).resolve().parent / "tiny_run"
@@ -24,6 +26,7 @@ PICTURES = [
     "forces.png",
     "stress.png",
     "void_ratio.png",
+    "walls.png",
 ]
 
 
@@ -128,7 +131,7 @@ class Pictures(Directory):
         path = Path(shutil.copytree(TINY, self.path / "run"))
         for file in path.glob("points_*.vtu"):
             text = file.read_text(encoding="utf-8")
-            file.write_text(text.replace('"stress_zz"', '"other"'), encoding="utf-8")
+            file.write_text(text.replace('"stress_Pa"', '"other"'), encoding="utf-8")
         with self.assertRaisesRegex(ResultsError, "no field stress_zz"):
             plot.draw(path)
 
@@ -150,7 +153,8 @@ class Pictures(Directory):
         def depths(wanted: list[float]) -> list[float]:
             return [time for time, _ in chosen(series, history, wanted)]
 
-        self.assertEqual(depths([0, 2, 7]), [0, 2, 7])
+        self.assertEqual(depths([0, 2, 10]), [0, 2, 10])
+        self.assertEqual(depths([0, 2, 7]), [0, 2, 7, 10], "the last state")
         self.assertEqual(depths([]), [0, 3, 7, 10])
         self.assertEqual(depths([0, 2, 17]), [0, 3, 7, 10], "not reached")
         self.assertEqual(depths([0, 1, 2, 3, 4]), [0, 3, 7, 10], "too many")
@@ -191,6 +195,26 @@ class Pictures(Directory):
         tops = means.polygons[:, 2:, 1].mean(axis=1)
         self.assertEqual(list(tops[:5]), list(cells[:5, 2, 1]), "not at the surface")
         self.assertTrue(np.allclose(tops[5:], [2.8, 1.8]), "at the surface")
+
+    def test_boundaries_between_layers(self) -> None:
+        """The sides between cells of different layers, and none beside a wall."""
+        cells = np.array(
+            [
+                [[r, z], [r + 1, z], [r + 1, z + 1], [r, z + 1]]
+                for r in (0, 3)
+                for z in (0, 1, 2)
+            ]
+        )
+        sides = layer_boundaries(cells, np.array([2, 2, 1, 2, 1, 1]))
+        np.testing.assert_array_equal(sides, [[[0, 2], [1, 2]], [[3, 1], [4, 1]]])
+
+    def test_walls(self) -> None:
+        """At most four times, the last among them; no picture without a wall."""
+        walls = Results(TINY).walls
+        self.assertEqual(walls["time_s"].max(), shown_times(walls)[-1])
+        times = shown_times({"time_s": np.repeat(np.arange(9.0), 5)})
+        self.assertEqual(times.tolist(), [0, 3, 5, 8])
+        self.assertIsNone(draw_walls(self.path / "walls.png", Results(self.path)))
 
     def test_means_pass_over_what_is_unknown(self) -> None:
         corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])

@@ -24,14 +24,15 @@ namespace CaissonMPM
 
     /** The names of all files that a run writes. */
     const std::regex
-      result_names(R"((points|grid|body)(_\d+([._]\d+)*\.p?vtu|\.pvd)(\.tmp)?|)"
-                   R"((history|history_error|observations)\.csv(\.tmp)?|)"
+      result_names(R"((points|grid|body)(_\d+([._]\d+)*\.p?vtu)(\.tmp)?|)"
+                   R"((points|grid|body)(_by_penetration)?\.pvd(\.tmp)?|)"
+                   R"((history|history_error|observations|wall)\.csv(\.tmp)?|)"
                    R"((run|verification)\.json(\.tmp)?|)"
                    R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5))");
 
     /** The names of what the Python package makes of them. */
     const std::regex derived_names(
-      R"((forces|stress|displacement|void_ratio|pore_pressure)\.png|)"
+      R"((forces|stress|displacement|void_ratio|pore_pressure|walls)\.png|)"
       R"((suction|blocks)\.png|design\.csv|report\.(html|pdf)|run_key\.json)");
 
     std::vector<fs::path>

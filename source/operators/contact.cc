@@ -43,12 +43,13 @@ namespace CaissonMPM
   Contact::set_strength(const FaceStrengthOf &strength_at)
   {
     std::vector<double> areas(nodes.size(), 0.);
+    strengths.resize(faces.size());
     for (Node &node : nodes)
       node.adhesion = 0.;
     for (unsigned int f = 0; f < faces.size(); ++f)
       {
         const ContactFace &face     = faces[f];
-        const FaceStrength strength = strength_at(face);
+        const FaceStrength strength = strengths[f] = strength_at(face);
         for (unsigned int i = 0; i < 2; ++i)
           {
             const int k = nodes_of_faces[f][i];

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/output/frame_text.h>
 #include <caisson_mpm/output/point_quantities.h>
-#include <caisson_mpm/output/vtu_file.h>
-
-#include <deal.II/numerics/data_out.h>
-
-#include <deal.II/particles/data_out.h>
-#include <deal.II/particles/particle_handler.h>
+#include <caisson_mpm/output/vtu_piece.h>
 
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace CaissonMPM
 {
@@ -57,128 +55,123 @@ namespace CaissonMPM
       return field.name() == "pore_pressure";
     }
 
-    /** The values of a point that are written: the quantities that are drawn,
-     * and some that the scene decides. */
-    class WrittenFields
+    /** Where a component of a vector or of a symmetric tensor is in an array,
+     * and the number of values there, in the order of VTK: x is r, y is z, and
+     * the direction around the axis is the third. */
+    struct Slot
     {
-    public:
-      WrittenFields(const Soil  &soil,
-                    const double circumference,
-                    const bool   with_pore_pressure)
-        : void_ratio(soil)
-        , circumference(circumference)
-      {
-        for (const NamedQuantity &quantity : all_point_quantities())
-          if (quantity.about.in_frames == InFrames::drawn ||
-              (with_pore_pressure && is_pore_pressure(quantity.about)))
-            {
-              quantities.push_back(quantity.value);
-              add_name(quantity.about);
-            }
-        names.insert(names.end(), {"void_ratio", "whole_volume_m3"});
-        interpretation.resize(names.size(),
-                              Interpretation::component_is_scalar);
-      }
-
-      std::vector<double>
-      of(const MaterialPoint &p) const
-      {
-        std::vector<double> values;
-        for (const PointQuantity &quantity : quantities)
-          values.push_back(quantity(p));
-        values.push_back(void_ratio(p));
-        values.push_back(circumference * p.volume);
-        return values;
-      }
-
-      using Interpretation =
-        DataComponentInterpretation::DataComponentInterpretation;
-      std::vector<std::string>    names;
-      std::vector<Interpretation> interpretation;
-
-    private:
-      /** The components r and z of a vector share its name. */
-      void
-      add_name(const PointField &field)
-      {
-        const std::string component = field.component;
-        const bool        of_vector = component == "r" || component == "z";
-        names.push_back(
-          with_unit(of_vector ? field.owner : field.name(), field.unit));
-        interpretation.push_back(of_vector ?
-                                   Interpretation::component_is_part_of_vector :
-                                   Interpretation::component_is_scalar);
-      }
-
-      const VoidRatio            void_ratio;
-      const double               circumference;
-      std::vector<PointQuantity> quantities;
+      unsigned int place, n_components;
     };
 
-    /** A particle handler with everything that is to be written. */
-    class PointCloud
+    Slot
+    slot_of(const std::string &component)
     {
-    public:
-      PointCloud(const BackgroundGrid &grid, const WrittenFields &fields)
-        : grid(grid)
-        , fields(fields)
-        , handler(grid.triangulation(), grid.mapping(), fields.names.size())
-      {}
+      static const std::map<std::string, Slot> slots = {{"r", {0, 3}},
+                                                        {"z", {1, 3}},
+                                                        {"rr", {0, 6}},
+                                                        {"zz", {1, 6}},
+                                                        {"tt", {2, 6}},
+                                                        {"rz", {3, 6}}};
+      const auto                               found = slots.find(component);
+      return found == slots.end() ? Slot{0, 1} : found->second;
+    }
 
-      /** Add the points of this rank from number begin to end. */
-      void
-      add(const MaterialPoints    &points,
-          const unsigned long long begin,
-          const unsigned long long end)
-      {
-        unsigned long long i = 0;
-        points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
-          if (i >= begin && i < end)
-            add(p, cell);
-          ++i;
-        });
-      }
+    using Values = std::function<double(const MaterialPoint &)>;
 
-      Particles::DataOut<2>
-      build()
-      {
-        handler.update_cached_numbers();
-        Particles::DataOut<2> data_out;
-        data_out.build_patches(handler, fields.names, fields.interpretation);
-        return data_out;
-      }
-
-    private:
-      void
-      add(const MaterialPoint &p, const unsigned int cell)
-      {
-        const std::vector<double> values = fields.of(p);
-        // the place in the reference cell is not written; the number is, and
-        // halves of a point share it
-        handler.insert_particle(p.position,
-                                Point<2>(),
-                                static_cast<types::particle_index>(p.id),
-                                grid.cell_iterator(cell),
-                                ArrayView<const double>(values.data(),
-                                                        values.size()));
-      }
-
-      const BackgroundGrid         &grid;
-      const WrittenFields          &fields;
-      Particles::ParticleHandler<2> handler;
+    /** An array that is written, and how its components follow from a point. */
+    struct FrameField
+    {
+      std::string                                  name;
+      unsigned int                                 n_components = 1;
+      std::vector<std::pair<unsigned int, Values>> parts        = {};
     };
+
+    /** The quantities of points that @p is_written chooses. */
+    std::vector<FrameField>
+    fields_of(const std::function<bool(const PointField &)> &is_written)
+    {
+      std::vector<FrameField> fields;
+      for (const NamedQuantity &quantity : all_point_quantities())
+        {
+          const PointField &about = quantity.about;
+          if (!is_written(about) || about.name() == "id")
+            continue;
+          const Slot        slot = slot_of(about.component);
+          const std::string name =
+            with_unit(slot.n_components > 1 ? about.owner : about.name(),
+                      about.unit);
+          if (fields.empty() || fields.back().name != name)
+            fields.push_back({name, slot.n_components});
+          fields.back().parts.emplace_back(slot.place, quantity.value);
+        }
+      return fields;
+    }
+
+    /** The vertical effective stress, positive in compression, in kPa. */
+    double
+    vertical_stress(const MaterialPoint &p)
+    {
+      return -p.stress[zz] / 1000.;
+    }
+
+    /** The same before anything happens, at the present place of the point;
+     * unknown above the ground. */
+    Values
+    vertical_stress_at_rest(const Soil &soil)
+    {
+      return [&soil](const MaterialPoint &p) {
+        const double at_rest = p.position[vertical] < 0. ?
+                                 -soil.initial_stress(p.position)[zz] / 1000. :
+                                 0.;
+        return at_rest > 0. ? at_rest : unknown;
+      };
+    }
+
+    /** The number of the layer, from 1. */
+    Values
+    layer(const Soil &soil)
+    {
+      return [&soil](const MaterialPoint &p) {
+        return soil.material(p.material).layer + 1.;
+      };
+    }
+
+    const char *const name_of_vertical_stress = "vertical_effective_stress_kPa",
+                      *const name_of_ratio =
+                        "vertical_stress_over_stress_at_rest";
+
+    /** The values of a point that are written, but for its number. */
+    std::vector<FrameField>
+    fields_of_points(const Soil  &soil,
+                     const double circumference,
+                     const bool   with_pore_pressure)
+    {
+      auto         fields  = fields_of([&](const PointField &field) {
+        return field.in_frames == InFrames::drawn ||
+               (with_pore_pressure && is_pore_pressure(field));
+      });
+      const Values at_rest = vertical_stress_at_rest(soil);
+      const std::pair<std::string, Values> more[] = {
+        {"void_ratio", VoidRatio(soil)},
+        {"whole_volume_m3",
+         [=](const MaterialPoint &p) { return circumference * p.volume; }},
+        {name_of_vertical_stress, vertical_stress},
+        {name_of_ratio,
+         [=](const MaterialPoint &p) {
+           return vertical_stress(p) / at_rest(p);
+         }},
+        {"layer", layer(soil)}};
+      for (const auto &[name, value] : more)
+        fields.push_back({name, 1, {{0, value}}});
+      return fields;
+    }
 
     /** A mean over the points of each cell, by volume. */
     class CellMean
     {
     public:
-      using Quantity = std::function<double(const MaterialPoint &)>;
-
-      CellMean(const std::string &name,
-               const Quantity    &quantity,
-               const unsigned int n_cells)
-        : name(name)
-        , quantity(quantity)
+      CellMean(const Values &quantity, const unsigned int n_cells)
+        : quantity(quantity)
         , sum(n_cells)
         , volume(n_cells)
       {}
@@ -194,23 +187,19 @@ namespace CaissonMPM
         volume[cell] += p.volume;
       }
 
-      Vector<double>
-      values() const
+      double
+      operator[](const unsigned int cell) const
       {
-        Vector<double> result(sum.size());
-        for (unsigned int cell = 0; cell < sum.size(); ++cell)
-          result[cell] = volume[cell] > 0. ? sum[cell] / volume[cell] : unknown;
-        return result;
+        return volume[cell] > 0. ? sum[cell] / volume[cell] : unknown;
       }
 
-      const std::string name;
-
     private:
-      const Quantity quantity;
-      Vector<double> sum, volume;
+      Values              quantity;
+      std::vector<double> sum, volume;
     };
 
-    /** The cells with their data; the vertices must have been written. */
+    /** The cells of this rank with their data; the vertices must have been
+     * written. */
     class CellFields
     {
     public:
@@ -218,142 +207,181 @@ namespace CaissonMPM
                  const Soil           &soil,
                  const bool            with_pore_pressure)
         : grid(grid)
-        , n_cells(grid.triangulation().n_active_cells())
-        , material_id(n_cells)
-        , zone(n_cells)
-        , material_points(n_cells)
+        , fields(fields_of([&](const PointField &field) {
+          return std::string(field.owner) == "stress" ||
+                 (with_pore_pressure && is_pore_pressure(field));
+        }))
+        , n_points(grid.n_cells(), 0)
+        , at_rest(vertical_stress_at_rest(soil), grid.n_cells())
+        , layers(layer(soil), grid.n_cells())
       {
-        for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
-          {
-            const auto i   = index(cell);
-            material_id[i] = grid.is_rigid(cell) ? 1. : 0.;
-            zone[i]        = static_cast<unsigned int>(grid.zone(cell));
-          }
-        for (const NamedQuantity &quantity : all_point_quantities())
-          if (std::string(quantity.about.owner) == "stress" ||
-              (with_pore_pressure && is_pore_pressure(quantity.about)))
-            means.emplace_back(with_unit(quantity.about.name(),
-                                         quantity.about.unit),
-                               quantity.value,
-                               n_cells);
-        means.emplace_back("void_ratio", VoidRatio(soil), n_cells);
+        fields.push_back({"void_ratio", 1, {{0, VoidRatio(soil)}}});
+        fields.push_back({name_of_vertical_stress, 1, {{0, vertical_stress}}});
+        for (const FrameField &field : fields)
+          for (const auto &part : field.parts)
+            means.emplace_back(part.second, grid.n_cells());
       }
 
       void
       add(const MaterialPoints &points)
       {
         points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
-          const unsigned int i = index(cell);
-          material_points[i] += 1.;
+          ++n_points[cell];
           for (CellMean &mean : means)
-            mean.add(p, i);
+            mean.add(p, cell);
+          at_rest.add(p, cell);
+          layers.add(p, cell);
         });
       }
 
-      DataOut<2>
-      patches() const
+      VtuPiece
+      piece() const
       {
-        DataOut<2> data_out;
-        const auto cells = DataOut<2>::DataVectorType::type_cell_data;
-        data_out.attach_triangulation(grid.triangulation());
-        data_out.add_data_vector(material_id, "material_id", cells);
-        data_out.add_data_vector(zone, "zone", cells);
-        data_out.add_data_vector(material_points, "material_points", cells);
-        std::vector<Vector<double>> values; // which deal.II refers to
-        for (const CellMean &mean : means)
-          values.push_back(mean.values());
-        for (unsigned int i = 0; i < means.size(); ++i)
-          data_out.add_data_vector(values[i], means[i].name, cells);
-        data_out.build_patches(grid.mapping());
-        data_out.clear_input_data_references();
-        return data_out;
+        VtuPiece result;
+        add_cells(result);
+        add_arrays(result);
+        return result;
       }
 
     private:
-      unsigned int
-      index(const unsigned int cell) const
+      void
+      add_cells(VtuPiece &piece) const
       {
-        return grid.cell_iterator(cell)->active_cell_index();
+        std::map<unsigned int, unsigned int> numbers; // of the vertices
+        for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+          {
+            if (!grid.is_owned(cell))
+              continue;
+            const auto               &iterator = grid.cell_iterator(cell);
+            std::vector<unsigned int> corners;
+            for (unsigned int i = 0; i < 4; ++i)
+              {
+                const auto found = numbers.find(iterator->vertex_index(i));
+                corners.push_back(found != numbers.end() ?
+                                    found->second :
+                                    piece.add_point(iterator->vertex(i)));
+                numbers[iterator->vertex_index(i)] = corners.back();
+              }
+            piece.add_cell(corners);
+          }
       }
-
-      const BackgroundGrid &grid;
-      const unsigned int    n_cells;
-      Vector<double>        material_id, zone, material_points;
-      std::vector<CellMean> means;
-    };
-
-    /**
-     * The section of the body: the cells of the mesh in it, which follow its
-     * surface exactly. All ranks know the lines of the whole mesh, and thus all
-     * of the body.
-     */
-    class BodySection : public DataOutInterface<2>
-    {
-    public:
-      BodySection(const GridLines &lines, const RigidBody &body)
-        : travel(body.motion().travel())
-        , penetration(body.penetration())
-      {
-        for (unsigned int i = 0; i < lines.n_cells(); ++i)
-          if (lines.is_body_cell(GlobalCell(i)))
-            add(lines, lines.tree().block(GlobalCell(i)));
-      }
-
-      bool
-      empty() const
-      {
-        return patches.empty();
-      }
-
-    private:
-      using Patch = DataOutBase::Patch<2>;
 
       void
-      add(const GridLines &lines, const CellBlock &cell)
+      add_arrays(VtuPiece &piece) const
       {
-        Patch patch;
-        for (unsigned int corner = 0; corner < 4; ++corner)
+        const auto add = [&](const std::string &name, const auto &value) {
+          piece.of_cells.push_back({name, 1, {}});
+          for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+            if (grid.is_owned(cell))
+              piece.of_cells.back().values.push_back(value(cell));
+        };
+        add("material_id", [&](const unsigned int cell) {
+          return grid.is_rigid(cell) ? 1. : 0.;
+        });
+        add("zone", [&](const unsigned int cell) {
+          return static_cast<unsigned int>(grid.zone(cell));
+        });
+        add("material_points",
+            [&](const unsigned int cell) { return n_points[cell]; });
+        add_means(piece);
+        const CellMean &stress = means.back();
+        add(name_of_ratio, [&](const unsigned int cell) {
+          return stress[cell] / at_rest[cell];
+        });
+        add("layer",
+            [&](const unsigned int cell) { return std::round(layers[cell]); });
+      }
+
+      void
+      add_means(VtuPiece &piece) const
+      {
+        auto mean = means.begin();
+        for (const FrameField &field : fields)
           {
-            const unsigned int column = cell.column + corner % 2 * cell.size,
-                               row    = cell.row + corner / 2 * cell.size;
-            patch.vertices[corner]    = lines.node_start(column, row) +
-                                     travel * lines.node_rate(column, row);
+            const unsigned int n = field.n_components;
+            piece.of_cells.push_back(
+              {field.name, n, std::vector<float>(n * piece.n_cells(), 0.f)});
+            for (const auto &part : field.parts)
+              {
+                float *value = &piece.of_cells.back().values[part.first];
+                for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+                  if (grid.is_owned(cell))
+                    {
+                      *value = (*mean)[cell];
+                      value += n;
+                    }
+                ++mean;
+              }
           }
-        patch.patch_index    = patches.size();
-        patch.reference_cell = ReferenceCells::Quadrilateral;
-        patch.data.reinit(1, 4);
-        for (unsigned int corner = 0; corner < 4; ++corner)
-          patch.data(0, corner) = penetration;
-        patches.push_back(patch);
       }
 
-      const std::vector<Patch> &
-      get_patches() const override
-      {
-        return patches;
-      }
-
-      /** Files want a value; this one serves as a label. */
-      std::vector<std::string>
-      get_dataset_names() const override
-      {
-        return {"penetration_m"};
-      }
-
-      const double       travel, penetration;
-      std::vector<Patch> patches;
+      const BackgroundGrid     &grid;
+      std::vector<FrameField>   fields;
+      std::vector<CellMean>     means; // of the parts of the fields
+      std::vector<unsigned int> n_points;
+      CellMean                  at_rest, layers;
     };
+
+    /** The section of the body: the cells of the mesh in it, which follow its
+     * surface exactly. All ranks know the lines of the whole mesh, and thus all
+     * of the body. */
+    VtuPiece
+    section_of(const GridLines &lines, const RigidBody &body)
+    {
+      const double travel = body.motion().travel();
+      VtuPiece     piece;
+      for (unsigned int i = 0; i < lines.n_cells(); ++i)
+        {
+          if (!lines.is_body_cell(GlobalCell(i)))
+            continue;
+          const CellBlock           cell = lines.tree().block(GlobalCell(i));
+          std::vector<unsigned int> corners;
+          for (unsigned int corner = 0; corner < 4; ++corner)
+            {
+              const unsigned int column = cell.column + corner % 2 * cell.size,
+                                 row    = cell.row + corner / 2 * cell.size;
+              corners.push_back(
+                piece.add_point(lines.node_start(column, row) +
+                                travel * lines.node_rate(column, row)));
+            }
+          piece.add_cell(corners);
+        }
+      piece.of_cells.push_back(
+        {"penetration_m",
+         1,
+         std::vector<float>(piece.n_cells(), body.penetration())});
+      return piece;
+    }
   } // namespace
 
   std::string
   FrameText::of_points(const unsigned long long begin,
                        const unsigned long long end) const
   {
-    const WrittenFields fields(soil, grid.circumference(), with_pore_pressure);
-    PointCloud          cloud(grid, fields);
-    cloud.add(points, begin, end);
-    auto data_out = cloud.build();
-    return vtu_text(data_out, time);
+    const auto fields =
+      fields_of_points(soil, grid.circumference(), with_pore_pressure);
+    VtuPiece piece;
+    for (const FrameField &field : fields)
+      piece.of_points.push_back({field.name, field.n_components, {}});
+    unsigned long long i = 0;
+    points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      if (i >= begin && i < end)
+        {
+          piece.add_cell({piece.add_point(p.position)});
+          // halves of a point share its number
+          piece.ids.push_back(static_cast<std::int64_t>(p.id));
+          for (std::size_t k = 0; k < fields.size(); ++k)
+            {
+              auto      &values = piece.of_points[k].values;
+              const auto start  = values.size();
+              values.resize(start + fields[k].n_components, 0.f);
+              for (const auto &[place, value] : fields[k].parts)
+                values[start + place] = value(p);
+            }
+        }
+      ++i;
+    });
+    return piece.text(time);
   }
 
   std::string
@@ -361,14 +389,13 @@ namespace CaissonMPM
   {
     CellFields cells(grid, soil, with_pore_pressure);
     cells.add(points);
-    auto data_out = cells.patches();
-    return vtu_text(data_out, time);
+    return cells.piece().text(time);
   }
 
   std::string
   FrameText::of_body(const RigidBody &body) const
   {
-    BodySection section(grid.lines(), body);
-    return section.empty() ? "" : vtu_text(section, time);
+    const VtuPiece section = section_of(grid.lines(), body);
+    return section.n_cells() == 0 ? "" : section.text(time);
   }
 } // namespace CaissonMPM

@@ -13,6 +13,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
+#include <map>
 #include <sstream>
 
 namespace CaissonMPM
@@ -21,6 +23,9 @@ namespace CaissonMPM
 
   namespace
   {
+    const char *const by_penetration = "_by_penetration.pvd";
+    constexpr double  no_penetration = std::numeric_limits<double>::quiet_NaN();
+
     std::string
     numbered(const std::string &name, const unsigned int number)
     {
@@ -64,7 +69,7 @@ namespace CaissonMPM
       return frames;
     }
 
-    // deal.II takes about a kilobyte for each point that it writes
+    // a piece takes some hundred bytes of memory for each point
     constexpr unsigned long long points_per_piece = 100000;
 
     /** The largest number of pieces that a rank needs for its points.
@@ -87,10 +92,18 @@ namespace CaissonMPM
   {
     for (Series &series : all_series)
       {
-        series.frames = read_series(directory + "/" + series.name + ".pvd");
-        while (!series.frames.empty() &&
-               before(time, series.frames.back().first))
-          series.frames.pop_back();
+        const std::string             path = directory + "/" + series.name;
+        std::map<std::string, double> penetrations;
+        for (const auto &[depth, file] : read_series(path + by_penetration))
+          penetrations[file] = depth;
+        series.frames.clear();
+        for (const auto &[at, file] : read_series(path + ".pvd"))
+          if (!before(time, at))
+            series.frames.push_back({at,
+                                     file,
+                                     penetrations.count(file) > 0 ?
+                                       penetrations[file] :
+                                       no_penetration});
       }
   }
 
@@ -99,8 +112,8 @@ namespace CaissonMPM
   {
     Fingerprint result;
     for (const Series &series : all_series)
-      for (const auto &[time, file] : series.frames)
-        result.add(to_text(time, 10) + " " + file + "\n"); // as in the file
+      for (const Frame &frame : series.frames) // as in the file
+        result.add(to_text(frame.time, 10) + " " + frame.file + "\n");
     return result.number();
   }
 
@@ -139,10 +152,12 @@ namespace CaissonMPM
         return grid.is_first_rank() ? body_text : "";
       });
 
-    of_points.frames.emplace_back(time, point_file);
-    of_grid.frames.emplace_back(time, grid_file);
+    const double penetration =
+      body.shape().exists() ? body.penetration() : no_penetration;
+    of_points.frames.push_back({time, point_file, penetration});
+    of_grid.frames.push_back({time, grid_file, penetration});
     if (!body_file.empty())
-      of_body.frames.emplace_back(time, body_file);
+      of_body.frames.push_back({time, body_file, penetration});
     if (grid.is_first_rank())
       for (const Series &series : all_series)
         write_series(series);
@@ -152,8 +167,7 @@ namespace CaissonMPM
   Visualization::drop_frames_from(const double time)
   {
     for (Series &series : all_series)
-      while (!series.frames.empty() &&
-             !before(series.frames.back().first, time))
+      while (!series.frames.empty() && !before(series.frames.back().time, time))
         series.frames.pop_back();
   }
 
@@ -162,10 +176,10 @@ namespace CaissonMPM
   {
     unsigned int next = 0;
     for (const Series &series : all_series)
-      for (const auto &frame : series.frames)
+      for (const Frame &frame : series.frames)
         {
-          const auto digits = frame.second.find('_') + 1;
-          const auto number = std::strtoul(&frame.second[digits], nullptr, 10);
+          const auto digits = frame.file.find('_') + 1;
+          const auto number = std::strtoul(&frame.file[digits], nullptr, 10);
           next              = std::max<unsigned int>(next, number + 1);
         }
     return next;
@@ -176,8 +190,20 @@ namespace CaissonMPM
   {
     if (series.frames.empty())
       return;
-    std::ostringstream text;
-    DataOutBase::write_pvd_record(text, series.frames);
-    write_atomically(directory + "/" + series.name + ".pvd", text.str());
+    std::vector<std::pair<double, std::string>> by_time, by_depth;
+    for (const Frame &frame : series.frames)
+      {
+        by_time.emplace_back(frame.time, frame.file);
+        if (!std::isnan(frame.penetration))
+          by_depth.emplace_back(frame.penetration, frame.file);
+      }
+    const auto write = [&](const std::string &ending, const auto &frames) {
+      std::ostringstream text;
+      DataOutBase::write_pvd_record(text, frames);
+      write_atomically(directory + "/" + series.name + ending, text.str());
+    };
+    write(".pvd", by_time);
+    if (!by_depth.empty())
+      write(by_penetration, by_depth);
   }
 } // namespace CaissonMPM

@@ -61,6 +61,8 @@ namespace CaissonMPM
     totals.sum("impulse_on_soil_z", impulse_on_soil[vertical]);
     totals.keep("last_record", last_record);
     totals.keep("travel_at_record", travel_at_record);
+    totals.keep("time_of_last_frame", last_frame);
+    totals.keep("walls_are_requested", wants_walls);
     totals.keep("max_points_in_body", max_in_body);
     totals.keep("fingerprint_of_history", files.history);
     totals.keep("fingerprint_of_observations", files.observations);
@@ -155,6 +157,13 @@ namespace CaissonMPM
       std::make_unique<OutputDirectory>(directory, parts.grid.communicator());
     records = std::make_unique<Records>(directory, observations, count_names());
     visualization = std::make_unique<Visualization>(directory);
+    if (has_walls())
+      wall_file = std::make_unique<WallFile>(
+        directory,
+        WallFile::Scene{parts.soil,
+                        parts.body.shape().right(),
+                        parts.body.shape().left() > 0.,
+                        parts.water->traits().has_excess_pressure});
   }
 
   void
@@ -169,7 +178,11 @@ namespace CaissonMPM
         console->header(
           {{"earlier run", "its results have been moved to " + place}});
     if (parts.grid.is_first_rank())
-      records->create();
+      {
+        records->create();
+        if (wall_file)
+          wall_file->create();
+      }
     begin();
   }
 
@@ -187,8 +200,12 @@ namespace CaissonMPM
   {
     check_for_lost_rows(overwrite);
     if (parts.grid.is_first_rank())
-      records->resume(parts.clock.time);
-    visualization->resume(parts.clock.time);
+      {
+        records->resume(parts.clock.time);
+        if (wall_file)
+          wall_file->resume(parts.clock.time);
+      }
+    visualization->resume(last_frame);
     warn_of_changed_files();
     begin();
   }

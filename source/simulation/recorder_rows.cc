@@ -22,6 +22,8 @@ namespace CaissonMPM
     for (unsigned int s = 0; s < n_surfaces; ++s)
       impulse_on_body[s] += on_body[s];
     impulse_on_soil += on_prescribed_soil;
+    if (has_walls())
+      walls.add_step(parts.contact);
     point_steps += parts.points.n_points();
   }
 
@@ -44,6 +46,7 @@ namespace CaissonMPM
     row.counts = parts.totals.counts();
     for (const auto &column : parts.water->columns())
       row.counts.push_back(column);
+    record_walls();
     add_forces(row);
     add_sums_over_points(row);
     const std::vector<double> observed = observed_values();
@@ -55,6 +58,53 @@ namespace CaissonMPM
       console->warning(warning);
     report_rest();
     store_file_hashes();
+  }
+
+  bool
+  Recorder::has_walls() const
+  {
+    return parts.body.shape().exists() && !parts.body.shape().expands();
+  }
+
+  void
+  Recorder::find_walls()
+  {
+    if (has_walls())
+      walls.initialize(parts.grid, parts.contact);
+  }
+
+  void
+  Recorder::register_walls(RunTotals &totals)
+  {
+    walls.register_totals(totals);
+  }
+
+  void
+  Recorder::request_walls()
+  {
+    wants_walls = has_walls();
+  }
+
+  void
+  Recorder::record_walls()
+  {
+    const double interval = parts.clock.time - last_record;
+    if (wants_walls && interval > 0.)
+      {
+        const double tip_area =
+          WallForces::area_of_tip(parts.grid, parts.contact);
+        const WallRecord record = {
+          parts.clock.time,
+          parts.body.penetration(),
+          parts.body.motion().travel(),
+          interval,
+          impulse_on_body[tip][vertical] / (interval * tip_area),
+          walls.rows(parts.grid, parts.contact, parts.points)};
+        if (parts.grid.is_first_rank())
+          wall_file->append(record);
+        wants_walls = false;
+      }
+    walls.clear();
   }
 
   void
@@ -197,6 +247,7 @@ namespace CaissonMPM
                                parts.soil,
                                parts.water->traits().has_excess_pressure,
                                parts.clock.time);
+    last_frame = parts.clock.time;
     store_file_hashes();
   }
 } // namespace CaissonMPM

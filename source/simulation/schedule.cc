@@ -18,6 +18,7 @@ namespace CaissonMPM
   {
     constexpr double never     = std::numeric_limits<double>::infinity();
     constexpr double tolerance = 1e-9; // of a time, s
+    constexpr double close     = .05;  // frames, in intervals between frames
   }                                    // namespace
 
   Schedule::Schedule(const RigidBody &body, const Clock &clock)
@@ -231,6 +232,13 @@ namespace CaissonMPM
           (std::floor(passed / *frame_interval) + 1.) * *frame_interval;
         if (at <= passed) // rounded
           at += *frame_interval;
+        // none close to one that is listed, or to the end
+        const auto is_close = [&](const double time) {
+          return std::abs(time - at) < close * *frame_interval;
+        };
+        while (is_close(end) ||
+               std::any_of(frame_times.begin(), frame_times.end(), is_close))
+          at += *frame_interval;
         if (at < end - tolerance)
           next = std::min(next, at);
       }
@@ -265,21 +273,33 @@ namespace CaissonMPM
 
 
 
+  bool
+  Schedule::follows_a_frame() const
+  {
+    return frame_interval && frame_times.empty() &&
+           clock.time - last_frame < close * *frame_interval;
+  }
+
+
+
   Schedule::Due
   Schedule::take_due()
   {
     const double now      = clock.time + tolerance;
     const bool   finished = is_finished();
     Due          due;
-    due.record = finished || now >= next_record;
-    due.frame  = finished || now >= next_frame_time() ||
+    due.record            = finished || now >= next_record;
+    const bool is_at_time = now >= next_frame_time();
+    due.frame             = finished || (is_at_time && !follows_a_frame()) ||
                 std::any_of(frame_depths.begin(),
                             frame_depths.end(),
                             [this](const double d) { return has_reached(d); });
     if (now >= next_record)
       next_record += record_interval.value_or(0.);
-    if (due.frame)
+    if (due.frame || is_at_time)
       pass_frames();
+    if (due.frame)
+      last_frame = clock.time;
     return due;
   }
 
@@ -369,5 +389,6 @@ namespace CaissonMPM
   Schedule::register_totals(RunTotals &totals)
   {
     totals.keep("next_record", next_record);
+    totals.keep("last_frame", last_frame);
   }
 } // namespace CaissonMPM

@@ -38,6 +38,7 @@ namespace CaissonMPM
                 body,
                 time_step,
                 nodal_motion,
+                contact,
                 points,
                 body_points,
                 materials,
@@ -52,6 +53,7 @@ namespace CaissonMPM
     grid.signals.after_change.connect([this]() {
       body_points = generate_body_points(grid, body);
       contact.initialize(grid, body.surface());
+      recorder.find_walls();
       boundary_conditions.initialize(grid);
       nodal_motion.initialize(grid);
       time_step.forget_cells();
@@ -395,6 +397,8 @@ namespace CaissonMPM
     const Schedule::Due due = schedule.take_due();
     if (due.record || due.frame)
       water->write_pressure_to_points();
+    if (due.frame)
+      recorder.request_walls();
     if (due.record)
       recorder.record();
     if (due.frame)
@@ -476,6 +480,9 @@ namespace CaissonMPM
   Simulation::stop(const std::string &reason)
   {
     save_checkpoint();
+    // for pictures of the last state: the run that goes on removes it
+    water->write_pressure_to_points();
+    recorder.write_frame();
     recorder.review_run();
     recorder.write_summary("stopped");
     recorder.message("stopped: " + reason + "; resume with --restart");
@@ -565,6 +572,7 @@ namespace CaissonMPM
   void
   Simulation::end_early()
   {
+    recorder.request_walls();
     recorder.record();
     recorder.write_frame();
     recorder.message("ended at a penetration of " +

@@ -133,6 +133,7 @@ namespace CaissonMPM
     body.motion().register_totals(totals);
     body.motion().start();
     grid.create_mesh();
+    recorder.register_walls(totals);
     grid.move_to(body.motion().travel());
     nodal_forces.initialize(soil.mass_scaling());
     materials = soil.kernel_materials(water->traits().bulk_modulus);

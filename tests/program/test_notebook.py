@@ -68,7 +68,7 @@ class Runs(ProgramTest):
         self.assertEqual(history.index.name, "time_s")
         frame = run.frame(penetration=0.55)
         self.assertAlmostEqual(frame.penetration, 0.55, places=3)
-        stress = frame.cell_data["stress_zz_Pa"]
+        stress = -1e3 * frame.cell_data["vertical_effective_stress_kPa"]
         self.assertEqual(stress.shape, frame.corners.shape[:1])
         self.assertEqual(len(frame.positions), run.summary["material_points"])
         self.assertEqual(frame.point_data["velocity_m_s"].shape[1], 3)

@@ -2,22 +2,35 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the frames for ParaView contain: points, means of cells, the body."""
 import math
+import os
+import re
+import shutil
+import subprocess
 import unittest
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.image import imread
 from program import FAILURE, SUCCESS, Entries, ProgramTest, history, summary
 
 from caisson import plot
+from caisson.paths import ROOT
 from caisson.plot.cells import cell_of
-from caisson.plot.vtu import read_cells, read_grid, read_points
+from caisson.plot.vtu import (
+    corners_of,
+    named_arrays,
+    positions_of,
+    read_cells,
+    read_grid,
+    read_points,
+)
 from caisson.results import Results
-from vtkmodules.util.numpy_support import vtk_to_numpy
 
 Arrays = dict[str, np.ndarray]
 CELLS = {"material_id", "zone", "material_points"}
-STRESS = {"stress_rr_Pa", "stress_zz_Pa", "stress_tt_Pa", "stress_rz_Pa"}
+RATIO = "vertical_stress_over_stress_at_rest"
+STRESS = {"stress_Pa", "vertical_effective_stress_kPa", RATIO, "layer"}
 POINTS = STRESS | {
     *("id", "velocity_m_s", "displacement_m", "mean_stress_Pa", "deviator_Pa"),
     *("plastic_deviatoric", "plastic_volumetric", "material", "void_ratio"),
@@ -28,12 +41,14 @@ TIP = 0.2 * 0.2 / 2 / 2  # m2, what the wedge of simulation/jack.prm lacks of a 
 
 
 def read(file: Path) -> tuple[np.ndarray, Arrays]:
-    """Return the vertices [n, 2] of a file and its arrays by their names."""
+    """Return the vertices [n, 2] of a file of points, or the middles of the cells,
+    and the arrays of one of them by their names."""
     grid = read_grid(file)
-    data = grid.GetPointData()
-    arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
-    vertices = vtk_to_numpy(grid.GetPoints().GetData())[:, :2]
-    return vertices, {array.GetName(): vtk_to_numpy(array) for array in arrays}
+    of_points, of_cells = grid.GetPointData(), grid.GetCellData()
+    assert 0 in (of_points.GetNumberOfArrays(), of_cells.GetNumberOfArrays())
+    if of_points.GetNumberOfArrays() > 0:
+        return positions_of(grid), named_arrays(of_points)
+    return corners_of(grid).mean(axis=1), named_arrays(of_cells)
 
 
 def files(path: Path, series: str) -> list[Path]:
@@ -45,7 +60,7 @@ def files(path: Path, series: str) -> list[Path]:
 
 def area(file: Path) -> float:
     """Return the area of all cells of a file (m2)."""
-    x, y = np.moveaxis(read_cells([file])[0].astype(float), -1, 0)
+    x, y = np.moveaxis(read_cells([file])["corners"].astype(float), -1, 0)
     twice = x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)
     return float(np.abs(twice.sum(axis=1)).sum() / 2)
 
@@ -95,23 +110,55 @@ class Fields(FramesTest):
         path = self.frames_of("jack_refined", {"Time/End penetration": 0.6})
         points = read_points([files(path, "points")[-1]])
         file = files(path, "grid")[-1]
-        corners, _ = read_cells([file])
-        arrays = read(file)[1]
-        n = arrays["material_points"].reshape(-1, 4)[:, 0].astype(int)
+        cells = read_cells([file])
+        corners, n = cells["corners"], cells["material_points"].astype(int)
         cell = cell_of(points["position"], corners)
         # in single precision a point at a side may lie in the next cell
         sure = (np.bincount(cell, minlength=len(corners)) == n) & (n > 0)
         self.assertGreater(sure.sum(), 0.95 * (n > 0).sum())
         volume = np.bincount(cell, points["whole_volume"], len(corners))[sure]
-        for name in sorted(STRESS | {"void_ratio"}):
-            of_points = points[name.removesuffix("_Pa")]
-            found = arrays[name].reshape(-1, 4)
-            np.testing.assert_array_equal(np.isnan(found[:, 0]), n == 0, name)
-            self.assertTrue(np.ptp(found[sure], axis=1).max() == 0, "one value a cell")
+        stresses = [f"stress_{component}" for component in ("rr", "zz", "tt", "rz")]
+        for name in [*stresses, "void_ratio", "vertical_effective_stress"]:
+            of_points, found = points[name], cells[name]
+            np.testing.assert_array_equal(np.isnan(found), n == 0, name)
             weighted = points["whole_volume"] * of_points
             expected = np.bincount(cell, weighted, len(corners))[sure] / volume
-            error = np.abs(found[sure, 0] - expected).max()
+            error = np.abs(found[sure] - expected).max()
             self.assertLess(error, 2e-6 * np.abs(of_points).max(), name)
+
+    def test_tensor_and_stress_at_rest(self) -> None:
+        """Six components in the order of VTK, of which the last are 0; the vertical
+        stress is that of the tensor, and its ratio is 1 at the start, where the soil
+        has its weight, of 8829 N/m3."""
+        path = self.frames_of("jack", {})
+        for series in ("points", "grid"):
+            first, last = [read(files(path, series)[i]) for i in (0, -1)]
+            stress = last[1]["stress_Pa"]
+            self.assertEqual(stress.shape[1], 6)
+            self.assertTrue((stress[:, 4:] == 0).all())
+            vertical = last[1]["vertical_effective_stress_kPa"]
+            np.testing.assert_allclose(-stress[:, 1] / 1e3, vertical, rtol=1e-6)
+            soil = np.isfinite(first[1]["vertical_effective_stress_kPa"])
+            np.testing.assert_allclose(first[1][RATIO][soil], 1, atol=1e-4)
+            depth = -last[0][:, 1]
+            sure = np.isfinite(vertical) & (depth > 1)
+            expected = vertical[sure] / (8.829 * depth[sure])
+            # the means of a cell are over its points, not at its middle
+            tolerance = 1e-4 if series == "points" else 0.2
+            found = last[1][RATIO][sure]
+            np.testing.assert_allclose(found, expected, rtol=tolerance)
+            self.assertGreater(found.max(), 2)
+
+    def test_layers(self) -> None:
+        """Each point and cell knows its layer, from 1."""
+        path = self.frames_of("equilibrium_layers", {})
+        layers = set(np.unique(read(files(path, "points")[0])[1]["layer"]))
+        self.assertEqual(layers, {1, 2})
+        depth, cells = read(files(path, "grid")[0])
+        known = np.isfinite(cells["layer"])
+        upper, lower = [depth[cells["layer"] == i, 1] for i in (1, 2)]
+        self.assertGreater(upper.min(), lower.max())
+        self.assertEqual(known.sum(), len(upper) + len(lower))
 
     def test_void_ratios_that_mean_nothing(self) -> None:
         """Below 0, and where the volume has more than doubled. The change of volume
@@ -148,7 +195,7 @@ class Fields(FramesTest):
                 self.assertTrue(0 < n_unknown < n if some else n_unknown == n)
                 means = read(files(path, "grid")[-1])[1]
                 self.assertEqual(np.isnan(means["void_ratio"]).all(), not some)
-                self.assertFalse(np.isnan(means["stress_zz_Pa"]).all())
+                self.assertFalse(np.isnan(means["stress_Pa"]).all())
 
     def test_loosest_state(self) -> None:
         """Sand that dilates beside a wall: where it bears it is nowhere looser than
@@ -209,19 +256,24 @@ class Body(FramesTest):
 
     def test_moves_with_the_penetration(self) -> None:
         path = self.frames_of("jack", {"Output/Frame penetrations": "0.5, 0.6, 0.7"})
+        by_depth = Results(path).frames("body_by_penetration")
         times = [time for time, _ in Results(path).frames("body")]
+        self.assertEqual([f for _, f in by_depth], [[f] for f in files(path, "body")])
         self.assertEqual(times, [time for time, _ in Results(path).frames()])
         self.assertGreater(len(times), 3)
         rows = history(path)
         columns = [[row[key] for row in rows] for key in ("time_s", "penetration_m")]
         depths = np.interp(times, columns[0], columns[1])
         first, _ = read(files(path, "body")[0])
-        self.assertAlmostEqual(first[:, 1].min(), -0.5, delta=1e-6)
+        lowest = read_cells([files(path, "body")[0]])["corners"][..., 1].min()
+        self.assertAlmostEqual(lowest, -0.5, delta=1e-6)
+        marks = [depth for depth, _ in by_depth]
         for file, depth in zip(files(path, "body"), depths):
             vertices, arrays = read(file)
             moved = vertices.astype(float) - first
             np.testing.assert_allclose(moved[:, 0], 0, atol=1e-6)
             np.testing.assert_allclose(moved[:, 1], 0.5 - depth, atol=2e-6)
+            self.assertAlmostEqual(dict(zip(files(path, "body"), marks))[file], depth)
             np.testing.assert_allclose(arrays["penetration_m"], depth, atol=2e-6)
         self.assertAlmostEqual(depths[-1], 0.75)
 
@@ -238,6 +290,44 @@ class Body(FramesTest):
         path = self.frames_of("compaction", {"Time/End time": 1e-3})
         self.assertEqual(len(files(path, "grid")), 2)
         self.assertEqual(list(path.glob("body*")), [])
+
+
+class Manual(FramesTest):
+    """doc/how_to/paraview.md."""
+
+    page = (ROOT / "doc/how_to/paraview.md").read_text(encoding="utf-8")
+
+    def test_arrays(self) -> None:
+        """The tables have all arrays but the strains of single laws, and no other."""
+        path = self.frames_of("jack", {})
+        for series, known in (("points", POINTS), ("grid", CELLS | STRESS)):
+            table = self.page.split(f"| array of `{series}.pvd`")[1].split("\n\n")[0]
+            rows = [row.split("|")[1] for row in table.splitlines()[2:]]
+            names = set(re.findall("`([^`]+)`", " ".join(rows)))
+            there = set(read(files(path, series)[-1])[1])
+            self.assertEqual(names - {"pore_pressure_Pa"}, there)
+            self.assertEqual(there - {"void_ratio"}, known - {"void_ratio"})
+
+    @unittest.skipUnless(shutil.which("pvpython"), "ParaView is not installed")
+    def test_picture(self) -> None:
+        """The command of the page draws soil in many colors on white, and the body."""
+        (words,) = re.findall("^pvpython .*$", self.page, re.M)
+        folder = self.made_directory()
+        (folder / "python").symlink_to(ROOT / "python")
+        self.frames_of("jack", {}, directory="files/results/jack")
+        display = [] if os.environ.get("DISPLAY") else ["xvfb-run", "-a"]
+        subprocess.run([*display, *words.split()], cwd=folder, check=True)
+        picture = imread(folder / "results/jack/paraview.png")[..., :3]
+        colors = np.round(picture * 255).astype(int)
+        for corner in (colors[0, -1], colors[60, 5]):
+            self.assertEqual(corner.tolist(), [255] * 3)
+        gray = np.ptp(colors, axis=-1) < 3
+        self.assertGreater((gray & (abs(colors[..., 0] - 115) < 3)).mean(), 0.005)
+        for half in np.array_split(colors, 2, axis=1):
+            soil = half[300:700].reshape(-1, 3)
+            soil = soil[np.ptp(soil, axis=1) > 10]
+            self.assertGreater(len(soil), 0.3 * 400 * half.shape[1])
+            self.assertGreater(len(np.unique(soil, axis=0)), 20)
 
 
 class Files(FramesTest):
@@ -283,14 +373,7 @@ class Files(FramesTest):
         orders = []
         for vertices, arrays in (a, b):
             keys = np.round(vertices, 5).T
-            if "material_points" in arrays:  # corners of a cell stay together
-                keys = np.round(vertices.reshape(-1, 4, 2).mean(axis=1), 5).T
-            cells = np.lexsort([arrays["id"]] if "id" in arrays else keys)
-            orders.append(
-                (4 * cells[:, None] + np.arange(4)).ravel()
-                if "material_points" in arrays
-                else cells
-            )
+            orders.append(np.lexsort([arrays["id"]] if "id" in arrays else keys))
         np.testing.assert_allclose(a[0][orders[0]], b[0][orders[1]], atol=1e-6)
         for name, values in a[1].items():
             known = values[np.isfinite(values)]
@@ -298,7 +381,7 @@ class Files(FramesTest):
                 values[orders[0]],
                 b[1][name][orders[1]],
                 rtol=0,
-                atol=2e-6 * max(np.abs(known).max(), 1),
+                atol=2e-6 * np.abs(known).max(initial=1),
                 equal_nan=True,
                 err_msg=name,
             )

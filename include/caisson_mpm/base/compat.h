@@ -6,7 +6,6 @@
 
 #include <deal.II/base/config.h>
 
-#include <deal.II/base/data_out_base.h>
 #include <deal.II/base/index_set.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -41,21 +40,6 @@ namespace CaissonMPM
 #else
       return dealii::AffineConstraints<double>(known);
 #endif
-    }
-
-    /** VTU flags with the fastest compression: the default is the slowest. */
-    inline dealii::DataOutBase::VtkFlags
-    vtk_flags(const double time)
-    {
-      dealii::DataOutBase::VtkFlags flags;
-      flags.time = time;
-#if DEAL_II_VERSION_GTE(9, 5, 0)
-      flags.compression_level =
-        dealii::DataOutBase::CompressionLevel::best_speed;
-#else
-      flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
-#endif
-      return flags;
     }
   } // namespace Compat
 } // namespace CaissonMPM

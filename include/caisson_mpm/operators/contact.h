@@ -147,6 +147,39 @@ namespace CaissonMPM
     double
     friction_heat(const Kernels::NodalVector *mean_velocity) const;
 
+    /** Call action(node, surface, impulse) for what the body has borne in the
+     * last step, at the nodes that this rank owns: the terms of
+     * ContactResult::impulse. Units: N s. */
+    template <typename Action>
+    void
+    for_each_impulse(const Action &action) const
+    {
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        if (results[i].state != State::apart && nodes[i].node < n_owned_nodes)
+          action(nodes[i].node,
+                 surface_of(nodes[i]),
+                 circumference * results[i].impulse);
+      corners_.for_each_reaction([&](const unsigned int            node,
+                                     const std::array<Surface, 2> &surfaces,
+                                     const CornerReaction         &reaction) {
+        for (unsigned int i = 0; node < n_owned_nodes && i < 2; ++i)
+          action(node, surfaces[i], circumference * reaction.impulse[i]);
+      });
+    }
+
+    /** Call action(face, end, strength) for the two ends of each face, as far
+     * as the force at that node counts to the surface of the face. */
+    template <typename Action>
+    void
+    for_each_end(const Action &action) const
+    {
+      for (unsigned int f = 0; f < faces.size(); ++f)
+        for (unsigned int i = 0; i < 2; ++i)
+          if (const int k = nodes_of_faces[f][i];
+              k < 0 || surface_of(nodes[k]) == faces[f].surface)
+            action(faces[f], i, strengths[f]);
+    }
+
     /** The body's velocity in the last apply(). */
     const Vector2 &
     body_velocity() const
@@ -239,6 +272,7 @@ namespace CaissonMPM
     collect_inner_nodes(const BackgroundGrid &grid);
 
     std::vector<ContactFace>        faces;
+    std::vector<FaceStrength>       strengths;      // of the faces
     std::vector<std::array<int, 2>> nodes_of_faces; // -1: one of corners_
     ContactCorners                  corners_;
     std::vector<Node>               nodes;       // but for corners_

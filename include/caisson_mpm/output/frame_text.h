@@ -11,6 +11,12 @@
 // whole_volume (m3) is the volume of a point for the whole circumference, in
 // plane strain per meter.
 //
+// A vector has the components r, z and 0. A symmetric tensor has six: rr, zz,
+// tt (around the axis), rz, 0 and 0, in the order of VTK. The vertical
+// effective stress is once more positive in compression and in kPa, beside its
+// ratio to that at rest at the same place; a layer has its number in the
+// entries.
+//
 // An array is called as the quantity and its unit, as the columns of
 // history.csv are: stress_zz_Pa. The files have no other place for units that
 // ParaView shows.
@@ -56,8 +62,7 @@ namespace CaissonMPM
      * Return the cells of this rank: what they are, how many points they have,
      * and the means of stress, void ratio and pore pressure over the points,
      * by volume. A mean is not a number where no point has it: in the body
-     * and above the soil. Values are at the corners, of which each cell has its
-     * own.
+     * and above the soil. The layer is that of most points.
      */
     std::string
     of_cells() const;

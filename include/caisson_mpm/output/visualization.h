@@ -20,8 +20,9 @@ namespace CaissonMPM
   /**
    * Writes points_0000.vtu, grid_0000.vtu and body_0000.vtu, points_0001.vtu,
    * ..., and the series points.pvd, grid.pvd and body.pvd that list them with
-   * their times. Without a body the third of them is missing. The files are the
-   * same on any number of ranks.
+   * their times, and points_by_penetration.pvd and so on with the penetration
+   * in the place of the time. Without a body the last of each and those by
+   * penetration are missing. The files are the same on any number of ranks.
    *
    * A frame is listed only when all of its files are complete, and the series
    * are replaced at once: what a .pvd file names can be read, also after a run
@@ -54,10 +55,16 @@ namespace CaissonMPM
                 const double          time);
 
   private:
+    struct Frame
+    {
+      double      time; // s
+      std::string file;
+      double      penetration; // m; nan: unknown, or there is no body
+    };
     struct Series
     {
-      std::string                                 name;
-      std::vector<std::pair<double, std::string>> frames; // times and files
+      std::string        name;
+      std::vector<Frame> frames;
     };
 
     /** Forget the frames at and after this time. */

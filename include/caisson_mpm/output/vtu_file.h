@@ -4,28 +4,13 @@
 #ifndef caisson_mpm_output_vtu_file_h
 #define caisson_mpm_output_vtu_file_h
 
-#include <caisson_mpm/base/compat.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <functional>
-#include <sstream>
 #include <string>
 
 namespace CaissonMPM
 {
-  /** Return the text of a whole .vtu file with the patches of deal.II's
-   * @p data_out. The number @p time is written into it. Units: s. */
-  template <int dim, int spacedim>
-  std::string
-  vtu_text(dealii::DataOutInterface<dim, spacedim> &data_out, const double time)
-  {
-    std::ostringstream text;
-    data_out.set_flags(Compat::vtk_flags(time));
-    data_out.write_vtu(text);
-    return text.str();
-  }
-
   /**
    * Write one file of the format VTU from pieces of all ranks: its name and its
    * form are the same on any number of ranks and for any number of pieces.

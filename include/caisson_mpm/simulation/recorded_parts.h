@@ -12,6 +12,7 @@
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/materials/soil.h>
+#include <caisson_mpm/operators/contact.h>
 #include <caisson_mpm/operators/energy_balance.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 #include <caisson_mpm/operators/time_step.h>
@@ -35,6 +36,7 @@ namespace CaissonMPM
     const RigidBody                      &body;
     const TimeStep                       &time_step;
     const NodalMotion                    &nodal_motion;
+    const Contact                        &contact;
     const MaterialPoints                 &points;
     const std::vector<BodyPoint>         &body_points;
     const std::vector<Kernels::Material> &materials;

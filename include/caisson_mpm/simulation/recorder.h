@@ -8,11 +8,13 @@
 #include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/checks/verification.h>
 #include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/operators/wall_forces.h>
 #include <caisson_mpm/output/design_methods.h>
 #include <caisson_mpm/output/error_bar.h>
 #include <caisson_mpm/output/observations.h>
 #include <caisson_mpm/output/records.h>
 #include <caisson_mpm/output/visualization.h>
+#include <caisson_mpm/output/wall_file.h>
 #include <caisson_mpm/simulation/recorded_parts.h>
 #include <caisson_mpm/simulation/run_report.h>
 
@@ -96,6 +98,19 @@ namespace CaissonMPM
     void
     register_totals(RunTotals &totals);
 
+    /** Find the walls of a body that moves up and down, when the mesh or the
+     * parts of the ranks are new. Collective. */
+    void
+    find_walls();
+
+    /** Register the sums along the walls, after find_walls(). */
+    void
+    register_walls(RunTotals &totals);
+
+    /** Let the next record write the walls. */
+    void
+    request_walls();
+
     /** Print what is run, and the warnings of its scene. */
     void
     print_header(const std::vector<std::string> &warnings,
@@ -176,6 +191,13 @@ namespace CaissonMPM
     warn_of_changed_files();
     void
     add_forces(HistoryRow &row);
+    /** Whether there is a wall.csv. */
+    bool
+    has_walls() const;
+    /** Write the walls if they are requested: before the end of the interval is
+     * forgotten. Collective. */
+    void
+    record_walls();
     /** The pressure on a cylinder that expands. Units: Pa. */
     double
     cavity_pressure(const double interval) const;
@@ -220,6 +242,7 @@ namespace CaissonMPM
     std::unique_ptr<Console>              console;
     std::unique_ptr<Records>              records;
     std::unique_ptr<Visualization>        visualization;
+    std::unique_ptr<WallFile>             wall_file;
     std::string                           scene, fingerprint, installation;
     std::string                           wrong_error_bar_;
     const Kernels::KernelTable           *kernels = nullptr;
@@ -229,7 +252,10 @@ namespace CaissonMPM
     SurfaceForces impulse_on_body  = {};
     Vector2       impulse_on_soil  = Vector2();
     double        last_record      = 0.;
+    double        last_frame       = 0.; // of all, before a stop
     double        travel_at_record = 0.;
+    WallForces    walls;
+    bool          wants_walls = false;
 
     std::array<double, n_surfaces> recorded_forces = {}; // N, positive upward
 

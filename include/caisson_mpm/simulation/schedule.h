@@ -168,6 +168,11 @@ namespace CaissonMPM
     double
     next_frame_time() const;
 
+    /** Whether a frame at a penetration, whose time was not known, was written
+     * just now, so that none is needed for the interval. */
+    bool
+    follows_a_frame() const;
+
     /** Forget the frames up to the present. */
     void
     pass_frames();
@@ -182,8 +187,9 @@ namespace CaissonMPM
     double              end         = 0.;
     double              next_record = 0.;
     double              passed      = 0.; // frames up to here are written
-    std::vector<double> frame_times;      // of penetrations, increasing
-    std::vector<double> frame_depths;     // whose times are not known
+    double              last_frame  = 0.;
+    std::vector<double> frame_times;  // of penetrations, increasing
+    std::vector<double> frame_depths; // whose times are not known
   };
 } // namespace CaissonMPM
 

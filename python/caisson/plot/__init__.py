@@ -12,11 +12,11 @@ def draw(directory: Path) -> list[Path]:
     """Write all pictures of a run; return their paths.
 
     forces.png, with suction also suction.png, for a caisson that goes down also
-    design.csv, and where there are frames stress.png, displacement.png and, where
-    the soil changes its volume, void_ratio.png, and with excess pore pressure
-    pore_pressure.png. Raises ResultsError.
+    design.csv and walls.png, and where there are frames stress.png, displacement.png
+    and, where the soil changes its volume, void_ratio.png, and with excess pore
+    pressure pore_pressure.png. Raises ResultsError.
     """
-    from caisson.plot import design, fields, forces, pore_pressure, suction
+    from caisson.plot import design, fields, forces, pore_pressure, suction, walls
 
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
@@ -24,6 +24,7 @@ def draw(directory: Path) -> list[Path]:
     pictures = [forces.draw(directory / "forces.png", run)]
     pictures += suction.draw(directory, run)
     pictures.append(design.write(directory / "design.csv", run))
+    pictures.append(walls.draw(directory / "walls.png", run))
     if run.has_frames:
         frames = fields.frames_of(run)
         if frames:

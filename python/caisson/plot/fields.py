@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import EllipseCollection, PolyCollection
+from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from caisson.curves import depth_at
@@ -19,11 +20,14 @@ Series = list[tuple[float, list[Path]]]  # [(time, [files])]
 Window = tuple[float, float, float]  # radius, bottom, top (m)
 Box = tuple[float, float, float, float]  # left, right, bottom, top (m)
 Style = dict[str, Any]
+Sides = tuple[int, ...]  # of the axis: -1 left, 1 right
+Field = tuple[str, Sequence[np.ndarray], Style]  # label, means [frame][cell], colors
 
 MOST_FRAMES = 4  # of a picture
 SLENDEREST = 0.3  # width over height of a picture on one side of the axis, at least
 RIGID = "#8c8c8c"
 NEEDED = {"whole_volume", "stress_zz", "displacement"}  # of the fields of a point
+RATIO = "vertical_stress_over_stress_at_rest"
 
 
 class Frame:
@@ -35,20 +39,23 @@ class Frame:
         """files: of the points; grids: the series of the background grid. Raises
         ResultsError where a field is missing."""
         points = read_points(files)
-        missing = NEEDED - points.keys()
+        nearest = min(grids, key=lambda entry: abs(entry[0] - time))
+        cells = read_cells(nearest[1])
+        missing = (NEEDED - points.keys()) | ({RATIO, "layer"} - cells.keys())
         if missing:
             raise ResultsError(
                 f"{files[0]} has no field {', '.join(sorted(missing))}: it is of"
                 " another version of the program"
             )
-        material = points.get("material", np.zeros(len(points["position"])))
-        self.soil = {name: values[material >= 0] for name, values in points.items()}
-        nearest = min(grids, key=lambda entry: abs(entry[0] - time))
-        corners, material = read_cells(nearest[1])
-        self.body = corners[material == 1]
+        self.soil = points
+        corners, rigid = cells["corners"], cells["material_id"] == 1
+        self.body = corners[rigid]
         self.means = CellMeans(
-            self.soil["position"], self.soil["whole_volume"], corners, material == 1
+            points["position"], points["whole_volume"], corners, rigid
         )
+        self.ratio, self.layer = [
+            cells[name][self.means.used].astype(float) for name in (RATIO, "layer")
+        ]
         self.time = time
         self.label = f"t = {time:.3g} s"
         if penetration(history) is not None:
@@ -59,16 +66,20 @@ def chosen(series: Series, history: Table, wanted: Sequence[float]) -> Series:
     """Return the frames to draw, MOST_FRAMES at most.
 
     wanted: the penetrations at which the scene asks for frames (m). Without any,
-    and where a run has not come to the last of them, frames are taken evenly.
+    and where a run has not come to the last of them, frames are taken evenly. The last
+    frame is always among them.
     """
     positions = np.array([time for time, _ in series])
     if penetration(history) is not None:
         positions = np.array([depth_at(time, history) for time in positions])
     low, high = positions.min(), positions.max()
     goals = [x for x in wanted if low - 1e-3 <= x <= high + 1e-3]
-    if len(goals) < max(len(wanted), 2) or len(goals) > MOST_FRAMES:
-        goals = list(np.linspace(positions[0], positions[-1], MOST_FRAMES))
-    picks = {int(np.argmin(np.abs(positions - x))) for x in goals}
+    evenly = list(np.linspace(positions[0], positions[-1], MOST_FRAMES))
+    for goals in (goals if len(goals) >= max(len(wanted), 2) else evenly, evenly):
+        picks = {int(np.argmin(np.abs(positions - x))) for x in goals}
+        picks.add(len(series) - 1)
+        if len(picks) <= MOST_FRAMES:
+            break
     return [series[i] for i in sorted(picks)]
 
 
@@ -98,19 +109,40 @@ def paint_cells(
     polygons: np.ndarray,
     values: np.ndarray,
     style: Style,
-    sides: tuple[int, ...] = (1, -1),
+    sides: Sides = (1, -1),
 ) -> PolyCollection:
     """Draw cells [n, 4, 2] in the color of their values, on both sides of the axis."""
     painted = PolyCollection(
         np.concatenate([polygons * [side, 1] for side in sides]),
         array=np.tile(values, len(sides)),
         cmap=style["cmap"],
+        norm=style.get("norm"),
         edgecolors="face",
         linewidths=0.4,
     )
-    painted.set_clim(style["vmin"], style["vmax"])
+    if "norm" not in style:
+        painted.set_clim(style["vmin"], style["vmax"])
     axes.add_collection(painted)
     return painted
+
+
+def layer_boundaries(polygons: np.ndarray, layer: np.ndarray) -> np.ndarray:
+    """Return the sides [n, 2, 2] between cells [n, 4, 2] of different layers that lie
+    on top of each other."""
+    middle = polygons[..., 1].mean(axis=1)
+    order = np.lexsort((middle, polygons[:, 1, 0], polygons[:, 0, 0]))
+    lower, upper = polygons[order[:-1]], polygons[order[1:]]
+    touching = np.isclose(lower[:, [3, 2]], upper[:, :2]).all(axis=(1, 2))
+    return upper[touching & (np.diff(layer[order]) != 0), :2]
+
+
+def draw_layers(axes: Axes, frame: Frame) -> None:
+    """Draw the boundaries between layers where they are now, for all colors."""
+    sides = layer_boundaries(frame.means.polygons, frame.layer)
+    both = np.concatenate([sides, sides * [-1, 1]])
+    for color, width in (("0.2", 1.8), ("white", 0.9)):
+        style: Style = {"colors": color, "linewidths": width, "zorder": 2.4}
+        axes.add_collection(LineCollection(both, **style))
 
 
 def draw_body(axes: Axes, frame: Frame) -> None:
@@ -127,18 +159,10 @@ def draw_body(axes: Axes, frame: Frame) -> None:
         )
 
 
-def draw_mirrored(
-    axes: Axes, frame: Frame, values: np.ndarray, window: Window, style: Style
-) -> PolyCollection:
-    """Draw cell means on both sides of the axis, and the body."""
-    painted = paint_cells(axes, frame.means.polygons, values, style)
-    draw_about(axes, frame, window)
-    return painted
-
-
 def draw_about(axes: Axes, frame: Frame, window: Window) -> None:
     """Draw what is about a field: the body, the axis and the frame of the panel."""
     radius, bottom, top = window
+    draw_layers(axes, frame)
     draw_body(axes, frame)
     axes.axvline(0, color="0.4", linewidth=0.5, dashes=(8, 4, 2, 4))
     axes.set_aspect("equal")
@@ -167,40 +191,13 @@ def panels(n: int, window: Window) -> tuple[Figure, np.ndarray]:
     height = 4.4 * (window[2] - window[1]) / (2 * window[0])
     height = min(max(height, 2.6 / rows), 7)
     figure = Figure(
-        figsize=(4.7 * columns + 1.2, (height + 0.4) * rows + 0.3),
+        figsize=(4.7 * columns + 1.2, (height + 0.4) * rows + 1.3),
         constrained_layout=True,
     )
     axes = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     for panel in axes.flat[n:]:
         panel.set_visible(False)
     return figure, axes
-
-
-def draw_frames(
-    path: Path,
-    frames: Sequence[Frame],
-    window: Window,
-    fields: Sequence[np.ndarray],
-    style: Style,
-    label: str,
-) -> Path:
-    """Draw cell means [frame][cell] of a field, on one color scale."""
-    figure, axes = panels(len(frames), window)
-    for panel, frame, field in zip(axes.flat, frames, fields):
-        painted = draw_mirrored(panel, frame, field, window, style)
-        panel.label_outer()
-    for panel in axes[:, 0]:
-        panel.set_ylabel("z (m)")
-    figure.colorbar(
-        painted,
-        ax=axes,
-        extend="both" if style["vmin"] else "max",
-        shrink=0.7,
-        pad=0.02,
-        label=label,
-    )
-    figure.savefig(path, dpi=150)
-    return path
 
 
 def shown_values(
@@ -223,17 +220,48 @@ def stress_of(
     return fields, {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
 
 
+def ratio_of(label: str, frames: Sequence[Frame]) -> Field:
+    """Return the vertical effective stress over that at rest, white where it is 1."""
+    shown = [np.maximum(frame.ratio, 1e-6) for frame in frames]  # none is below 0
+    return label, shown, {"cmap": "BrBG_r", "norm": LogNorm(0.1, 10)}
+
+
+def figure_of(
+    frames: Sequence[Frame], window: Window, fields: Sequence[Field]
+) -> tuple[Figure, np.ndarray]:
+    """Return a figure with a panel for each frame and the color bars below: of one
+    field, or of the fields of the left and the right halves."""
+    figure, axes = panels(len(frames), window)
+    both: tuple[Sides, ...] = ((-1,), (1,)) if len(fields) > 1 else ((-1, 1),)
+    for i, (panel, frame) in enumerate(zip(axes.flat, frames)):
+        painted = [
+            paint_cells(panel, frame.means.polygons, means[i], style, sides)
+            for (_, means, style), sides in zip(fields, both)
+        ]
+        draw_about(panel, frame, window)
+        panel.label_outer()
+    for panel in axes[:, 0]:
+        panel.set_ylabel("z (m)")
+    places: list[Any] = list(axes.T[[0, -1]]) if len(fields) > 1 else [axes]
+    for artist, (label, _, style), place in zip(painted, fields, places):
+        bar: Style = {"location": "bottom", "aspect": 35, "shrink": 0.9, "label": label}
+        extend = "max" if style.get("vmin") == 0 else "both"
+        colors = figure.colorbar(artist, ax=place, extend=extend, **bar)
+        if "norm" in style:
+            colors.set_ticks(steps := [0.1, 0.2, 0.5, 1, 2, 5, 10], labels=steps)
+    return figure, axes
+
+
 def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
-    """Draw the vertical effective stress at each frame."""
-    fields, style = stress_of(frames, window)
-    return draw_frames(
-        path,
-        frames,
-        window,
-        fields,
-        style,
-        "vertical effective stress (kPa),\n" "compression positive, mean of each cell",
+    """Draw the vertical effective stress at each frame, and its ratio to that at
+    rest."""
+    stress = (
+        "left halves: vertical effective stress (kPa)",
+        *stress_of(frames, window),
     )
+    sides = [stress, ratio_of("right halves: the same over that at rest (-)", frames)]
+    figure_of(frames, window, sides)[0].savefig(path, dpi=150)
+    return path
 
 
 def draw_void_ratio(path: Path, frames: Sequence[Frame], window: Window) -> Path | None:
@@ -248,9 +276,9 @@ def draw_void_ratio(path: Path, frames: Sequence[Frame], window: Window) -> Path
     if high - low < 0.05:
         return None
     style = {"cmap": "viridis", "vmin": low, "vmax": high}
-    return draw_frames(
-        path, frames, window, fields, style, "void ratio (-), mean of each cell"
-    )
+    field = ("void ratio (-), mean of each cell", fields, style)
+    figure_of(frames, window, [field])[0].savefig(path, dpi=150)
+    return path
 
 
 def draw_tip(
@@ -260,17 +288,10 @@ def draw_tip(
     point, on the means of the cells."""
     left, right, bottom, top = box
     position, size = frame.soil["position"], np.sqrt(frame.means.area)
-    shown = (
-        (position[:, 0] > left - size)
-        & (position[:, 0] < right + size)
-        & (position[:, 1] > bottom - size)
-        & (position[:, 1] < top + size)
-    )
-    style = dict(
-        style,
-        vmin=0,
-        vmax=nice_above(np.percentile(values[shown], 99.5)) if shown.any() else 1,
-    )
+    middle, half = np.array([left + right, bottom + top]) / 2, (right - left) / 2
+    shown = (np.abs(position - middle).max(axis=1) < half + size) & (size > 0)
+    highest = nice_above(np.percentile(values[shown], 99.5)) if shown.any() else 1
+    style = {**style, "vmin": 0, "vmax": highest}
     paint_cells(axes, frame.means.polygons, frame.means.of(values), style, (1,))
     discs = EllipseCollection(
         size[shown],
@@ -285,6 +306,7 @@ def draw_tip(
     discs.set_array(values[shown])
     discs.set_clim(style["vmin"], style["vmax"])
     axes.add_collection(discs)
+    draw_layers(axes, frame)
     draw_body(axes, frame)
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)
@@ -305,17 +327,6 @@ def tip_box(frame: Frame, window: Window, scene: dict[str, Any]) -> Box | None:
     return left, left + 2 * side, tip[1] - 1.1 * side, tip[1] + 0.9 * side
 
 
-def draw_all(axes: Axes, frame: Frame, moved: np.ndarray, window: Window) -> None:
-    """Draw the displacement of the whole soil, with its color scale."""
-    means = frame.means.of(moved)
-    highest = np.percentile(means[inside(frame, window)], 99)
-    style = {"cmap": "viridis", "vmin": 0, "vmax": nice_above(highest)}
-    painted = draw_mirrored(axes, frame, means, window, style)
-    axes.set_ylabel("z (m)")
-    label = "displacement (m), mean of each cell"
-    axes.figure.colorbar(painted, ax=axes, extend="max", shrink=0.8, label=label)
-
-
 def draw_displacement(
     path: Path, frame: Frame, window: Window, scene: dict[str, Any]
 ) -> Path:
@@ -328,13 +339,21 @@ def draw_displacement(
         label = "plastic deviatoric strain (-)"
         fields.append((label, soil["plastic_deviatoric"], "magma_r"))
     n = 1 + len(fields) if box else 1
-    figure = Figure(figsize=(5.3 * n, 4.5), constrained_layout=True)
+    figure = Figure(figsize=(5.5 * n, 4.5), layout="constrained")
+    figure.get_layout_engine().set(w_pad=0.15)  # between a color bar and its neighbor
     axes = figure.subplots(1, n, squeeze=False)[0]
-    draw_all(axes[0], frame, moved, window)
+    means = frame.means.of(moved)
+    highest = nice_above(np.percentile(means[inside(frame, window)], 99))
+    style = {"cmap": "viridis", "vmin": 0, "vmax": highest}
+    painted = [paint_cells(axes[0], frame.means.polygons, means, style)]
+    draw_about(axes[0], frame, window)
+    axes[0].set_ylabel("z (m)")
     if box:
-        for panel, (label, values, colors) in zip(axes[1:], fields):
-            discs = draw_tip(panel, frame, values, box, {"cmap": colors})
-            figure.colorbar(discs, ax=panel, extend="max", shrink=0.8, label=label)
+        for panel, (_, values, colors) in zip(axes[1:], fields):
+            painted.append(draw_tip(panel, frame, values, box, {"cmap": colors}))
+    labels = ["displacement (m), mean of each cell", *[label for label, *_ in fields]]
+    for panel, artist, label in zip(axes, painted, labels):
+        figure.colorbar(artist, ax=panel, extend="max", shrink=0.8, label=label)
     figure.savefig(path, dpi=150)
     return path
 
@@ -343,10 +362,7 @@ def frames_of(run: Results) -> list[Frame]:
     """Return the frames to draw, none where their files are gone."""
     series, grids = run.frames("points"), run.frames("grid")
     if not series or not grids:
-        print(
-            f"plot: points.pvd or grid.pvd of {run.directory} names no file that is"
-            " there, so forces only"
-        )
+        print(f"plot: the frames of {run.directory} are gone, so forces only")
         return []
     wanted = run.scene.get("frame_penetrations_m") or []
     return [

@@ -231,7 +231,8 @@ def caption(depth: np.ndarray, site: theory.Site, answers: list[theory.Answer]) 
     reasons = [f"{names}: {why}" for names, why in theory.reasons(answers)]
     silent = f"no answer from {'; '.join(reasons)}" if reasons else ""
     end = theory.about_cone(site, float(depth.max()))
-    return "\n".join(textwrap.fill(line, 150) for line in (text, silent, end) if line)
+    lines = [x.replace(" = ", "\u00a0=\u00a0") for x in (text, silent, end) if x]
+    return "\n".join(textwrap.fill(line, 150) for line in lines)
 
 
 def panels_of(figure: Figure, n: int) -> list[Axes]:

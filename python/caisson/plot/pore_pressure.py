@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Excess pore pressure with flow lines, beside the vertical effective stress."""
+"""Excess pore pressure with flow lines, beside the share of the stress at rest."""
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -14,7 +14,6 @@ from caisson.results import Results, Table
 
 N_LINES = 12
 LEAST = 0.03  # of the largest pressure; flow lines of less are not drawn
-LEFT, RIGHT = (-1,), (1,)  # sides of the axis
 LINE = {"color": "0.1", "linewidth": 0.9, "zorder": 2}
 
 
@@ -87,31 +86,18 @@ def caption(frames: Sequence[fields.Frame]) -> str:
     )
 
 
-def draw_panel(
-    axes: Axes,
-    frame: fields.Frame,
-    window: fields.Window,
-    halves: Sequence,
-    flows: bool,
-) -> list:
-    """Draw a field, with its colors, on each side of the axis; flows: with the flow
-    of the water."""
-    painted = [
-        fields.paint_cells(axes, frame.means.polygons, values, style, side)
-        for (values, style), side in zip(halves, (LEFT, RIGHT))
-    ]
+def draw_water(
+    axes: Axes, frame: fields.Frame, window: fields.Window, least: float | None
+) -> None:
+    """Draw the mudline, and flow lines where the water flows: least is the pressure
+    (kPa) below which it hardly does."""
     flow = Flow(frame.means, frame.soil["pore_pressure"])
-    of_pressure = halves[0][1]
-    largest = np.abs(frame.soil["pore_pressure"]).max() / 1e3
-    if flows and largest > LEAST * max(-of_pressure["vmin"], of_pressure["vmax"]):
+    if least is not None and np.abs(frame.soil["pore_pressure"]).max() / 1e3 > least:
         draw_flow(axes, flow, frame, window)
-    elif flows:
+    elif least is not None:
         place = (-window[0] / 2, window[1] / 2)
         axes.text(*place, "hardly\nany flow", ha="center", fontsize=9)
     draw_mudline(axes, flow, frame.body, window)
-    fields.draw_about(axes, frame, window)
-    axes.label_outer()
-    return painted
 
 
 def draw(
@@ -126,31 +112,18 @@ def draw(
     )
     if max(-low, high) < 1e-3:
         return None
-    stresses, of_stress = fields.stress_of(frames, window)
-    of_pressure = style_of(low, high)
+    style = style_of(low, high)
     flows = "flow_iterations" in run.history  # not in undrained soil
-    figure, axes = fields.panels(len(frames), window)
-    figure.set_figheight(figure.get_figheight() + 1.2)
-    for panel, frame, p, stress in zip(axes.flat, frames, pressures, stresses):
-        halves = [(p, of_pressure), (stress, of_stress)]
-        painted = draw_panel(panel, frame, window, halves, flows)
+    pressure = ("left halves: excess pore pressure (kPa)", pressures, style)
+    label = "right halves: vertical effective stress over that at rest (-)"
+    sides = [pressure, fields.ratio_of(label, frames)]
+    figure, axes = fields.figure_of(frames, window, sides)
+    least = LEAST * max(-style["vmin"], style["vmax"]) if flows else None
+    for panel, frame in zip(axes.flat, frames):
+        draw_water(panel, frame, window, least)
         panel.set_title(title_of(frame, run.history), fontsize=10)
-    for panel in axes[:, 0]:
-        panel.set_ylabel("z (m)")
-    bars = (
-        ("left halves: excess pore pressure (kPa)", axes[:, 0]),
-        ("right halves: vertical effective stress (kPa)", axes[:, -1]),
-    )
-    for artist, (label, above) in zip(painted, bars):
-        figure.colorbar(
-            artist, ax=above, location="bottom", aspect=35, extend="both", label=label
-        )
     if flows:
-        inches = figure.get_figheight()
-        figure.get_layout_engine().set(rect=(0, 0.3 / inches, 1, 1 - 0.3 / inches))
-        figure.text(
-            0.5, 0.1 / inches, caption(frames), ha="center", fontsize=8, color="0.3"
-        )
+        figure.supxlabel(f"\n{caption(frames)}", fontsize=8, color="0.3")
     path = run.directory / "pore_pressure.png"
-    figure.savefig(path, dpi=150, bbox_inches="tight")
+    figure.savefig(path, dpi=150)
     return path

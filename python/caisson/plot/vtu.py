@@ -1,37 +1,29 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Material points and cells of .vtu and .pvtu files as arrays."""
+"""Material points and cells of .vtu files as arrays."""
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
-from vtkmodules.vtkIOXML import (
-    vtkXMLPUnstructuredGridReader,
-    vtkXMLUnstructuredGridReader,
-)
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from caisson.units import split
 
+TENSOR = ("rr", "zz", "tt", "rz")  # components before those that are 0
+
 
 def read_grid(file: Path) -> Any:
-    """Return the vtkUnstructuredGrid of a .vtu or .pvtu file."""
-    reader = (
-        vtkXMLPUnstructuredGridReader()
-        if file.suffix == ".pvtu"
-        else vtkXMLUnstructuredGridReader()
-    )
+    """Return the vtkUnstructuredGrid of a .vtu file."""
+    reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(file))
     reader.Update()
     return reader.GetOutput()
 
 
 def joined(grids: Sequence[Any]) -> Any:
-    """Return one vtkUnstructuredGrid of those of a frame, of which old runs have
-    written one for each rank."""
-    if len(grids) == 1:
-        return grids[0]
+    """Return one vtkUnstructuredGrid of those of a frame."""
     append = vtkAppendFilter()
     for grid in grids:
         append.AddInputData(grid)
@@ -50,8 +42,11 @@ def named_arrays(data: Any) -> dict[str, np.ndarray]:
 
 def arrays_of(data: Any) -> dict[str, np.ndarray]:
     """Return the arrays of point or cell data by the names of their quantities, as
-    observations have them: stress_zz for stress_zz_Pa."""
-    return {split(name)[0]: values for name, values in named_arrays(data).items()}
+    observations have them: the components of stress_Pa are stress_rr and so on."""
+    found = {split(name)[0]: values for name, values in named_arrays(data).items()}
+    for i, component in enumerate(TENSOR if "stress" in found else ()):
+        found[f"stress_{component}"] = found["stress"][:, i]
+    return found
 
 
 def positions_of(grid: Any) -> np.ndarray:
@@ -59,68 +54,27 @@ def positions_of(grid: Any) -> np.ndarray:
     return vtk_to_numpy(grid.GetPoints().GetData())[:, :2].astype(float)
 
 
-def quads_of(grid: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Return the numbers of the quadrilaterals among the cells of a grid, [n], and of
-    the points at their corners, [n, 4]."""
-    start = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
-    quads = np.flatnonzero(np.diff(start) == 4)
-    corner = vtk_to_numpy(grid.GetCells().GetConnectivityArray())[
-        start[quads][:, np.newaxis] + np.arange(4)
-    ]
-    return quads, corner
-
-
 def corners_of(grid: Any) -> np.ndarray:
-    """Return the corners of the quadrilaterals of a grid: [n, 4, 2] in the order
-    lower left, lower right, upper right, upper left."""
-    return sorted_corners(positions_of(grid)[quads_of(grid)[1]])
-
-
-def with_cell_data(grid: Any) -> Any:
-    """Return a grid of quadrilaterals whose point data have become its cell data.
-
-    deal.II gives every cell corners of its own and writes cell data there, as point
-    data: the value of a cell is that of its first corner.
-    """
-    corner = quads_of(grid)[1]
-    for name, values in named_arrays(grid.GetPointData()).items():
-        array = numpy_to_vtk(values[corner[:, 0]], deep=True)
-        array.SetName(name)
-        grid.GetCellData().AddArray(array)
-    grid.GetPointData().Initialize()
-    return grid
+    """Return the corners of the cells of a grid of quadrilaterals: [n, 4, 2] in the
+    order lower left, lower right, upper right, upper left."""
+    corner = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+    return sorted_corners(positions_of(grid)[corner])
 
 
 def read_points(files: Sequence[Path]) -> dict[str, np.ndarray]:
     """Return the fields of all material points, [n] or [n, components]; "position"
     [n, 2] (m) is among them. Raises OSError where there is no point."""
-    parts = []
-    for grid in map(read_grid, files):
-        if grid.GetNumberOfPoints() > 0:
-            parts.append(arrays_of(grid.GetPointData()))
-            parts[-1]["position"] = positions_of(grid)
-    if not parts:
+    grid = joined([read_grid(file) for file in files])
+    if grid.GetNumberOfPoints() == 0:
         raise OSError(f"no material points can be read from {files[0]}")
-    names = set.intersection(*[set(part) for part in parts])
-    return {name: np.concatenate([part[name] for part in parts]) for name in names}
+    return {**arrays_of(grid.GetPointData()), "position": positions_of(grid)}
 
 
-def read_cells(files: Sequence[Path]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the cells of the background grid: corners [n_cells, 4, 2] as of
-    corners_of, and material [n_cells], 1 in the rigid body."""
-    corners, material = [np.empty((0, 4, 2))], [np.empty(0)]
-    for grid in map(read_grid, files):
-        quads, corner = quads_of(grid)
-        corners.append(corners_of(grid))
-        values = arrays_of(grid.GetCellData()).get("material_id")
-        at_corners = arrays_of(grid.GetPointData()).get("material_id")
-        if values is not None:
-            material.append(values[quads])
-        elif at_corners is not None:
-            material.append(at_corners[corner[:, 0]])
-        else:
-            material.append(np.zeros(len(quads)))
-    return np.concatenate(corners), np.concatenate(material)
+def read_cells(files: Sequence[Path]) -> dict[str, np.ndarray]:
+    """Return the fields of the cells of the background grid, [n] or [n, components];
+    "corners" [n, 4, 2] as of corners_of is among them."""
+    grid = joined([read_grid(file) for file in files])
+    return {**arrays_of(grid.GetCellData()), "corners": corners_of(grid)}
 
 
 def sorted_corners(corners: np.ndarray) -> np.ndarray:

@@ -20,6 +20,7 @@ PICTURES = {
     "stress": "Vertical effective stress",
     "pore_pressure": "Excess pore pressure and flow lines, beside effective stress",
     "suction": "Suction, exit gradients and heave of the plug",
+    "walls": "Stresses along the walls",
     "displacement": "Displacement",
     "void_ratio": "Void ratio",
     "forces": "Forces",

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Stresses along the walls at the frames, beside those at rest."""
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from caisson.plot.fields import MOST_FRAMES
+from caisson.results import Results, Table
+
+# part of the name of a column: its label, and the column of what stands beside it
+STRESSES = {
+    "normal_stress": ("effective normal stress", "$K_0\\,\\sigma'_{v0}$"),
+    "shear_stress": ("shear stress, upward", "$K_0\\,\\sigma'_{v0}\\,\\tan\\delta$"),
+}
+AT_REST: dict[str, Any] = {"color": "0.35", "linewidth": 1.4, "linestyle": "--"}
+
+
+def shown_times(walls: Table) -> np.ndarray:
+    """Return the times to draw, MOST_FRAMES at most, the last among them."""
+    times = np.unique(walls["time_s"])
+    picks = np.linspace(0, len(times) - 1, min(MOST_FRAMES, len(times)))
+    return times[np.round(picks).astype(int)]
+
+
+def draw_panel(
+    axes: Axes, walls: Table, column: str, factor: float, label: str
+) -> None:
+    """Draw a column over depth at each time, and a multiple of the horizontal stress
+    at rest."""
+    times = shown_times(walls)
+    for time, share in zip(times, np.linspace(0.85, 0, len(times))):
+        rows = walls["time_s"] == time
+        name = f"{walls['penetration_m'][rows][0]:.2f} m"
+        style = {"color": colormaps["viridis"](share), "label": name}
+        axes.plot(walls[column][rows] / 1e3, walls["depth_m"][rows], **style)
+    # the rows of the last time, which are the deepest in an installation
+    stress = factor * walls["horizontal_stress_at_rest_Pa"][rows] / 1e3
+    axes.plot(stress, walls["depth_m"][rows], label=label, **AT_REST)
+    axes.grid(color="0.9")
+
+
+def draw(path: Path, run: Results) -> Path | None:
+    """Write the picture of the walls; return its path, None where there is no wall."""
+    walls = run.walls
+    names = [n for n in ("inner", "outer") if f"{n}_area_m2" in walls]
+    if not names:
+        return None
+    figure = Figure(figsize=(4.4 * len(names) + 1, 8.4), layout="constrained")
+    axes = figure.subplots(2, len(names), squeeze=False, sharey=True, sharex="row")
+    for row, (stress, (label, beside)) in zip(axes, STRESSES.items()):
+        for panel, name in zip(row, names):
+            angle = run.scene.get(f"{name}_wall_friction_angle_deg", np.nan)
+            factor = 1.0 if stress == "normal_stress" else np.tan(np.radians(angle))
+            draw_panel(panel, walls, f"{name}_{stress}_Pa", factor, beside)
+            panel.set_xlabel(f"{label} (kPa)")
+            panel.set_title(f"{name} wall", fontsize=10)
+        row[0].set_ylabel("depth (m)")
+        row[0].legend(title="penetration", fontsize=8)
+    axes[0, 0].invert_yaxis()  # that of all
+    figure.savefig(path, dpi=150)
+    return path
