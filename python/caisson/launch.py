@@ -98,11 +98,12 @@ def options_for_error(options: argparse.Namespace, directory: Path) -> list[str]
 
 def draw(directory: Path) -> None:
     """Draw the pictures and write the report; the results do not need them."""
-    from caisson import plot, report
+    import caisson_report
+    from caisson import plot
 
     for picture in plot.draw(directory):
         print(f"plot: {picture}")
-    print(f"report: {report.write(directory)}")
+    print(f"report: {caisson_report.write(directory)}")
 
 
 def wait_for(process: "subprocess.Popen[bytes]") -> int:

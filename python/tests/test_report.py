@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 from synthetic import write_columns, write_run
 
-from caisson import report
-from caisson.report import content, methods
+import caisson_report as report
 from caisson.results import Results, ResultsError
 from caisson_design import reasons
 from caisson_design.seepage import senders_randolph
+from caisson_report import content, methods
 
 BROWSER = report.find_browser()
 SCENE: dict[str, Any] = {

@@ -20,7 +20,7 @@ BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 def write(directory: Path) -> Path:
     """Write the report of a run; return its path. Raises ResultsError."""
-    from caisson.report import page
+    from caisson_report import page
 
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
@@ -91,7 +91,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(options: argparse.Namespace) -> int:
     """Write the report of each run; a run that has none is named."""
-    from caisson.report import relief
+    from caisson_report import relief
 
     status = 0
     for directory in options.directories:

@@ -8,7 +8,7 @@ import numpy as np
 from caisson import curves
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import penetration
-from caisson.report import relief
+from caisson_report import relief
 from caisson.results import Results
 from caisson_design import suction_installation as installation
 from caisson_design.houlsby_byrne import STILL, UNDISTURBED

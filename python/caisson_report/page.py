@@ -10,7 +10,7 @@ import jinja2
 
 from caisson import plot
 from caisson.needed import JAVASCRIPT, SCRIPTS
-from caisson.report import content, methods
+from caisson_report import content, methods
 from caisson.results import Results
 
 HERE = Path(__file__).parent
