@@ -23,13 +23,16 @@
         lines: { show: true, lineWidth: curve.thick ? 2.2 : 1.2 },
         shadowSize: 0,
       };
-    // an area is a closed line
+    const range = curve.y
+      .map((y, i) => [y, curve.x[i], curve.to[i]])
+      .filter((row) => row[1] !== null && row[2] !== null);
+    // the closed line widens the axes
     const back = curve.to.map((x, i) => [x, curve.y[i]]).reverse();
     const closed = points.concat(back).filter((p) => p[0] !== null);
     return {
       label: curve.label,
       color: shown(curve.color),
-      area: closed,
+      range: range,
       data: closed,
       hoverable: false,
       lines: { show: true, lineWidth: 0 },
@@ -37,24 +40,44 @@
     };
   }
 
-  function fillAreas(plot, context) {
-    const offset = plot.getPlotOffset();
+  // A range is two thin lines, with bars between them at some depths: areas of
+  // several methods above each other cannot be told apart.
+  function drawRanges(plot, context) {
+    const offset = plot.getPlotOffset(), ranges = plot.getData().filter((s) => s.range);
     context.save();
     context.beginPath();
     context.rect(offset.left, offset.top, plot.width(), plot.height());
     context.clip();
-    for (const one of plot.getData()) {
-      if (!one.area) continue;
-      context.beginPath();
-      for (const [x, y] of one.area) {
-        const at = plot.p2c({ x: x, y: y });
-        context.lineTo(at.left + offset.left, at.top + offset.top);
+    ranges.forEach((one, number) => {
+      const ends = one.range.map((row) =>
+        row.slice(1).map((x) => {
+          const at = plot.p2c({ x: x, y: row[0] });
+          return [at.left + offset.left, at.top + offset.top];
+        })
+      );
+      context.strokeStyle = one.color;
+      context.lineWidth = 0.9;
+      for (const side of [0, 1]) {
+        context.beginPath();
+        for (const row of ends) context.lineTo(...row[side]);
+        context.stroke();
       }
-      context.closePath();
-      context.globalAlpha = 0.2;
-      context.fillStyle = one.color;
-      context.fill();
-    }
+      context.lineWidth = 1.6;
+      const step = 48, first = ((number + 1) * step) / (ranges.length + 1);
+      let next = first;
+      for (const [low, high] of ends) {
+        if (low[1] - offset.top < next) continue;
+        while (next <= low[1] - offset.top) next += step;
+        context.beginPath();
+        context.moveTo(...low);
+        context.lineTo(high[0], low[1]);
+        for (const x of [low[0], high[0]]) {
+          context.moveTo(x, low[1] - 4);
+          context.lineTo(x, low[1] + 4);
+        }
+        context.stroke();
+      }
+    });
     context.restore();
   }
 
@@ -110,7 +133,7 @@
       }],
       zoom: { interactive: true },
       pan: { interactive: true, enableTouch: true },
-      hooks: { drawBackground: [fillAreas] },
+      hooks: { draw: [drawRanges] },
     };
   }
 
@@ -162,10 +185,7 @@
         };
         const mark = document.createElement("i");
         mark.style.background = shown(curve.color);
-        if (curve.to) {
-          mark.className = "band";
-          mark.style.opacity = 0.35;
-        }
+        if (curve.to) mark.className = "range";
         label.append(box, mark, curve.label);
         legend.append(label);
       }

@@ -9,9 +9,11 @@ from typing import Any
 import jinja2
 
 from caisson import plot
+from caisson.lock import is_locked
 from caisson.needed import JAVASCRIPT, SCRIPTS
-from caisson_report import content, methods
 from caisson.results import Results
+from caisson_report import content, installation, methods, scene, sketch
+from caisson_report.installation import Installation, Rate
 
 HERE = Path(__file__).parent
 REFRESH = 30  # s, of the page of a run that has not ended
@@ -35,7 +37,7 @@ def script(name: str) -> str:
 def pictures_of(run: Results) -> list[dict[str, str]]:
     """Return the run's pictures as data, each with what it shows; drawn where the run
     has left none."""
-    if not (run.directory / "forces.png").is_file():
+    if not (run.directory / "forces.png").is_file() and not run.is_running:
         plot.draw(run.directory)
     found = []
     for name, shows in PICTURES.items():
@@ -53,11 +55,6 @@ def facts_of(run: Results) -> list[tuple[str, str]]:
     summary = run.summary
     points = summary.get("material_points", "not known")
     facts = [
-        (
-            "Program",
-            f"caisson_mpm {summary['version']}, deal.II {summary['dealii_version']}",
-        ),
-        ("Scene", str(summary["scene_file"])),
         ("Results", str(run.directory)),
         ("Cells, material points", f"{summary['cells']}, {points}"),
         ("Steps", f"{summary['steps']} of {summary['time_step_s']:.3g} s"),
@@ -68,16 +65,34 @@ def facts_of(run: Results) -> list[tuple[str, str]]:
     ]
     if "peak_memory_bytes" in summary:
         facts.append(("Memory", f"{summary['peak_memory_bytes'] / 1e6:.0f} MB"))
-    ended = time.localtime((run.directory / "run.json").stat().st_mtime)
-    return [("Ended", time.strftime("%Y-%m-%d %H:%M", ended)), *facts]
+    return facts
+
+
+def duration_in_words(seconds: float) -> str:
+    """Return a time that is left, roughly."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    minutes = seconds / 60
+    return f"{minutes:.0f} min" if minutes < 90 else f"{minutes / 60:.1f} h"
+
+
+def progress_of(run: Results) -> tuple[float, str]:
+    """Return how much of a run is done (%), and in words how long it takes still."""
+    known = run.summary.get("progress") or {} if run.scene else {}
+    done = 100 * float(known.get("fraction_done") or 0)
+    left = known.get("remaining_s")
+    words = f"{done:.0f} % done"
+    return done, words + (f", about {duration_in_words(left)} left" if left else "")
 
 
 def status_of(run: Results) -> str:
     """Return how the run ended, in words."""
     if run.is_running:
-        return (
-            f"The run has not ended; this page reloads itself every {REFRESH} seconds."
-        )
+        done, words = progress_of(run)
+        if not is_locked(run.directory) and done:
+            return f"The run was ended before it was finished: {words.split(',')[0]}."
+        said = f"Running: {words}. " if done else "The run has not ended. "
+        return f"{said}This page reloads itself every {REFRESH} seconds."
     if failure := run.summary.get("failure"):
         return f"Failed: {failure}"
     reason = run.scene.get("end_reason")
@@ -85,31 +100,76 @@ def status_of(run: Results) -> str:
     return f"Ended early: {reason}." if reason else f"Status: {status}."
 
 
-def html(run: Results) -> str:
+def job_of(run: Results, summary: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return what a first page must name: scene, program and date."""
+    if not summary:
+        return []
+    ended = time.localtime((run.directory / "run.json").stat().st_mtime)
+    version, library = summary["version"], summary["dealii_version"]
+    return [
+        ("Scene", str(summary["scene_file"])),
+        ("Computed", time.strftime("%Y-%m-%d %H:%M", ended)),
+        ("Program", f"caisson_mpm {version}, deal.II {library}"),
+    ]
+
+
+def warnings_of(summary: dict[str, Any]) -> dict[str, list[str]]:
+    """Return the warnings by their rank; older files have none, so that all count."""
+    found: dict[str, list[str]] = {"result": [], "input": [], "cosmetic": []}
+    ranked = (summary.get("results") or {}).get("warnings")
+    if ranked is None:
+        return {**found, "result": list(summary.get("warnings", []))}
+    for warning in ranked:
+        found[warning["rank"]].append(warning["text"])
+    return found
+
+
+def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any]:
+    """Return sketch and tables of caisson and soil."""
+    if not run.scene:
+        return {"sketch": "", "caisson": [], "layers": {"rows": []}}
+    depth = float(found.depth[-1]) if found is not None else 0.0
+    return {
+        "sketch": sketch.of_run(run, depth, found.rest if found else None),
+        "caisson": scene.caisson_of(run),
+        "layers": scene.layers_table(run),
+    }
+
+
+def html(run: Results, rate: Rate) -> str:
     """Return the page. Raises ResultsError or OSError."""
     loader = jinja2.FileSystemLoader(HERE)
     environment = jinja2.Environment(
         loader=loader, autoescape=True, undefined=jinja2.StrictUndefined
     )
+    found = installation.installation_of(run, rate)
     data: dict[str, Any] = {
-        "figures": content.figures_of(run),
+        "figures": content.figures_of(run, found),
         "csv": content.csv_of(run.history),
         "name": run.directory.resolve().name,
     }
-    summary = {} if run.is_running else run.summary
+    summary = run.summary if run.scene or not run.is_running else {}
+    nothing: dict[str, Any] = {"heads": [], "rows": []}
     return environment.get_template("page.html").render(
         title=summary.get("title") or run.directory.resolve().name,
+        job=job_of(run, summary),
         status=status_of(run),
+        progress=progress_of(run)[0] if run.is_running else 0,
         refresh=REFRESH if run.is_running else 0,
-        key_values=content.key_values(run),
+        cards=[] if found is None else installation.cards_of(run, found, rate),
+        computed=what_was_computed(run, found),
+        rate=rate.words,
+        table=nothing if found is None else installation.table_of(found),
+        has_suction=found is not None and found.has_suction,
         error=content.error_remark(run),
         figures=data["figures"],
-        table=content.table_of(run),
+        units=content.unit_table(run),
         methods=methods.methods_of(run),
         pictures=pictures_of(run),
         remarks=content.remarks_on_numbers(run),
-        warnings=summary.get("warnings", []),
+        warnings=warnings_of(summary),
         entries=summary.get("entries", {}),
+        defaults=summary.get("defaults", {}),
         facts=facts_of(run),
         style=(HERE / "page.css").read_text(encoding="utf-8"),
         scripts=[script(name) for name in SCRIPTS],

@@ -23,12 +23,32 @@ namespace CaissonMPM
     double inner          = 0.;
     double outer          = 0.;
     double total          = 0.;
+    /** Where there is suction: Pa, and the exit gradient over the critical one.
+     */
+    bool   has_suction    = false;
+    double suction        = 0.;
+    double gradient_ratio = 0.;
     double kinetic_energy = 0.;
     double max_speed      = 0.;
     /** Of the whole run, from 0 to 1. */
     double fraction_done = 0.;
     /** Not finite where it is not known: then it is left out. */
     double eta_seconds = 0.;
+  };
+
+  /** What a warning is about, the most important first: the results, the input,
+   * or what changes no result. */
+  enum class WarningRank
+  {
+    result,
+    input,
+    cosmetic
+  };
+
+  struct Warning
+  {
+    std::string text;
+    WarningRank rank;
   };
 
   /** One row of the table of times. */
@@ -80,10 +100,11 @@ namespace CaissonMPM
     message(const std::string &text);
 
     void
-    warning(const std::string &text);
+    warning(const std::string &text,
+            const WarningRank  rank = WarningRank::result);
 
     /** All warnings so far, also those that were not printed. */
-    const std::vector<std::string> &
+    const std::vector<Warning> &
     warnings() const
     {
       return warnings_;
@@ -103,7 +124,7 @@ namespace CaissonMPM
 
     const Verbosity          verbosity;
     std::ostream            &out;
-    std::vector<std::string> warnings_;
+    std::vector<Warning>     warnings_;
   };
 } // namespace CaissonMPM
 

@@ -27,7 +27,10 @@ namespace CaissonMPM
     unsigned long n_steps        = 0;        // of this process
     double        point_steps    = 0.;       // of all ranks
     double        wall_time      = 0.;       // s
-    std::vector<std::string> warnings;       // of the input and of the run
+    std::vector<Warning>     warnings;       // of the input and of the run
+    std::vector<std::string> assumed;        // entries marked so
+    Json::Members            progress;       // of a run that has not ended
+    Json::Members            results;        // of a run that has
     Json::Members            design_methods; // what they assume
   };
 
@@ -39,10 +42,11 @@ namespace CaissonMPM
                     const RecordedParts &parts,
                     const RunFacts      &facts);
 
-  /** Write run.json of a run that has failed on this rank, with what is known
-   * without the other ranks. Returns 0 or an errno. Not collective. */
+  /** Write run.json of a run that has not ended, or has failed on this rank,
+   * with what is known without the other ranks. Returns 0 or an errno. Not
+   * collective. */
   int
-  write_failure_summary(const std::string   &path,
+  write_early_summary(const std::string   &path,
                         const RecordedParts &parts,
                         const RunFacts      &facts);
 
