@@ -68,6 +68,7 @@ def print_pdf(path: Path) -> Path:
             "--no-sandbox",
             "--disable-gpu",
             "--no-pdf-header-footer",
+            "--virtual-time-budget=10000",  # ms, in which the curves are drawn
             f"--print-to-pdf={pdf}",
             path.resolve().as_uri(),
         ],

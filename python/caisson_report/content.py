@@ -29,6 +29,12 @@ from caisson_report.installation import (
 )
 
 SHOWN = ("tip", "total")  # parts of the methods in the interactive picture
+LIGHT = {  # of Houlsby & Byrne
+    "total": "#7f7f7f",
+    "tip": "#e59a90",
+    "inner friction": "#8fb4dc",
+    "outer friction": "#93c4a6",
+}
 CRITICAL_COLORS = ("#b35806", "#e08214", "#8c6d31", "#bd9e39")  # as CRITICAL
 MANY = 1500  # points of a curve that a screen can show
 
@@ -75,7 +81,7 @@ def method_curves(run: Results, deepest: float) -> list[Curve]:
         for part in (theory.PARTS if first else SHOWN) if answer.forces else ():
             low, high = [force / 1e3 for force in answer.band(part)]
             label = f"{part}, {answer.name}{remark}"
-            color = COLORS[part] if first else answer.method.color
+            color = LIGHT[part] if first else answer.method.color
             curve = band(label, color, low, high, answer.depth)
             found.append(
                 curve | {"hidden": bool(remark) or not first or part not in SHOWN}
@@ -151,7 +157,7 @@ def beyond_the_chart(found: Installation) -> str:
     words = []
     for name, text in ((BOILING, "water boils below the lid at"), (PUMP, "the pump")):
         limit = found.limits.get(name, np.full(1, np.nan))
-        if np.nanmin(limit, initial=np.inf) > 1.5 * found.required.max():
+        if limit.min() > 1.5 * found.required.max():
             ends = dict.fromkeys(f"{v:.0f}" for v in (limit.min(), limit.max()))
             can = "" if name == BOILING else " can draw"
             words.append(f"{text}{can} {' to '.join(ends)} kPa")
@@ -217,7 +223,7 @@ def unit_table(run: Results) -> dict[str, Any]:
     of the start, the tip force over the area of the flat tip.
     """
     history, scene = run.history, run.scene
-    nothing = {"heads": [], "rows": []}
+    nothing: dict[str, Any] = {"heads": [], "rows": []}
     if penetration(history) is None or not scene.get("wall_thickness_m"):
         return nothing
     way = curves.way_down(history["penetration_m"])

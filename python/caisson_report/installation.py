@@ -17,12 +17,13 @@ from caisson import curves
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import penetration
 from caisson.plot.suction import rest_of_run
-from caisson.results import Results
+from caisson.results import Results, Table
 from caisson_design.reasons import text_of
 from caisson_report.scene import entry_of, plug_area
 
 INTERVAL = 0.5  # m, between the depths of the table
 HOUR = 3600.0
+LEAST_SHARE = 0.02  # of the critical gradient, below which the gradient is noise
 COMPUTED = "exit gradient computed"
 PIPING, BOILING, PUMP = "piping, Houlsby & Byrne", "water boils", "pump"
 
@@ -36,7 +37,7 @@ class Rate(NamedTuple):
     @property
     def words(self) -> str:
         """The rate in words."""
-        mark = " (ASSUMED; --rate sets another)" if self.assumed else ""
+        mark = " (ASSUMED)" if self.assumed else ""
         return f"{self.meters_per_hour:g} m/h{mark}"
 
 
@@ -117,20 +118,38 @@ def pump_limit(run: Results) -> float | None:
         return None
 
 
-def limits_of(run: Results, found: Installation, boiling: np.ndarray) -> None:
-    """Add the limits of the suction."""
-    share = found.gradient
-    pulled = (found.required > 0) & (share > 0.01)
-    own = np.full(len(share), np.nan)
-    own[pulled] = found.required[pulled] / share[pulled]
-    found.limits[COMPUTED] = own
-    answers = suction_methods.answers_of(theory.site_of(run), found.depth)
+def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
+    """Return the suction (kPa) at which the exit gradient of the run becomes critical,
+    at depths [n], nan before there is suction. The flow is linear in the suction."""
+    history = run.history
+    rows = curves.way_down(history["penetration_m"])
+    depth, suction = history["penetration_m"][rows], history["suction_Pa"][rows]
+    share = gradient_share(history)[rows]
+    pulled = (suction > 0) & (share > LEAST_SHARE)
+    if not pulled.any():
+        return np.full(len(at), np.nan)
+    found = suction[pulled] / share[pulled] / 1e3
+    means = curves.smoothed_at(depth[pulled], found, at)
+    return np.where(at >= depth[pulled][0], means, np.nan)
+
+
+def gradient_share(history: Table) -> np.ndarray:
+    """Return the larger exit gradient over the critical one, [n_rows]."""
+    larger = np.maximum(history["exit_gradient_wall"], history["exit_gradient_axis"])
+    return np.maximum(larger, 0) / history["critical_gradient"]
+
+
+def limits_of(run: Results, at: np.ndarray, boiling: np.ndarray) -> dict[str, Any]:
+    """Return the limits of the suction (kPa) at depths [n]."""
+    limits = {COMPUTED: critical_by_gradient(run, at)}
+    answers = suction_methods.answers_of(theory.site_of(run), at)
     if answers.suctions:
-        found.limits[PIPING] = answers.suctions[suction_methods.PIPING] / 1e3
-    found.limits[BOILING] = boiling
-    limit = pump_limit(run)
-    if limit is not None:
-        found.limits[PUMP] = np.full(len(share), limit)
+        limits[PIPING] = answers.suctions[suction_methods.PIPING] / 1e3
+    limits[BOILING] = boiling
+    pump = pump_limit(run)
+    if pump is not None:
+        limits[PUMP] = np.full(len(at), pump)
+    return limits
 
 
 def installation_of(run: Results, rate: Rate) -> Installation | None:
@@ -139,42 +158,68 @@ def installation_of(run: Results, rate: Rate) -> Installation | None:
     if penetration(history) is None or not design.goes_down(history):
         return None
     rows = curves.way_down(history["penetration_m"])
-    known = history["penetration_m"][rows]
-    at = depths_of(known)
     if len(rows) < 3 or not set(design.FORCES) <= set(history):
         return None
-
-    def mean(values: np.ndarray) -> np.ndarray:
-        return curves.smoothed_at(known, values[rows], at)
-
+    at = depths_of(history["penetration_m"][rows])
     forces = {k: v / 1e3 for k, v in design.forces_at(history, at).items()}
     found = Installation(at, forces)
     total = forces["total_force_N"] * 1e3
     bars = bounds_at(run, "total_force", "N", at, total)
     if bars:
         found.force_bounds = bars[0] / 1e3, bars[1] / 1e3
-    if design.SUCTION not in history:
-        return found
+    if design.SUCTION in history:
+        add_suction(found, run, rate)
+    return found
+
+
+def add_suction(found: Installation, run: Results, rate: Rate) -> None:
+    """Add the columns of a run with suction."""
+    history, scene, at = run.history, run.scene, found.depth
+    rows = curves.way_down(history["penetration_m"])
+
+    def mean(values: np.ndarray) -> np.ndarray:
+        return curves.smoothed_at(history["penetration_m"][rows], values[rows], at)
+
     raw = mean(history[design.SUCTION])
     found.required = np.maximum(raw, 0) / 1e3
     bars = bounds_at(run, "required_suction", "Pa", at, raw)
     if bars:
-        found.required_bounds = tuple(np.maximum(bar, 0) / 1e3 for bar in bars)
-    gradient = np.maximum(history["exit_gradient_wall"], history["exit_gradient_axis"])
-    found.gradient = mean(np.maximum(gradient, 0) / history["critical_gradient"])
+        low, high = (np.maximum(bar, 0) / 1e3 for bar in bars)
+        found.required_bounds = low, high
+    found.gradient = mean(gradient_share(history))
     found.heave = mean(history["plug_heave_m"])
-    if length := run.scene.get("skirt_length_m"):
+    if length := scene.get("skirt_length_m"):
         found.room = float(length) - at - found.heave
     boiling = history.get("cavitation_suction_Pa")
     boils = np.full(len(at), np.nan) if boiling is None else mean(boiling) / 1e3
-    limits_of(run, found, boils)
+    found.limits = limits_of(run, at, boils)
     found.rest = rest_of_run(history)
-    if run.scene.get("diameter_m") and "seepage_flow_m3_s" in history:
+    if scene.get("diameter_m") and "seepage_flow_m3_s" in history:
         found.seepage = HOUR * np.maximum(mean(history["seepage_flow_m3_s"]), 0)
         rise = np.gradient(found.heave, at) if len(at) > 1 else np.zeros(len(at))
         speed = rate.meters_per_hour * (1 + rise)
-        found.flow = plug_area(run.scene) * speed + found.seepage
-    return found
+        found.flow = plug_area(scene) * speed + found.seepage
+
+
+def deepest_bar(bounds: tuple[np.ndarray, np.ndarray] | None) -> int | None:
+    """Return the number of the deepest row with an error bar, None without any."""
+    if bounds is None:
+        return None
+    known = np.flatnonzero(np.isfinite(bounds[0]) & np.isfinite(bounds[1]))
+    return int(known[-1]) if len(known) else None
+
+
+def bar_in_words(
+    found: Installation, bounds: tuple[np.ndarray, np.ndarray] | None, unit: str
+) -> str:
+    """Return where the end is, and the deepest error bar that is known."""
+    place, i = f"at {found.depth[-1]:.2f} m", deepest_bar(bounds)
+    if bounds is None or i is None:
+        return f"{place}; error bar not known for this scene"
+    words = f"error bar {text_of(bounds[0][i])} to {text_of(bounds[1][i])} {unit}"
+    if i < len(found.depth) - 1:
+        words += f" at {found.depth[i]:g} m"
+    return f"{place}; {words}"
 
 
 def in_range(value: float, bounds: tuple[np.ndarray, np.ndarray] | None, i: int) -> str:
@@ -185,42 +230,53 @@ def in_range(value: float, bounds: tuple[np.ndarray, np.ndarray] | None, i: int)
     return f"{text_of(value)} ({low} to {high})"
 
 
-def table_of(found: Installation) -> dict[str, Any]:
-    """Return the table of the installation: heads and rows of text."""
+def rows_of(columns: dict[str, list[str]]) -> dict[str, Any]:
+    """Return heads and rows of columns that are not empty."""
+    known = {head: texts for head, texts in columns.items() if texts}
+    return {"heads": list(known), "rows": [list(row) for row in zip(*known.values())]}
+
+
+def texts_of(values: np.ndarray) -> list[str]:
+    """Return numbers as text."""
+    return [text_of(float(value)) for value in values]
+
+
+def tables_of(found: Installation) -> list[dict[str, Any]]:
+    """Return the tables of the installation, each with heads and rows of text: what it
+    takes and, with suction, what is allowed."""
     n = range(len(found.depth))
-    heads = ["depth (m)", "resistance (kN)"]
+    depth = [f"{depth:.2f}".rstrip("0").rstrip(".") for depth in found.depth]
     total = found.forces["total_force_N"]
-    columns = [
-        [f"{depth:.2f}".rstrip("0").rstrip(".") for depth in found.depth],
-        [in_range(total[i], found.force_bounds, i) for i in n],
-    ]
-
-    def add(head: str, values: np.ndarray) -> None:
-        if len(values):
-            heads.append(head)
-            columns.append([text_of(float(value)) for value in values])
-
+    takes = {
+        "depth (m)": depth,
+        "resistance (kN)": [in_range(total[i], found.force_bounds, i) for i in n],
+    }
     for name in design.FORCES[:3]:
         words = name.removesuffix("_N").removesuffix("_force").replace("_", " ")
-        add(f"{words} (kN)", found.forces[name])
-    if found.has_suction:
-        heads += ["required suction (kPa)", "allowable (kPa)", "governed by"]
-        allowable = found.allowable
-        columns += [
-            [in_range(found.required[i], found.required_bounds, i) for i in n],
-            [text_of(float(value)) for value in allowable],
-            [found.governing(i) for i in n],
-        ]
-        add("required / allowable", found.required / allowable)
-        add("exit gradient / critical", found.gradient)
-        add("margin to piping (%)", 100 * (1 - found.gradient))
-        add("plug heave (m)", found.heave)
-        add("room below the lid (m)", found.room)
-        add("pump flow (m³/h)", found.flow)
-        if len(found.flow):
-            power = found.flow / HOUR * found.required
-            add("power of the water (kW)", power)
-    return {"heads": heads, "rows": [list(row) for row in zip(*columns)]}
+        takes[f"{words} (kN)"] = texts_of(found.forces[name])
+    if not found.has_suction:
+        return [rows_of(takes)]
+    takes["required suction (kPa)"] = [
+        in_range(found.required[i], found.required_bounds, i) for i in n
+    ]
+    takes["pump flow (m³/h)"] = texts_of(found.flow)
+    if len(found.flow):
+        takes["of which seepage (m³/h)"] = texts_of(found.seepage)
+        power = found.flow / HOUR * found.required
+        takes["power of the water (kW)"] = texts_of(power)
+    allowable = found.allowable
+    margins = {
+        "depth (m)": depth,
+        "required suction (kPa)": texts_of(found.required),
+        "allowable (kPa)": texts_of(allowable),
+        "governed by": [found.governing(i) for i in n],
+        "required / allowable": texts_of(found.required / allowable),
+        "exit gradient / critical": texts_of(found.gradient),
+        "margin to piping (%)": texts_of(100 * (1 - found.gradient)),
+        "plug heave (m)": texts_of(found.heave),
+        "room below the lid (m)": texts_of(found.room),
+    }
+    return [rows_of(takes), rows_of(margins)]
 
 
 def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
@@ -231,18 +287,27 @@ def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, .
     cards: list[tuple[str, ...]] = []
     if not found.has_suction:
         cards.append(
-            ("Force at the end", f"{total[end]:.0f} kN", bar_in_words(total, found, end))
+            (
+                "Force at the end",
+                f"{total[end]:.0f} kN",
+                bar_in_words(found, found.force_bounds, "kN"),
+            )
         )
         most = int(np.argmax(total))
         if most != end:
             remark = f"at {found.depth[most]:.2f} m"
             cards.append(("Largest force", f"{total[most]:.0f} kN", remark))
+        tip, inner, outer = (
+            f"{found.forces[k][end]:.0f} kN" for k in design.FORCES[:3]
+        )
+        remark = f"friction inside {inner}, outside {outer}"
+        cards.append(("Of which tip", tip, remark))
         return [*cards, ("Penetration reached", f"{depth:.2f} m", "")]
     cards.append(
         (
             "Required suction",
             f"{found.required[end]:.1f} kPa",
-            suction_in_words(found, end),
+            bar_in_words(found, found.required_bounds, "kPa"),
         )
     )
     most = int(np.argmax(found.required))
@@ -255,22 +320,6 @@ def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, .
         remark = f"under {weight:.4g} kN in water" if weight else ""
         cards.append(("Self-weight penetration", f"{found.rest:.2f} m", remark))
     return cards + margin_cards(found) + pump_cards(found, rate, at_end)
-
-
-def suction_in_words(found: Installation, i: int) -> str:
-    """Return where, and how large the error bar of the required suction is."""
-    place, bounds = f"at {found.depth[i]:.2f} m", found.required_bounds
-    if bounds is None or not np.isfinite([bounds[0][i], bounds[1][i]]).all():
-        return f"{place}; error bar not known for this scene"
-    return f"{place}; error bar {bounds[0][i]:.1f} to {bounds[1][i]:.1f} kPa"
-
-
-def bar_in_words(total: np.ndarray, found: Installation, i: int) -> str:
-    """Return where, and how large the error bar of the force is."""
-    place, bounds = f"at {found.depth[i]:.2f} m", found.force_bounds
-    if bounds is None or not np.isfinite([bounds[0][i], bounds[1][i]]).all():
-        return f"{place}; error bar not known for this scene"
-    return f"{place}; error bar {bounds[0][i]:.0f} to {bounds[1][i]:.0f} kN"
 
 
 def margin_cards(found: Installation) -> list[tuple[str, ...]]:
@@ -298,9 +347,7 @@ def margin_cards(found: Installation) -> list[tuple[str, ...]]:
     return cards
 
 
-def pump_cards(
-    found: Installation, rate: Rate, at_end: str
-) -> list[tuple[str, ...]]:
+def pump_cards(found: Installation, rate: Rate, at_end: str) -> list[tuple[str, ...]]:
     """Return the cards of plug, pump and boiling."""
     cards: list[tuple[str, ...]] = []
     if len(found.flow):
@@ -309,8 +356,9 @@ def pump_cards(
             (
                 "Pump",
                 f"{found.flow[most]:.3g} m³/h",
-                f"at {rate.words}, of which seepage {found.seepage[most]:.2g} m³/h;"
-                f" against {found.required.max():.1f} kPa",
+                f"at a penetration of {rate.words}, of which seepage"
+                f" {found.seepage[most]:.2g} m³/h; against"
+                f" {found.required.max():.1f} kPa",
             )
         )
     boiling = found.limits[BOILING][-1]
@@ -320,7 +368,5 @@ def pump_cards(
         cards.append(("Water boils at", f"{boiling:.0f} kPa", f"{at_end}; {words}"))
     if len(found.room):
         value, remark = f"{found.room[-1]:.2f} m", f"{at_end}; heave of the plug"
-        cards.append(
-            ("Room below the lid", value, f"{remark} {found.heave[-1]:.2f} m")
-        )
+        cards.append(("Room below the lid", value, f"{remark} {found.heave[-1]:.2f} m"))
     return cards

@@ -68,7 +68,11 @@ def forces_beside(
             for bound in answer.method.bound:
                 force = answer.forces[bound]["total"] / 1e3
                 columns[f"computed / {bound}"] = ratios(computed, force, force)
-    title = "Force of jacking, without suction (kN)" if computed is None else "Total force (kN)"
+    title = (
+        "Force of jacking, without suction (kN)"
+        if computed is None
+        else "Total force (kN)"
+    )
     return table(title, columns)
 
 
@@ -104,7 +108,10 @@ def resistance_beside(
             critical = [installation.critical_suction(caisson, float(h)) for h in at]
             left = 1 - suction / np.array(critical)
             by_method[answer.name] = [
-                [relieved(by_case(answer, case, i), float(x)) for i, x in enumerate(left)]
+                [
+                    relieved(by_case(answer, case, i), float(x))
+                    for i, x in enumerate(left)
+                ]
                 for case in answer.method.cases
             ]
     for name, cases in by_method.items():

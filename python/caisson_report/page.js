@@ -3,8 +3,6 @@
   "use strict";
   const data = JSON.parse(document.getElementById("data").textContent);
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
-  let printing = false;
-
   const color = (name) =>
     getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -146,7 +144,7 @@
   }
 
   // The canvas has curves and grid; the texts of the axes are SVG above it.
-  function picture(section, name) {
+  function picture(section, use) {
     const sources = [...section.querySelectorAll(".plot canvas.flot-base, .plot svg")];
     const target = document.createElement("canvas");
     $.plot.composeImages(sources, target).then(() => {
@@ -157,7 +155,7 @@
       context.fillStyle = color("--paper");
       context.fillRect(0, 0, page.width, page.height);
       context.drawImage(target, 0, 0);
-      save(name, "png", page.toDataURL("image/png"));
+      use(page.toDataURL("image/png"));
     });
   }
 
@@ -170,6 +168,10 @@
 
     this.draw = function () {
       $.plot(place, visible().map(series), options(figure, limits(visible())));
+      // a canvas is empty on paper
+      const paper = section.querySelector(".paper");
+      paper.classList.toggle("dark", dark.matches);
+      picture(section, (url) => (paper.src = url));
     };
 
     function listCurves() {
@@ -202,7 +204,8 @@
       const wanted = event.target.dataset.do;
       if (wanted === "reset") self.draw();
       if (wanted === "csv") save(data.name + "_history.csv", "text/csv", data.csv);
-      if (wanted === "png") picture(section, `${data.name}_${figure.id}.png`);
+      if (wanted === "png")
+        picture(section, (url) => save(`${data.name}_${figure.id}.png`, "png", url));
     };
     this.renew = function () {
       listCurves();
@@ -215,16 +218,8 @@
   const renew = () => figures.forEach((figure) => figure.renew());
   let width = window.innerWidth;
   window.addEventListener("resize", () => {
-    if (window.innerWidth !== width && !printing) renew();
+    if (window.innerWidth !== width) renew();
     width = window.innerWidth;
   });
   dark.addEventListener("change", renew);
-  window.addEventListener("beforeprint", () => {
-    printing = true;
-    renew();
-  });
-  window.addEventListener("afterprint", () => {
-    printing = false;
-    renew();
-  });
 })();

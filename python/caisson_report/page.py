@@ -149,7 +149,6 @@ def html(run: Results, rate: Rate) -> str:
         "name": run.directory.resolve().name,
     }
     summary = run.summary if run.scene or not run.is_running else {}
-    nothing: dict[str, Any] = {"heads": [], "rows": []}
     return environment.get_template("page.html").render(
         title=summary.get("title") or run.directory.resolve().name,
         job=job_of(run, summary),
@@ -159,7 +158,7 @@ def html(run: Results, rate: Rate) -> str:
         cards=[] if found is None else installation.cards_of(run, found, rate),
         computed=what_was_computed(run, found),
         rate=rate.words,
-        table=nothing if found is None else installation.table_of(found),
+        tables=[] if found is None else installation.tables_of(found),
         has_suction=found is not None and found.has_suction,
         error=content.error_remark(run),
         figures=data["figures"],

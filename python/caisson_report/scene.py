@@ -117,8 +117,8 @@ def caisson_of(run: Results) -> list[Item]:
         Item("Area of the tip", f"{tip:.3g} m²"),
     ]
     if shape := entry_of(run, f"{BODY}/Tip"):
-        angle = entry_of(run, f"{BODY}/Tip angle")
-        words = f"{shape}, {angle} °" if shape == "triangular" else shape
+        slope = entry_of(run, f"{BODY}/Tip angle")
+        words = f"{shape}, {slope} °" if shape == "triangular" else shape
         found.append(Item("Shape of the tip", words))
     for side in ("outer", "inner"):
         angle = scene.get(f"{side}_wall_friction_angle_deg")

@@ -5,8 +5,8 @@ from typing import Any
 
 from caisson.results import Results
 
-WIDTH, MARGIN = 560.0, 96.0  # of the drawing, and of each side (pixels)
-TALL, LEAST_BAND = 380.0, 13.0  # largest height, lowest layer with a text (pixels)
+WIDTH, MARGIN = 560.0, 52.0  # of the drawing, and of each side (pixels)
+TALL, LEAST_BAND = 420.0, 15.0  # largest height, lowest layer with a text (pixels)
 LEAST_WALL = 1.6  # pixels
 
 
@@ -131,8 +131,12 @@ def of_run(run: Results, depth: float, rest: float | None) -> str:
     drawing.line("axis", axis, drawing.y(lid), axis, drawing.y(bottom))
     if rest is not None and 0 < rest < depth:
         drawing.line(
-            "rest", drawing.x(-radius), drawing.y(rest), drawing.x(radius), drawing.y(rest)
+            "rest",
+            drawing.x(-radius),
+            drawing.y(rest),
+            drawing.x(radius),
+            drawing.y(rest),
         )
-        place = drawing.x(-radius / 2), drawing.y(rest) - 4
-        drawing.text(*place, f"tip at rest by weight: {rest:.2f} m")
+        words = f"rests by weight at {rest:.2f} m"
+        drawing.text(drawing.x(0), drawing.y(rest) - 4, words, "middle")
     return drawing.svg("section through caisson and ground, to scale")
