@@ -2,7 +2,7 @@
 """What was computed: the caisson and the layers of the soil with all their numbers,
 those that equal a default included, and which of them the scene marks ASSUMED."""
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from caisson.results import Results
@@ -14,32 +14,34 @@ SCALES = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
 SCALED = ("Pa", "N", "N/m3")  # units that are written with a prefix
 # number of a layer in run.json: its name, its unit, and the entry that sets it
 OF_LAYER = {
-    "submerged_unit_weight_N_m3": ("submerged unit weight", "N/m3", ""),
+    "submerged_unit_weight_N_m3": ("Submerged unit weight", "N/m3", ""),
     "K0": ("K0", "", "K0"),
-    "porosity": ("porosity", "", "Porosity"),
-    "solid_density_kg_m3": ("solid density", "kg/m3", "Solid density"),
-    "relative_density": ("relative density", "", "Relative density"),
-    "permeability_m_s": ("permeability", "m/s", "Permeability"),
+    "porosity": ("Porosity", "", "Porosity"),
+    "solid_density_kg_m3": ("Solid density", "kg/m3", "Solid density"),
+    "relative_density": ("Relative density", "", "Relative density"),
+    "permeability_m_s": ("Permeability", "m/s", "Permeability"),
     "permeability_ratio": (
-        "horizontal over vertical permeability",
+        "Horizontal over vertical permeability",
         "",
         "Permeability ratio",
     ),
     "wall_friction_angle_deg": (
-        "friction angle of the walls",
+        "Friction angle of the walls",
         "degrees",
         "Friction angle of the walls",
     ),
     "wall_adhesion_Pa": (
-        "adhesion of the walls",
+        "Adhesion of the walls",
         "Pa",
         "Adhesion factor of the walls",
     ),
 }
+FIRST = ("submerged_unit_weight_N_m3", "K0", "relative_density")
+FEW = 5  # layers that have a column each
 # older files have no list of the numbers of a law
 OF_LAW = {
-    "friction_angle_deg": ("friction angle", "degrees"),
-    "cohesion_Pa": ("cohesion", "Pa"),
+    "friction_angle_deg": ("Friction angle", "degrees"),
+    "cohesion_Pa": ("Cohesion", "Pa"),
     "youngs_modulus_Pa": ("Youngs modulus", "Pa"),
 }
 
@@ -175,39 +177,46 @@ def columns_of(run: Results) -> list[Column]:
 def numbers_of(
     layer: Mapping[str, Any],
 ) -> dict[tuple[str, str], tuple[float | None, str]]:
-    """Return value and entry of each number of a layer by its name and unit."""
+    """Return value and entry of each number of a layer by its name and unit; unit
+    weight, stress and strength before the others."""
     found: dict[tuple[str, str], tuple[float | None, str]] = {}
-    for key, (name, unit, entry) in OF_LAYER.items():
-        if key in layer:
-            value = layer[key]
+
+    def add(keys: Iterable[str]) -> None:
+        for key in (key for key in keys if key in layer):
+            (name, unit, entry), value = OF_LAYER[key], layer[key]
             found[name, unit] = (None if value is None else float(value), entry)
+
+    add(FIRST)
     if "law_entries" not in layer:
         for key, (name, unit) in OF_LAW.items():
             if layer.get(key) is not None:
                 found[name, unit] = (float(layer[key]), "")
     for item in layer.get("law_entries", []):
-        name = item["entry"]
-        found[name[0].lower() + name[1:], item["unit"]] = (item["value"], name)
+        found[item["entry"], item["unit"]] = (item["value"], item["entry"])
+    add(key for key in OF_LAYER if key not in FIRST)
     return found
 
 
 def layers_table(run: Results) -> dict[str, Any]:
-    """Return the table of the layers: heads, and rows of (text, assumed)."""
+    """Return the table of the layers: heads, and rows of (text, assumed). A few layers
+    have a column each, many a row each."""
     layers = run.scene.get("layers", [])
-    heads = ["layer", "from (m)", "law"]
-    rows: list[list[tuple[str, bool]]] = [
-        [
-            (str(layer.get("layer", i + 1)), False),
-            (f"{float(layer.get('top_depth_m') or 0):g}", False),
-            (str(layer.get("law", "")), False),
-        ]
-        for i, layer in enumerate(layers)
-    ]
+    columns: dict[str, list[tuple[str, bool]]] = {
+        "layer": [(str(e.get("layer", i)), False) for i, e in enumerate(layers, 1)],
+        "from (m)": [(f"{float(e.get('top_depth_m') or 0):g}", False) for e in layers],
+        "law": [(str(e.get("law", "")), False) for e in layers],
+    }
     for column in columns_of(run):
         known = [value for value in column.values if value is not None]
         factor, unit = scale_of(known, column.unit)
-        heads.append(f"{column.name} ({unit})" if unit else column.name)
-        for row, value, assumed in zip(rows, column.values, column.assumed):
-            text = "" if value is None else text_of(value / factor)
-            row.append((text, assumed and value is not None))
-    return {"heads": heads, "rows": rows}
+        head = f"{column.name} ({unit})" if unit else column.name
+        columns[head] = [
+            ("" if value is None else text_of(value / factor), assumed)
+            for value, assumed in zip(column.values, column.assumed)
+        ]
+    rows = [list(row) for row in zip(*columns.values())]
+    if not 0 < len(layers) <= FEW:
+        return {"heads": list(columns), "rows": rows, "turned": False}
+    turned = [[(head, False), *cells] for head, cells in columns.items()]
+    heads = [text for text, _ in turned[0]]
+    return {"heads": heads, "rows": turned[1:], "turned": True}

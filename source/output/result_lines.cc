@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/output/result_lines.h>
+#include <caisson_mpm/output/run_results.h>
 
 #include <algorithm>
 #include <array>
@@ -140,7 +141,7 @@ namespace CaissonMPM
         return "";
       return "; suction " +
              to_text(1e-3 * place.value(curves.suction), 3) +
-             " kPa, margin to piping " + percent(place.value(curves.margin), 2);
+             " kPa, margin to piping " + percent(place.value(curves.margin), 3);
     }
 
     /** Multiples of the spacing, and on the way down the end. */
@@ -204,6 +205,8 @@ namespace CaissonMPM
       lines.emplace_back("largest force", where(largest));
     if (*least < 0.)
       lines.emplace_back("largest tension", where(least));
+    if (const auto depth = self_weight_penetration(records))
+      lines.emplace_back("rests by weight", "at " + to_text(*depth, 4) + " m");
     for (const bool down : {true, false})
       for (const auto &line : lines_at_depths(curves, error_bar, down))
         lines.push_back(line);

@@ -231,20 +231,22 @@ namespace CaissonMPM
         }
       return result;
     }
-
-    /** From where on there is suction until the end. */
-    std::optional<double>
-    rest(const Records &records)
-    {
-      const auto suction = records.series("suction_Pa").value,
-                 depth   = records.series("penetration_m").value;
-      for (std::size_t i = suction.size() - 1; i > 0; --i)
-        if (suction[i] <= 0.)
-          return i + 1 < suction.size() ? std::optional<double>(depth[i]) :
-                                          std::nullopt;
-      return {};
-    }
   } // namespace
+
+  std::optional<double>
+  self_weight_penetration(const Records &records)
+  {
+    const auto names = records.names();
+    if (std::find(names.begin(), names.end(), "suction_Pa") == names.end())
+      return {};
+    const auto suction = records.series("suction_Pa").value,
+               depth   = records.series("penetration_m").value;
+    for (std::size_t i = suction.size() - 1; i > 0; --i)
+      if (suction[i] <= 0.)
+        return i + 1 < suction.size() ? std::optional<double>(depth[i]) :
+                                        std::nullopt;
+    return {};
+  }
 
   Json::Members
   run_results(const Records      &records,
@@ -265,7 +267,7 @@ namespace CaissonMPM
       {"largest_force", largest(way, "total_force_N", total)}};
     if (way.has("required_suction_Pa"))
       {
-        if (const auto depth = rest(records))
+        if (const auto depth = self_weight_penetration(records))
           result.emplace_back("rest_penetration_m", Json::number(*depth));
         result.emplace_back("largest_suction",
                             largest(way,

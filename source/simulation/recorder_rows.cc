@@ -173,8 +173,9 @@ namespace CaissonMPM
       {
         has_reported_suction = true;
         console->header({{"suction",
-                          "begins: under its own weight the caisson rests at " +
-                            to_text(last_depth_and_suction->first, 4) + " m"}});
+                          "begins at a penetration of " +
+                            to_text(last_depth_and_suction->first, 4) +
+                            " m, where the weight no longer suffices"}});
       }
     last_depth_and_suction = {row.penetration, *suction};
   }

@@ -20,6 +20,11 @@ namespace CaissonMPM
     std::optional<double> pump;         // largest suction, Pa
   };
 
+  /** Return the penetration by weight alone, from which on there is suction
+   * until the end; nothing without suction. Units: m. */
+  std::optional<double>
+  self_weight_penetration(const Records &records);
+
   /**
    * Return the results of the way down: the largest force, the forces at each
    * half meter and at the end, with their error bars where they are known, and
