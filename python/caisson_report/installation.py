@@ -16,10 +16,10 @@ import numpy as np
 from caisson import curves
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import penetration
-from caisson.plot.suction import rest_of_run
+from caisson.plot.suction import pump_limit, rest_of_run
 from caisson.results import Results, Table
 from caisson_design.reasons import text_of
-from caisson_report.scene import entry_of, plug_area
+from caisson_report.scene import plug_area
 
 INTERVAL = 0.5  # m, between the depths of the table
 HOUR = 3600.0
@@ -106,16 +106,6 @@ def bounds_at(
         changed = values + np.interp(at, depth, change)
         found.append(np.where(inside, changed, np.nan))
     return found[0], found[1]
-
-
-def pump_limit(run: Results) -> float | None:
-    """Return Water/Largest suction in kPa, None without one."""
-    if run.is_running and not run.scene:
-        return None
-    try:
-        return float(entry_of(run, "Water/Largest suction")) / 1e3
-    except ValueError:
-        return None
 
 
 def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:

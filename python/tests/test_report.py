@@ -8,14 +8,17 @@ import io
 import re
 import subprocess
 import tempfile
+import time
 import unittest
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import numpy as np
 from synthetic import write_columns, write_run
 
 import caisson_report as report
+from caisson import launch
 from caisson.results import Results, ResultsError
 from caisson_design import reasons
 from caisson_design.seepage import senders_randolph
@@ -508,6 +511,15 @@ class Report(unittest.TestCase):
             fcntl.flock(lock, fcntl.LOCK_EX)
             self.assertIn('http-equiv="refresh"', self.page(SUMMARY))
         self.assertNotIn('http-equiv="refresh"', self.page(SUMMARY))
+
+    def test_report_of_a_run_in_progress_is_renewed(self) -> None:
+        """`caisson run` writes it while the program runs."""
+        leave_run(self.path, {**SUMMARY, "status": "running"})
+        page, end = self.path / report.NAME, time.monotonic() + 120
+        with mock.patch.object(launch, "RENEWAL", 0.1), launch.reporting(self.path):
+            while not page.is_file() and time.monotonic() < end:
+                time.sleep(0.1)
+        self.assertIn("sand &lt;b&gt;", page.read_text(encoding="utf-8"))
 
     def test_no_run(self) -> None:
         with self.assertRaisesRegex(ResultsError, "no history.csv"):
