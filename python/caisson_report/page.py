@@ -136,6 +136,25 @@ def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any
     }
 
 
+def method_card(found: dict[str, Any]) -> list[tuple[str, ...]]:
+    """Return a card with computed over method at the end, of the first table of the
+    design methods; nothing where none has an answer there."""
+    mark = "computed / "
+    for table in found["tables"][:1]:
+        cells = dict(zip(table["heads"], table["rows"][-1]))
+        ratios = [
+            (head.removeprefix(mark), cell)
+            for head, cell in cells.items()
+            if head.startswith(mark) and cell
+        ]
+        if ratios:
+            (name, value), *others = ratios
+            words = f"of {name}, at {cells['depth (m)']} m"
+            more = "; other methods below" if others else ""
+            return [("Computed / method", value, words + more)]
+    return []
+
+
 def html(run: Results, rate: Rate) -> str:
     """Return the page. Raises ResultsError or OSError."""
     loader = jinja2.FileSystemLoader(HERE)
@@ -143,6 +162,8 @@ def html(run: Results, rate: Rate) -> str:
         loader=loader, autoescape=True, undefined=jinja2.StrictUndefined
     )
     found = installation.installation_of(run, rate)
+    beside = methods.methods_of(run)
+    cards = [] if found is None else installation.cards_of(run, found, rate)
     data: dict[str, Any] = {
         "figures": content.figures_of(run, found),
         "csv": content.csv_of(run.history),
@@ -155,7 +176,7 @@ def html(run: Results, rate: Rate) -> str:
         status=status_of(run),
         progress=progress_of(run)[0] if run.is_running else 0,
         refresh=REFRESH if run.is_running else 0,
-        cards=[] if found is None else installation.cards_of(run, found, rate),
+        cards=cards + method_card(beside) if cards else [],
         computed=what_was_computed(run, found),
         rate=rate.words,
         tables=[] if found is None else installation.tables_of(found),
@@ -163,7 +184,7 @@ def html(run: Results, rate: Rate) -> str:
         error=content.error_remark(run),
         figures=data["figures"],
         units=content.unit_table(run),
-        methods=methods.methods_of(run),
+        methods=beside,
         pictures=pictures_of(run),
         remarks=content.remarks_on_numbers(run),
         warnings=warnings_of(summary),

@@ -23,6 +23,7 @@ from caisson.results import Results, ResultsError
 from caisson_design import reasons
 from caisson_design.seepage import senders_randolph
 from caisson_report import content, installation, methods
+from caisson_report import page as page_module
 
 BROWSER = report.find_browser()
 SCENE: dict[str, Any] = {
@@ -209,6 +210,21 @@ class Report(unittest.TestCase):
         with contextlib.redirect_stderr(io.StringIO()) as said:
             self.assertEqual(self.command("--rate", "0", "."), 1)
         self.assertIn("--rate 0: give m/h above 0", said.getvalue())
+
+    def test_card_of_the_methods(self) -> None:
+        """The first ratio that there is at the end."""
+        heads = [
+            "depth (m)",
+            "computed",
+            "computed / A",
+            "computed / B",
+            "computed / C",
+        ]
+        rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "", "0.5 to 2", "3"]]
+        found: dict[str, Any] = {"tables": [{"heads": heads, "rows": rows}]}
+        card = ("Computed / method", "0.5 to 2", "of B, at 4.5 m; other methods below")
+        self.assertEqual(page_module.method_card(found), [card])
+        self.assertEqual(page_module.method_card({"tables": []}), [])
 
     def test_what_was_computed(self) -> None:
         """Diameter and soil are there although no entry differs from its default, and
