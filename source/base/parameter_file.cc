@@ -253,9 +253,9 @@ namespace CaissonMPM
     void
     Reader::read_set(const std::string &assignment, const Line &at_line)
     {
-      const unsigned int line = at_line.number;
-      const std::size_t equal_sign = assignment.find('=');
-      const std::string name       = condense(assignment.substr(0, equal_sign));
+      const unsigned int line       = at_line.number;
+      const std::size_t  equal_sign = assignment.find('=');
+      const std::string  name = condense(assignment.substr(0, equal_sign));
       if (equal_sign == std::string::npos || name.empty())
         throw BadInput(at(line) + ": " + quote("set " + assignment) +
                        " cannot be read.\n  Write \"set Name = value\".");

@@ -263,8 +263,8 @@ namespace CaissonMPM
           c.error == std::abs(c.computed - c.exact))
         return "";
       const auto found = references.find(check.mode);
-      return " of " + (found == references.end() ? "the exact value" :
-                                                   found->second);
+      return " of " +
+             (found == references.end() ? "the exact value" : found->second);
     }
 
     std::string
@@ -285,9 +285,9 @@ namespace CaissonMPM
             const bool        pass,
             const bool        values)
     {
-      std::string line =
-        check.head + demand_of(check) +
-        (values ? reference_of(check, c) : "") + ": " + (pass ? "yes" : "no");
+      std::string line = check.head + demand_of(check) +
+                         (values ? reference_of(check, c) : "") + ": " +
+                         (pass ? "yes" : "no");
       if (values)
         line += " (computed " + to_text(c.computed, 8) + ", exact " +
                 to_text(c.exact, 8) + ", error " + to_text(c.error, 3) + ")";

@@ -19,11 +19,11 @@ namespace CaissonMPM
     const std::vector<HistoryColumn> &
     history_columns()
     {
-      using Row                                       = const HistoryRow &;
-      constexpr auto body                             = &SceneParts::body;
-      constexpr auto caisson                          = &SceneParts::caisson;
-      constexpr auto expanding                        = &SceneParts::expanding_body;
-      constexpr auto prescribed                       = &SceneParts::prescribed_soil;
+      using Row                 = const HistoryRow &;
+      constexpr auto body       = &SceneParts::body;
+      constexpr auto caisson    = &SceneParts::caisson;
+      constexpr auto expanding  = &SceneParts::expanding_body;
+      constexpr auto prescribed = &SceneParts::prescribed_soil;
       static const std::vector<HistoryColumn> columns = [=] {
         std::vector<HistoryColumn> all = {
           {"time_s", [](Row row) { return row.time; }},
@@ -83,8 +83,7 @@ namespace CaissonMPM
   } // namespace
 
   std::vector<std::string>
-  history_names(const SceneParts               &scene,
-                const std::vector<std::string> &counts)
+  history_names(const SceneParts &scene, const std::vector<std::string> &counts)
   {
     std::vector<std::string> names;
     for (const HistoryColumn &column : history_columns())

@@ -139,8 +139,7 @@ namespace CaissonMPM
     {
       if (curves.suction.empty())
         return "";
-      return "; suction " +
-             to_text(1e-3 * place.value(curves.suction), 3) +
+      return "; suction " + to_text(1e-3 * place.value(curves.suction), 3) +
              " kPa, margin to piping " + percent(place.value(curves.margin), 3);
     }
 

@@ -104,8 +104,7 @@ namespace CaissonMPM
              const std::function<double(double, double)> &operation)
     {
       std::vector<double> result(a.size());
-      std::transform(
-        a.begin(), a.end(), b.begin(), result.begin(), operation);
+      std::transform(a.begin(), a.end(), b.begin(), result.begin(), operation);
       return result;
     }
 
@@ -113,10 +112,10 @@ namespace CaissonMPM
     std::vector<double>
     gradient_ratio(const WayDown &way)
     {
-      const auto larger = combined(
-        way.column("exit_gradient_wall"),
-        way.column("exit_gradient_axis"),
-        [](const double a, const double b) { return std::max(a, b); });
+      const auto larger =
+        combined(way.column("exit_gradient_wall"),
+                 way.column("exit_gradient_axis"),
+                 [](const double a, const double b) { return std::max(a, b); });
       return combined(larger,
                       way.column("critical_gradient"),
                       [](const double a, const double b) {
@@ -135,8 +134,7 @@ namespace CaissonMPM
                       });
     }
 
-    using Columns =
-      std::vector<std::pair<std::string, std::vector<double>>>;
+    using Columns = std::vector<std::pair<std::string, std::vector<double>>>;
 
     Columns
     columns_of(const WayDown &way, const ResultLimits &limits)
@@ -205,29 +203,29 @@ namespace CaissonMPM
     Json::Members
     margins(const WayDown &way, const ResultLimits &limits)
     {
-      const auto    required = way.column("required_suction_Pa");
-      const auto    ratio    = [](const double a, const double b) {
+      const auto required = way.column("required_suction_Pa");
+      const auto ratio    = [](const double a, const double b) {
         return b > 0. ? std::max(a, 0.) / b : 1.;
       };
       Json::Members result = {
         {"piping", margin(way, gradient_ratio(way))},
         {"boiling",
-         margin(way,
-                combined(
-                  required, way.column("cavitation_suction_Pa"), ratio))}};
+         margin(
+           way,
+           combined(required, way.column("cavitation_suction_Pa"), ratio))}};
       if (limits.pump)
-        result.emplace_back(
-          "pump",
-          margin(way,
-                 combined(required,
-                          std::vector<double>(required.size(), *limits.pump),
-                          ratio)));
+        result.emplace_back("pump",
+                            margin(way,
+                                   combined(required,
+                                            std::vector<double>(required.size(),
+                                                                *limits.pump),
+                                            ratio)));
       if (limits.skirt_length)
         {
           const auto room = room_below_lid(way, *limits.skirt_length);
-          result.emplace_back(
-            "room_below_lid_m",
-            Json::number(*std::min_element(room.begin(), room.end())));
+          result.emplace_back("room_below_lid_m",
+                              Json::number(
+                                *std::min_element(room.begin(), room.end())));
         }
       return result;
     }
@@ -262,9 +260,9 @@ namespace CaissonMPM
       rows += (rows.empty() ? "\n      " : ",\n      ") +
               Json::flat_object(at_depth(way, columns, error_bar, depth));
     const auto    total  = way.column("total_force_N");
-    Json::Members result = {
-      {"penetration_m", Json::number(way.depth.back())},
-      {"largest_force", largest(way, "total_force_N", total)}};
+    Json::Members result = {{"penetration_m", Json::number(way.depth.back())},
+                            {"largest_force",
+                             largest(way, "total_force_N", total)}};
     if (way.has("required_suction_Pa"))
       {
         if (const auto depth = self_weight_penetration(records))
@@ -273,8 +271,7 @@ namespace CaissonMPM
                             largest(way,
                                     "required_suction_Pa",
                                     way.column("required_suction_Pa")));
-        result.emplace_back("margins",
-                            Json::object(margins(way, limits), 4));
+        result.emplace_back("margins", Json::object(margins(way, limits), 4));
       }
     result.emplace_back("at_depths", "[" + rows + "\n    ]");
     return result;

@@ -175,10 +175,10 @@ namespace CaissonMPM
   {
     locked_directory =
       std::make_unique<OutputDirectory>(directory, parts.grid.communicator());
-    records = std::make_unique<Records>(directory,
-                                             observations,
-                                             scene_parts(),
-                                             count_names());
+    records       = std::make_unique<Records>(directory,
+                                        observations,
+                                        scene_parts(),
+                                        count_names());
     visualization = std::make_unique<Visualization>(directory);
   }
 

@@ -209,7 +209,7 @@ namespace CaissonMPM
       line.gradient_ratio =
         std::max(column("exit_gradient_wall"), column("exit_gradient_axis")) /
         critical;
-    line.fraction_done  = done;
+    line.fraction_done = done;
     line.eta_seconds =
       is_first ? std::numeric_limits<double>::quiet_NaN() :
                  seconds_running() * (1. - done) / (done - fraction_at_start);

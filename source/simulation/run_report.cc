@@ -66,8 +66,7 @@ namespace CaissonMPM
       for (const DeclaredEntry &entry : declared.all())
         if (entry.alias_of.empty() && entry.value != entry.default_value)
           entries.emplace_back(entry.path, Json::text(entry.value));
-        else if (entry.alias_of.empty() &&
-                 entry.path.find("Soil/Layer ") != 0)
+        else if (entry.alias_of.empty() && entry.path.find("Soil/Layer ") != 0)
           defaults.emplace_back(entry.path, Json::text(entry.value));
       std::vector<std::string> warnings, assumed;
       for (const Warning &warning : facts.warnings)
@@ -179,11 +178,10 @@ namespace CaissonMPM
     {
       std::string items;
       for (const auto &[name, unit] : m.law_entries())
-        items +=
-          (items.empty() ? "" : ", ") +
-          Json::flat_object({{"entry", Json::text(name)},
-                             {"value", Json::number(*m.law_value(name))},
-                             {"unit", Json::text(unit)}});
+        items += (items.empty() ? "" : ", ") +
+                 Json::flat_object({{"entry", Json::text(name)},
+                                    {"value", Json::number(*m.law_value(name))},
+                                    {"unit", Json::text(unit)}});
       return "[" + items + "]";
     }
 
@@ -371,8 +369,8 @@ namespace CaissonMPM
 
   int
   write_early_summary(const std::string   &path,
-                        const RecordedParts &parts,
-                        const RunFacts      &facts)
+                      const RecordedParts &parts,
+                      const RunFacts      &facts)
   {
     Json::Members members = about_program(facts);
     if (!facts.failure.empty())

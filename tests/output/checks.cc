@@ -92,7 +92,8 @@ refuse(const std::string &entry, const std::string &text)
   try
     {
       observations.initialize(Records::names({}, {}, {}));
-      verification.check_parameters(Records::names({}, {}, observations.names()));
+      verification.check_parameters(
+        Records::names({}, {}, observations.names()));
       std::printf("accepted: %s\n", text.c_str());
     }
   catch (const BadInput &error)

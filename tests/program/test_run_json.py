@@ -114,7 +114,10 @@ class Columns(ProgramTest):
 
     def test_jacked(self) -> None:
         path = self.directory()
-        entries = {"Time/End penetration": 0.52, "Material points/Split and merge": "false"}
+        entries = {
+            "Time/End penetration": 0.52,
+            "Material points/Split and merge": "false",
+        }
         self.run_scene("jack", path, entries=entries)
         names = set(history(path)[0])
         self.assertTrue({"tip_force_N", "lid_force_N", "held_back_count"} <= names)

@@ -17,12 +17,12 @@ namespace CaissonMPM
     double time = 0.;
     /** Whether there is a body, i.e. penetration and forces; otherwise the
      * time, the kinetic energy and the largest speed are shown. */
-    bool   has_body       = false;
-    double penetration    = 0.;
-    double tip            = 0.;
-    double inner          = 0.;
-    double outer          = 0.;
-    double total          = 0.;
+    bool   has_body    = false;
+    double penetration = 0.;
+    double tip         = 0.;
+    double inner       = 0.;
+    double outer       = 0.;
+    double total       = 0.;
     /** Where there is suction: Pa, and the exit gradient over the critical one.
      */
     bool   has_suction    = false;
@@ -122,9 +122,9 @@ namespace CaissonMPM
     void
     print(const std::string &text);
 
-    const Verbosity          verbosity;
-    std::ostream            &out;
-    std::vector<Warning>     warnings_;
+    const Verbosity      verbosity;
+    std::ostream        &out;
+    std::vector<Warning> warnings_;
   };
 } // namespace CaissonMPM
 

@@ -89,9 +89,9 @@ namespace CaissonMPM
 
     /**
      * Run the scene that was set up, and print the warnings of its @p input,
-     * which run.json gets, too. Throws BadInput where the output directory cannot be
-     * used, and RunFailure; returns success, failure (a verification that
-     * fails), or stopped (on request, with a checkpoint).
+     * which run.json gets, too. Throws BadInput where the output directory
+     * cannot be used, and RunFailure; returns success, failure (a verification
+     * that fails), or stopped (on request, with a checkpoint).
      */
     ExitStatus
     run(const ParameterOrigins &input);
