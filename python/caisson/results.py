@@ -77,8 +77,10 @@ class Results:
 
     @functools.cached_property
     def error_bounds(self) -> Table:
-        """Lower and upper bounds of forces; empty where there are none."""
-        if not (self.directory / "history_error.csv").is_file():
+        """Lower and upper bounds of forces; empty where there are none, as in a run
+        that ended above the depths of its error bar."""
+        path = self.directory / "history_error.csv"
+        if not path.is_file() or len(path.read_text(encoding="utf-8").split()) < 2:
             return {}
         return self.table("history_error.csv", "penetration_m")
 

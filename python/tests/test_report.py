@@ -520,6 +520,14 @@ class Report(unittest.TestCase):
         write_columns(self.path / "history_error.csv", bounds)
         self.assertIn("-7 % to +4 % in", content.error_remark(Results(self.path)))
 
+    def test_end_above_the_depths_of_the_error_bar(self) -> None:
+        """Its file has no row, and the page says that none is known."""
+        leave_run(self.path, SUMMARY)
+        head = "penetration_m,total_force_N,total_force_low_N,total_force_high_N\n"
+        (self.path / "history_error.csv").write_text(head, encoding="utf-8")
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("error bar not known for this scene", page)
+
     def test_run_that_goes_on(self) -> None:
         """Its page reloads itself, also where an old run.json is left."""
         self.assertIn('http-equiv="refresh"', self.page())
