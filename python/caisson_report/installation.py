@@ -329,7 +329,7 @@ def margin_cards(found: Installation) -> list[tuple[str, ...]]:
         cards.append(
             (
                 "Required / allowable",
-                f"{ratio[worst]:.2f}",
+                f"{ratio[worst]:.2f}" + (", exceeded" if ratio[worst] > 1 else ""),
                 f"at {found.depth[worst]:.2f} m: {found.required[worst]:.1f} of"
                 f" {found.allowable[worst]:.1f} kPa ({found.governing(worst)})",
             )

@@ -191,6 +191,9 @@ class Report(unittest.TestCase):
         self.assertEqual(row["required / allowable"], "1.25")
         self.assertEqual(row["margin to piping (%)"], "55.6")
         self.assertEqual(row["room below the lid (m)"], "0.8")
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("1.50, exceeded", page)
+        self.assertIn("at 4.50 m: 30.0 of 20.0 kPa (pump)", page)
         limit = self.installation().limits[installation.COMPUTED]
         self.assertAlmostEqual(limit[6], 56.25, delta=0.1)
 

@@ -33,6 +33,7 @@ SMALL: Entries = {
     "Output/Frame penetrations": "0.5, 3",
     "Output/Frame interval": 100,
     "Output/Error bar": "",
+    "Output/Terminal": "full",
 }
 MARKED = """include {scene}
 subsection Soil
@@ -64,7 +65,9 @@ class Schema(ProgramTest):
         file = self.made_directory() / "mine.prm"
         marked = MARKED.format(scene=user_scene("suction"))
         file.write_text(marked, encoding="utf-8")
-        self.run_program(SUCCESS, file, "--output-directory", path, entries=SMALL)
+        said = self.run_program(
+            SUCCESS, file, "--output-directory", path, entries=SMALL
+        )
         found, rows = summary(path), history(path)
         self.assertEqual(errors_of(found), [])
         self.assertEqual(found["assumed"], ["Soil/Layer 1/Poisson ratio"])
@@ -82,6 +85,13 @@ class Schema(ProgramTest):
         self.assertAlmostEqual(at_1["tip_force_N"] / mean, 1, places=6)
         zero = [r["penetration_m"] for r in rows if r["suction_Pa"] <= 0]
         self.assertAlmostEqual(results["rest_penetration_m"], zero[-1], places=6)
+        # the terminal, too, says where suction begins, and what margin is left
+        self.assertRegex(said, r"suction +begins at a penetration of [\d.]+ m")
+        self.assertRegex(said, rf"(?m)^rests by weight +at {zero[-1]:.4g} m$")
+        self.assertRegex(said, r"\| suction +[\d.]+ kPa, gradient +\d+ % of critical")
+        self.assertRegex(
+            said, r"(?m)^at 1\.3 m .* suction [\d.]+ kPa, margin to piping"
+        )
         most = max(row["required_suction_Pa"] for row in rows)
         margins = results["margins"]
         self.assertAlmostEqual(margins["pump"]["least"], 1 - most / 200e3, places=6)
