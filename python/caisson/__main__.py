@@ -20,7 +20,7 @@ GROUPS: Groups = {
     },
     "results": {
         "plot": ("caisson.plot", "draw the pictures of runs"),
-        "report": ("caisson.report", "write an HTML page on each run"),
+        "report": ("caisson_report", "write an HTML page on each run"),
         "compare": (
             "caisson.plot.comparison",
             "draw the forces of several runs in one picture, with a table",

@@ -8,10 +8,14 @@ request. Options of caisson_mpm follow the file. A scene that is not a file here
 one of the project, see `caisson scenes`.
 """
 import argparse
+import contextlib
+import os
 import signal
 import subprocess
 import sys
+import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 from caisson import needed, ranks
@@ -26,6 +30,10 @@ from caisson.runner import (
     size_in,
 )
 from caisson.study import StudyError
+
+PACKAGES = Path(__file__).parents[1]
+RENEWAL = 30.0  # s, in which the report of a run is renewed
+SHARE = 20.0  # of that time to the time that it takes, at least
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -98,11 +106,40 @@ def options_for_error(options: argparse.Namespace, directory: Path) -> list[str]
 
 def draw(directory: Path) -> None:
     """Draw the pictures and write the report; the results do not need them."""
-    from caisson import plot, report
+    import caisson_report
+    from caisson import plot
 
     for picture in plot.draw(directory):
         print(f"plot: {picture}")
-    print(f"report: {report.write(directory)}")
+    print(f"report: {caisson_report.write(directory)}")
+
+
+@contextlib.contextmanager
+def reporting(directory: Path | None) -> Iterator[None]:
+    """Renew the report of a run from time to time as long as it runs, with at most a
+    small part of a core."""
+    ended = threading.Event()
+
+    def renew() -> None:
+        wait = RENEWAL
+        while directory is not None and not ended.wait(wait):
+            begin = time.monotonic()
+            python = ["nice", sys.executable, "-m", "caisson"]
+            subprocess.run(
+                [*python, "report", str(directory)],
+                env={**os.environ, "PYTHONPATH": str(PACKAGES)},
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
+            wait = max(RENEWAL, SHARE * (time.monotonic() - begin))
+
+    thread = threading.Thread(target=renew, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
 
 
 def wait_for(process: "subprocess.Popen[bytes]") -> int:
@@ -181,10 +218,11 @@ def main(options: argparse.Namespace) -> int:
     n_ranks = options.ranks or choose_ranks(arguments)
     begin = time.time()
     command = [*mpi_command(n_ranks), str(PROGRAM), *arguments]
-    if n_ranks == 1:
-        status = run_alone(command)
-    else:
-        status = run_on_ranks(command, stop_file)
+    with reporting(directory):
+        if n_ranks == 1:
+            status = run_alone(command)
+        else:
+            status = run_on_ranks(command, stop_file)
     if status not in list(Status):
         print(
             f"run: the program did not end in order (exit status {status}; above 128,"

@@ -53,7 +53,7 @@ class LoadedRun:
     @property
     def status(self) -> str:
         """How the run has ended, as run.json has it: "finished", for example.
-        "running" until it ends, "unfinished" where it has left no run.json."""
+        "running" until it ends, "unfinished" where it did not come to its end."""
         if is_locked(self.directory):
             return "running"
         if self.results.is_running:
@@ -83,7 +83,7 @@ class LoadedRun:
 
         Raises ResultsError where the run has not come to its end.
         """
-        if not (self.directory / "run.json").is_file():
+        if self.results.is_running:
             raise ResultsError(
                 f"the run in {self.directory} is {self.status}, so that there is no"
                 " run.json: it is written at the end of a run; history and frames are"

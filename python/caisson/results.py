@@ -66,7 +66,8 @@ class Results:
 
     @functools.cached_property
     def history(self) -> Table:
-        """Forces, energies and counts; a row is the mean since the row before."""
+        """Forces, energies and counts; a row is the mean since the row before. Columns
+        of what a scene lacks are absent."""
         return self.table("history.csv", "time_s")
 
     @functools.cached_property
@@ -84,8 +85,10 @@ class Results:
 
     @functools.cached_property
     def error_bounds(self) -> Table:
-        """Lower and upper bounds of forces; empty where there are none."""
-        if not (self.directory / "history_error.csv").is_file():
+        """Lower and upper bounds of forces; empty where there are none, as in a run
+        that ended above the depths of its error bar."""
+        path = self.directory / "history_error.csv"
+        if not path.is_file() or len(path.read_text(encoding="utf-8").split()) < 2:
             return {}
         return self.table("history_error.csv", "penetration_m")
 
@@ -106,7 +109,7 @@ class Results:
     @property
     def scene(self) -> dict[str, Any]:
         """The body and the layers of the soil, from run.json; empty where a run
-        has left none yet, as one that still runs."""
+        has left none yet."""
         if not (self.directory / "run.json").is_file():
             return {}
         return self.summary.get("scene") or {}
@@ -128,8 +131,11 @@ class Results:
 
     @property
     def is_running(self) -> bool:
-        """Whether the run has not ended yet, or has left no run.json at its end."""
-        return not (self.directory / "run.json").is_file() or is_locked(self.directory)
+        """Whether the run has not ended yet, or was killed: run.json is missing, or
+        is that of a run in progress."""
+        if not (self.directory / "run.json").is_file() or is_locked(self.directory):
+            return True
+        return self.summary.get("status") == "running"
 
     @property
     def has_frames(self) -> bool:

@@ -36,6 +36,25 @@ class Comparison(unittest.TestCase):
         }
         self.assertEqual(list(comparison.pushing_force(history)), [65, -85])
 
+    def test_panels(self) -> None:
+        """The required suction where it draws a caisson in, and the resistance; the
+        weight that pushes it is no curve."""
+        depth = np.array([0.5, 1.0, 1.5])
+        jacked = {"penetration_m": depth, "total_force_N": 1e6 * depth}
+        suction = {
+            **jacked,
+            "required_suction_Pa": np.array([-1e4, 0.0, 1e4]),
+            "suction_force_N": np.array([0.0, 0.0, 2e5]),
+            "tip_water_force_N": np.zeros(3),
+        }
+        panels = comparison.panels_of({"jacked": jacked, "drawn": suction})
+        required, forces = panels.values()
+        self.assertEqual(list(panels)[0], "required suction (kPa)")
+        self.assertEqual(list(required["drawn"]), [0, 0, 10])
+        self.assertNotIn("jacked", required)
+        self.assertEqual(list(forces["drawn"]), [500, 1000, 1500])
+        self.assertEqual(len(comparison.panels_of({"jacked": jacked})), 1)
+
 
 class Files(unittest.TestCase):
     """What the command leaves of made-up runs."""

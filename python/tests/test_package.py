@@ -16,6 +16,7 @@ import caisson
 import caisson.__main__
 import caisson_design
 import caisson_error
+import caisson_report
 import caisson_workshop.__main__
 import lab.__main__
 from caisson.paths import ROOT
@@ -58,7 +59,10 @@ MOST_COMMANDS, MOST_LINES = 10, 10_000  # of the user's package
 
 def modules() -> list[str]:
     """Return the names of all modules of the packages."""
-    packages = (caisson, caisson_design, caisson_error, lab, caisson_workshop)
+    packages = (
+        *(caisson, caisson_design, caisson_error, caisson_report),
+        *(lab, caisson_workshop),
+    )
     names = [
         m.name
         for package in packages
@@ -105,8 +109,12 @@ class Product(unittest.TestCase):
     def test_imports(self) -> None:
         """It imports nothing of them, and the design methods nothing of it either."""
         design = sorted((ROOT / "python/caisson_design").rglob("*.py"))
-        error = sorted((ROOT / "python/caisson_error").rglob("*.py"))
-        for path in self.files + design + error:
+        others = [
+            path
+            for name in ("caisson_error", "caisson_report")
+            for path in sorted((ROOT / "python" / name).rglob("*.py"))
+        ]
+        for path in self.files + design + others:
             refused = {"lab", "caisson_workshop"}
             if path in design:
                 refused.add("caisson")

@@ -8,18 +8,22 @@ import io
 import re
 import subprocess
 import tempfile
+import time
 import unittest
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import numpy as np
 from synthetic import write_columns, write_run
 
-from caisson import report
-from caisson.report import content, methods
+import caisson_report as report
+from caisson import launch
 from caisson.results import Results, ResultsError
 from caisson_design import reasons
 from caisson_design.seepage import senders_randolph
+from caisson_report import content, installation, methods
+from caisson_report import page as page_module
 
 BROWSER = report.find_browser()
 SCENE: dict[str, Any] = {
@@ -137,32 +141,146 @@ class Report(unittest.TestCase):
             self.assertTrue(text in page, text)
         self.assertNotIn('http-equiv="refresh"', page)
 
-    def test_numbers_by_depth(self) -> None:
+    def installation(self) -> installation.Installation:
+        """Return the numbers of the run."""
+        found = installation.installation_of(Results(self.path), installation.Rate())
+        assert found is not None
+        return found
+
+    def test_unit_resistances(self) -> None:
         """4 MN at 4 m are 2 MN on a tip of 1.2516 m2, and 1 MN on each side."""
         leave_run(self.path, SUMMARY)
-        table = content.table_of(Results(self.path))
-        row = dict(zip(table["heads"], table["rows"][3]))
-        self.assertEqual(len(table["rows"]), 4)
+        table = content.unit_table(Results(self.path))
+        row = dict(zip(table["heads"], table["rows"][6]))
         self.assertEqual(row["depth (m)"], "4")
-        self.assertEqual(row["total (kN)"], "4000")
-        self.assertEqual(row["unit tip (kPa)"], "1598")
-        self.assertEqual(row["unit inner friction (kPa)"], "8.02")
-        self.assertEqual(row["unit outer friction (kPa)"], "7.96")
-        self.assertEqual(row["required suction (kPa)"], "25")
+        self.assertEqual(row["tip (kPa)"], "1598")
+        self.assertEqual(row["inner friction (kPa)"], "8.02")
+        self.assertEqual(row["outer friction (kPa)"], "7.96")
 
-    def test_numbers_of_a_run_that_pulls(self) -> None:
-        """-3 MN at 3 m on the way from 4.5 to 0.5 m."""
+    def test_unit_resistances_of_a_run_that_pulls(self) -> None:
+        """-3 MN at 3 m on the way from 4.5 to 0.5 m, on the tip of 1.2516 m2."""
         depth = np.linspace(4.5, 0.5, 401)
         table = {"time_s": 4.5 - depth, "penetration_m": depth}
         for name in ("total", "tip"):
             table[f"{name}_force_N"] = -1e6 * depth
         for name in ("inner", "outer"):
             table[f"{name}_friction_N"] = np.zeros(len(depth))
+        table["kinetic_energy_J"] = table["external_work_J"] = np.ones(len(depth))
         write_run(self.path, table, SUMMARY)
-        found = content.table_of(Results(self.path))
-        rows = [dict(zip(found["heads"], row)) for row in found["rows"]]
-        self.assertEqual([row["depth (m)"] for row in rows], ["1", "2", "3", "4"])
-        self.assertEqual(rows[2]["total (kN)"], "-3000")
+        found = content.unit_table(Results(self.path))
+        rows = {row[0]: row for row in found["rows"]}
+        self.assertEqual(rows["3"][1], "-2397")
+        self.assertNotIn("installation by depth", report.write(self.path).read_text())
+
+    def test_installation_by_depth(self) -> None:
+        """Each half meter and the end; at 4 m 25 kPa are required, the exit gradient is
+        0.4 of 0.9, and so critical at 56.25 kPa; the lid of 77.28 m2 displaces 1.05
+        times its way, as the plug heaves, and nothing seeps."""
+        skirt = {**SCENE, "skirt_length_m": 5.0}
+        entries = {"Water/Largest suction": "20e3"}
+        leave_run(self.path, {**SUMMARY, "scene": skirt, "entries": entries})
+        takes, margins = installation.tables_of(self.installation())
+        depths = [row[0] for row in takes["rows"]]
+        self.assertEqual(depths, ["1", "1.5", "2", "2.5", "3", "3.5", "4", "4.5"])
+        row = dict(zip(takes["heads"], takes["rows"][6]))
+        self.assertEqual(row["resistance (kN)"], "4000")
+        self.assertEqual(row["required suction (kPa)"], "25")
+        row = dict(zip(margins["heads"], margins["rows"][6]))
+        self.assertEqual(row["allowable (kPa)"], "20")
+        self.assertEqual(row["governed by"], "pump")
+        self.assertEqual(row["required / allowable"], "1.25")
+        self.assertEqual(row["margin to piping (%)"], "55.6")
+        self.assertEqual(row["room below the lid (m)"], "0.8")
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("1.50, exceeded", page)
+        self.assertIn("at 4.50 m: 30.0 of 20.0 kPa (pump)", page)
+        limit = self.installation().limits[installation.COMPUTED]
+        self.assertAlmostEqual(limit[6], 56.25, delta=0.1)
+
+    def test_pump(self) -> None:
+        """At 2 m/h the lid of 77.28 m2 displaces 162.3 m3/h with a plug that heaves by
+        5 % of the way, and 0.01 m3/s seep."""
+        leave_run(self.path, SUMMARY)
+        history = dict(Results(self.path).history)
+        history["seepage_flow_m3_s"] = np.full(len(history["time_s"]), 0.01)
+        write_run(self.path, history, SUMMARY)
+        self.assertEqual(self.command("--rate", "2", "."), 0)
+        page = (self.path / report.NAME).read_text(encoding="utf-8")
+        self.assertIn("198 m³/h", page)
+        self.assertIn("at a penetration of 2 m/h, of which seepage 36 m³/h", page)
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("at a penetration of 1 m/h (ASSUMED)", page)
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            self.assertEqual(self.command("--rate", "0", "."), 1)
+        self.assertIn("--rate 0: give m/h above 0", said.getvalue())
+
+    def test_card_of_the_methods(self) -> None:
+        """The first ratio that there is at the end."""
+        heads = [
+            "depth (m)",
+            "computed",
+            "computed / A",
+            "computed / B",
+            "computed / C",
+        ]
+        rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "", "0.5 to 2", "3"]]
+        found: dict[str, Any] = {"tables": [{"heads": heads, "rows": rows}]}
+        card = ("Computed / method", "0.5 to 2", "of B, at 4.5 m; other methods below")
+        self.assertEqual(page_module.method_card(found), [card])
+        self.assertEqual(page_module.method_card({"tables": []}), [])
+
+    def test_what_was_computed(self) -> None:
+        """Diameter and soil are there although no entry differs from its default, and
+        what the scene marks as assumed is marked."""
+        law = [
+            {"entry": "Youngs modulus", "value": 25e6, "unit": "Pa"},
+            {"entry": "Friction angle", "value": 32, "unit": "degrees"},
+        ]
+        scene = {**SCENE, "layers": [{**SCENE["layers"][0], "law_entries": law}]}
+        assumed = ["Soil/Layer 1/Youngs modulus"]
+        summary = {**SUMMARY, "entries": {}, "scene": scene, "assumed": assumed}
+        page = self.page(summary)
+        body = html.unescape(re.sub("<[^>]*>", " ", page.split("</style>")[1]))
+        text = re.sub(r"\s+", " ", body)
+        for words in (
+            "Outer diameter 10 m",
+            "Wall thickness 40 mm",
+            "Weight in water 1000 kN",
+            "Youngs modulus (MPa) 25 ASSUMED",
+            "Friction angle (degrees) 32 ",
+            "Submerged unit weight (kN/m3) 9 ",
+            "D = 10 m",
+            "t = 40 mm",
+            "rests by weight at 1.50 m",
+        ):
+            self.assertIn(words, text)
+        self.assertNotIn("32 ASSUMED", text)
+
+    def test_ranks_of_warnings(self) -> None:
+        """What matters for the results stands first, a remark far below."""
+        ranked = [
+            {"rank": "result", "text": "the suction lifts the plug"},
+            {"rank": "cosmetic", "text": "the body does not come to 9 m"},
+        ]
+        page = self.page({**SUMMARY, "results": {"warnings": ranked}})
+        first, second = page.split("The installation by depth")
+        self.assertIn("the suction lifts the plug", first)
+        self.assertNotIn("the body does not come to 9 m", first)
+        self.assertIn("the body does not come to 9 m (no effect on", second)
+
+    def test_run_in_progress(self) -> None:
+        """Title, progress and methods are there before the end; a run that was killed
+        does not go on."""
+        progress = {"fraction_done": 0.25, "remaining_s": 600}
+        summary = {**SUMMARY, "status": "running", "progress": progress}
+        leave_run(self.path, summary)
+        with (self.path / ".lock").open("w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("sand &lt;b&gt;&amp; silt", page)
+        self.assertIn("Running: 25 % done, about 10 min left.", page)
+        self.assertIn("Force of jacking", page)
+        self.assertIn("was ended before it was finished: 25 %", self.page(summary))
 
     def test_run_that_failed(self) -> None:
         """Its run.json has no results; the page has the reason."""
@@ -291,7 +409,7 @@ class Report(unittest.TestCase):
         jacked = methods.methods_of(Results(self.path / "jacked"))
         self.assertIn("computed / undisturbed", self.rows(jacked, "Total")[0])
         said = "\n".join(jacked["why"])
-        self.assertRegex(said, r"At 4 m the run has [\d.]+ times the force of undist")
+        self.assertRegex(said, r"At 4.5 m the run has [\d.]+ times the force of undist")
         self.assertIn("times the force of Senders & Randolph (2009) (cone ASS", said)
         self.assertIn("a cone test may change these ratios much", said)
         rows = "depth_m,qc_MPa\n0,0\n4.5,9.4\n"
@@ -314,8 +432,8 @@ class Report(unittest.TestCase):
         name = "tip (estimate from one run)"
         alone = methods.methods_of(run)
         rows = self.rows(alone, "What suction leaves")
-        self.assertEqual([row["depth (m)"] for row in rows], ["2", "3", "4"])
-        self.assertEqual([row[name] for row in rows], ["1", "1", "1"])
+        self.assertEqual([row["depth (m)"] for row in rows], ["2", "3", "4", "4.5"])
+        self.assertEqual([row[name] for row in rows], ["1"] * 4)
         self.assertIn("one run does not know", " ".join(alone["notes"]))
         critical = senders_randolph(9000, 4, 10)
         self.assertAlmostEqual(
@@ -338,7 +456,9 @@ class Report(unittest.TestCase):
         """Call `caisson report` with directories below that of the test."""
         parser = argparse.ArgumentParser()
         report.add_arguments(parser)
-        given = [w if w.startswith("-") else str(self.path / w) for w in words]
+        given = [
+            w if w.startswith("-") or w.isdigit() else str(self.path / w) for w in words
+        ]
         with contextlib.redirect_stdout(io.StringIO()):
             return report.main(parser.parse_args(given))
 
@@ -365,11 +485,11 @@ class Report(unittest.TestCase):
         from it, but forces down to there."""
         leave_run(self.path, SUMMARY)
         (self.path / "cone.csv").write_text("depth_m,qc_kPa\n0,0\n0.3,700\n")
-        figures = content.figures_of(Results(self.path))
+        figures = content.figures_of(Results(self.path), self.installation())
         labels = [[c["label"] for c in figure["curves"]] for figure in figures]
-        self.assertIn("total, DNV, jacked", labels[0])
-        self.assertFalse([name for name in labels[1] if "by cone" in name])
-        self.assertEqual(len(labels[1]), 7)
+        self.assertIn("total, DNV, jacked", labels[1])
+        self.assertFalse([name for name in labels[0] if "by cone" in name])
+        self.assertEqual(len(labels[0]), 9)
 
     def test_error_bar_of_the_suction(self) -> None:
         """A band of means in kPa, which does not go below zero."""
@@ -378,11 +498,12 @@ class Report(unittest.TestCase):
         low = 6e3 * (depth - 1) - 2e3
         bounds = {
             "penetration_m": depth,
+            "required_suction_Pa": low + 1e3,
             "required_suction_low_Pa": low,
             "required_suction_high_Pa": low + 3e3,
         }
         write_columns(self.path / "history_error.csv", bounds)
-        found = content.suction_curves(Results(self.path))
+        found = content.suction_curves(Results(self.path), self.installation())
         (bar,) = [curve for curve in found if curve["label"] == "required, error bar"]
         for i, expected in ((20, (0, 2.2)), (50, (1, 4))):
             self.assertAlmostEqual(bar["x"][i], expected[0])
@@ -402,6 +523,14 @@ class Report(unittest.TestCase):
         write_columns(self.path / "history_error.csv", bounds)
         self.assertIn("-7 % to +4 % in", content.error_remark(Results(self.path)))
 
+    def test_end_above_the_depths_of_the_error_bar(self) -> None:
+        """Its file has no row, and the page says that none is known."""
+        leave_run(self.path, SUMMARY)
+        head = "penetration_m,total_force_N,total_force_low_N,total_force_high_N\n"
+        (self.path / "history_error.csv").write_text(head, encoding="utf-8")
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("error bar not known for this scene", page)
+
     def test_run_that_goes_on(self) -> None:
         """Its page reloads itself, also where an old run.json is left."""
         self.assertIn('http-equiv="refresh"', self.page())
@@ -409,6 +538,15 @@ class Report(unittest.TestCase):
             fcntl.flock(lock, fcntl.LOCK_EX)
             self.assertIn('http-equiv="refresh"', self.page(SUMMARY))
         self.assertNotIn('http-equiv="refresh"', self.page(SUMMARY))
+
+    def test_report_of_a_run_in_progress_is_renewed(self) -> None:
+        """`caisson run` writes it while the program runs."""
+        leave_run(self.path, {**SUMMARY, "status": "running"})
+        page, end = self.path / report.NAME, time.monotonic() + 120
+        with mock.patch.object(launch, "RENEWAL", 0.1), launch.reporting(self.path):
+            while not page.is_file() and time.monotonic() < end:
+                time.sleep(0.1)
+        self.assertIn("sand &lt;b&gt;", page.read_text(encoding="utf-8"))
 
     def test_no_run(self) -> None:
         with self.assertRaisesRegex(ResultsError, "no history.csv"):
@@ -420,7 +558,7 @@ class Report(unittest.TestCase):
     def test_in_a_browser(self) -> None:
         """No error on the console; curves are drawn, read, shown and saved, also with a
         cone test."""
-        visited, curves = self.path / "visited.html", 8
+        visited, curves = self.path / "visited.html", 10
         for width in (400, 1200):
             if width == 1200:
                 (self.path / "cone.csv").write_text("depth_m,qc_MPa\n0,0\n9,18\n")

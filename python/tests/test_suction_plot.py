@@ -214,16 +214,30 @@ class MadeUpRun(unittest.TestCase):
             self.assertAlmostEqual(force / WEIGHT, 1)
 
     def test_water_boils_later_as_the_lid_comes_down(self) -> None:
-        history = synthetic()
+        history, run = synthetic(), self.write(synthetic())
         for farthest, lines in ((310.0, 1), (300.0, 0)):  # kPa; it boils from 305 on
             axes = Figure().subplots()
             axes.set_xlim(0, farthest)
-            suction.draw_cavitation(axes, history)
+            suction.draw_limits(axes, run)
             self.assertEqual(len(axes.lines), lines)
+            said = [text.get_text() for text in axes.texts]
+            named = [] if lines else ["water boils: 305 to 344 kPa"]
+            self.assertEqual(said, named)
             for line in axes.lines:
                 kilopascals, depth = line.get_data()
                 np.testing.assert_array_equal(depth, history["penetration_m"])
                 np.testing.assert_allclose(np.diff(kilopascals), 9.81 * np.diff(depth))
+
+    def test_pump_limit(self) -> None:
+        """A line at the largest suction of the pump."""
+        summary = {"entries": {"Water/Largest suction": "150e3"}, "scene": SCENE}
+        write_run(self.path, synthetic(), summary)
+        axes = Figure().subplots()
+        axes.set_xlim(0, 200)
+        suction.draw_limits(axes, Results(self.path))
+        (line,) = axes.lines
+        self.assertEqual(set(line.get_xdata()), {150.0})
+        self.assertEqual(line.get_label(), "largest of the pump")
 
     def test_heavy_caisson(self) -> None:
         site = theory.Site({**SCENE, "submerged_weight_N": 1e9})

@@ -80,6 +80,11 @@ namespace CaissonMPM
                       line.kinetic_energy,
                       line.max_speed) +
                rest;
+      if (line.has_suction)
+        rest = format(" | suction %5.1f kPa, gradient %3.0f %% of critical",
+                      1e-3 * line.suction,
+                      100. * line.gradient_ratio) +
+               rest;
       const double kN = 1e-3;
       return format("pen %6.3f m | tip %7.1f inner %7.1f outer %7.1f "
                     "total %7.1f kN",
@@ -157,9 +162,9 @@ namespace CaissonMPM
   }
 
   void
-  Console::warning(const std::string &text)
+  Console::warning(const std::string &text, const WarningRank rank)
   {
-    warnings_.push_back(text);
+    warnings_.push_back({text, rank});
     print("warning: " + text + "\n");
   }
 

@@ -80,7 +80,7 @@ namespace CaissonMPM
       void
       include(const std::string &name, const unsigned int line);
       void
-      read_set(const std::string &assignment, const unsigned int line);
+      read_set(const std::string &assignment, const Line &line);
       void
       enter_subsection(const std::string &name, const unsigned int line);
       void
@@ -90,7 +90,8 @@ namespace CaissonMPM
       void
       set(const std::string &path,
           const std::string &value,
-          const std::string &place);
+          const std::string &place,
+          const bool         is_assumed = false);
 
       /** The entry itself if the path is another name of it. */
       const DeclaredEntry &
@@ -237,7 +238,7 @@ namespace CaissonMPM
         return include(rest, line.number);
       files.back().may_include = false;
       if (word == "set" || word == "SET")
-        read_set(rest, line.number);
+        read_set(rest, line);
       else if (word == "subsection" || word == "SUBSECTION")
         enter_subsection(condense(rest), line.number);
       else if (word == "end" || word == "END")
@@ -250,10 +251,11 @@ namespace CaissonMPM
     }
 
     void
-    Reader::read_set(const std::string &assignment, const unsigned int line)
+    Reader::read_set(const std::string &assignment, const Line &at_line)
     {
-      const std::size_t equal_sign = assignment.find('=');
-      const std::string name       = condense(assignment.substr(0, equal_sign));
+      const unsigned int line       = at_line.number;
+      const std::size_t  equal_sign = assignment.find('=');
+      const std::string  name = condense(assignment.substr(0, equal_sign));
       if (equal_sign == std::string::npos || name.empty())
         throw BadInput(at(line) + ": " + quote("set " + assignment) +
                        " cannot be read.\n  Write \"set Name = value\".");
@@ -268,7 +270,10 @@ namespace CaissonMPM
                        " = ...\" between " +
                        quote("subsection " + name.substr(0, name.find('/'))) +
                        " and \"end\".");
-      set(path, trim(assignment.substr(equal_sign + 1)), at(line));
+      set(path,
+          trim(assignment.substr(equal_sign + 1)),
+          at(line),
+          at_line.comment.find("ASSUMED") != std::string::npos);
     }
 
     void
@@ -371,7 +376,8 @@ namespace CaissonMPM
     void
     Reader::set(const std::string &path,
                 const std::string &value,
-                const std::string &place)
+                const std::string &place,
+                const bool         is_assumed)
     {
       const DeclaredEntry &entry = resolve_alias(*entries.find(path), place);
       const auto [earlier, is_new] =
@@ -385,7 +391,8 @@ namespace CaissonMPM
       const bool is_included = files.size() > 1;
       origins.record(entry.path,
                      place,
-                     is_included || present == entry.default_value);
+                     is_included || present == entry.default_value,
+                     is_assumed);
     }
 
     const DeclaredEntry &

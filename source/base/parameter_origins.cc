@@ -50,9 +50,20 @@ namespace CaissonMPM
   void
   ParameterOrigins::record(const std::string &path,
                            const std::string &place,
-                           const bool         may_be_unused)
+                           const bool         may_be_unused,
+                           const bool         is_assumed)
   {
-    places[path] = {place, may_be_unused};
+    places[path] = {place, may_be_unused, is_assumed};
+  }
+
+  std::vector<std::string>
+  ParameterOrigins::assumed() const
+  {
+    std::vector<std::string> result;
+    for (const auto &[path, setting] : places)
+      if (setting.is_assumed)
+        result.push_back(path);
+    return result;
   }
 
   void
@@ -60,6 +71,13 @@ namespace CaissonMPM
   {
     notes.push_back(text);
     doubts.push_back(text);
+  }
+
+  void
+  ParameterOrigins::add_cosmetic_warning(const std::string &text)
+  {
+    add_warning(text);
+    cosmetic.insert(text);
   }
 
   void

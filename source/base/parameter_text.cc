@@ -3,6 +3,7 @@
 #include <caisson_mpm/base/nearest_names.h>
 #include <caisson_mpm/base/parameter_text.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -150,13 +151,15 @@ namespace CaissonMPM
       for (std::string raw; std::getline(stream, raw);)
         {
           ++number;
-          std::string text = trim(raw.substr(0, raw.find('#')));
+          const std::size_t mark = std::min(raw.find('#'), raw.size());
+          std::string       text = trim(raw.substr(0, mark));
           if (!continues)
-            lines.push_back({number, ""});
+            lines.push_back({number, "", ""});
           continues = !text.empty() && text.back() == '\\';
           if (continues)
             text.pop_back();
           lines.back().text += text;
+          lines.back().comment += raw.substr(mark);
         }
       return lines;
     }

@@ -12,7 +12,9 @@
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
+#include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <vector>
 
@@ -244,6 +246,27 @@ namespace CaissonMPM
                                  .compare(sample_records(check, records));
     }
 
+    /** What the error of a check is divided by, see comparisons.cc; nothing
+     * where that is 0. */
+    std::string
+    reference_of(const Check &check, const Comparison &c)
+    {
+      static const std::map<std::string, std::string> references = {
+        {"max", "the largest exact value"},
+        {"rms", "the largest exact value"},
+        {"trace", "the largest exact value"},
+        {"drift", "the largest value"},
+        {"spread", "the mean"},
+        {"mean", "the mean exact value"},
+        {"average", "the mean exact value"}};
+      if (check.form == CheckForm::bound || check.form == CheckForm::bounds ||
+          c.error == std::abs(c.computed - c.exact))
+        return "";
+      const auto found = references.find(check.mode);
+      return " of " +
+             (found == references.end() ? "the exact value" : found->second);
+    }
+
     std::string
     demand_of(const Check &check)
     {
@@ -262,8 +285,9 @@ namespace CaissonMPM
             const bool        pass,
             const bool        values)
     {
-      std::string line =
-        check.head + demand_of(check) + ": " + (pass ? "yes" : "no");
+      std::string line = check.head + demand_of(check) +
+                         (values ? reference_of(check, c) : "") + ": " +
+                         (pass ? "yes" : "no");
       if (values)
         line += " (computed " + to_text(c.computed, 8) + ", exact " +
                 to_text(c.exact, 8) + ", error " + to_text(c.error, 3) + ")";

@@ -83,6 +83,25 @@ namespace CaissonMPM
     return law_values[description(law).friction_entry];
   }
 
+  std::vector<std::pair<std::string, std::string>>
+  SoilMaterial::law_entries() const
+  {
+    const std::string                                mark = "Units: ";
+    std::vector<std::pair<std::string, std::string>> result;
+    for (int i = 0; i < description(law).n_entries; ++i)
+      {
+        const std::string text = description(law).entries[i].text;
+        const std::size_t at   = text.rfind(mark);
+        std::string       unit =
+          at == std::string::npos ? "" : text.substr(at + mark.size());
+        if (!unit.empty() && unit.back() == '.')
+          unit.pop_back();
+        result.emplace_back(description(law).entries[i].name,
+                            unit == "none" ? "" : unit);
+      }
+    return result;
+  }
+
   std::optional<double>
   SoilMaterial::law_value(const std::string &entry) const
   {

@@ -211,6 +211,23 @@ namespace CaissonMPM
     return at(penetration).errors[i];
   }
 
+  NamedNumbers
+  ErrorBar::bounds(const std::string &column,
+                   const double       penetration,
+                   const double       value) const
+  {
+    if (!covers(penetration))
+      return {};
+    for (std::size_t i = 0; i < quantities.size(); ++i)
+      if (const Quantity &q = *quantities[i]; q.column() == column)
+        {
+          const Error error = at(penetration).errors[i];
+          return {{q.column("low"), q.changed(value, -error.below)},
+                  {q.column("high"), q.changed(value, error.above)}};
+        }
+    return {};
+  }
+
   void
   ErrorBar::write(const std::string &directory) const
   {

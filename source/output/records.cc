@@ -22,10 +22,12 @@ namespace CaissonMPM
 
   Records::Records(const std::string              &directory,
                    const Observations             &observations,
+                   const SceneParts               &scene,
                    const std::vector<std::string> &counts)
     : observations(observations)
+    , scene(scene)
     , counts(counts)
-    , history(directory + "/history.csv", history_names(counts), 10)
+    , history(directory + "/history.csv", history_names(scene, counts), 10)
   {
     // all digits, so that a restart sees the same numbers
     if (!observations.names().empty())
@@ -69,7 +71,7 @@ namespace CaissonMPM
   void
   Records::append(const HistoryRow &row, const std::vector<double> &observed)
   {
-    std::vector<double> values = history_values(row);
+    std::vector<double> values = history_values(scene, row);
     history.append(values);
     if (observed_file)
       {
@@ -82,10 +84,11 @@ namespace CaissonMPM
   }
 
   std::vector<std::string>
-  Records::names(const std::vector<std::string> &counts,
+  Records::names(const SceneParts               &scene,
+                 const std::vector<std::string> &counts,
                  const std::vector<std::string> &observed)
   {
-    std::vector<std::string> result = history_names(counts);
+    std::vector<std::string> result = history_names(scene, counts);
     result.erase(result.begin());
     result.insert(result.end(), observed.begin(), observed.end());
     return result;
@@ -94,7 +97,7 @@ namespace CaissonMPM
   std::vector<std::string>
   Records::names() const
   {
-    return names(counts, observations.names());
+    return names(scene, counts, observations.names());
   }
 
   Series

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/output/result_lines.h>
+#include <caisson_mpm/output/run_results.h>
 
 #include <algorithm>
 #include <array>
@@ -28,6 +29,8 @@ namespace CaissonMPM
     {
       std::vector<double>                depth;
       std::array<std::vector<double>, 4> force; // tip, inner, outer, total
+      std::vector<double> suction; // that is required; empty without a lid
+      std::vector<double> margin;  // to piping: 1 less the gradient's share
 
       explicit Curves(const Records &records)
       {
@@ -45,9 +48,36 @@ namespace CaissonMPM
           }
         if (depth.empty())
           return;
+        add_suction(records);
         depth.push_back(at.back()); // the last record holds up to the end
         for (auto &values : force)
           values.push_back(values.back());
+      }
+
+    private:
+      /** Suction and gradients belong to the records, not to the middle between
+       * them. */
+      void
+      add_suction(const Records &records)
+      {
+        const auto names = records.names();
+        if (std::find(names.begin(), names.end(), "required_suction_Pa") ==
+            names.end())
+          return;
+        const auto required = records.series("required_suction_Pa").value,
+                   wall     = records.series("exit_gradient_wall").value,
+                   axis     = records.series("exit_gradient_axis").value,
+                   critical = records.series("critical_gradient").value;
+        for (std::size_t i = 1; i < required.size(); ++i)
+          {
+            suction.push_back(
+              std::max(.5 * (required[i - 1] + required[i]), 0.));
+            const double gradient = std::max({wall[i], axis[i], 0.});
+            margin.push_back(critical[i] > 0. ? 1. - gradient / critical[i] :
+                                                1.);
+          }
+        suction.push_back(std::max(required.back(), 0.));
+        margin.push_back(margin.back());
       }
     };
 
@@ -104,6 +134,31 @@ namespace CaissonMPM
 
   namespace
   {
+    std::string
+    suction_in_words(const Curves &curves, const CurvePosition &place)
+    {
+      if (curves.suction.empty())
+        return "";
+      return "; suction " + to_text(1e-3 * place.value(curves.suction), 3) +
+             " kPa, margin to piping " + percent(place.value(curves.margin), 3);
+    }
+
+    /** Multiples of the spacing, and on the way down the end. */
+    std::vector<double>
+    depths_of_lines(const double top,
+                    const double bottom,
+                    const double step,
+                    const bool   down)
+    {
+      std::vector<double> depths;
+      for (double i = std::ceil(top / step - 1e-6); i * step <= bottom + 1e-9;
+           ++i)
+        depths.push_back(i * step);
+      if (down && !depths.empty() && depths.back() < bottom - 1e-3)
+        depths.push_back(bottom);
+      return depths;
+    }
+
     Console::Lines
     lines_at_depths(const Curves   &curves,
                     const ErrorBar &error_bar,
@@ -113,18 +168,18 @@ namespace CaissonMPM
         std::minmax_element(curves.depth.begin(), curves.depth.end());
       const double   step = spacing_for(*bottom - *top);
       Console::Lines lines;
-      for (double i = std::ceil(*top / step - 1e-6); i * step <= *bottom + 1e-9;
-           ++i)
-        if (const auto place = find(curves.depth, i * step, down, step))
+      for (const double at : depths_of_lines(*top, *bottom, step, down))
+        if (const auto place = find(curves.depth, at, down, step))
           {
             const auto force = [&](const unsigned int k) {
               return kilonewtons(place->value(curves.force[k]));
             };
             lines.emplace_back(
-              "at " + to_text(i * step, 4) + (down ? " m" : " m, up"),
+              "at " + to_text(at, 4) + (down ? " m" : " m, up"),
               "tip " + force(0) + ", inner " + force(1) + ", outer " +
                 force(2) + ", total " + force(3) + " kN" +
-                (down ? error_in_words(error_bar.of_total_force(i * step)) :
+                (down ? error_in_words(error_bar.of_total_force(at)) +
+                          suction_in_words(curves, *place) :
                         ""));
           }
       return lines;
@@ -149,6 +204,8 @@ namespace CaissonMPM
       lines.emplace_back("largest force", where(largest));
     if (*least < 0.)
       lines.emplace_back("largest tension", where(least));
+    if (const auto depth = self_weight_penetration(records))
+      lines.emplace_back("rests by weight", "at " + to_text(*depth, 4) + " m");
     for (const bool down : {true, false})
       for (const auto &line : lines_at_depths(curves, error_bar, down))
         lines.push_back(line);

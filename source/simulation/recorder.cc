@@ -8,6 +8,7 @@
 #include <caisson_mpm/output/result_lines.h>
 #include <caisson_mpm/simulation/recorder.h>
 #include <caisson_mpm/simulation/run_review.h>
+#include <caisson_mpm/water/lid_compartment.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/revision.h>
@@ -75,8 +76,29 @@ namespace CaissonMPM
   Recorder::check_parameters()
   {
     const auto counts = count_names();
-    observations.initialize(Records::names(counts, {}));
-    verification.check_parameters(Records::names(counts, observations.names()));
+    const auto scene  = scene_parts();
+    observations.initialize(Records::names(scene, counts, {}));
+    verification.check_parameters(
+      Records::names(scene, counts, observations.names()));
+  }
+
+  SceneParts
+  Recorder::scene_parts() const
+  {
+    const BodyShape &shape = parts.body.shape();
+    return {shape.exists(),
+            number_named("skirt_length_m", shape.dimensions()).has_value(),
+            shape.exists() && shape.expands(),
+            parts.boundary_conditions.prescribe_a_region(),
+            parts.generator.splits_and_merges()};
+  }
+
+  ResultLimits
+  Recorder::result_limits() const
+  {
+    const LidCompartment *const lid = parts.water->traits().lid;
+    return {number_named("skirt_length_m", parts.body.shape().dimensions()),
+            lid == nullptr ? std::nullopt : lid->settings().largest};
   }
 
   void
@@ -155,7 +177,10 @@ namespace CaissonMPM
   {
     locked_directory =
       std::make_unique<OutputDirectory>(directory, parts.grid.communicator());
-    records = std::make_unique<Records>(directory, observations, count_names());
+    records       = std::make_unique<Records>(directory,
+                                        observations,
+                                        scene_parts(),
+                                        count_names());
     visualization = std::make_unique<Visualization>(directory);
     if (has_walls())
       wall_file = std::make_unique<WallFile>(
@@ -284,9 +309,9 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::print_header(const std::vector<std::string> &warnings,
-                         const double                    n_steps)
+  Recorder::print_header(const ParameterOrigins &input, const double n_steps)
   {
+    assumed         = input.assumed();
     double own_mass = 0.;
     for (const BodyPoint &p : parts.body_points)
       own_mass += p.mass;
@@ -327,8 +352,10 @@ namespace CaissonMPM
     const auto more = parts.water->report(parts.materials).lines;
     lines.insert(lines.end(), more.begin(), more.end());
     console->summary(lines);
-    for (const std::string &warning : warnings)
-      console->warning(warning);
+    for (const std::string &warning : input.warnings())
+      console->warning(warning,
+                       input.is_cosmetic(warning) ? WarningRank::cosmetic :
+                                                    WarningRank::input);
   }
 
   // ------------------------------------------------------------ the end
@@ -373,6 +400,7 @@ namespace CaissonMPM
     result.n_steps        = parts.clock.step - first_step;
     result.wall_time      = seconds_running();
     result.warnings       = console->warnings();
+    result.assumed        = assumed;
     result.design_methods = design_methods.members();
     return result;
   }
@@ -383,7 +411,20 @@ namespace CaissonMPM
     parts.totals.bring_to_first_rank(parts.grid.communicator());
     if (parts.grid.is_first_rank())
       error_bar.write(directory);
-    write_run_summary(directory + "/run.json", parts, facts(status));
+    RunFacts known = facts(status);
+    if (parts.grid.is_first_rank())
+      known.results = run_results(*records, error_bar, result_limits());
+    write_run_summary(directory + "/run.json", parts, known);
+  }
+
+  void
+  Recorder::write_progress(const double fraction_done,
+                           const double eta_seconds) const
+  {
+    RunFacts known = own_facts("running");
+    known.progress = {{"fraction_done", Json::number(fraction_done)},
+                      {"remaining_s", Json::number(eta_seconds)}};
+    write_early_summary(directory + "/run.json", parts, known);
   }
 
   void
@@ -393,7 +434,7 @@ namespace CaissonMPM
       {
         RunFacts known = own_facts("failed");
         known.failure  = reason;
-        write_failure_summary(directory + "/run.json", parts, known);
+        write_early_summary(directory + "/run.json", parts, known);
       }
     catch (const std::exception &)
       {

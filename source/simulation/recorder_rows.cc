@@ -52,6 +52,7 @@ namespace CaissonMPM
     const std::vector<double> observed = observed_values();
     if (parts.grid.is_first_rank())
       records->append(row, observed);
+    report_suction(row);
     print_record(row);
     warn_of_lid(row);
     for (const std::string &warning : parts.water->take_warnings())
@@ -212,6 +213,24 @@ namespace CaissonMPM
   }
 
   void
+  Recorder::report_suction(const HistoryRow &row)
+  {
+    const auto suction = number_named("suction_Pa", row.counts);
+    if (!suction)
+      return;
+    if (!has_reported_suction && *suction > 0. && last_depth_and_suction &&
+        last_depth_and_suction->second <= 0.)
+      {
+        has_reported_suction = true;
+        console->header({{"suction",
+                          "begins at a penetration of " +
+                            to_text(last_depth_and_suction->first, 4) +
+                            " m, where the weight no longer suffices"}});
+      }
+    last_depth_and_suction = {row.penetration, *suction};
+  }
+
+  void
   Recorder::print_record(const HistoryRow &row)
   {
     // where records are dense, not all of them: a line for each percent
@@ -231,11 +250,22 @@ namespace CaissonMPM
     line.total          = row.total;
     line.kinetic_energy = row.kinetic_energy;
     line.max_speed      = row.max_speed;
-    line.fraction_done  = done;
+    const auto column   = [&row](const std::string &name) {
+      return number_named(name, row.counts).value_or(0.);
+    };
+    line.has_suction = number_named("suction_Pa", row.counts).has_value();
+    line.suction     = column("suction_Pa");
+    if (const double critical = column("critical_gradient"); critical > 0.)
+      line.gradient_ratio =
+        std::max(column("exit_gradient_wall"), column("exit_gradient_axis")) /
+        critical;
+    line.fraction_done = done;
     line.eta_seconds =
       is_first ? std::numeric_limits<double>::quiet_NaN() :
                  seconds_running() * (1. - done) / (done - fraction_at_start);
     console->record(line);
+    if (parts.grid.is_first_rank())
+      write_progress(done, line.eta_seconds);
   }
 
   void

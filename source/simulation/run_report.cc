@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -54,21 +55,48 @@ namespace CaissonMPM
                             parts.body.motion().beginning().travel)}};
     }
 
-    /** What the scene sets to another value than the default, and what the
-     * program warned of. */
+    /** What the scene sets to another value than the default, what has its
+     * default, and what the program warned of. Layers have their numbers in
+     * the scene. */
     Json::Members
     about_input(const RunFacts &facts)
     {
       const DeclaredEntries declared(ParameterAcceptor::prm);
-      Json::Members         entries;
+      Json::Members         entries, defaults;
       for (const DeclaredEntry &entry : declared.all())
         if (entry.alias_of.empty() && entry.value != entry.default_value)
           entries.emplace_back(entry.path, Json::text(entry.value));
-      std::vector<std::string> warnings;
-      for (const std::string &warning : facts.warnings)
-        warnings.push_back(Json::text(warning));
+        else if (entry.alias_of.empty() && entry.path.find("Soil/Layer ") != 0)
+          defaults.emplace_back(entry.path, Json::text(entry.value));
+      std::vector<std::string> warnings, assumed;
+      for (const Warning &warning : facts.warnings)
+        warnings.push_back(Json::text(warning.text));
+      for (const std::string &entry : facts.assumed)
+        assumed.push_back(Json::text(entry));
       return {{"entries", Json::object(entries, 2)},
+              {"defaults", Json::object(defaults, 2)},
+              {"assumed", Json::list(assumed)},
               {"warnings", Json::list(warnings)}};
+    }
+
+    /** The results, and the warnings by their rank, the most important first.
+     */
+    Json::Members
+    about_results(const RunFacts &facts)
+    {
+      Json::Members            members = facts.results;
+      std::vector<std::string> ranked;
+      for (const auto &[rank, name] :
+           {std::make_pair(WarningRank::result, "result"),
+            std::make_pair(WarningRank::input, "input"),
+            std::make_pair(WarningRank::cosmetic, "cosmetic")})
+        for (const Warning &warning : facts.warnings)
+          if (warning.rank == rank)
+            ranked.push_back(
+              Json::flat_object({{"rank", Json::text(name)},
+                                 {"text", Json::text(warning.text)}}));
+      members.emplace_back("warnings", Json::list(ranked));
+      return {{"results", Json::object(members, 2)}};
     }
 
     Json::Members
@@ -144,9 +172,24 @@ namespace CaissonMPM
       return result;
     }
 
-    /** What design methods need of a material. */
+    /** All numbers of a law, by their entries. */
+    std::string
+    entries_of_law(const SoilMaterial &m)
+    {
+      std::string items;
+      for (const auto &[name, unit] : m.law_entries())
+        items += (items.empty() ? "" : ", ") +
+                 Json::flat_object({{"entry", Json::text(name)},
+                                    {"value", Json::number(*m.law_value(name))},
+                                    {"unit", Json::text(unit)}});
+      return "[" + items + "]";
+    }
+
+    /** What design methods and readers need of a material. */
     Json::Members
-    about_material(const Soil &soil, const unsigned int i)
+    about_material(const Soil        &soil,
+                   const unsigned int i,
+                   const bool         uses_permeability)
     {
       const SoilMaterial &m       = soil.material(i);
       Json::Members       members = {{"layer", to_text(m.layer + 1)},
@@ -166,6 +209,13 @@ namespace CaissonMPM
       for (const auto &[name, value] : values)
         if (value)
           members.emplace_back(name, Json::number(*value));
+      append(members,
+             {{"solid_density_kg_m3", Json::number(m.solid_density)},
+              {"law_entries", entries_of_law(m)}});
+      if (uses_permeability)
+        append(members,
+               {{"permeability_m_s", Json::number(m.permeability)},
+                {"permeability_ratio", Json::number(m.anisotropy)}});
       return members;
     }
 
@@ -188,7 +238,8 @@ namespace CaissonMPM
       std::string layers, frames;
       for (unsigned int i = 0; i < parts.soil.n_materials(); ++i)
         layers += (i > 0 ? ", " : "") +
-                  Json::flat_object(about_material(parts.soil, i));
+                  Json::flat_object(about_material(
+                    parts.soil, i, parts.water->traits().uses_permeability));
       for (const double depth : parts.schedule.penetrations_of_frames())
         frames += (frames.empty() ? "" : ", ") + Json::number(depth);
       append(members,
@@ -211,6 +262,20 @@ namespace CaissonMPM
 
     // ---------------------------------------------------------- terminal
 
+    /** What a count of the totals is, for readers. */
+    std::string
+    in_words(const std::string &count)
+    {
+      static const std::map<std::string, std::string> words = {
+        {"limiter_count", "velocities cut by the limiter"},
+        {"soil_into_body_m3", "soil that flowed into the body (m3)"},
+        {"thrown_off_count", "points thrown off a free surface"},
+        {"points_split", "points split"},
+        {"points_merged", "points merged"}};
+      const auto found = words.find(count);
+      return found == words.end() ? count : found->second;
+    }
+
     void
     print_counts(Console             &console,
                  const RecordedParts &parts,
@@ -219,8 +284,9 @@ namespace CaissonMPM
       Console::Lines lines = {
         {"points in the body", to_text(facts.max_in_body) + " at any record"}};
       for (const auto &[name, value] : parts.totals.counts())
-        if (name != "held_back_count") // large in every run, and harmless
-          lines.emplace_back(name, to_text(value, 12));
+        if (name != "held_back_count" && // large in every run, and harmless
+            (value != 0. || name.find("points_") != 0))
+          lines.emplace_back(in_words(name), to_text(value, 12));
       console.header(lines);
       for (const auto &[name, value] : parts.totals.counts())
         if (name == "thrown_off_count" && value > 0.)
@@ -284,6 +350,7 @@ namespace CaissonMPM
     Json::Members members = about_program(facts);
     append(members, about_installation(parts, facts));
     append(members, about_input(facts));
+    append(members, about_results(facts));
     append(members, about_size(parts, facts));
     append(members, counts(parts, facts));
     append(members, about_speed(parts, facts));
@@ -301,14 +368,18 @@ namespace CaissonMPM
 
 
   int
-  write_failure_summary(const std::string   &path,
-                        const RecordedParts &parts,
-                        const RunFacts      &facts)
+  write_early_summary(const std::string   &path,
+                      const RecordedParts &parts,
+                      const RunFacts      &facts)
   {
     Json::Members members = about_program(facts);
-    append(members, {{"failure", Json::text(facts.failure)}});
+    if (!facts.failure.empty())
+      append(members, {{"failure", Json::text(facts.failure)}});
+    if (!facts.progress.empty())
+      append(members, {{"progress", Json::flat_object(facts.progress)}});
     append(members, about_installation(parts, facts));
     append(members, about_input(facts));
+    append(members, about_results(facts));
     append(members,
            {{"ranks", Json::integer(parts.grid.n_ranks())},
             {"cells", Json::integer(parts.grid.n_global_cells())},

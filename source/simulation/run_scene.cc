@@ -121,8 +121,7 @@ namespace CaissonMPM
     if (command_line.strict)
       refuse_mistakes(command_line.parameter_file, origins);
     if (!command_line.validate)
-      return with_places(origins,
-                         [&]() { return simulation.run(origins.warnings()); });
+      return with_places(origins, [&]() { return simulation.run(origins); });
     // the first steps, too, may show that an entry is wrong
     const std::string cost = with_places(origins, [&]() {
       return describe(simulation.estimate_cost());

@@ -485,7 +485,7 @@ namespace CaissonMPM
     for (const double depth : scene.schedule.frames_out_of_reach())
       depths += (depths.empty() ? "" : ", ") + meters(depth);
     if (!depths.empty())
-      origins.add_warning(
+      origins.add_cosmetic_warning(
         "Output/Frame penetrations: the body does not come to " + depths +
         ". Remove what is not reached, or set a later end in "
         "section Time.");

@@ -37,6 +37,8 @@ namespace CaissonMPM
                 soil,
                 body,
                 time_step,
+                generator,
+                boundary_conditions,
                 nodal_motion,
                 contact,
                 points,
@@ -514,12 +516,12 @@ namespace CaissonMPM
   }
 
   ExitStatus
-  Simulation::run(const std::vector<std::string> &warnings)
+  Simulation::run(const ParameterOrigins &input)
   {
     recorder.open();
     try
       {
-        return run_to_end(warnings);
+        return run_to_end(input);
       }
     catch (const BadInput &)
       {
@@ -533,7 +535,7 @@ namespace CaissonMPM
   }
 
   ExitStatus
-  Simulation::run_to_end(const std::vector<std::string> &warnings)
+  Simulation::run_to_end(const ParameterOrigins &input)
   {
     stop_request.arm(recorder.output_directory());
     if (is_restart)
@@ -542,7 +544,7 @@ namespace CaissonMPM
       recorder.start(overwrites);
     if (is_restart && schedule.is_finished())
       return nothing_left();
-    recorder.print_header(warnings, number_of_steps());
+    recorder.print_header(input, number_of_steps());
     if (!is_restart)
       {
         if (installation.is_given())

@@ -91,8 +91,9 @@ refuse(const std::string &entry, const std::string &text)
   dealii::ParameterAcceptor::parse_all_parameters(prm);
   try
     {
-      observations.initialize(Records::names({}, {}));
-      verification.check_parameters(Records::names({}, observations.names()));
+      observations.initialize(Records::names({}, {}, {}));
+      verification.check_parameters(
+        Records::names({}, {}, observations.names()));
       std::printf("accepted: %s\n", text.c_str());
     }
   catch (const BadInput &error)

@@ -81,12 +81,13 @@ class Files(ProgramTest):
             entries={"Output/Terminal": "full", "Output/Error bar": path / "error.csv"},
         )
         found = re.findall(r"^at ([\d.]+) m .*total ([-\d.]+) kN(.*)$", done, re.M)
-        self.assertEqual([depth for depth, *_ in found], ["0.6", "0.7"])
+        self.assertEqual([depth for depth, *_ in found], ["0.6", "0.7", "0.75"])
         # a row is the mean since the row before
         ends = [row["penetration_m"] for row in rows]
         depths = [(a + b) / 2 for a, b in zip(ends, ends[1:])]
         forces = [row["total_force_N"] / 1e3 for row in rows[1:]]
-        for depth, force, error in found:
+        self.assertAlmostEqual(float(found[-1][1]) / forces[-1], 1.0, delta=1e-3)
+        for depth, force, error in found[:-1]:
             (expected,) = [
                 a + (float(depth) - x) / (y - x) * (b - a)
                 for x, y, a, b in zip(depths, depths[1:], forces, forces[1:])

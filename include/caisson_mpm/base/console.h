@@ -17,18 +17,38 @@ namespace CaissonMPM
     double time = 0.;
     /** Whether there is a body, i.e. penetration and forces; otherwise the
      * time, the kinetic energy and the largest speed are shown. */
-    bool   has_body       = false;
-    double penetration    = 0.;
-    double tip            = 0.;
-    double inner          = 0.;
-    double outer          = 0.;
-    double total          = 0.;
+    bool   has_body    = false;
+    double penetration = 0.;
+    double tip         = 0.;
+    double inner       = 0.;
+    double outer       = 0.;
+    double total       = 0.;
+    /** Where there is suction: Pa, and the exit gradient over the critical one.
+     */
+    bool   has_suction    = false;
+    double suction        = 0.;
+    double gradient_ratio = 0.;
     double kinetic_energy = 0.;
     double max_speed      = 0.;
     /** Of the whole run, from 0 to 1. */
     double fraction_done = 0.;
     /** Not finite where it is not known: then it is left out. */
     double eta_seconds = 0.;
+  };
+
+  /** What a warning is about, the most important first: the results, the input,
+   * or what changes no result. */
+  enum class WarningRank
+  {
+    result,
+    input,
+    cosmetic
+  };
+
+  struct Warning
+  {
+    std::string text;
+    WarningRank rank;
   };
 
   /** One row of the table of times. */
@@ -80,10 +100,11 @@ namespace CaissonMPM
     message(const std::string &text);
 
     void
-    warning(const std::string &text);
+    warning(const std::string &text,
+            const WarningRank  rank = WarningRank::result);
 
     /** All warnings so far, also those that were not printed. */
-    const std::vector<std::string> &
+    const std::vector<Warning> &
     warnings() const
     {
       return warnings_;
@@ -101,9 +122,9 @@ namespace CaissonMPM
     void
     print(const std::string &text);
 
-    const Verbosity          verbosity;
-    std::ostream            &out;
-    std::vector<std::string> warnings_;
+    const Verbosity      verbosity;
+    std::ostream        &out;
+    std::vector<Warning> warnings_;
   };
 } // namespace CaissonMPM
 

@@ -5,6 +5,7 @@
 #define caisson_mpm_base_parameter_origins_h
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,16 +32,22 @@ namespace CaissonMPM
 
     /**
      * Remember that the entry "Section/Sub/Entry" was set at this place;
-     * @p may_be_unused says that add_unused() passes it over.
+     * @p may_be_unused says that add_unused() passes it over, @p is_assumed
+     * that the comment behind it says ASSUMED.
      */
     void
     record(const std::string &path,
            const std::string &place,
-           const bool         may_be_unused = false);
+           const bool         may_be_unused = false,
+           const bool         is_assumed    = false);
 
     /** Warn of what may be a mistake in the input. */
     void
     add_warning(const std::string &text);
+
+    /** Warn of what may be a mistake, but changes no result. */
+    void
+    add_cosmetic_warning(const std::string &text);
 
     /** Warn of what the program is known to do less well in such a scene; it is
      * no mistake to ask for it. */
@@ -73,11 +80,22 @@ namespace CaissonMPM
     std::string
     places_of_entries_in(const std::string &message) const;
 
+    /** The entries whose comments say ASSUMED. */
+    std::vector<std::string>
+    assumed() const;
+
     /** All warnings, to be printed. */
     const std::vector<std::string> &
     warnings() const
     {
       return notes;
+    }
+
+    /** Whether a warning is one of add_cosmetic_warning(). */
+    bool
+    is_cosmetic(const std::string &warning) const
+    {
+      return cosmetic.count(warning) > 0;
     }
 
     /** The warnings of add_warning() and add_unused(). */
@@ -91,7 +109,7 @@ namespace CaissonMPM
     struct Setting
     {
       std::string text;
-      bool        may_be_unused;
+      bool        may_be_unused, is_assumed;
     };
 
     /** Return the paths of the entries that a text names, in its order. */
@@ -101,6 +119,7 @@ namespace CaissonMPM
     std::vector<std::string>       paths;
     std::map<std::string, Setting> places;
     std::vector<std::string>       notes, doubts;
+    std::set<std::string>          cosmetic;
   };
 } // namespace CaissonMPM
 

@@ -40,12 +40,12 @@ namespace CaissonMPM
     std::string
     read_text(const std::string &file_name, const std::string &place);
 
-    /** A line of the file, continuation lines joined to it, without comment
-     * and without white space at its ends. */
+    /** A line of the file, continuation lines joined to it, without white space
+     * at its ends, and its comment. */
     struct Line
     {
       unsigned int number;
-      std::string  text;
+      std::string  text, comment;
     };
 
     std::vector<Line>

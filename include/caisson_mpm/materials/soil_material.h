@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CaissonMPM
@@ -86,6 +87,10 @@ namespace CaissonMPM
      * degrees. */
     std::optional<double>
     friction_angle() const;
+
+    /** The names of all entries of the law, and their units. */
+    std::vector<std::pair<std::string, std::string>>
+    law_entries() const;
 
     /** Return the value of an entry if the law has it. */
     std::optional<double>

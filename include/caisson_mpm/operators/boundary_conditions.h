@@ -52,6 +52,13 @@ namespace CaissonMPM
     void
     name_unused_entries(ParameterOrigins &origins) const;
 
+    /** Whether there is a region whose velocity is prescribed. */
+    bool
+    prescribe_a_region() const
+    {
+      return !region_text.empty();
+    }
+
     void
     initialize(const BackgroundGrid &grid);
 

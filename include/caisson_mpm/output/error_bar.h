@@ -9,6 +9,8 @@
 #ifndef caisson_mpm_output_error_bar_h
 #define caisson_mpm_output_error_bar_h
 
+#include <caisson_mpm/base/named_numbers.h>
+
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <optional>
@@ -54,6 +56,14 @@ namespace CaissonMPM
      * known. Units: m. */
     std::optional<Error>
     of_total_force(const double penetration) const;
+
+    /** Return the lower and the upper bound of a quantity of history.csv by
+     * their columns, empty where none are known. Units: m for @p penetration.
+     */
+    NamedNumbers
+    bounds(const std::string &column,
+           const double       penetration,
+           const double       value) const;
 
     /**
      * Write history_error.csv from the history.csv of @p directory, if read()

@@ -41,14 +41,22 @@ namespace CaissonMPM
     NamedNumbers  counts; // of RunTotals
   };
 
+  /** What a scene has; columns of what it lacks are left out. */
+  struct SceneParts
+  {
+    bool body = true, caisson = true, expanding_body = true;
+    bool prescribed_soil = true, splitting = true;
+  };
+
   /** Return the names of the columns, the counts last. Others' scripts read
    * these names. */
   std::vector<std::string>
-  history_names(const std::vector<std::string> &counts);
+  history_names(const SceneParts               &scene,
+                const std::vector<std::string> &counts);
 
   /** One value per column. */
   std::vector<double>
-  history_values(const HistoryRow &row);
+  history_values(const SceneParts &scene, const HistoryRow &row);
 } // namespace CaissonMPM
 
 #endif

@@ -33,6 +33,7 @@ namespace CaissonMPM
      * the counts of RunTotals. */
     Records(const std::string              &directory,
             const Observations             &observations,
+            const SceneParts               &scene,
             const std::vector<std::string> &counts);
 
     /** Begin new files. Throws RunFailure where that is not possible. */
@@ -67,10 +68,11 @@ namespace CaissonMPM
     void
     append(const HistoryRow &row, const std::vector<double> &observed);
 
-    /** The names of all columns but the time: of history.csv with these
-     * counts, and of the observations. */
+    /** The names of all columns but the time: of history.csv of this scene with
+     * these counts, and of the observations. */
     static std::vector<std::string>
-    names(const std::vector<std::string> &counts,
+    names(const SceneParts               &scene,
+          const std::vector<std::string> &counts,
           const std::vector<std::string> &observed);
 
     /** The names of all columns but the time. */
@@ -87,6 +89,7 @@ namespace CaissonMPM
 
   private:
     const Observations              &observations;
+    const SceneParts                 scene;
     const std::vector<std::string>   counts;
     RowFile                          history;
     std::unique_ptr<RowFile>         observed_file;

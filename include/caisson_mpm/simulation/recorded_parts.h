@@ -10,9 +10,11 @@
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/body_points.h>
 #include <caisson_mpm/domain/material_points.h>
+#include <caisson_mpm/domain/point_generator.h>
 #include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/materials/soil.h>
 #include <caisson_mpm/operators/contact.h>
+#include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/operators/energy_balance.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 #include <caisson_mpm/operators/time_step.h>
@@ -35,6 +37,8 @@ namespace CaissonMPM
     const Soil                           &soil;
     const RigidBody                      &body;
     const TimeStep                       &time_step;
+    const PointGenerator                 &generator;
+    const BoundaryConditions             &boundary_conditions;
     const NodalMotion                    &nodal_motion;
     const Contact                        &contact;
     const MaterialPoints                 &points;

@@ -13,6 +13,7 @@
 #include <caisson_mpm/output/error_bar.h>
 #include <caisson_mpm/output/observations.h>
 #include <caisson_mpm/output/records.h>
+#include <caisson_mpm/output/run_results.h>
 #include <caisson_mpm/output/visualization.h>
 #include <caisson_mpm/output/wall_file.h>
 #include <caisson_mpm/simulation/recorded_parts.h>
@@ -113,8 +114,7 @@ namespace CaissonMPM
 
     /** Print what is run, and the warnings of its scene. */
     void
-    print_header(const std::vector<std::string> &warnings,
-                 const double                    n_steps);
+    print_header(const ParameterOrigins &input, const double n_steps);
 
     /** Add a step: the impulses of this rank's nodes, for the whole
      * circumference. Units: N s. */
@@ -172,6 +172,10 @@ namespace CaissonMPM
     /** The names of the columns that not every scene has. */
     std::vector<std::string>
     count_names() const;
+    SceneParts
+    scene_parts() const;
+    ResultLimits
+    result_limits() const;
     Console::Verbosity
     verbosity() const;
     void
@@ -210,8 +214,14 @@ namespace CaissonMPM
     /** Say once where a body that its loads move came to rest. */
     void
     report_rest();
+    /** Say once where the weight no longer suffices. */
+    void
+    report_suction(const HistoryRow &row);
     void
     print_record(const HistoryRow &row);
+    /** Write run.json of a run that has not ended; not collective. */
+    void
+    write_progress(const double fraction_done, const double eta_seconds) const;
     void
     warn_of_no_rest();
     /** What a report needs. Collective. */
@@ -245,6 +255,7 @@ namespace CaissonMPM
     std::unique_ptr<WallFile>             wall_file;
     std::string                           scene, fingerprint, installation;
     std::string                           wrong_error_bar_;
+    std::vector<std::string>              assumed; // entries
     const Kernels::KernelTable           *kernels = nullptr;
     std::chrono::steady_clock::time_point start_time;
 
@@ -277,6 +288,9 @@ namespace CaissonMPM
     unsigned int max_in_body       = 0;
     bool         at_lid            = false;
     bool         has_reported_rest = false;
+    // of the last record of this process, if it had a lid: m, Pa
+    std::optional<std::pair<double, double>> last_depth_and_suction;
+    bool                                     has_reported_suction = false;
   };
 } // namespace CaissonMPM
 

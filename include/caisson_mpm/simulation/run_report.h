@@ -15,20 +15,23 @@ namespace CaissonMPM
   /** What a report needs besides the parts. */
   struct RunFacts
   {
-    std::string   status;  // how the run ended, for instance "finished"
-    std::string   failure; // why the run could not go on, or empty
-    std::string   scene_file;
-    std::string   title;
-    std::string   fingerprint;  // of all parameters that are not defaults
-    std::string   installation; // directory of the run before, or empty
-    std::string   kernels;
-    unsigned int  n_repartitions = 0;
-    unsigned int  max_in_body    = 0;        // points at any record
-    unsigned long n_steps        = 0;        // of this process
-    double        point_steps    = 0.;       // of all ranks
-    double        wall_time      = 0.;       // s
-    std::vector<std::string> warnings;       // of the input and of the run
-    Json::Members            design_methods; // what they assume
+    std::string          status;  // how the run ended, for instance "finished"
+    std::string          failure; // why the run could not go on, or empty
+    std::string          scene_file;
+    std::string          title;
+    std::string          fingerprint; // of all parameters that are not defaults
+    std::string          installation; // directory of the run before, or empty
+    std::string          kernels;
+    unsigned int         n_repartitions = 0;
+    unsigned int         max_in_body    = 0;  // points at any record
+    unsigned long        n_steps        = 0;  // of this process
+    double               point_steps    = 0.; // of all ranks
+    double               wall_time      = 0.; // s
+    std::vector<Warning> warnings;            // of the input and of the run
+    std::vector<std::string> assumed;         // entries marked so
+    Json::Members            progress;        // of a run that has not ended
+    Json::Members            results;         // of a run that has
+    Json::Members            design_methods;  // what they assume
   };
 
   /** Write run.json: what was run, how large it was and how long it took. The
@@ -39,12 +42,13 @@ namespace CaissonMPM
                     const RecordedParts &parts,
                     const RunFacts      &facts);
 
-  /** Write run.json of a run that has failed on this rank, with what is known
-   * without the other ranks. Returns 0 or an errno. Not collective. */
+  /** Write run.json of a run that has not ended, or has failed on this rank,
+   * with what is known without the other ranks. Returns 0 or an errno. Not
+   * collective. */
   int
-  write_failure_summary(const std::string   &path,
-                        const RecordedParts &parts,
-                        const RunFacts      &facts);
+  write_early_summary(const std::string   &path,
+                      const RecordedParts &parts,
+                      const RunFacts      &facts);
 
   /** Print the counts, the energies and the wall times. Not collective. */
   void

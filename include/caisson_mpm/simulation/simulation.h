@@ -88,18 +88,18 @@ namespace CaissonMPM
     estimate_cost();
 
     /**
-     * Run the scene that was set up, and print the @p warnings of it, which
-     * run.json gets, too. Throws BadInput where the output directory cannot be
-     * used, and RunFailure; returns success, failure (a verification that
-     * fails), or stopped (on request, with a checkpoint).
+     * Run the scene that was set up, and print the warnings of its @p input,
+     * which run.json gets, too. Throws BadInput where the output directory
+     * cannot be used, and RunFailure; returns success, failure (a verification
+     * that fails), or stopped (on request, with a checkpoint).
      */
     ExitStatus
-    run(const std::vector<std::string> &warnings);
+    run(const ParameterOrigins &input);
 
   private:
     /** Run in the directory that the recorder has opened; see run(). */
     ExitStatus
-    run_to_end(const std::vector<std::string> &warnings);
+    run_to_end(const ParameterOrigins &input);
     void
     register_totals();
     /** Make the pore water when the parameters are known. */

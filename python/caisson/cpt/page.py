@@ -10,16 +10,17 @@ from pathlib import Path
 import jinja2
 import numpy as np
 
-from caisson import plot, report, study_command
+import caisson_report
+from caisson import plot, study_command
 from caisson.cpt import tables
 from caisson.parameters import methods
 from caisson.parameters.methods import TOTAL, Answers
 from caisson.parameters.outcome import Outcomes, words_of
 from caisson.plot import theory
-from caisson.report.methods import text_of
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
 from caisson_design.interpretation import Interpretation
+from caisson_design.reasons import text_of
 
 HERE = Path(__file__).parent
 NAME = "report.html"
@@ -104,7 +105,7 @@ def reports_of(outcomes: Outcomes, directory: Path) -> list[tuple[str, str]]:
     for outcome in outcomes.complete:
         of_run = outcome.run.run.directory
         plot.draw(of_run)
-        path = report.write(of_run)
+        path = caisson_report.write(of_run)
         found.append((outcome.name, str(path.relative_to(directory.resolve()))))
     return found
 
@@ -140,7 +141,7 @@ def write(test: Interpretation, file: Path, directory: Path) -> Path:
         lstrip_blocks=True,
     )
     environment.filters["sub"] = with_subscripts
-    css = Path(report.__file__).parent / "page.css"
+    css = Path(caisson_report.__file__).parent / "page.css"
     path = directory / NAME
     path.write_text(
         environment.get_template("page.html.jinja").render(

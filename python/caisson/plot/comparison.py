@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Several runs beside each other: a picture of the forces that push or pull their
-caissons, and a .csv file with all their forces at common depths.
+caissons and, where suction draws them in, of the required suction; and a .csv file
+with all their forces at common depths.
 
 The file has a row for each depth, and a column for each force of each run, as in
 total_force_N [jack]; cells where a run has not been are empty. Where a body goes down
@@ -17,6 +18,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from caisson import curves
+from caisson.plot import design
 from caisson.plot.forces import penetration
 from caisson.results import Results, ResultsError, Table
 from caisson.table import write_csv
@@ -65,26 +67,57 @@ def read(directories: Sequence[Path]) -> Histories:
     return found
 
 
+def goes_by_suction(history: Table) -> bool:
+    """Return whether suction draws a body down: then the force that pushes it is its
+    weight, and says nothing."""
+    return design.SUCTION in history and design.goes_down(history)
+
+
+def panels_of(histories: Histories) -> dict[str, Table]:
+    """Return the curves of each panel by its axis and the name of the run: the
+    required suctions, where there are any, and the forces."""
+    suctions = {
+        name: np.maximum(history[design.SUCTION], 0) / 1e3
+        for name, history in histories.items()
+        if goes_by_suction(history)
+    }
+    forces = {
+        name: (history[TOTAL] if name in suctions else pushing_force(history)) / 1e3
+        for name, history in histories.items()
+    }
+    if not suctions:
+        return {"force that pushes the body (kN), negative: pulls": forces}
+    axis = "resistance; without suction, force that pushes (kN)"
+    return {"required suction (kPa)": suctions, axis: forces}
+
+
 def draw(picture: Path, histories: Histories) -> Path:
     """Write the picture."""
-    figure = Figure(figsize=(7, 7))
-    axes = figure.subplots()
-    for i, (name, history) in enumerate(histories.items()):
-        axes.plot(
-            pushing_force(history) / 1e3,
-            history[DEPTH],
-            color=LINES[i % len(LINES)],
-            linestyle=STYLES[i // len(LINES) % len(STYLES)],
-            linewidth=1.4,
-            label=name,
-        )
-    axes.axvline(0, color="0.6", linewidth=0.8)
-    axes.grid(color="0.9")
-    axes.set_axisbelow(True)
-    axes.invert_yaxis()
-    axes.set_xlabel("force that pushes the body (kN), negative: pulls")
-    axes.set_ylabel("penetration of the tip (m)")
-    axes.legend(fontsize=8)
+    panels = panels_of(histories)
+    figure = Figure(figsize=(7 * len(panels), 7))
+    for axes, (label, found) in zip(
+        figure.subplots(1, len(panels), squeeze=False)[0], panels.items()
+    ):
+        for i, (name, history) in enumerate(histories.items()):
+            if name not in found:
+                continue
+            axes.plot(
+                found[name],
+                history[DEPTH],
+                color=LINES[i % len(LINES)],
+                linestyle=STYLES[i // len(LINES) % len(STYLES)],
+                linewidth=1.4,
+                label=name,
+            )
+        axes.axvline(0, color="0.6", linewidth=0.8)
+        axes.grid(color="0.9")
+        axes.set_axisbelow(True)
+        axes.invert_yaxis()
+        axes.xaxis.set_label_position("top")
+        axes.xaxis.tick_top()
+        axes.set_xlabel(label)
+        axes.set_ylabel("penetration of the tip (m)")
+        axes.legend(fontsize=8)
     figure.tight_layout()
     figure.savefig(picture, dpi=150)
     return picture

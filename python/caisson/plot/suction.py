@@ -36,6 +36,15 @@ def rest_of_run(history: Table) -> float | None:
     return float(history["penetration_m"][without[-1]])
 
 
+def pump_limit(run: Results) -> float | None:
+    """Return Water/Largest suction in kPa, None without one."""
+    entries = run.summary.get("entries", {}) if run.scene else {}
+    try:
+        return float(entries.get("Water/Largest suction", "")) / 1e3
+    except ValueError:
+        return None
+
+
 def from_rest_on(suction: np.ndarray) -> np.ndarray:
     """Return a suction in kPa, nan where it is 0, but for the last such row."""
     needed = suction != 0
@@ -127,13 +136,25 @@ def draw_rest(axes: Axes, history: Table, answers: methods.Answers) -> None:
         known.add(label)
 
 
-def draw_cavitation(axes: Axes, history: Table) -> None:
-    """Draw the suction at which water boils beneath the lid, if it is in the range;
-    it grows as the lid comes down."""
-    limit = history.get("cavitation_suction_Pa", np.array([np.inf])) / 1e3
-    if limit.min() < axes.get_xlim()[1]:
-        depth = history["penetration_m"]
-        axes.plot(limit, depth, color=RED, linewidth=1.2, label="water boils")
+def draw_limits(axes: Axes, run: Results) -> None:
+    """Draw the suction at which water boils beneath the lid, which grows as the lid
+    comes down, and that of the pump; name those that are out of the range."""
+    history, beyond = run.history, list[str]()
+    depth = history["penetration_m"]
+    limits = {}
+    if "cavitation_suction_Pa" in history:
+        limits["water boils"] = RED, history["cavitation_suction_Pa"] / 1e3
+    if (pump := pump_limit(run)) is not None:
+        limits["largest of the pump"] = "#762a83", np.full(len(depth), pump)
+    for name, (color, limit) in limits.items():
+        if limit.min() < axes.get_xlim()[1]:
+            axes.plot(limit, depth, color=color, linewidth=1.2, label=name)
+        else:
+            ends = dict.fromkeys(f"{v:.0f}" for v in (limit.min(), limit.max()))
+            beyond.append(f"{name}: {' to '.join(ends)} kPa")
+    if beyond:
+        text = "\n".join(beyond)
+        axes.text(0.02, 0.02, text, transform=axes.transAxes, fontsize=8, bbox=WHITE)
 
 
 def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
@@ -159,7 +180,7 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
         lines += [s / 1e3 for s in answers.suctions.values() if has_line(s)]
     most = max(np.nanmax(line, initial=1e-3) for line in lines)
     axes.set_xlim(-0.02 * most, 1.08 * most)
-    draw_cavitation(axes, history)
+    draw_limits(axes, run)
     draw_rest(axes, history, answers)
     axes.set_xlabel("suction (kPa)")
 
@@ -182,7 +203,8 @@ def draw_gradients(axes: Axes, run: Results) -> None:
 
 
 def draw_heave(axes: Axes, run: Results) -> None:
-    """Draw the heave of the plug and write the volumes of water at the end."""
+    """Draw the heave of the plug and write the seepage at the end; what a pump takes
+    besides depends on the rate of penetration, and a run is faster than a caisson."""
     history = run.history
     axes.plot(
         history["plug_heave_m"],
@@ -194,11 +216,10 @@ def draw_heave(axes: Axes, run: Results) -> None:
     band = error_band(run.error_bounds, "plug_heave", "m")
     draw_error_bar(axes, band, 1.0, "black", ERROR_BAR)
     axes.axvline(0, color="0.6", linewidth=0.8)
-    pumped, seepage = [
-        history[f"{name}_volume_m3"][-1] for name in ("pumped", "seepage")
-    ]
-    text = f"pumped at the end: {pumped:.3g} m³,\nof which seepage: {seepage:.2g} m³"
-    axes.text(0.04, 0.03, text, transform=axes.transAxes, fontsize=8, bbox=WHITE)
+    if "seepage_flow_m3_s" in history:
+        flow = 3600 * history["seepage_flow_m3_s"][-1]
+        text = f"seepage into the plug at the end: {flow:.2g} m³/h"
+        axes.text(0.04, 0.03, text, transform=axes.transAxes, fontsize=8, bbox=WHITE)
     axes.set_xlabel("heave of the plug (m)")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a report says of a run, in numbers and plain words."""
+"""Curves of a report, and what it says of the numbers in plain words."""
 import math
 from collections.abc import Iterable
 from typing import Any
@@ -16,19 +16,26 @@ from caisson.plot.forces import (
     remark_on,
     smooth,
 )
-from caisson.plot.suction import (
-    BLUE,
-    CRITICAL,
-    CRITICAL_COLOR,
-    GREEN,
-    rest_of_run,
-    upper_end,
-)
+from caisson.plot.suction import BLUE, CRITICAL, GREEN, RED, upper_end
 from caisson.plot.suction_methods import CONE_HIGH, CONE_LOW, HIGH, LOW
 from caisson.results import Results, Table
 from caisson_design.reasons import text_of
+from caisson_report.installation import (
+    BOILING,
+    COMPUTED,
+    PUMP,
+    Installation,
+    depths_of,
+)
 
 SHOWN = ("tip", "total")  # parts of the methods in the interactive picture
+LIGHT = {  # of Houlsby & Byrne
+    "total": "#7f7f7f",
+    "tip": "#e59a90",
+    "inner friction": "#8fb4dc",
+    "outer friction": "#93c4a6",
+}
+CRITICAL_COLORS = ("#b35806", "#e08214", "#8c6d31", "#bd9e39")  # as CRITICAL
 MANY = 1500  # points of a curve that a screen can show
 
 Curve = dict[str, Any]  # label, color, kind, x, y; see page.js
@@ -74,7 +81,7 @@ def method_curves(run: Results, deepest: float) -> list[Curve]:
         for part in (theory.PARTS if first else SHOWN) if answer.forces else ():
             low, high = [force / 1e3 for force in answer.band(part)]
             label = f"{part}, {answer.name}{remark}"
-            color = COLORS[part] if first else answer.method.color
+            color = LIGHT[part] if first else answer.method.color
             curve = band(label, color, low, high, answer.depth)
             found.append(
                 curve | {"hidden": bool(remark) or not first or part not in SHOWN}
@@ -122,25 +129,53 @@ def method_suctions(run: Results) -> list[Curve]:
         found.append(band(f"required, {name}", color, kilopascals[low], upper, depth))
     bound = kilopascals[suction_methods.LOWER_BOUND]
     found.append(line(f"required, {theory.LOWER_BOUND}", BLUE, bound, depth))
-    for column, (name, _) in CRITICAL.items():
-        label, first = f"critical, {name}", column == suction_methods.PIPING
-        curve = line(label, CRITICAL_COLOR, kilopascals[column], depth)
-        found.append(curve | {"hidden": not first})
+    for color, (column, (name, _)) in zip(CRITICAL_COLORS, CRITICAL.items()):
+        found.append(line(f"critical, {name}", color, kilopascals[column], depth))
     return found
 
 
-def suction_curves(run: Results) -> list[Curve]:
-    """Return the required suction (kPa) over depth (m), beside the methods."""
+def limit_curves(found: Installation) -> list[Curve]:
+    """Return the other limits of the suction, and where the caisson rests."""
+    curves_of_limits = [
+        line(label, color, found.limits[name], found.depth)
+        for name, label, color in (
+            (COMPUTED, "critical, by the exit gradient computed", "#d6604d"),
+            (BOILING, "water boils below the lid", RED),
+            (PUMP, "largest suction of the pump", "#762a83"),
+        )
+        if name in found.limits
+    ]
+    if found.rest is not None:
+        ends = np.array([0.0, found.required.max()])
+        label = f"rests by weight at {found.rest:.2f} m"
+        curves_of_limits.append(line(label, "#888888", ends, np.full(2, found.rest)))
+    return curves_of_limits
+
+
+def beyond_the_chart(found: Installation) -> str:
+    """Return which limits are far from what is required, in a sentence."""
+    words = []
+    for name, text in ((BOILING, "water boils below the lid at"), (PUMP, "the pump")):
+        limit = found.limits.get(name, np.full(1, np.nan))
+        if limit.min() > 1.5 * found.required.max():
+            ends = dict.fromkeys(f"{v:.0f}" for v in (limit.min(), limit.max()))
+            can = "" if name == BOILING else " can draw"
+            words.append(f"{text}{can} {' to '.join(ends)} kPa")
+    return f"Beyond the right end of the chart: {', '.join(words)}." if words else ""
+
+
+def suction_curves(run: Results, found: Installation) -> list[Curve]:
+    """Return the required suction (kPa) over depth (m), beside methods and limits."""
     history, depth = run.history, run.history["penetration_m"]
-    found = method_suctions(run)
+    shown = [*method_suctions(run), *limit_curves(found)]
     bar = error_band(run.error_bounds, "required_suction", "Pa")
     if bar is not None:
         at, low, high = [bar[0], *(np.maximum(bound, 0) / 1e3 for bound in bar[1:])]
-        found.append(band("required, error bar", "black", low, high, at))
+        shown.append(band("required, error bar", "black", low, high, at))
     required = np.maximum(history["required_suction_Pa"], 0) / 1e3
     label = "required, computed"
-    found.append(line(label, "black", required, depth, thick=True))
-    return found
+    shown.append(line(label, "black", required, depth, thick=True))
+    return shown
 
 
 def with_points(found: list[Curve]) -> list[Curve]:
@@ -152,97 +187,64 @@ def with_points(found: list[Curve]) -> list[Curve]:
     ]
 
 
-def figures_of(run: Results) -> list[dict[str, Any]]:
-    """Return the interactive figures: id, title, axis and curves that have points."""
+def figures_of(run: Results, found: Installation | None) -> list[dict[str, Any]]:
+    """Return the interactive figures: id, title, axis, note and curves that have
+    points; the suction, where there is any, before the forces."""
     if penetration(run.history) is None:
         return []
-    found = [
+    figures = []
+    if found is not None and found.has_suction:
+        figures.append(
+            {
+                "id": "suction",
+                "title": "Installation chart: required suction and its limits",
+                "axis": "suction (kPa)",
+                "note": beyond_the_chart(found),
+                "curves": with_points(suction_curves(run, found)),
+            }
+        )
+    figures.append(
         {
             "id": "forces",
             "title": "Forces on the caisson",
             "axis": "force (kN)",
+            "note": "",
             "curves": with_points(force_curves(run)),
         }
-    ]
-    if "required_suction_Pa" in run.history:
-        found.append(
-            {
-                "id": "suction",
-                "title": "Suction that the motion requires",
-                "axis": "suction (kPa)",
-                "curves": with_points(suction_curves(run)),
-            }
-        )
-    return found
+    )
+    return figures
 
 
-def table_of(run: Results) -> dict[str, Any]:
-    """Return forces and unit resistances at each meter: heads and rows of text.
+def unit_table(run: Results) -> dict[str, Any]:
+    """Return the unit resistances at each half meter: heads and rows of text.
 
     They are those of the way down, or of the way up where there is none. Values are
     means over 0.2 m, or less at the ends. Friction is over the wall below the mudline
     of the start, the tip force over the area of the flat tip.
     """
     history, scene = run.history, run.scene
-    if penetration(history) is None:
-        return {"heads": [], "rows": []}
+    nothing: dict[str, Any] = {"heads": [], "rows": []}
+    if penetration(history) is None or not scene.get("wall_thickness_m"):
+        return nothing
     way = curves.way_down(history["penetration_m"])
     if len(way) < 2:
         way = curves.way_up(history["penetration_m"])[::-1]
     depth = history["penetration_m"][way]
-    at = curves.round_depths(depth)
+    at = depths_of(depth)
+    at = at[at > 0]
 
     def mean(column: str) -> np.ndarray:
         return curves.smoothed_at(depth, history[column][way], at)
 
-    columns: dict[str, np.ndarray] = {"depth (m)": at}
-    for name in COLORS:
-        if column_of(name) in history:
-            columns[f"{name} (kN)"] = mean(column_of(name)) / 1e3
-    if scene.get("diameter_m") and scene.get("wall_thickness_m"):
-        outer, wall = float(scene["diameter_m"]), float(scene["wall_thickness_m"])
-        inner = outer - 2 * wall
-        tip_area = math.pi / 4 * (outer**2 - inner**2)
-        columns["unit tip (kPa)"] = mean("tip_force_N") / 1e3 / tip_area
-        for side, width in (("inner", inner), ("outer", outer)):
-            friction = mean(f"{side}_friction_N") / 1e3
-            columns[f"unit {side} friction (kPa)"] = friction / (math.pi * width * at)
-    if "required_suction_Pa" in history:
-        columns["required suction (kPa)"] = (
-            np.maximum(mean("required_suction_Pa"), 0) / 1e3
-        )
-        columns["plug heave (m)"] = mean("plug_heave_m")
+    outer, wall = float(scene["diameter_m"]), float(scene["wall_thickness_m"])
+    inner = outer - 2 * wall
+    tip_area = math.pi / 4 * (outer**2 - inner**2)
+    columns = {"depth (m)": at, "tip (kPa)": mean("tip_force_N") / 1e3 / tip_area}
+    for side, width in (("inner", inner), ("outer", outer)):
+        friction = mean(f"{side}_friction_N") / 1e3
+        columns[f"{side} friction (kPa)"] = friction / (math.pi * width * at)
     texts = [[text_of(value) for value in values] for values in columns.values()]
     return {"heads": list(columns), "rows": [list(row) for row in zip(*texts)]}
-
-
-def key_values(run: Results) -> list[tuple[str, str, str]]:
-    """Return (name, value, remark) of what matters most."""
-    history, found = run.history, []
-    depth = penetration(history)
-    if depth is not None:
-        found.append(("Penetration reached", f"{depth.max():.2f} m", ""))
-        if "total_force_N" in history:
-            force = history["total_force_N"] / 1e3
-            at = int(np.argmax(force))
-            found.append(
-                ("Largest force", f"{force[at]:.0f} kN", f"at {depth[at]:.2f} m")
-            )
-    if depth is not None and "required_suction_Pa" in history:
-        required = history["required_suction_Pa"] / 1e3
-        at = int(np.argmax(required))
-        found.append(
-            (
-                "Largest suction",
-                f"{max(required[at], 0):.1f} kPa",
-                f"at {depth[at]:.2f} m",
-            )
-        )
-        rest = rest_of_run(history)
-        if rest is not None:
-            found.append(("Rests by weight at", f"{rest:.2f} m", ""))
-        found.append(("Heave of the plug", f"{history['plug_heave_m'][-1]:.2f} m", ""))
-    return found
 
 
 def remarks_on_numbers(run: Results) -> list[str]:

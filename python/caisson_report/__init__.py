@@ -18,21 +18,26 @@ INTERVAL = 30.0  # s, in which a followed report is renewed
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 
-def write(directory: Path) -> Path:
-    """Write the report of a run; return its path. Raises ResultsError."""
-    from caisson.report import page
+def write(directory: Path, rate: float | None = None) -> Path:
+    """Write the report of a run, with a pump for a rate of penetration (m/h), or an
+    assumed one; return its path. Raises ResultsError."""
+    from caisson_report import page
+    from caisson_report.installation import Rate
 
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
-    path = directory / NAME
-    path.write_text(page.html(Results(directory)), encoding="utf-8")
+    path, new = directory / NAME, directory / f".{NAME}"
+    text = page.html(Results(directory), Rate() if rate is None else Rate(rate, False))
+    # whoever looks at the page never sees a half of it
+    new.write_text(text, encoding="utf-8")
+    new.replace(path)
     return path
 
 
-def follow(directory: Path, interval: float) -> Path:
-    """Renew the report until the run has written run.json; return its path."""
+def follow(directory: Path, interval: float, rate: float | None = None) -> Path:
+    """Renew the report until the run has ended; return its path."""
     while True:
-        path = write(directory)
+        path = write(directory, rate)
         if not Results(directory).is_running:
             return path
         time.sleep(interval)
@@ -63,6 +68,7 @@ def print_pdf(path: Path) -> Path:
             "--no-sandbox",
             "--disable-gpu",
             "--no-pdf-header-footer",
+            "--virtual-time-budget=10000",  # ms, in which the curves are drawn
             f"--print-to-pdf={pdf}",
             path.resolve().as_uri(),
         ],
@@ -83,6 +89,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         " tip and friction; its history is kept as jacked.csv",
     )
     parser.add_argument("directories", nargs="+", type=Path, metavar="DIR")
+    parser.add_argument(
+        "--rate",
+        type=float,
+        metavar="M/H",
+        help="rate of penetration that the pump is made for, in m/h; 1 is assumed",
+    )
     parser.add_argument("--pdf", action="store_true", help="print it to report.pdf too")
     parser.add_argument(
         "--follow", action="store_true", help="renew it until the run ends"
@@ -91,7 +103,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(options: argparse.Namespace) -> int:
     """Write the report of each run; a run that has none is named."""
-    from caisson.report import relief
+    from caisson_report import relief
 
     status = 0
     for directory in options.directories:
@@ -101,7 +113,12 @@ def main(options: argparse.Namespace) -> int:
                 draw(directory)
             if options.jacked is not None:
                 relief.adopt(options.jacked, directory)
-            path = follow(directory, INTERVAL) if options.follow else write(directory)
+            if options.rate is not None and not options.rate > 0:
+                raise ResultsError(f"--rate {options.rate:g}: give m/h above 0")
+            if options.follow:
+                path = follow(directory, INTERVAL, options.rate)
+            else:
+                path = write(directory, options.rate)
             print(f"report: {path}")
             if options.pdf:
                 print(f"report: {print_pdf(path)}")

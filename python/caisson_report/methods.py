@@ -8,7 +8,6 @@ import numpy as np
 from caisson import curves
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import penetration
-from caisson.report import relief
 from caisson.results import Results
 from caisson_design import suction_installation as installation
 from caisson_design.houlsby_byrne import STILL, UNDISTURBED
@@ -24,6 +23,8 @@ from caisson_design.reasons import (
     relieved,
     text_of,
 )
+from caisson_report import relief
+from caisson_report.installation import depths_of
 
 UNDISTURBED_IS = (
     f"{UNDISTURBED}: K0 tan \N{GREEK SMALL LETTER DELTA} without stress enhancement, a"
@@ -67,8 +68,57 @@ def forces_beside(
             for bound in answer.method.bound:
                 force = answer.forces[bound]["total"] / 1e3
                 columns[f"computed / {bound}"] = ratios(computed, force, force)
-    title = "Force of jacking (kN)" if computed is None else "Total force (kN)"
+    title = (
+        "Force of jacking, without suction (kN)"
+        if computed is None
+        else "Total force (kN)"
+    )
     return table(title, columns)
+
+
+def resistance_beside(
+    run: Results, at: np.ndarray, site: theory.Site
+) -> dict[str, Any]:
+    """Return the table of the resistance (kN) under the suction of the run, by the run
+    and by the methods for suction, each with what this suction leaves."""
+    total = design.forces_at(run.history, at)[design.FORCES[-1]] / 1e3
+    suction = np.maximum(required_at(run, at), 0)
+    columns: dict[str, Any] = {
+        "depth (m)": at,
+        "suction (kPa)": suction / 1e3,
+        "computed": total,
+    }
+    try:
+        byrne = theory.houlsby_byrne_of(site, float(at.max()))
+    except theory.NotApplicable:
+        return table("", {"depth (m)": at})
+    caisson, _ = byrne.by_name[UNDISTURBED]
+    flows = [
+        installation.seepage(caisson, float(s), float(h), byrne.permeability_ratio)
+        for s, h in zip(suction, at)
+    ]
+    by_method = {
+        "Houlsby & Byrne (2005)": [
+            [byrne.forces_under(flow, float(h), case) for flow, h in zip(flows, at)]
+            for case in byrne.cases
+        ]
+    }
+    for answer in theory.answers_of(site, at):
+        if answer.method.key == "senders_randolph" and answer.forces:
+            critical = [installation.critical_suction(caisson, float(h)) for h in at]
+            left = 1 - suction / np.array(critical)
+            by_method[answer.name] = [
+                [
+                    relieved(by_case(answer, case, i), float(x))
+                    for i, x in enumerate(left)
+                ]
+                for case in answer.method.cases
+            ]
+    for name, cases in by_method.items():
+        ends = [np.array([forces.total for forces in case]) / 1e3 for case in cases]
+        columns |= {f"{name}, low": ends[0], f"{name}, high": ends[1]}
+        columns[f"computed / {name}"] = ratios(total, ends[0], ends[1])
+    return table("Resistance under the suction of the run (kN)", columns)
 
 
 def required_at(run: Results, at: np.ndarray) -> np.ndarray:
@@ -201,9 +251,9 @@ def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]
     return [sentence for sentence in [*found, *sentences] if sentence]
 
 
-def by_case(answer: theory.Answer, case: str) -> Forces:
-    """Return the forces of an answer at its first depth."""
-    return Forces(*(float(answer.forces[case][part][0]) for part in theory.PARTS[:3]))
+def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
+    """Return the forces of an answer at one of its depths."""
+    return Forces(*(float(answer.forces[case][part][i]) for part in theory.PARTS[:3]))
 
 
 # ------------------------------------------------------------------ all
@@ -217,9 +267,7 @@ def methods_of(run: Results) -> dict[str, Any]:
         return NOTHING
     rows_down = curves.way_down(history["penetration_m"])
     site = theory.site_of(run)
-    at = curves.round_depths(history["penetration_m"][rows_down])
-    if not len(at):
-        return NOTHING
+    at = depths_of(history["penetration_m"][rows_down], 1.0)
     answers = theory.answers_of(site, at)
     with_suction, total = design.SUCTION in history, design.FORCES[-1]
     computed = None
@@ -229,7 +277,8 @@ def methods_of(run: Results) -> dict[str, Any]:
     if with_suction:
         columns, meaning = relief.table_of(run, at)
         left = [table("What suction leaves of the forces", columns)] if columns else []
-        tables = [suctions_beside(run, at, site), *left, *tables]
+        resistance = resistance_beside(run, at, site)
+        tables = [suctions_beside(run, at, site), resistance, *left, *tables]
     # the deepest of them that a cone test reaches
     end = site.cone.depth[-1] if site.cone else np.inf
     h = float(max((z for z in at if z <= end), default=at[-1]))

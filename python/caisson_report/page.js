@@ -3,8 +3,6 @@
   "use strict";
   const data = JSON.parse(document.getElementById("data").textContent);
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
-  let printing = false;
-
   const color = (name) =>
     getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -23,13 +21,16 @@
         lines: { show: true, lineWidth: curve.thick ? 2.2 : 1.2 },
         shadowSize: 0,
       };
-    // an area is a closed line
+    const range = curve.y
+      .map((y, i) => [y, curve.x[i], curve.to[i]])
+      .filter((row) => row[1] !== null && row[2] !== null);
+    // the closed line widens the axes
     const back = curve.to.map((x, i) => [x, curve.y[i]]).reverse();
     const closed = points.concat(back).filter((p) => p[0] !== null);
     return {
       label: curve.label,
       color: shown(curve.color),
-      area: closed,
+      range: range,
       data: closed,
       hoverable: false,
       lines: { show: true, lineWidth: 0 },
@@ -37,24 +38,44 @@
     };
   }
 
-  function fillAreas(plot, context) {
-    const offset = plot.getPlotOffset();
+  // A range is two thin lines, with bars between them at some depths: areas of
+  // several methods above each other cannot be told apart.
+  function drawRanges(plot, context) {
+    const offset = plot.getPlotOffset(), ranges = plot.getData().filter((s) => s.range);
     context.save();
     context.beginPath();
     context.rect(offset.left, offset.top, plot.width(), plot.height());
     context.clip();
-    for (const one of plot.getData()) {
-      if (!one.area) continue;
-      context.beginPath();
-      for (const [x, y] of one.area) {
-        const at = plot.p2c({ x: x, y: y });
-        context.lineTo(at.left + offset.left, at.top + offset.top);
+    ranges.forEach((one, number) => {
+      const ends = one.range.map((row) =>
+        row.slice(1).map((x) => {
+          const at = plot.p2c({ x: x, y: row[0] });
+          return [at.left + offset.left, at.top + offset.top];
+        })
+      );
+      context.strokeStyle = one.color;
+      context.lineWidth = 0.9;
+      for (const side of [0, 1]) {
+        context.beginPath();
+        for (const row of ends) context.lineTo(...row[side]);
+        context.stroke();
       }
-      context.closePath();
-      context.globalAlpha = 0.2;
-      context.fillStyle = one.color;
-      context.fill();
-    }
+      context.lineWidth = 1.6;
+      const step = 48, first = ((number + 1) * step) / (ranges.length + 1);
+      let next = first;
+      for (const [low, high] of ends) {
+        if (low[1] - offset.top < next) continue;
+        while (next <= low[1] - offset.top) next += step;
+        context.beginPath();
+        context.moveTo(...low);
+        context.lineTo(high[0], low[1]);
+        for (const x of [low[0], high[0]]) {
+          context.moveTo(x, low[1] - 4);
+          context.lineTo(x, low[1] + 4);
+        }
+        context.stroke();
+      }
+    });
     context.restore();
   }
 
@@ -110,7 +131,7 @@
       }],
       zoom: { interactive: true },
       pan: { interactive: true, enableTouch: true },
-      hooks: { drawBackground: [fillAreas] },
+      hooks: { draw: [drawRanges] },
     };
   }
 
@@ -123,7 +144,7 @@
   }
 
   // The canvas has curves and grid; the texts of the axes are SVG above it.
-  function picture(section, name) {
+  function picture(section, use) {
     const sources = [...section.querySelectorAll(".plot canvas.flot-base, .plot svg")];
     const target = document.createElement("canvas");
     $.plot.composeImages(sources, target).then(() => {
@@ -134,7 +155,7 @@
       context.fillStyle = color("--paper");
       context.fillRect(0, 0, page.width, page.height);
       context.drawImage(target, 0, 0);
-      save(name, "png", page.toDataURL("image/png"));
+      use(page.toDataURL("image/png"));
     });
   }
 
@@ -147,6 +168,10 @@
 
     this.draw = function () {
       $.plot(place, visible().map(series), options(figure, limits(visible())));
+      // a canvas is empty on paper
+      const paper = section.querySelector(".paper");
+      paper.classList.toggle("dark", dark.matches);
+      picture(section, (url) => (paper.src = url));
     };
 
     function listCurves() {
@@ -162,10 +187,7 @@
         };
         const mark = document.createElement("i");
         mark.style.background = shown(curve.color);
-        if (curve.to) {
-          mark.className = "band";
-          mark.style.opacity = 0.35;
-        }
+        if (curve.to) mark.className = "range";
         label.append(box, mark, curve.label);
         legend.append(label);
       }
@@ -182,7 +204,8 @@
       const wanted = event.target.dataset.do;
       if (wanted === "reset") self.draw();
       if (wanted === "csv") save(data.name + "_history.csv", "text/csv", data.csv);
-      if (wanted === "png") picture(section, `${data.name}_${figure.id}.png`);
+      if (wanted === "png")
+        picture(section, (url) => save(`${data.name}_${figure.id}.png`, "png", url));
     };
     this.renew = function () {
       listCurves();
@@ -195,16 +218,8 @@
   const renew = () => figures.forEach((figure) => figure.renew());
   let width = window.innerWidth;
   window.addEventListener("resize", () => {
-    if (window.innerWidth !== width && !printing) renew();
+    if (window.innerWidth !== width) renew();
     width = window.innerWidth;
   });
   dark.addEventListener("change", renew);
-  window.addEventListener("beforeprint", () => {
-    printing = true;
-    renew();
-  });
-  window.addEventListener("afterprint", () => {
-    printing = false;
-    renew();
-  });
 })();

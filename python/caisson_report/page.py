@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The page of a report: contents, pictures and scripts in one file."""
+import base64
+import json
+import time
+from pathlib import Path
+from typing import Any
+
+import jinja2
+
+from caisson import plot
+from caisson.lock import is_locked
+from caisson.needed import JAVASCRIPT, SCRIPTS
+from caisson.results import Results
+from caisson_report import content, installation, methods, scene, sketch
+from caisson_report.installation import Installation, Rate
+
+HERE = Path(__file__).parent
+REFRESH = 30  # s, of the page of a run that has not ended
+# name of a picture without its suffix: what it shows
+PICTURES = {
+    "stress": "Vertical effective stress",
+    "pore_pressure": "Excess pore pressure and flow lines, beside effective stress",
+    "suction": "Suction, exit gradients and heave of the plug",
+    "walls": "Stresses along the walls",
+    "displacement": "Displacement",
+    "void_ratio": "Void ratio",
+    "forces": "Forces",
+}
+
+
+def script(name: str) -> str:
+    """Return a script of Debian's for the page."""
+    text = (JAVASCRIPT / name).read_text(encoding="utf-8")
+    return text.replace("</script", "<\\/script")
+
+
+def pictures_of(run: Results) -> list[dict[str, str]]:
+    """Return the run's pictures as data, each with what it shows; drawn where the run
+    has left none."""
+    if not (run.directory / "forces.png").is_file() and not run.is_running:
+        plot.draw(run.directory)
+    found = []
+    for name, shows in PICTURES.items():
+        path = run.directory / f"{name}.png"
+        if path.is_file():
+            data = base64.b64encode(path.read_bytes()).decode("ascii")
+            found.append({"name": name, "shows": shows, "data": data})
+    return found
+
+
+def facts_of(run: Results) -> list[tuple[str, str]]:
+    """Return versions, sizes and times; of a run that failed, those that are known."""
+    if run.is_running:
+        return []
+    summary = run.summary
+    points = summary.get("material_points", "not known")
+    facts = [
+        ("Results", str(run.directory)),
+        ("Cells, material points", f"{summary['cells']}, {points}"),
+        ("Steps", f"{summary['steps']} of {summary['time_step_s']:.3g} s"),
+        ("Limit of the step", str(summary["time_step_limit"])),
+        ("Ranks", str(summary["ranks"])),
+        ("Time", f"{summary['wall_time_s']:.0f} s"),
+        ("Fingerprint of the scene", str(summary["fingerprint"])),
+    ]
+    if "peak_memory_bytes" in summary:
+        facts.append(("Memory", f"{summary['peak_memory_bytes'] / 1e6:.0f} MB"))
+    return facts
+
+
+def duration_in_words(seconds: float) -> str:
+    """Return a time that is left, roughly."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    minutes = seconds / 60
+    return f"{minutes:.0f} min" if minutes < 90 else f"{minutes / 60:.1f} h"
+
+
+def progress_of(run: Results) -> tuple[float, str]:
+    """Return how much of a run is done (%), and in words how long it takes still."""
+    known = run.summary.get("progress") or {} if run.scene else {}
+    done = 100 * float(known.get("fraction_done") or 0)
+    left = known.get("remaining_s")
+    words = f"{done:.0f} % done"
+    return done, words + (f", about {duration_in_words(left)} left" if left else "")
+
+
+def status_of(run: Results) -> str:
+    """Return how the run ended, in words."""
+    if run.is_running:
+        done, words = progress_of(run)
+        if not is_locked(run.directory) and done:
+            return f"The run was ended before it was finished: {words.split(',')[0]}."
+        said = f"Running: {words}. " if done else "The run has not ended. "
+        return f"{said}This page reloads itself every {REFRESH} seconds."
+    if failure := run.summary.get("failure"):
+        return f"Failed: {failure}"
+    reason = run.scene.get("end_reason")
+    status = str(run.summary.get("status", "finished"))
+    return f"Ended early: {reason}." if reason else f"Status: {status}."
+
+
+def job_of(run: Results, summary: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return what a first page must name: scene, program and date."""
+    if not summary:
+        return []
+    ended = time.localtime((run.directory / "run.json").stat().st_mtime)
+    version, library = summary["version"], summary["dealii_version"]
+    return [
+        ("Scene", str(summary["scene_file"])),
+        ("Computed", time.strftime("%Y-%m-%d %H:%M", ended)),
+        ("Program", f"caisson_mpm {version}, deal.II {library}"),
+    ]
+
+
+def warnings_of(summary: dict[str, Any]) -> dict[str, list[str]]:
+    """Return the warnings by their rank; older files have none, so that all count."""
+    found: dict[str, list[str]] = {"result": [], "input": [], "cosmetic": []}
+    ranked = (summary.get("results") or {}).get("warnings")
+    if ranked is None:
+        return {**found, "result": list(summary.get("warnings", []))}
+    for warning in ranked:
+        found[warning["rank"]].append(warning["text"])
+    return found
+
+
+def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any]:
+    """Return sketch and tables of caisson and soil."""
+    if not run.scene:
+        return {"sketch": "", "caisson": [], "layers": {"rows": []}}
+    depth = float(found.depth[-1]) if found is not None else 0.0
+    return {
+        "sketch": sketch.of_run(run, depth, found.rest if found else None),
+        "caisson": scene.caisson_of(run),
+        "layers": scene.layers_table(run),
+    }
+
+
+def method_card(found: dict[str, Any]) -> list[tuple[str, ...]]:
+    """Return a card with computed over method at the end, of the first table of the
+    design methods; nothing where none has an answer there."""
+    mark = "computed / "
+    for table in found["tables"][:1]:
+        cells = dict(zip(table["heads"], table["rows"][-1]))
+        ratios = [
+            (head.removeprefix(mark), cell)
+            for head, cell in cells.items()
+            if head.startswith(mark) and cell
+        ]
+        if ratios:
+            (name, value), *others = ratios
+            words = f"of {name}, at {cells['depth (m)']} m"
+            more = "; other methods below" if others else ""
+            return [("Computed / method", value, words + more)]
+    return []
+
+
+def html(run: Results, rate: Rate) -> str:
+    """Return the page. Raises ResultsError or OSError."""
+    loader = jinja2.FileSystemLoader(HERE)
+    environment = jinja2.Environment(
+        loader=loader, autoescape=True, undefined=jinja2.StrictUndefined
+    )
+    found = installation.installation_of(run, rate)
+    beside = methods.methods_of(run)
+    cards = [] if found is None else installation.cards_of(run, found, rate)
+    data: dict[str, Any] = {
+        "figures": content.figures_of(run, found),
+        "csv": content.csv_of(run.history),
+        "name": run.directory.resolve().name,
+    }
+    summary = run.summary if run.scene or not run.is_running else {}
+    return environment.get_template("page.html").render(
+        title=summary.get("title") or run.directory.resolve().name,
+        job=job_of(run, summary),
+        status=status_of(run),
+        progress=progress_of(run)[0] if run.is_running else 0,
+        refresh=REFRESH if run.is_running else 0,
+        cards=cards + method_card(beside) if cards else [],
+        computed=what_was_computed(run, found),
+        rate=rate.words,
+        tables=[] if found is None else installation.tables_of(found),
+        has_suction=found is not None and found.has_suction,
+        error=content.error_remark(run),
+        figures=data["figures"],
+        units=content.unit_table(run),
+        methods=beside,
+        pictures=pictures_of(run),
+        remarks=content.remarks_on_numbers(run),
+        warnings=warnings_of(summary),
+        entries=summary.get("entries", {}),
+        defaults=summary.get("defaults", {}),
+        facts=facts_of(run),
+        style=(HERE / "page.css").read_text(encoding="utf-8"),
+        scripts=[script(name) for name in SCRIPTS],
+        own_script=(HERE / "page.js").read_text(encoding="utf-8"),
+        data=json.dumps(data, allow_nan=False).replace("<", "\\u003c"),
+    )

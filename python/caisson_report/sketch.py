@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A section through caisson and ground, to scale and with dimensions, as SVG."""
+import html
+from typing import Any
+
+from caisson.results import Results
+
+WIDTH, MARGIN = 560.0, 52.0  # of the drawing, and of each side (pixels)
+TALL, LEAST_BAND = 420.0, 15.0  # largest height, lowest layer with a text (pixels)
+LEAST_WALL = 1.6  # pixels
+
+
+class Drawing:
+    """Shapes and texts in meters, depth downward from the mudline."""
+
+    def __init__(self, half_width: float, top: float, bottom: float) -> None:
+        room = WIDTH - 2 * MARGIN
+        self.scale = min(room / (2 * half_width), TALL / (bottom - top))
+        self.top, self.half_width, self.bottom = top, half_width, bottom
+        self.parts: list[str] = []
+
+    def x(self, r: float) -> float:
+        """Return the pixel of a distance from the axis."""
+        return WIDTH / 2 + self.scale * r
+
+    def y(self, depth: float) -> float:
+        """Return the pixel of a depth."""
+        return 26 + self.scale * (depth - self.top)
+
+    def box(self, kind: str, left: float, top: float, right: float, low: float) -> None:
+        """Add a rectangle."""
+        x, y = self.x(left), self.y(top)
+        width, height = self.x(right) - x, self.y(low) - y
+        self.parts.append(
+            f'<rect class="{kind}" x="{x:.1f}" y="{y:.1f}" width="{width:.1f}"'
+            f' height="{height:.1f}"/>'
+        )
+
+    def line(self, kind: str, *ends: float) -> None:
+        """Add a line between two pixels."""
+        x1, y1, x2, y2 = (f"{end:.1f}" for end in ends)
+        text = f'<line class="{kind}" x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}"/>'
+        self.parts.append(text)
+
+    def text(self, x: float, y: float, words: str, anchor: str = "start") -> None:
+        """Add a text at a pixel."""
+        self.parts.append(
+            f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">'
+            f"{html.escape(words)}</text>"
+        )
+
+    def height(self, x: float, top: float, low: float, words: str) -> None:
+        """Add a dimension line of a depth range beside the pixel x."""
+        for depth in (top, low):
+            self.line("dimension", x - 4, self.y(depth), x + 4, self.y(depth))
+        self.line("dimension", x, self.y(top), x, self.y(low))
+        middle = (self.y(top) + self.y(low)) / 2 + 4
+        side = -1 if x < WIDTH / 2 else 1
+        self.text(x + 6 * side, middle, words, "end" if side < 0 else "start")
+
+    def svg(self, words: str) -> str:
+        """Return the drawing; words say what it shows."""
+        height = self.y(self.bottom) + 22
+        return (
+            f'<svg class="sketch" viewBox="0 0 {WIDTH:g} {height:.0f}" role="img"'
+            f' aria-label="{html.escape(words)}">{"".join(self.parts)}</svg>'
+        )
+
+
+def about_layer(layer: dict[str, Any], number: int) -> str:
+    """Return the most important numbers of a layer in a few words."""
+    words = [f"layer {layer.get('layer', number)}"]
+    if layer.get("friction_angle_deg"):
+        words.append(f"φ {float(layer['friction_angle_deg']):.3g}°")
+    if layer.get("cohesion_Pa"):
+        words.append(f"c {float(layer['cohesion_Pa']) / 1e3:.3g} kPa")
+    if layer.get("relative_density") is not None:
+        words.append(f"density {100 * float(layer['relative_density']):.0f} %")
+    weight = float(layer.get("submerged_unit_weight_N_m3") or 0) / 1e3
+    return ", ".join([*words, f"γ′ {weight:.3g} kN/m³"])
+
+
+def draw_ground(drawing: Drawing, layers: list[dict[str, Any]]) -> None:
+    """Draw the layers, with their depths at the right."""
+    side = drawing.half_width
+    tops = [float(layer.get("top_depth_m") or 0) for layer in layers]
+    written = -1e9
+    for i, (layer, top) in enumerate(zip(layers, tops)):
+        low = min([*tops[i + 1 :], drawing.bottom], default=drawing.bottom)
+        if top >= drawing.bottom:
+            break
+        drawing.box(f"soil soil{i % 2}", -side, top, side, low)
+        if drawing.y(top) - written < LEAST_BAND:
+            continue
+        written = drawing.y(top)
+        if i:
+            x = drawing.x(side)
+            drawing.text(x + 6, written + 4, f"{top:g} m")
+        if drawing.scale * (low - top) > LEAST_BAND:
+            drawing.text(
+                drawing.x(-side) + 6, drawing.y(low) - 5, about_layer(layer, i + 1)
+            )
+
+
+def of_run(run: Results, depth: float, rest: float | None) -> str:
+    """Return the section with the tip at a depth (m), and where the caisson rests by
+    its weight (m); nothing for other bodies than caissons."""
+    scene = run.scene
+    if not scene.get("diameter_m") or not scene.get("wall_thickness_m"):
+        return ""
+    outer, wall = float(scene["diameter_m"]), float(scene["wall_thickness_m"])
+    length = float(scene.get("skirt_length_m") or depth)
+    radius, lid = outer / 2, depth - length
+    bottom = max(depth, 0.1) * 1.3
+    drawing = Drawing(0.95 * outer, min(lid, 0.0) - 0.06 * length, bottom)
+    draw_ground(drawing, scene.get("layers") or [])
+    shown = max(wall, LEAST_WALL / drawing.scale)
+    for left in (-radius, radius - shown):
+        drawing.box("steel", left, lid, left + shown, depth)
+    drawing.box("steel", -radius, lid - shown, radius, lid)
+    y, x = drawing.y(lid - shown) - 8, (drawing.x(-radius), drawing.x(radius))
+    drawing.line("dimension", x[0], y, x[1], y)
+    for end in x:
+        drawing.line("dimension", end, y - 4, end, y + 4)
+    drawing.text(WIDTH / 2, y - 5, f"D = {outer:g} m", "middle")
+    drawing.height(drawing.x(-radius) - 14, lid, depth, f"L = {length:g} m")
+    drawing.height(drawing.x(radius) + 14, 0, depth, f"h = {depth:.2f} m")
+    words = f"t = {1000 * wall:g} mm"
+    drawing.text(drawing.x(radius), drawing.y(depth) + 15, words, "middle")
+    axis = WIDTH / 2
+    drawing.line("axis", axis, drawing.y(lid), axis, drawing.y(bottom))
+    if rest is not None and 0 < rest < depth:
+        drawing.line(
+            "rest",
+            drawing.x(-radius),
+            drawing.y(rest),
+            drawing.x(radius),
+            drawing.y(rest),
+        )
+        words = f"rests by weight at {rest:.2f} m"
+        drawing.text(drawing.x(0), drawing.y(rest) - 4, words, "middle")
+    return drawing.svg("section through caisson and ground, to scale")

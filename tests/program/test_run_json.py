@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What run.json has for scripts, and the columns of history.csv: program.py."""
+import importlib.util
+import json
+import unittest
+from typing import Any
+
+from program import (
+    HERE,
+    STOPPED,
+    SUCCESS,
+    Entries,
+    ProgramTest,
+    history,
+    scene,
+    summary,
+    user_scene,
+)
+
+SCHEMA = HERE.parent / "doc/how_to/run.schema.json"
+SMALL: Entries = {
+    "Rigid body/Outer diameter": 2.2,
+    "Rigid body/Skirt length": 2,
+    "Rigid body/Submerged weight": 6e4,
+    "Rigid body/Cells across the wall": 2,
+    "Grid/Outer radius": 5,
+    "Grid/Bottom": -4,
+    "Grid/Top": 3.5,
+    "Time/End penetration": 1.3,
+    "Water/Largest suction": 200e3,
+    "Output/Record interval": 0.05,
+    "Output/Frame penetrations": "0.5, 3",
+    "Output/Frame interval": 100,
+    "Output/Error bar": "",
+    "Output/Terminal": "full",
+}
+MARKED = """include {scene}
+subsection Soil
+  subsection Layer 1
+    set Poisson ratio = 0.3 # ASSUMED
+    set Friction angle = 30 # measured
+  end
+end
+"""
+
+
+def errors_of(data: Any) -> list[str]:
+    """Return what the schema says against a run.json."""
+    import jsonschema
+
+    schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator.check_schema(schema)
+    found = jsonschema.Draft202012Validator(schema).iter_errors(data)
+    return [f"{'/'.join(map(str, error.path))}: {error.message}" for error in found]
+
+
+@unittest.skipUnless(importlib.util.find_spec("jsonschema"), "needs jsonschema")
+class Schema(ProgramTest):
+    """The schema of the manual, against what the program writes."""
+
+    def test_suction(self) -> None:
+        """All that a run with suction has; results agree with history.csv."""
+        path = self.directory()
+        file = self.made_directory() / "mine.prm"
+        marked = MARKED.format(scene=user_scene("suction"))
+        file.write_text(marked, encoding="utf-8")
+        said = self.run_program(
+            SUCCESS, file, "--output-directory", path, entries=SMALL
+        )
+        found, rows = summary(path), history(path)
+        self.assertEqual(errors_of(found), [])
+        self.assertEqual(found["assumed"], ["Soil/Layer 1/Poisson ratio"])
+        self.assertEqual(found["defaults"]["Rigid body/Tip"], "triangular")
+        results = found["results"]
+        last = results["at_depths"][-1]
+        self.assertAlmostEqual(last["penetration_m"], 1.3, places=6)
+        for name in ("total_force_N", "required_suction_Pa", "plug_heave_m"):
+            self.assertAlmostEqual(last[name] / rows[-1][name], 1, places=6)
+        room = 2 - 1.3 - rows[-1]["plug_heave_m"]
+        self.assertAlmostEqual(last["room_below_lid_m"], room, places=6)
+        near = [r for r in rows if abs(r["penetration_m"] - 1) < 0.1 + 1e-9]
+        mean = sum(row["tip_force_N"] for row in near) / len(near)
+        (at_1,) = [row for row in results["at_depths"] if row["penetration_m"] == 1]
+        self.assertAlmostEqual(at_1["tip_force_N"] / mean, 1, places=6)
+        zero = [r["penetration_m"] for r in rows if r["suction_Pa"] <= 0]
+        self.assertAlmostEqual(results["rest_penetration_m"], zero[-1], places=6)
+        # the terminal, too, says where suction begins, and what margin is left
+        self.assertRegex(said, r"suction +begins at a penetration of [\d.]+ m")
+        self.assertRegex(said, rf"(?m)^rests by weight +at {zero[-1]:.4g} m$")
+        self.assertRegex(said, r"\| suction +[\d.]+ kPa, gradient +\d+ % of critical")
+        self.assertRegex(
+            said, r"(?m)^at 1\.3 m .* suction [\d.]+ kPa, margin to piping"
+        )
+        most = max(row["required_suction_Pa"] for row in rows)
+        margins = results["margins"]
+        self.assertAlmostEqual(margins["pump"]["least"], 1 - most / 200e3, places=6)
+        self.assertLess(margins["piping"]["least"], 1)
+        ranks = {w["rank"]: w["text"] for w in results["warnings"]}
+        self.assertIn("the body does not come to 3 m", ranks["cosmetic"])
+
+    def test_without_a_body(self) -> None:
+        """It has no results but warnings, and no columns of a body."""
+        path = self.directory()
+        self.run_scene("compaction", path)
+        found = summary(path)
+        self.assertEqual(errors_of(found), [])
+        self.assertEqual(list(found["results"]), ["warnings"])
+        self.assertNotIn("tip_force_N", history(path)[0])
+
+    def test_the_schema_refuses(self) -> None:
+        """A rank that is none, and a force without its unit."""
+        path = self.directory()
+        self.run_scene("compaction", path)
+        found = summary(path)
+        found["results"]["warnings"] = [{"rank": "grave", "text": ""}]
+        self.assertIn("'grave' is not one of", errors_of(found)[0])
+        found["results"] = {"warnings": [], "at_depths": [{"tip_force": 1}]}
+        self.assertTrue(errors_of(found))
+
+
+class Columns(ProgramTest):
+    """history.csv has no columns of what a scene lacks."""
+
+    def test_jacked(self) -> None:
+        path = self.directory()
+        entries = {
+            "Time/End penetration": 0.52,
+            "Material points/Split and merge": "false",
+        }
+        self.run_scene("jack", path, entries=entries)
+        names = set(history(path)[0])
+        self.assertTrue({"tip_force_N", "lid_force_N", "held_back_count"} <= names)
+        absent = {"cavity_pressure_Pa", "prescribed_force_z_N", "points_split"}
+        self.assertFalse(names & (absent | {"suction_Pa"}))
+
+
+class Progress(ProgramTest):
+    """run.json of a run that has not ended."""
+
+    def test_stopped_and_killed(self) -> None:
+        """It says how far the run is; a run that is stopped writes it whole."""
+        path = self.directory()
+        process = self.start(scene("jack"), "--output-directory", path)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        file = path / "run.json"
+        while not file.is_file() and process.poll() is None:
+            pass
+        found = json.loads(file.read_text(encoding="utf-8"))
+        self.assertEqual(found["status"], "running")
+        self.assertLess(found["progress"]["fraction_done"], 1)
+        self.assertEqual(found["scene"]["wall_thickness_m"], 0.2)
+        (path / "stop").touch()
+        self.assertIn(process.wait(), (STOPPED, SUCCESS))
+        self.assertNotIn("progress", summary(path))
+
+
+if __name__ == "__main__":
+    unittest.main()
