@@ -602,12 +602,13 @@ class Page(unittest.TestCase):
 
     def test_depths_of_bars(self) -> None:
         """Round ones and the last, none just above it."""
-        for deepest, expected in (
+        cases: list[tuple[float, list[float]]] = [
             (4.7, [1, 2, 3, 4, 4.7]),
             (4.2, [1, 2, 3, 4.2]),
             (0.6, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
             (12.0, [2, 4, 6, 8, 10, 12]),
-        ):
+        ]
+        for deepest, expected in cases:
             np.testing.assert_allclose(depths_of_bars(deepest), expected)
 
 

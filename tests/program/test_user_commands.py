@@ -187,11 +187,11 @@ class Suggest(CommandTest):
         """It leaves no file, so that the next try is not in its way."""
         path = self.made_directory() / "own.prm"
         sand = "0: Friction angle = 33, Youngs modulus = "
-        said = self.suggest(path, sand + "45 MPa", status=1)[1]
-        self.assertIn('cannot be "45 MPa"', said)
+        said = self.suggest(path, sand + "45e6*q", status=1)[1]
+        self.assertIn('Unexpected token "q"', said)
         self.assertIn(f"{path}:", said)
         self.assertEqual(list(path.parent.iterdir()), [])
-        self.suggest(path, sand + "45e6")
+        self.suggest(path, sand + "45 MPa")
         before = path.read_text(encoding="utf-8")
         self.assertTrue(before)
 
