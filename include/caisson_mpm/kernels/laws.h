@@ -11,6 +11,7 @@
 #include <caisson_mpm/kernels/hypoplastic_intergranular.h>
 #include <caisson_mpm/kernels/linear_elastic.h>
 #include <caisson_mpm/kernels/material.h>
+#include <caisson_mpm/kernels/modified_cam_clay.h>
 #include <caisson_mpm/kernels/mohr_coulomb.h>
 #include <caisson_mpm/kernels/mohr_coulomb_density.h>
 #include <caisson_mpm/kernels/mohr_coulomb_softening.h>

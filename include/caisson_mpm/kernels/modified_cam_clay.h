@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Modified Cam clay (Roscoe & Burland 1968). With the mean effective stress p,
+// the deviator q = sqrt(3 J2), the void ratio e and v = 1 + e,
+//
+//   f = q^2 / M^2 + p (p - p_c) <= 0,
+//   K = v p / kappa,  G = K 3 (1 - 2 nu) / (2 (1 + nu)),
+//   dp_c = p_c v / (lambda - kappa) d(plastic compression).
+//
+// M depends on the Lode angle theta (Sheng, Sloan & Yu 2000), so that the
+// critical state has the friction angle phi_c in triaxial compression and in
+// extension:
+//
+//   M = M_c (2 a^4 / (1 + a^4 + (1 - a^4) sin 3 theta))^(1/4),
+//   M_c = 6 s / (3 - s),  a = (3 - s) / (3 + s),  s = sin(phi_c),
+//
+// with sin 3 theta = -1 in compression. The flow is associated, but for the
+// deviator, which is radial: it takes M as that of the stress. p_c of each
+// point at the start is a multiple of that of the yield surface through its
+// stress.
+//
+// The elastic part of a step is exact in p. Where it leaves the yield surface,
+// the plastic strain is found by the cutting plane algorithm (Ortiz & Simo
+// 1986), with the Lode angle and the moduli of the trial stress. Where p would
+// be below 0 the soil has no stress.
+//
+// References:
+//   K. H. Roscoe, J. B. Burland (1968), On the generalized stress-strain
+//     behaviour of wet clay. Engineering Plasticity, Cambridge, 535-609.
+//   D. Sheng, S. W. Sloan, H. S. Yu (2000), Aspects of finite element
+//     implementation of critical state models. Comput. Mech. 26, 185-196.
+//   M. Ortiz, J. C. Simo (1986), An analysis of a new class of integration
+//     algorithms for elastoplastic constitutive relations. Int. J. Numer.
+//     Methods Eng. 23, 353-366.
+#ifndef caisson_mpm_kernels_modified_cam_clay_h
+#define caisson_mpm_kernels_modified_cam_clay_h
+
+#include <caisson_mpm/kernels/material_law.h>
+
+namespace CaissonMPM
+{
+  namespace Kernels
+  {
+    inline namespace CAISSON_KERNEL_ISA
+    {
+      /** The law "modified Cam clay". See the head of the file. */
+      struct ModifiedCamClay
+      {
+        static constexpr const char *name      = "modified Cam clay";
+        static constexpr LawEntry    entries[] = {
+             {"Slope of compression",
+              "The slope lambda of the normal compression line, -de / d(ln p); "
+                 "the compression index over 2.3. Units: none.",
+              0.2,
+              1e-4,
+              10.},
+             {"Slope of swelling",
+              "The slope kappa of the lines of swelling, -de / d(ln p); the "
+                 "swelling index over 2.3. Units: none.",
+              0.04,
+              1e-5,
+              10.},
+             Entries::poisson_ratio,
+             Entries::critical_friction_angle,
+             {"Yield stress ratio",
+              "The stress p_c of a point at the start over that of the yield "
+                 "surface through its stress: 1 in normally consolidated clay. "
+                 "Units: none.",
+              1.,
+              1.,
+              1e3},
+             Entries::smallest_stress_of_stiffness};
+        static constexpr int  friction_entry = 3, n_state = 1;
+        static constexpr bool uses_void_ratio = true, stiffness_varies = true;
+
+        struct Parameters
+        {
+          double lambda, kappa;
+          double shear;    // G / K
+          double M2, a4;   // of triaxial compression; a^4
+          double at_start; // the yield stress ratio
+          double smallest_stress, sine;
+        };
+
+        static Parameters
+        make(const double *values)
+        {
+          const double nu = values[2],
+                       s  = __builtin_sin(values[3] * radians_per_degree),
+                       M = 6. * s / (3. - s), a = (3. - s) / (3. + s);
+          return {values[0],
+                  values[1],
+                  1.5 * (1. - 2. * nu) / (1. + nu),
+                  M * M,
+                  a * a * a * a,
+                  values[4],
+                  values[5],
+                  s};
+        }
+
+        static bool
+        check(const double     *values,
+              const LawContext &context,
+              LawMessage       &message)
+        {
+          if (values[1] < values[0] && context.void_ratio > 0.)
+            return true;
+          const char *const text =
+            values[1] < values[0] ?
+              "Porosity is 0: clay of this law has a void ratio. Set it" :
+              "Slope of swelling is not below Slope of compression. Reduce it";
+          __builtin_strncpy(message.text, text, sizeof(message.text) - 1);
+          message.text[sizeof(message.text) - 1] = 0;
+          return false;
+        }
+
+        /** 1 - sin(phi_c) (Jaky 1948). */
+        static double
+        earth_pressure_at_rest(const Parameters &p)
+        {
+          return 1. - p.sine;
+        }
+
+        /** The bulk modulus at the mean stress @p pressure (Pa). */
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        bulk_modulus(const Number      pressure,
+                     const Number      void_ratio,
+                     const Parameters &p)
+        {
+          return Number(1. / p.kappa) * (Number(1.) + void_ratio) *
+                 max(pressure, Number(p.smallest_stress));
+        }
+
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        p_wave_modulus(const StressState<Number> &stress,
+                       const Number               void_ratio,
+                       const Parameters          &p)
+        {
+          return Number(1. + 4. / 3. * p.shear) *
+                 bulk_modulus(pressure(stress), max(void_ratio, Number(0.)), p);
+        }
+
+        /** p_c is 0 until the first step. */
+        static void
+        start(const Parameters &, double *variable)
+        {
+          variable[0] = 0.;
+        }
+
+        template <typename Number>
+        [[gnu::always_inline]] static inline void
+        update(StressState<Number>           &sigma,
+               const StrainIncrement<Number> &de,
+               LawState<Number>              &state,
+               const Parameters              &p)
+        {
+          const Number e = max(state.void_ratio, Number(0.));
+          Number       yield_stress =
+            select(state.variable[0] > Number(0.),
+                   state.variable[0],
+                   Number(p.at_start) *
+                     yield_stress_through(Invariants<Number>(sigma, p)));
+          const Number             K = add_elastic_increment(sigma, de, e, p);
+          const Invariants<Number> trial(sigma, p);
+          Return<Number>           back{trial.p, trial.q, yield_stress};
+          back.to_surface(trial.inverse_M2, K, e, p);
+          const auto   torn = back.p < Number(0.);
+          const Number share =
+            select(torn, Number(0.), back.q / max(trial.q, Number(1e-30)));
+          const Number p_new = max(back.p, Number(0.)),
+                       mean  = share * trial.p - p_new;
+          sigma              = {share * sigma.rr + mean,
+                                share * sigma.zz + mean,
+                                share * sigma.tt + mean,
+                                share * sigma.rz};
+          state.variable[0]  = back.yield_stress;
+          state.plastic_volumetric -= back.compression;
+          state.plastic_deviatoric += back.shear;
+        }
+
+      private:
+        /** p, q and M^-2 of a stress. */
+        template <typename Number>
+        struct Invariants
+        {
+          Number p, q, inverse_M2;
+
+          [[gnu::always_inline]] inline Invariants(
+            const StressState<Number> &sigma,
+            const Parameters          &parameters)
+            : p(pressure(sigma))
+          {
+            const Number rr = sigma.rr + p, zz = sigma.zz + p,
+                         tt = sigma.tt + p, rz2 = sigma.rz * sigma.rz,
+                         J2 = Number(.5) * (rr * rr + zz * zz + tt * tt) + rz2,
+                         J3 = tt * (rr * zz - rz2);
+            q               = sqrt(Number(3.) * J2);
+            const Number cubed = max(Number(2.) * J2 * sqrt(J2), Number(1e-60));
+            const Number sine =
+              max(min(Number(5.196152422706632) * J3 / cubed, Number(1.)),
+                  Number(-1.));
+            const double a4 = parameters.a4;
+            inverse_M2      = Number(1. / parameters.M2) *
+                         sqrt(Number(.5 / a4) *
+                              (Number(1. + a4) + Number(1. - a4) * sine));
+          }
+        };
+
+        /** p_c of the yield surface through a stress. */
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        yield_stress_through(const Invariants<Number> &s)
+        {
+          const Number p = max(s.p, Number(least_stress));
+          return p + s.q * s.q * s.inverse_M2 / p;
+        }
+
+        /** The elastic part of the step. Return the mean bulk modulus. */
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        add_elastic_increment(StressState<Number>           &sigma,
+                              const StrainIncrement<Number> &de,
+                              const Number                   e,
+                              const Parameters              &p)
+        {
+          const Number volume = de.rr + de.zz + de.tt;
+          // p grows with exp(x); beyond this x no step of a run goes
+          const Number x =
+            max(min(Number(-1. / p.kappa) * (Number(1.) + e) * volume,
+                    Number(1.)),
+                Number(-1.));
+          const Number grown =
+            Number(1.) +
+            x * (Number(1. / 2.) +
+                 x * (Number(1. / 6.) +
+                      x * (Number(1. / 24.) + x * Number(1. / 120.))));
+          const Number pressure_now = pressure(sigma);
+          const Number K =
+            bulk_modulus(pressure_now, e, p) *
+            select(pressure_now > Number(p.smallest_stress), grown, Number(1.));
+          const Number two_G = Number(2. * p.shear) * K;
+          const Number mean  = (K - Number(1. / 3.) * two_G) * volume;
+          sigma.rr += mean + two_G * de.rr;
+          sigma.zz += mean + two_G * de.zz;
+          sigma.tt += mean + two_G * de.tt;
+          sigma.rz += two_G * de.rz;
+          return K;
+        }
+
+        /** The return from a trial stress to the yield surface. */
+        template <typename Number>
+        struct Return
+        {
+          Number p, q, yield_stress;
+          Number compression = Number(0.), shear = Number(0.); // plastic strain
+
+          [[gnu::always_inline]] inline void
+          to_surface(const Number      inverse_M2,
+                     const Number      K,
+                     const Number      e,
+                     const Parameters &parameters)
+          {
+            const Number hardening =
+              Number(1. / (parameters.lambda - parameters.kappa)) *
+              (Number(1.) + e);
+            const Number three_G = Number(3. * parameters.shear) * K;
+            const Number tolerance =
+              Number(1e-9) * yield_stress * yield_stress + Number(1e-6);
+            for (int i = 0; i < most_iterations; ++i)
+              {
+                const Number f = q * q * inverse_M2 + p * (p - yield_stress);
+                const auto   outside = f > tolerance;
+                if (!any(outside))
+                  return;
+                const Number f_p        = Number(2.) * p - yield_stress,
+                             f_q        = Number(2.) * q * inverse_M2,
+                             elastic    = K * f_p * f_p + three_G * f_q * f_q,
+                             harder     = hardening * p * yield_stress * f_p,
+                             multiplier = select(outside,
+                                                 f / max(elastic + harder,
+                                                         Number(.1) * elastic),
+                                                 Number(0.)),
+                             d_compression = multiplier * f_p,
+                             d_shear       = min(multiplier * f_q, q / three_G),
+                             x             = hardening * d_compression;
+                compression += d_compression;
+                shear += d_shear;
+                p -= K * d_compression;
+                q -= three_G * d_shear;
+                // exp(x), of which the next iteration corrects the rest
+                yield_stress =
+                  max(yield_stress *
+                        (Number(1.) + x * (Number(1.) + Number(.5) * x)),
+                      Number(least_stress));
+              }
+          }
+        };
+
+        static constexpr int    most_iterations = 8;
+        static constexpr double least_stress    = 1.; // Pa
+      };
+
+      template <>
+      struct LawSlot<8>
+      {
+        using type = ModifiedCamClay;
+      };
+    } // namespace CAISSON_KERNEL_ISA
+  }   // namespace Kernels
+} // namespace CaissonMPM
+
+#endif
