@@ -13,8 +13,8 @@
 #include <caisson_mpm/domain/point_generator.h>
 #include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/materials/soil.h>
-#include <caisson_mpm/operators/contact.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
+#include <caisson_mpm/operators/contact.h>
 #include <caisson_mpm/operators/energy_balance.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 #include <caisson_mpm/operators/time_step.h>
