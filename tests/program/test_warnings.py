@@ -239,24 +239,27 @@ class Review(ProgramTest):
         """A pile needs more room than a caisson, and has no inner wall."""
         pile = "validation/pile"
         self.assertNotIn("warning", self.validate(pile, {}))
-        for entries, words in (
+        cases: tuple[tuple[Entries, list[str]], ...] = (
             ({"Grid/Outer radius": 7}, ["6.7 m from the wall", "at least 7.5 m"]),
             (
                 {f"{BODY}/Adhesion of the inner wall": 1e3},
                 ["is set but not used", "no inner wall", "Kind is pile"],
             ),
-        ):
+        )
+        for entries, words in cases:
             with self.subTest(entries=entries):
                 said = self.validate(pile, entries)
                 self.assert_words(["warning: ", *words], said)
 
     def test_density_not_given(self) -> None:
         """A law by density, in a scene that does not say how dense the sand is."""
-        law = {f"{LAYER}/Law": "hypoplastic sand"}
+        sand: Entries = {f"{LAYER}/Law": "hypoplastic sand"}
         words = "Porosity = 0.4 is only the default"
-        for density, is_doubtful in (({}, True), ({f"{LAYER}/Porosity": 0.4}, False)):
-            said = self.validate("verification/seepage_skirt", {**law, **density})
-            self.assertEqual(words in said, is_doubtful, said)
+        for given in (False, True):
+            if given:
+                sand[f"{LAYER}/Porosity"] = 0.4
+            said = self.validate("verification/seepage_skirt", sand)
+            self.assertEqual(words in said, not given, said)
 
     def test_doubts(self) -> None:
         """A warning, and none where the entry is just as it should be."""
