@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Equilibrium of the exported stress on its mesh: residual and correction.
+
+A cell has one stress, as other programs take it. The forces of nodes are, for the whole
+circumference,
+
+  R = f - integral of B^T (sigma' - p 1) dV,
+
+where f is the buoyant weight, the water pressure on the surface and the friction of the
+walls. The residual is the sum of |R| over the nodes that can move, over the weight of
+the mesh. Where it exceeds what is allowed, an elastic displacement u with K u = R gives
+the correction of the stress, its mean over each cell; this repeats, as the mean of a
+cell does not take all of the force. Young's modulus follows the stress, so that small
+stresses are corrected by little. Sides, bottom and wall are held: their
+forces are reactions.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix, csr_matrix
+from scipy.sparse.linalg import splu
+
+from caisson_export.interpolate import Values, interpolate
+from caisson_export.mesh import Mesh
+from caisson_export.state import State
+
+ALLOWED, WANTED = 1e-3, 1e-4  # residual over weight: left as it is, and aimed at
+MOST_TIMES = 60
+POISSON = 0.25
+WALL = ("TIP", "INNER_WALL", "OUTER_WALL")
+FRICTIONS = {"INNER_WALL": "inner_friction_N", "OUTER_WALL": "outer_friction_N"}
+
+
+class Forces:
+    """The axisymmetric integrals over a mesh, by 2 x 2 Gauss points."""
+
+    def __init__(self, mesh: Mesh) -> None:
+        self.mesh = mesh
+        s = np.array([-1, 1, 1, -1]), np.array([-1, -1, 1, 1])
+        corners = mesh.nodes[mesh.cells]
+        strains, volumes, shapes = [], [], []
+        for xi, eta in ((a, b) for a in (-1, 1) for b in (-1, 1)):
+            x, y = xi / np.sqrt(3), eta / np.sqrt(3)
+            shape = (1 + s[0] * x) * (1 + s[1] * y) / 4
+            local = np.stack([s[0] * (1 + s[1] * y), s[1] * (1 + s[0] * x)]) / 4
+            jacobian = np.einsum("ia,nab->nib", local, corners)
+            gradient = np.linalg.solve(jacobian, np.broadcast_to(local, (len(corners), 2, 4)))
+            r = corners[:, :, 0] @ shape
+            strain = np.zeros((len(corners), 4, 8))  # rr, zz, tt, 2 rz
+            strain[:, 0, 0::2] = strain[:, 3, 1::2] = gradient[:, 0]
+            strain[:, 1, 1::2] = strain[:, 3, 0::2] = gradient[:, 1]
+            strain[:, 2, 0::2] = shape / r[:, np.newaxis]
+            strains.append(strain)
+            volumes.append(2 * np.pi * r * np.linalg.det(jacobian))
+            shapes.append(shape)
+        self.strain, self.part = np.array(strains), np.array(volumes)
+        self.volume = self.part.sum(axis=0)
+        self.integral = np.einsum("gn,gnij->nij", self.part, self.strain)
+        self.share = np.einsum("gn,ga->na", self.part, np.array(shapes))
+        self.unknowns = np.stack([2 * mesh.cells, 2 * mesh.cells + 1], axis=2)
+        self.unknowns = self.unknowns.reshape(-1, 8)
+
+    def sum_of(self, values: np.ndarray) -> np.ndarray:
+        """Return the sum at nodes [2 n_nodes] of values of cells [m, 8]."""
+        size = 2 * len(self.mesh.nodes)
+        return np.bincount(self.unknowns.ravel(), values.ravel(), minlength=size)
+
+    def internal(self, stress: np.ndarray) -> np.ndarray:
+        """Return the integral of B^T sigma of stresses of cells [m, 4]."""
+        return self.sum_of(np.einsum("nij,ni->nj", self.integral, stress))
+
+    def weight(self, unit_weight: np.ndarray) -> np.ndarray:
+        """Return the forces of weight, of unit weights of cells [m]."""
+        values = np.zeros((len(self.share), 8))
+        values[:, 1::2] = -unit_weight[:, np.newaxis] * self.share
+        return self.sum_of(values)
+
+    def of_surface(self, pressure: np.ndarray) -> np.ndarray:
+        """Return the forces of a pressure of nodes [n_nodes] on the surface."""
+        force = np.zeros(2 * len(self.mesh.nodes))
+        on = np.zeros(len(self.mesh.nodes), dtype=bool)
+        on[self.mesh.sets.get("SURFACE", [])] = True
+        edges = self.mesh.edges()
+        for a, b in edges[on[edges].all(axis=1)]:
+            (ra, za), (rb, zb) = self.mesh.nodes[[a, b]]
+            inward = np.array([za - zb, rb - ra])
+            for node, share in ((a, 2 * ra + rb), (b, ra + 2 * rb)):
+                mean = (pressure[a] + pressure[b]) / 2
+                force[[2 * node, 2 * node + 1]] += 2 * np.pi * mean * share / 6 * inward
+        return force
+
+    def stiffness(self, modulus: np.ndarray) -> tuple[csr_matrix, np.ndarray]:
+        """Return the stiffness, of Young's moduli of cells [m], and their elasticity
+        [m, 4, 4]."""
+        lame = modulus * POISSON / ((1 + POISSON) * (1 - 2 * POISSON))
+        shear = modulus / (2 * (1 + POISSON))
+        elastic = np.zeros((len(modulus), 4, 4))
+        elastic[:, :3, :3] = lame[:, np.newaxis, np.newaxis]
+        elastic[:, [0, 1, 2], [0, 1, 2]] += 2 * shear[:, np.newaxis]
+        elastic[:, 3, 3] = shear
+        b = self.strain
+        cells = np.einsum("gn,gnki,nkl,gnlj->nij", self.part, b, elastic, b, optimize=True)
+        rows = np.repeat(self.unknowns, 8, axis=1)
+        columns = np.tile(self.unknowns, (1, 8))
+        size = 2 * len(self.mesh.nodes)
+        entries = (cells.ravel(), (rows.ravel(), columns.ravel()))
+        return coo_matrix(entries, shape=(size, size)).tocsr(), elastic
+
+
+@dataclass
+class Balanced:
+    """A balanced state on a mesh of n nodes and m cells.
+
+    stress [m, 4] (Pa, effective); correction [m, 4] (Pa): what was added to the
+    interpolated values; before, after: the residuals over the weight (N); volume [m]
+    (m3); unit_weight [m] (N/m3); applied [n, 2]: forces on the soil besides weight and
+    reactions (N, whole circumference), of the friction and of water on the surface;
+    held [n, 2]: the components with reactions; friction_before, friction: vertical
+    forces of the soil on the walls (N, upward) by the names of their nodes, and "TIP".
+    """
+
+    state: State
+    mesh: Mesh
+    values: Values
+    stress: np.ndarray
+    correction: np.ndarray
+    before: float
+    after: float
+    weight: float
+    volume: np.ndarray
+    unit_weight: np.ndarray
+    applied: np.ndarray
+    held: np.ndarray
+    friction_before: dict[str, float]
+    friction: dict[str, float]
+
+    @property
+    def exceeds(self) -> np.ndarray:
+        """Whether the correction of a cell exceeds the scatter of its points: [m]."""
+        scatter = np.linalg.norm(self.values.scatter, axis=1)
+        return np.linalg.norm(self.correction, axis=1) > scatter
+
+    @property
+    def size_of_correction(self) -> float:
+        """The correction over the stress, both in the mean of squares by volume."""
+        parts = [(x**2).sum(axis=1) @ self.volume for x in (self.correction, self.stress)]
+        return float(np.sqrt(parts[0] / parts[1])) if parts[1] else 0.0
+
+    @property
+    def total(self) -> np.ndarray:
+        """The stress less the excess pore pressure, which balances buoyant weight."""
+        return with_pressure(self.stress, self.values.pressure)
+
+
+def with_pressure(stress: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+    """Return effective stress less the pressure: [m, 4]."""
+    return stress - pressure[:, np.newaxis] * [1, 1, 1, 0]
+
+
+def residual(force: np.ndarray, free: np.ndarray, weight: float) -> float:
+    """Return the sum of the forces at the free nodes over the weight."""
+    return float(np.hypot(*np.where(free, force, 0).reshape(-1, 2).T).sum() / weight)
+
+
+def held(mesh: Mesh) -> np.ndarray:
+    """Return the unknowns that are held: [2 n_nodes]."""
+    result = np.zeros((len(mesh.nodes), 2), dtype=bool)
+    result[mesh.sets.get("AXIS", []), 0] = True
+    for name in ("BOTTOM", "OUTER", *WALL):
+        result[mesh.sets.get(name, [])] = True
+    return result.ravel()
+
+
+def on_wall(mesh: Mesh, force: np.ndarray) -> dict[str, float]:
+    """Return the vertical forces on the walls and the tip (N) of forces of nodes."""
+    return {
+        name: float(force[2 * mesh.sets[name] + 1].sum())
+        for name in WALL
+        if name in mesh.sets
+    }
+
+
+def frictions(state: State, mesh: Mesh, own: np.ndarray) -> np.ndarray:
+    """Return the friction of the run on the soil: [2 n_nodes] (N), spread over the
+    nodes of each wall as that of the stress, own, is, or by the normal force where that
+    has another sign."""
+    result = np.zeros(len(own))
+    for name, column in FRICTIONS.items():
+        force = state.forces.get(column, 0.0)
+        wall = mesh.sets.get(name, np.zeros(0, dtype=int))
+        spread = np.maximum(own[2 * wall + 1] * np.sign(force), 0)
+        if spread.sum() < 0.2 * abs(force):
+            spread = abs(own[2 * wall])
+        if force and spread.sum() > 0:
+            result[2 * wall + 1] = -force * spread / spread.sum()
+    return result
+
+
+def corrected(
+    forces: Forces, stress: np.ndarray, external: np.ndarray, free: np.ndarray,
+    weight: float,
+) -> np.ndarray:
+    """Return the correction [m, 4] that balances a stress (Pa) with the forces."""
+    correction = np.zeros_like(stress)
+    rest = external - forces.internal(stress)
+    level = np.linalg.norm(stress, axis=1)
+    mean_level = forces.volume @ level / forces.volume.sum()
+    matrix, elastic = forces.stiffness(1e3 * np.maximum(level, 0.05 * mean_level))
+    factors = splu(matrix[free][:, free].tocsc())
+    mean = forces.integral / forces.volume[:, np.newaxis, np.newaxis]
+    for _ in range(MOST_TIMES):
+        if residual(rest, free, weight) < WANTED:
+            break
+        u = np.zeros(len(rest))
+        u[free] = factors.solve(rest[free])
+        strain = np.einsum("nij,nj->ni", mean, u[forces.unknowns])
+        correction += np.einsum("nij,nj->ni", elastic, strain)
+        rest = external - forces.internal(stress + correction)
+    return correction
+
+
+def balance(state: State, mesh: Mesh, values: Values) -> Balanced:
+    """Return the balanced state."""
+    forces = Forces(mesh)
+    unit_weight = state.weight_of_layers[values.layer]
+    weight = float(unit_weight @ forces.volume)
+    loads = forces.weight(unit_weight)
+    surface = np.zeros(len(loads))
+    if state.pressure is not None:
+        surface = forces.of_surface(pressure_of_nodes(state, mesh))
+    stress = with_pressure(values.stress, values.pressure)
+    own = loads + surface - forces.internal(stress)
+    friction = frictions(state, mesh, own)
+    is_held = held(mesh) & (friction == 0)
+    external, free = loads + surface + friction, ~is_held
+    before = residual(external - forces.internal(stress), free, weight)
+    correction = np.zeros_like(values.stress)
+    if before > ALLOWED:
+        correction = corrected(forces, stress, external, free, weight)
+    inner = forces.internal(stress + correction)
+    return Balanced(
+        state=state,
+        mesh=mesh,
+        values=values,
+        stress=values.stress + correction,
+        correction=correction,
+        before=before,
+        after=residual(external - inner, free, weight),
+        weight=weight,
+        volume=forces.volume,
+        unit_weight=unit_weight,
+        applied=(surface + friction).reshape(-1, 2),
+        held=is_held.reshape(-1, 2),
+        friction_before=on_wall(mesh, own),
+        friction=on_wall(mesh, loads + surface - inner),
+    )
+
+
+def pressure_of_nodes(state: State, mesh: Mesh) -> np.ndarray:
+    """Return the pore pressure at the nodes of the surface, 0 elsewhere: [n] (Pa)."""
+    pressure = np.zeros(len(mesh.nodes))
+    surface = mesh.sets.get("SURFACE", np.zeros(0, dtype=int))
+    pressure[surface] = interpolate(state, mesh.nodes[surface]).pressure
+    return pressure
