@@ -6,12 +6,12 @@ circumference,
 
   R = f - integral of B^T (sigma' - p 1) dV,
 
-where f is the buoyant weight, the water pressure on the surface and the friction of the
-walls. The residual is the sum of |R| over the nodes that can move, over the weight of
+where f is the buoyant weight, the water pressure on the surface and the vertical force
+of walls and tip, as history.csv has it. The residual is the sum of |R| over the nodes that can move, over the weight of
 the mesh. Where it exceeds what is allowed, an elastic displacement u with K u = R gives
-the correction of the stress, its mean over each cell; this repeats, as the mean of a
-cell does not take all of the force. Young's modulus follows the stress, so that small
-stresses are corrected by little. Sides, bottom and wall are held: their
+the correction of the stress, its mean over each cell. As the mean does not take all of
+the force, this repeats as conjugate gradients with K as preconditioner. Young's modulus
+follows the stress, so that small stresses are corrected by little. Sides, bottom and wall are held: their
 forces are reactions.
 """
 from dataclasses import dataclass
@@ -24,11 +24,15 @@ from caisson_export.interpolate import Values, interpolate
 from caisson_export.mesh import Mesh
 from caisson_export.state import State
 
-ALLOWED, WANTED = 1e-3, 1e-4  # residual over weight: left as it is, and aimed at
-MOST_TIMES = 60
+ALLOWED = 1e-3  # residual over weight: more than that is corrected
+MOST_TIMES = 300
 POISSON = 0.25
-WALL = ("TIP", "INNER_WALL", "OUTER_WALL")
-FRICTIONS = {"INNER_WALL": "inner_friction_N", "OUTER_WALL": "outer_friction_N"}
+# vertical forces of history.csv; those of water are there with pore water only
+FORCES = {
+    "TIP": ("tip_force_N", "tip_water_force_N"),
+    "INNER_WALL": ("inner_friction_N",),
+    "OUTER_WALL": ("outer_friction_N",),
+}
 
 
 class Forces:
@@ -114,9 +118,9 @@ class Balanced:
     stress [m, 4] (Pa, effective); correction [m, 4] (Pa): what was added to the
     interpolated values; before, after: the residuals over the weight (N); volume [m]
     (m3); unit_weight [m] (N/m3); applied [n, 2]: forces on the soil besides weight and
-    reactions (N, whole circumference), of the friction and of water on the surface;
-    held [n, 2]: the components with reactions; friction_before, friction: vertical
-    forces of the soil on the walls (N, upward) by the names of their nodes, and "TIP".
+    reactions (N, whole circumference), of wall and tip and of water on the surface;
+    held [n, 2]: the components with reactions; wall_before, wall: vertical forces of
+    the soil on the walls and the tip (N, upward) by the names of their nodes.
     """
 
     state: State
@@ -131,8 +135,8 @@ class Balanced:
     unit_weight: np.ndarray
     applied: np.ndarray
     held: np.ndarray
-    friction_before: dict[str, float]
-    friction: dict[str, float]
+    wall_before: dict[str, float]
+    wall: dict[str, float]
 
     @property
     def exceeds(self) -> np.ndarray:
@@ -166,7 +170,7 @@ def held(mesh: Mesh) -> np.ndarray:
     """Return the unknowns that are held: [2 n_nodes]."""
     result = np.zeros((len(mesh.nodes), 2), dtype=bool)
     result[mesh.sets.get("AXIS", []), 0] = True
-    for name in ("BOTTOM", "OUTER", *WALL):
+    for name in ("BOTTOM", "OUTER", *FORCES):
         result[mesh.sets.get(name, [])] = True
     return result.ravel()
 
@@ -175,25 +179,37 @@ def on_wall(mesh: Mesh, force: np.ndarray) -> dict[str, float]:
     """Return the vertical forces on the walls and the tip (N) of forces of nodes."""
     return {
         name: float(force[2 * mesh.sets[name] + 1].sum())
-        for name in WALL
+        for name in FORCES
         if name in mesh.sets
     }
 
 
-def frictions(state: State, mesh: Mesh, own: np.ndarray) -> np.ndarray:
-    """Return the friction of the run on the soil: [2 n_nodes] (N), spread over the
-    nodes of each wall as that of the stress, own, is, or by the normal force where that
-    has another sign."""
-    result = np.zeros(len(own))
-    for name, column in FRICTIONS.items():
-        force = state.forces.get(column, 0.0)
-        wall = mesh.sets.get(name, np.zeros(0, dtype=int))
-        spread = np.maximum(own[2 * wall + 1] * np.sign(force), 0)
+def force_of_run(state: State, name: str) -> float | None:
+    """Return the vertical force of the soil on the wall or the tip in the run (N)."""
+    known = [state.forces[c] for c in FORCES[name] if c in state.forces]
+    return sum(known) if known else None
+
+
+def wall_forces(
+    state: State, mesh: Mesh, own: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the vertical forces of wall and tip in the run on the soil, [2 n_nodes]
+    (N), and where they are known. They are spread over the nodes as that of the stress,
+    own, is, or by the normal force where that has another sign."""
+    result, known = np.zeros(len(own)), np.zeros(len(own), dtype=bool)
+    for name in FORCES:
+        force = force_of_run(state, name)
+        nodes = mesh.sets.get(name, np.zeros(0, dtype=int))
+        if force is None or not len(nodes):
+            continue
+        spread = np.maximum(own[2 * nodes + 1] * np.sign(force), 0)
         if spread.sum() < 0.2 * abs(force):
-            spread = abs(own[2 * wall])
-        if force and spread.sum() > 0:
-            result[2 * wall + 1] = -force * spread / spread.sum()
-    return result
+            spread = abs(own[2 * nodes])
+        if spread.sum() == 0:
+            spread = np.ones(len(nodes))
+        result[2 * nodes + 1] = -force * spread / spread.sum()
+        known[2 * nodes + 1] = True
+    return result, known
 
 
 def corrected(
@@ -201,21 +217,36 @@ def corrected(
     weight: float,
 ) -> np.ndarray:
     """Return the correction [m, 4] that balances a stress (Pa) with the forces."""
-    correction = np.zeros_like(stress)
-    rest = external - forces.internal(stress)
+    rest = (external - forces.internal(stress))[free]
     level = np.linalg.norm(stress, axis=1)
     mean_level = forces.volume @ level / forces.volume.sum()
     matrix, elastic = forces.stiffness(1e3 * np.maximum(level, 0.05 * mean_level))
     factors = splu(matrix[free][:, free].tocsc())
     mean = forces.integral / forces.volume[:, np.newaxis, np.newaxis]
+
+    def stress_of(u: np.ndarray) -> np.ndarray:
+        """Return the stress of cells [m, 4] of displacements of the free unknowns."""
+        everywhere = np.zeros(len(free))
+        everywhere[free] = u
+        strain = np.einsum("nij,nj->ni", mean, everywhere[forces.unknowns])
+        return np.einsum("nij,nj->ni", elastic, strain)
+
+    correction = np.zeros_like(stress)
+    better = direction = factors.solve(rest)
     for _ in range(MOST_TIMES):
-        if residual(rest, free, weight) < WANTED:
+        more = stress_of(direction)
+        change = forces.internal(more)[free]
+        product, energy = rest @ better, direction @ change
+        if energy <= 0:
             break
-        u = np.zeros(len(rest))
-        u[free] = factors.solve(rest[free])
-        strain = np.einsum("nij,nj->ni", mean, u[forces.unknowns])
-        correction += np.einsum("nij,nj->ni", elastic, strain)
-        rest = external - forces.internal(stress + correction)
+        correction += product / energy * more
+        rest = rest - product / energy * change
+        unfolded = np.zeros(len(free))
+        unfolded[free] = rest
+        if residual(unfolded, free, weight) < ALLOWED:
+            break
+        better = factors.solve(rest)
+        direction = better + (rest @ better) / product * direction
     return correction
 
 
@@ -230,9 +261,9 @@ def balance(state: State, mesh: Mesh, values: Values) -> Balanced:
         surface = forces.of_surface(pressure_of_nodes(state, mesh))
     stress = with_pressure(values.stress, values.pressure)
     own = loads + surface - forces.internal(stress)
-    friction = frictions(state, mesh, own)
-    is_held = held(mesh) & (friction == 0)
-    external, free = loads + surface + friction, ~is_held
+    of_wall, known = wall_forces(state, mesh, own)
+    is_held = held(mesh) & ~known
+    external, free = loads + surface + of_wall, ~is_held
     before = residual(external - forces.internal(stress), free, weight)
     correction = np.zeros_like(values.stress)
     if before > ALLOWED:
@@ -249,10 +280,10 @@ def balance(state: State, mesh: Mesh, values: Values) -> Balanced:
         weight=weight,
         volume=forces.volume,
         unit_weight=unit_weight,
-        applied=(surface + friction).reshape(-1, 2),
+        applied=(surface + of_wall).reshape(-1, 2),
         held=is_held.reshape(-1, 2),
-        friction_before=on_wall(mesh, own),
-        friction=on_wall(mesh, loads + surface - inner),
+        wall_before=on_wall(mesh, own),
+        wall=on_wall(mesh, loads + surface - inner),
     )
 
 

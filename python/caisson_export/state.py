@@ -156,8 +156,8 @@ def layers_of(
     known = scene.get("layers")
     if not known:
         raise ResultsError(
-            "run.json does not list the layers of the soil: run the scene again with"
-            " this version"
+            "run.json does not list the layers of the soil: it must be of this version"
+            " and of a scene with a rigid body"
         )
     material = data["material"].astype(int)
     numbers = np.array([one["layer"] for one in known])[material]
