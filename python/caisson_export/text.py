@@ -2,7 +2,7 @@
 """What an exported state says of itself: signs, residual, correction and forces."""
 import numpy as np
 
-from caisson_export.balance import ALLOWED, Balanced, force_of_run
+from caisson_export.balance import WANTED, Balanced, force_of_run
 from caisson_export.state import State
 
 SIGNS = (
@@ -59,7 +59,7 @@ def about_correction(state: Balanced) -> list[str]:
         f" (mean of squares), and exceeds the scatter of the points in"
         f" {100 * share:.2g} % of the volume. {largest_correction(state)}"
     )
-    if state.after > ALLOWED:
+    if state.after > WANTED:
         lines.append(
             "WARNING: the residual could not be made small on this mesh: refine it where"
             " the stress changes fast, or avoid slender cells."
