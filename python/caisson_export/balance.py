@@ -6,12 +6,13 @@ circumference,
 
   R = f - integral of B^T (sigma' - p 1) dV,
 
-where f is the buoyant weight, the water pressure on the surface and the vertical force
-of walls and tip, as history.csv has it. The residual is the sum of |R| over the nodes that can move, over the weight of
-the mesh. Where it exceeds what is allowed, an elastic displacement u with K u = R gives
-the correction of the stress, its mean over each cell. As the mean does not take all of
-the force, this repeats. Young's modulus follows the stress, so that small stresses are corrected by little. Sides, bottom and wall are held: their
-forces are reactions.
+where f is the buoyant weight, the pressure on the surface and the vertical force of
+walls and tip, as history.csv has it. The residual is the sum of |R| over the nodes that
+can move, over the weight of the mesh. Where it exceeds what is allowed, an elastic
+displacement u with K u = R gives the correction of the stress, its mean over each cell.
+As the mean does not take all of the force, this repeats as conjugate gradients,
+preconditioned by K. Young's modulus follows the stress, so that small stresses are
+corrected by little. Sides, bottom and wall are held: their forces are reactions.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -50,7 +51,9 @@ class Forces:
             shape = (1 + s[0] * x) * (1 + s[1] * y) / 4
             local = np.stack([s[0] * (1 + s[1] * y), s[1] * (1 + s[0] * x)]) / 4
             jacobian = np.einsum("ia,nab->nib", local, corners)
-            gradient = np.linalg.solve(jacobian, np.broadcast_to(local, (len(corners), 2, 4)))
+            gradient = np.linalg.solve(
+                jacobian, np.broadcast_to(local, (len(corners), 2, 4))
+            )
             r = corners[:, :, 0] @ shape
             strain = np.zeros((len(corners), 4, 8))  # rr, zz, tt, 2 rz
             strain[:, 0, 0::2] = strain[:, 3, 1::2] = gradient[:, 0]
@@ -105,7 +108,9 @@ class Forces:
         elastic[:, [0, 1, 2], [0, 1, 2]] += 2 * shear[:, np.newaxis]
         elastic[:, 3, 3] = shear
         b = self.strain
-        cells = np.einsum("gn,gnki,nkl,gnlj->nij", self.part, b, elastic, b, optimize=True)
+        cells = np.einsum(
+            "gn,gnki,nkl,gnlj->nij", self.part, b, elastic, b, optimize=True
+        )
         rows = np.repeat(self.unknowns, 8, axis=1)
         columns = np.tile(self.unknowns, (1, 8))
         size = 2 * len(self.mesh.nodes)
@@ -149,7 +154,9 @@ class Balanced:
     @property
     def size_of_correction(self) -> float:
         """The correction over the stress, both in the mean of squares by volume."""
-        parts = [(x**2).sum(axis=1) @ self.volume for x in (self.correction, self.stress)]
+        parts = [
+            (x**2).sum(axis=1) @ self.volume for x in (self.correction, self.stress)
+        ]
         return float(np.sqrt(parts[0] / parts[1])) if parts[1] else 0.0
 
     @property
@@ -231,7 +238,10 @@ def unknowns(mesh: Mesh, free: np.ndarray, moves_tip: bool) -> csr_matrix:
 
 
 def corrected(
-    forces: Forces, stress: np.ndarray, external: np.ndarray, free: csr_matrix,
+    forces: Forces,
+    stress: np.ndarray,
+    external: np.ndarray,
+    free: csr_matrix,
     residual_of: Callable[[np.ndarray], float],
 ) -> np.ndarray:
     """Return the correction [m, 4] that balances a stress (Pa) with the forces; free:
@@ -242,13 +252,20 @@ def corrected(
     factors = splu((free.T @ matrix @ free).tocsc())
     mean = forces.integral / forces.volume[:, np.newaxis, np.newaxis]
     correction = np.zeros_like(stress)
+    rest = external - forces.internal(stress)
+    direction, product = np.zeros(free.shape[1]), np.inf
     for _ in range(MOST_TIMES):
-        rest = external - forces.internal(stress + correction)
         if residual_of(rest) < WANTED:
             break
-        u = free @ factors.solve(free.T @ rest)
-        strain = np.einsum("nij,nj->ni", mean, u[forces.unknowns])
-        correction += np.einsum("nij,nj->ni", elastic, strain)
+        better = factors.solve(free.T @ rest)
+        before, product = product, (free.T @ rest) @ better
+        direction = better + product / before * direction
+        strain = np.einsum("nij,nj->ni", mean, (free @ direction)[forces.unknowns])
+        more = np.einsum("nij,nj->ni", elastic, strain)
+        change = forces.internal(more)
+        length = product / (direction @ (free.T @ change))
+        correction += length * more
+        rest -= length * change
     return correction
 
 
@@ -258,9 +275,7 @@ def balance(state: State, mesh: Mesh, values: Values) -> Balanced:
     unit_weight = state.weight_of_layers[values.layer]
     weight = float(unit_weight @ forces.volume)
     loads = forces.weight(unit_weight)
-    surface = np.zeros(len(loads))
-    if state.pressure is not None:
-        surface = forces.of_surface(pressure_of_nodes(state, mesh))
+    surface = forces.of_surface(surface_pressure(state, mesh))
     stress = with_pressure(values.stress, values.pressure)
     own = loads + surface - forces.internal(stress)
     of_wall, known = wall_forces(state, mesh, own)
@@ -295,9 +310,17 @@ def balance(state: State, mesh: Mesh, values: Values) -> Balanced:
     )
 
 
-def pressure_of_nodes(state: State, mesh: Mesh) -> np.ndarray:
-    """Return the pore pressure at the nodes of the surface, 0 elsewhere: [n] (Pa)."""
+def surface_pressure(state: State, mesh: Mesh) -> np.ndarray:
+    """Return the pressure of water, surcharge and lid on the nodes of the surface, 0
+    elsewhere: [n] (Pa)."""
     pressure = np.zeros(len(mesh.nodes))
     surface = mesh.sets.get("SURFACE", np.zeros(0, dtype=int))
-    pressure[surface] = interpolate(state, mesh.nodes[surface]).pressure
+    if not len(surface):
+        return pressure
+    pressure[surface] = state.surcharge
+    if state.pressure is not None:
+        pressure[surface] += interpolate(state, mesh.nodes[surface]).pressure
+    if state.wall is not None:
+        plug = surface[mesh.nodes[surface, 0] < state.wall.inner * (1 + 1e-6)]
+        pressure[plug] += state.lid_pressure
     return pressure

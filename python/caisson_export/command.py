@@ -29,7 +29,10 @@ Writer = Callable[[Path, Balanced], None]
 FORMS: dict[str, tuple[str, Writer]] = {
     "csv": (".csv", tables.write_csv),
     "vtu": (".vtu", tables.write_vtu),
-    "abaqus": ("_abaqus.inp", lambda path, state: decks.write(path, decks.abaqus(state))),
+    "abaqus": (
+        "_abaqus.inp",
+        lambda path, state: decks.write(path, decks.abaqus(state)),
+    ),
     "calculix": (
         "_calculix.inp",
         lambda path, state: decks.write(path, decks.calculix(state)),

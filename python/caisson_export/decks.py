@@ -56,7 +56,8 @@ def soil_lines(state: Balanced) -> Iterator[str]:
         yield f"{layer.youngs_modulus:.6g}, {POISSON}"
         yield "*DENSITY"
         yield f"{layer.unit_weight / GRAVITY:.10g}"
-        yield f"*SOLID SECTION, ELSET=LAYER_{layer.number}, MATERIAL=SOIL_{layer.number}"
+        number = layer.number
+        yield f"*SOLID SECTION, ELSET=LAYER_{number}, MATERIAL=SOIL_{number}"
 
 
 def used_layers(state: Balanced) -> list:
@@ -131,7 +132,7 @@ def calculix(state: Balanced) -> Iterator[str]:
     yield "*END STEP"
 
 
-SCRIPT = '''\
+SCRIPT = """\
 ops.wipe()
 ops.model("basic", "-ndm", 3, "-ndf", 3)
 n = len(NODES)
@@ -160,9 +161,8 @@ for e, (corners, layer, unit_weight, stress) in enumerate(ELEMENTS, 1):
     strain = [((1 + ratio) * s - ratio * trace) / modulus for s in (rr, tt, zz)]
     # strains 11, 22, 33, 12, 23, 13; x is radial, y is along the circumference
     ops.nDMaterial("InitStrain", first + e, layer, *strain, 0.0, 0.0, rz / shear)
-    front = [corner for corner in corners]
     back = [corner + n for corner in corners]
-    ops.element("stdBrick", e, *front, *back, first + e, 0.0, 0.0, -unit_weight)
+    ops.element("stdBrick", e, *back, *corners, first + e, 0.0, 0.0, -unit_weight)
 ops.timeSeries("Linear", 1)
 ops.pattern("Plain", 1, 1)
 share = HALF_ANGLE / (2 * math.pi)  # of each of the two faces in the circumference
@@ -181,7 +181,7 @@ if __name__ == "__main__":
     ops.loadConst("-time", 0.0)
     print("largest displacement of the equilibrium step (m):",
           max(abs(u) for i in range(1, n + 1) for u in ops.nodeDisp(i)))
-'''
+"""
 
 
 def opensees(state: Balanced) -> Iterator[str]:
@@ -189,8 +189,8 @@ def opensees(state: Balanced) -> Iterator[str]:
     quadrilaterals are not axisymmetric."""
     mesh = state.mesh
     yield from (f"# {line}" for line in [*about(state), TOTAL])
-    yield "# A sector of 2 degrees of bricks: x is radial, z is upward. InitStrain gives"
-    yield "# each brick its stress through the elastic soil; it needs OpenSees 3.7."
+    yield "# A sector of 2 degrees of bricks: x is radial, z is upward. InitStrain"
+    yield "# gives each brick its stress by the elastic soil; it needs OpenSees 3.7."
     yield "# Replace the elastic soil by your own, in a stage after this one."
     yield "import math\n\nimport openseespy.opensees as ops\n"
     yield f"HALF_ANGLE = {HALF_ANGLE:.12g}  # rad"
@@ -210,7 +210,10 @@ def opensees(state: Balanced) -> Iterator[str]:
         yield f"    {layer.number}: ({layer.youngs_modulus:.6g}, {POISSON}),"
     yield "}\nELEMENTS = [  # corners, layer, unit weight (N/m3), rr, zz, tt, rz (Pa)"
     for cell, layer, stress in zip(mesh.cells + 1, state.values.layer, state.total):
-        number, weight = state.state.layers[layer].number, state.state.layers[layer].unit_weight
+        number, weight = (
+            state.state.layers[layer].number,
+            state.state.layers[layer].unit_weight,
+        )
         values = ", ".join(f"{value:.9g}" for value in stress)
         corners = ", ".join(map(str, cell))
         yield f"    (({corners}), {number}, {weight:.9g}, ({values})),"

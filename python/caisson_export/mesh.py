@@ -206,18 +206,14 @@ def with_sets(mesh: Mesh, wall: Wall | None) -> Mesh:
                 f" {wall.outer:g} m down to z = {wall.tip:g} m: cut the section of the"
                 " body out of it"
             )
-    masks["SURFACE"] = edge & ~held & ~on_wall & ~(masks["AXIS"] & (z < z.max() - close))
-    if wall is not None:  # the upper ends of the walls are on both
-        masks["SURFACE"][surface_ends(mesh, on_wall, masks["SURFACE"])] = True
+    other = masks["AXIS"] | held | on_wall
+    masks["SURFACE"] = edge & ~other
+    a, b = mesh.edges().T  # its ends are on other sides too
+    ends = np.concatenate([a[other[a] & ~other[b]], b[other[b] & ~other[a]]])
+    masks["SURFACE"][ends] = True
     mesh.sets = {name: np.flatnonzero(mask) for name, mask in masks.items()}
     mesh.sets = {name: numbers for name, numbers in mesh.sets.items() if len(numbers)}
     return mesh
-
-
-def surface_ends(mesh: Mesh, on_wall: np.ndarray, surface: np.ndarray) -> np.ndarray:
-    """Return the nodes of the wall with an edge to the surface."""
-    a, b = mesh.edges().T
-    return np.concatenate([a[on_wall[a] & surface[b]], b[on_wall[b] & surface[a]]])
 
 
 def sections(lines: list[str]) -> dict[str, list[str]]:
@@ -235,7 +231,9 @@ def sections(lines: list[str]) -> dict[str, list[str]]:
     return result
 
 
-def read_2(parts: dict[str, list[str]]) -> tuple[dict[int, list[float]], list[list[int]]]:
+def read_2(
+    parts: dict[str, list[str]]
+) -> tuple[dict[int, list[float]], list[list[int]]]:
     """Return nodes by their tags, and [tag of the group, corners...] of cells, of
     format 2.2."""
     nodes = {}
@@ -251,7 +249,9 @@ def read_2(parts: dict[str, list[str]]) -> tuple[dict[int, list[float]], list[li
     return nodes, cells
 
 
-def read_4(parts: dict[str, list[str]]) -> tuple[dict[int, list[float]], list[list[int]]]:
+def read_4(
+    parts: dict[str, list[str]]
+) -> tuple[dict[int, list[float]], list[list[int]]]:
     """Return the same of format 4.1."""
     groups = {}
     if "Entities" in parts:
@@ -289,14 +289,25 @@ def read_gmsh(path: Path, wall: Wall | None) -> Mesh:
             )
         read = read_2 if version[0] == "2.2" else read_4
         found, cells = read(parts)
-    except (OSError, UnicodeError, KeyError, ValueError, IndexError, StopIteration) as e:
-        raise ResultsError(f"{path} is no text file of Gmsh that can be read: {e}") from e
+    except (
+        OSError,
+        UnicodeError,
+        KeyError,
+        ValueError,
+        IndexError,
+        StopIteration,
+    ) as e:
+        raise ResultsError(
+            f"{path} is no text file of Gmsh that can be read: {e}"
+        ) from e
     if not cells:
         raise ResultsError(f"{path} has no triangles or quadrilaterals of first order")
     tags = np.array(sorted(found))
     nodes = np.array([found[tag] for tag in tags])
     if np.ptp(nodes[:, 2]) > 0:
-        raise ResultsError(f"{path} is not in the plane x = r, y = z of an axisymmetric")
+        raise ResultsError(
+            f"{path} is not in the plane x = r, y = z of an axisymmetric"
+        )
     corners = np.array([cell[1:] + cell[-1:] * (5 - len(cell)) for cell in cells])
     mesh = Mesh(nodes[:, :2], np.searchsorted(tags, corners))
     mesh.groups = np.array([cell[0] for cell in cells])
@@ -315,7 +326,9 @@ def trimmed(mesh: Mesh, wall: Wall | None, path: Path) -> Mesh:
     x, y = np.moveaxis(mesh.nodes[cells], 2, 0)
     area = (x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum(axis=1)
     turned = cells[:, [2, 1, 0, 3]]
-    turned[cells[:, 2] == cells[:, 3]] = cells[cells[:, 2] == cells[:, 3]][:, [1, 0, 2, 2]]
+    turned[cells[:, 2] == cells[:, 3]] = cells[cells[:, 2] == cells[:, 3]][
+        :, [1, 0, 2, 2]
+    ]
     cells = np.where(area[:, np.newaxis] < 0, turned, cells)
     used, number = np.unique(cells, return_inverse=True)
     groups = None if mesh.groups is None else mesh.groups[kept]

@@ -94,7 +94,8 @@ class State:
     where there is no pore water), fields: other values [n] by name, displacement
     [n, 2] (m), layer [n]: index in layers, unit_weight [n] (N/m3).
     forces: of the soil on the body at that time (N, upward), by their columns in
-    history.csv; empty where the run has none yet.
+    history.csv; empty where the run has none yet. surcharge: on the surface (Pa).
+    outer_radius, bottom: of the domain of the run (m).
     """
 
     title: str
@@ -113,6 +114,14 @@ class State:
     forces: dict[str, float]
     outer_radius: float
     bottom: float
+    surcharge: float = 0.0
+
+    @property
+    def lid_pressure(self) -> float:
+        """The mean pressure of the lid on the plug (Pa)."""
+        if self.wall is None or not self.wall.inner:
+            return 0.0
+        return self.forces.get("lid_force_N", 0.0) / (np.pi * self.wall.inner**2)
 
     @property
     def weight_of_layers(self) -> np.ndarray:
@@ -181,7 +190,18 @@ def layers_of(
 
 def read_state(run: LoadedRun, frame: Frame) -> State:
     """Return the state of a frame. Raises ResultsError where something is missing."""
+    entries = run.summary.get("entries", {})
+    if entries.get("Grid/Geometry", "axisymmetric") != "axisymmetric":
+        raise ResultsError(
+            f"{run.directory} is in plane strain: only axisymmetric runs"
+        )
     data = frame.point_data
+    needed = {"whole_volume_m3", "material", "displacement_m"}
+    if missing := sorted(needed - data.keys()):
+        raise ResultsError(
+            f"{run.directory} has no {missing[0]} in its frames: run the scene again"
+            " with this version"
+        )
     position = frame.positions
     volume = data["whole_volume_m3"].astype(float)
     index, weight, layers = layers_of(run.results.scene, data, volume)
@@ -210,4 +230,5 @@ def read_state(run: LoadedRun, frame: Frame) -> State:
         forces=forces_at(run.results.history, frame.time),
         outer_radius=float(frame.corners[..., 0].max()),
         bottom=float(frame.corners[..., 1].min()),
+        surcharge=float(entries.get("Soil/Surcharge", 0)),
     )

@@ -67,7 +67,11 @@ def write_vtu(path: Path, state: Balanced) -> None:
     """Write the mesh with the values of its cells."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
-    from vtkmodules.vtkCommonDataModel import VTK_QUAD, VTK_TRIANGLE, vtkUnstructuredGrid
+    from vtkmodules.vtkCommonDataModel import (
+        VTK_QUAD,
+        VTK_TRIANGLE,
+        vtkUnstructuredGrid,
+    )
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
     grid, points = vtkUnstructuredGrid(), vtkPoints()
@@ -133,7 +137,9 @@ def write_plaxis(path: Path, state: Balanced) -> None:
                     "r_max_m": outer,
                     "z_top_m": high,
                     "z_bottom_m": low,
-                    "unit_weight_kN_m3": volume @ state.unit_weight[cells] / 1e3
+                    "unit_weight_kN_m3": volume
+                    @ state.unit_weight[cells]
+                    / 1e3
                     / volume.sum(),
                     "vertical_stress_kPa": -mean[1] / 1e3,
                     "K0_radial": mean[0] / mean[1] if known else np.nan,
@@ -141,9 +147,12 @@ def write_plaxis(path: Path, state: Balanced) -> None:
                     "OCR": before / -mean[1] if known else np.nan,
                     "POP_kPa": (before + mean[1]) / 1e3,
                     "shear_stress_kPa": mean[3] / 1e3,
-                    "pore_pressure_kPa": volume @ state.values.pressure[cells] / 1e3
+                    "pore_pressure_kPa": volume
+                    @ state.values.pressure[cells]
+                    / 1e3
                     / volume.sum(),
-                    "void_ratio": np.nan if void is None
+                    "void_ratio": np.nan
+                    if void is None
                     else np.average(void[cells], weights=volume),
                 }
             )
@@ -157,8 +166,8 @@ def write_plaxis(path: Path, state: Balanced) -> None:
 
 
 PLAXIS = (
-    "Zones for PLAXIS: clusters in axisymmetry with x = r, y = z, submerged unit weight,"
-    " K0 and OCR for the K0 procedure. Pressures of this table are positive in"
+    "Zones for PLAXIS: clusters in axisymmetry with x = r, y = z, submerged unit"
+    " weight, K0 and OCR for the K0 procedure. Pressures of this table are positive in"
     " compression, in kPa.",
     "OCR and POP compare the vertical stress with that of the ground at rest, the"
     " larger of both being the past one: a lower bound.",

@@ -6,8 +6,8 @@ from caisson_export.balance import WANTED, Balanced, force_of_run
 from caisson_export.state import State
 
 SIGNS = (
-    "Stresses are effective, in Pa, positive in tension: rr radial, zz vertical, tt hoop,"
-    " rz shear. Excess pore pressure is positive in compression.",
+    "Stresses are effective, in Pa, positive in tension: rr radial, zz vertical, tt"
+    " hoop, rz shear. Excess pore pressure is positive in compression.",
     "r is the distance from the axis, z is upward from the surface of the ground at the"
     " start (m). Forces are for the whole circumference.",
 )
@@ -61,8 +61,8 @@ def about_correction(state: Balanced) -> list[str]:
     )
     if state.after > WANTED:
         lines.append(
-            "WARNING: the residual could not be made small on this mesh: refine it where"
-            " the stress changes fast, or avoid slender cells."
+            "WARNING: the residual could not be made small on this mesh: refine it"
+            " where the stress changes fast, or avoid slender cells."
         )
     return lines
 

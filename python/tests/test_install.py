@@ -29,7 +29,8 @@ class Install(unittest.TestCase):
         for name in FILES:
             (self.project / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.project / name)
-        for name in ("python/caisson", "python/caisson_design", "python/caisson_error"):
+        for name in ("", "_design", "_error", "_export"):
+            name = f"python/caisson{name}"
             shutil.copytree(ROOT / name, self.project / name)
 
     def call(self, *words: str | Path) -> str:

@@ -16,6 +16,7 @@ import caisson
 import caisson.__main__
 import caisson_design
 import caisson_error
+import caisson_export
 import caisson_workshop.__main__
 import lab.__main__
 from caisson.paths import ROOT
@@ -58,7 +59,8 @@ MOST_COMMANDS, MOST_LINES = 10, 10_000  # of the user's package
 
 def modules() -> list[str]:
     """Return the names of all modules of the packages."""
-    packages = (caisson, caisson_design, caisson_error, lab, caisson_workshop)
+    packages = (caisson, caisson_design, caisson_error, caisson_export)
+    packages += (lab, caisson_workshop)
     names = [
         m.name
         for package in packages
@@ -106,7 +108,8 @@ class Product(unittest.TestCase):
         """It imports nothing of them, and the design methods nothing of it either."""
         design = sorted((ROOT / "python/caisson_design").rglob("*.py"))
         error = sorted((ROOT / "python/caisson_error").rglob("*.py"))
-        for path in self.files + design + error:
+        export = sorted((ROOT / "python/caisson_export").rglob("*.py"))
+        for path in self.files + design + error + export:
             refused = {"lab", "caisson_workshop"}
             if path in design:
                 refused.add("caisson")
