@@ -59,8 +59,8 @@ MOST_COMMANDS, MOST_LINES = 10, 10_000  # of the user's package
 
 def modules() -> list[str]:
     """Return the names of all modules of the packages."""
-    packages = (caisson, caisson_design, caisson_error, caisson_export)
-    packages += (lab, caisson_workshop)
+    packages = [caisson, caisson_design, caisson_error, caisson_export]
+    packages += [lab, caisson_workshop]
     names = [
         m.name
         for package in packages
