@@ -77,12 +77,13 @@ class Wall:
 
 @dataclass
 class Layer:
-    """A layer of soil: its number in the scene, its submerged unit weight (N/m3), as
-    that of the points in the window, and its Young's modulus (Pa, a mean)."""
+    """A layer of soil: its number in the scene, its submerged unit weight (N/m3) and
+    Young's modulus (Pa), means over its points, and the depth of its top (m)."""
 
     number: int
     unit_weight: float
     youngs_modulus: float
+    top: float = 0.0
 
 
 @dataclass
@@ -127,6 +128,16 @@ class State:
     def weight_of_layers(self) -> np.ndarray:
         """The unit weights of the layers: [n_layers] (N/m3)."""
         return np.array([layer.unit_weight for layer in self.layers])
+
+    def at_rest(self, z: np.ndarray) -> np.ndarray:
+        """Return the vertical stress of the ground before the body came, at heights
+        [n] (m), positive in compression: [n] (Pa)."""
+        layers = sorted(self.layers, key=lambda layer: layer.top)
+        tops = [layer.top for layer in layers]
+        stress = np.full(len(z), self.surcharge)
+        for layer, end in zip(layers, [*tops[1:], np.inf]):
+            stress += layer.unit_weight * np.clip(-z - layer.top, 0, end - layer.top)
+        return stress
 
 
 def wall_of(frame: Frame) -> Wall | None:
@@ -182,6 +193,7 @@ def layers_of(
             int(number),
             float(np.average((weight * ratio)[index == i], weights=volume[index == i])),
             float(np.average(modulus[index == i], weights=volume[index == i])),
+            min(one["top_depth_m"] for one in known if one["layer"] == number),
         )
         for i, number in enumerate(which)
     ]

@@ -108,7 +108,7 @@ def zone_edges(state: Balanced) -> tuple[list[tuple[str, float, float]], np.ndar
     tip, near = wall.tip, min(wall.outer * 1.5, outer)
     rings = [("outside_near", wall.outer, near), ("outside", near, outer)]
     if wall.inner > 0:
-        rings = [("plug", 0.0, wall.inner), *rings]
+        rings = [("inside", 0.0, wall.inner), *rings]
     rows = np.linspace(tip, high, ZONE_ROWS + 1)
     n = max(1, round((tip - low) / (rows[1] - rows[0])))
     return rings, np.unique(np.concatenate([np.linspace(low, tip, n + 1), rows]))
@@ -118,7 +118,7 @@ def write_plaxis(path: Path, state: Balanced) -> None:
     """Write zones of soil, each with its weight, K0 and OCR, means by volume."""
     rings, rows = zone_edges(state)
     r, z = state.mesh.centers.T
-    geostatic = -state.unit_weight * z
+    geostatic = state.state.at_rest(z)
     lines: list[dict[str, float | str]] = []
     for name, inner, outer in rings:
         for low, high in zip(rows[:-1], rows[1:]):

@@ -101,12 +101,17 @@ class Stresses(unittest.TestCase):
 
     def test_weight_follows_void_ratio(self) -> None:
         """Grains keep their mass; a void ratio that is not known changes nothing."""
-        one = {"layer": 2, "submerged_unit_weight_N_m3": 1e4, "porosity": 0.5}
+        one = {
+            "top_depth_m": 1.0,
+            "layer": 2,
+            "submerged_unit_weight_N_m3": 1e4,
+            "porosity": 0.5,
+        }
         scene = {"layers": [{**one, "youngs_modulus_Pa": 1e7}]}
         data = {"material": np.zeros(3), "void_ratio": np.array([1, 0.6, np.nan])}
         _, weight, layers = layers_of(scene, data, np.ones(3))
         np.testing.assert_allclose(weight, [1e4, 1.25e4, 1e4])
-        self.assertEqual(layers[0].number, 2)
+        self.assertEqual((layers[0].number, layers[0].top), (2, 1.0))
         with self.assertRaisesRegex(ResultsError, "does not list the layers"):
             layers_of({}, data, np.ones(3))
 
@@ -144,6 +149,9 @@ class Interpolation(unittest.TestCase):
         state.layers = [Layer(1, WEIGHT, 1e7), Layer(2, 2 * WEIGHT, 1e7)]
         z = state.position[:, 1]
         state.stress[:, 1] = np.where(z < -2, 2 * WEIGHT * (z + 1), WEIGHT * z)
+        state.layers[1].top = 2.0
+        rest = state.at_rest(np.array([-1.0, -3.0])) / WEIGHT
+        np.testing.assert_allclose(rest, [1, 4])
         values = interpolate(state, np.array([[1.0, -1.98], [1.0, -2.03]]))
         np.testing.assert_allclose(
             values.stress[:, 1], WEIGHT * np.array([-1.98, -2.06])
@@ -386,7 +394,7 @@ class Tables(Temporary):
         lines = (self.path / "a.csv").read_text(encoding="utf-8").splitlines()
         rows = [line.split(",") for line in lines if not line.startswith("#")]
         table = {name: [row[i] for row in rows[1:]] for i, name in enumerate(rows[0])}
-        self.assertEqual(set(table["zone"]), {"plug", "outside_near", "outside"})
+        self.assertEqual(set(table["zone"]), {"inside", "outside_near", "outside"})
         for name, value in (("K0_radial", K0), ("K0_hoop", K0), ("OCR", 1)):
             np.testing.assert_allclose(
                 [float(x) for x in table[name]], value, rtol=1e-5

@@ -59,7 +59,7 @@ class Export(ProgramTest):
         run = self.directory("run")
         self.compute("jack_coarse", run, SHORT)
         self.assert_friction(read_deck(self.export(run, "abaqus")), run)
-        deck = read_deck(self.export(run, "calculix"))
+        deck = read_deck(self.export(run, "calculix", "--spacing", "0.3"))
         self.assert_friction(deck, run)
         if CCX is None:
             self.skipTest("CalculiX: needs ccx of the package calculix-ccx")
@@ -101,7 +101,7 @@ class Export(ProgramTest):
         self.compute("suction", run, entries)
         table = read_table(self.export(run, "csv"))
         self.assertLess(table["pore_pressure_Pa"].min(), -1e3)
-        deck = read_deck(self.export(run, "abaqus"))
+        deck = read_deck(self.export(run, "abaqus", "--spacing", "0.3"))
         self.assertLess(forces_of(deck).residual(deck), 0.01)
 
 
