@@ -159,13 +159,14 @@ def wall_of(frame: Frame) -> Wall | None:
 
 
 def forces_at(history: Table, time: float) -> dict[str, float]:
-    """Return the forces on the body in the row of a time; none of the first row, which
-    is zero."""
-    row = int(np.argmin(abs(history["time_s"] - time)))
+    """Return the forces on the body at a time: the means of the row that contains it.
+    None where they are all zero, as in the first row."""
+    times = history["time_s"]
+    row = int(np.searchsorted(times, time - 1e-6 * max(1.0, time)))
+    row = min(row, len(times) - 1)
     names = [n for n in history if n.endswith(("_force_N", "friction_N"))]
-    if row == 0 or abs(history["time_s"][row] - time) > 1e-6 * max(1.0, time):
-        return {}
-    return {name: float(history[name][row]) for name in names}
+    forces = {name: float(history[name][row]) for name in names}
+    return forces if any(forces.values()) else {}
 
 
 def layers_of(

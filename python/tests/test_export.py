@@ -22,7 +22,7 @@ from caisson_export import command, decks, tables
 from caisson_export.balance import Balanced, balance
 from caisson_export.interpolate import interpolate
 from caisson_export.mesh import Mesh, Window, default_window, read_gmsh, regular
-from caisson_export.state import Layer, State, Wall, layers_of, stress_of
+from caisson_export.state import Layer, State, Wall, forces_at, layers_of, stress_of
 from caisson_export.text import about
 
 TINY = Path(__file__).with_name("tiny_run")
@@ -114,6 +114,16 @@ class Stresses(unittest.TestCase):
         self.assertEqual((layers[0].number, layers[0].top), (2, 1.0))
         with self.assertRaisesRegex(ResultsError, "does not list the layers"):
             layers_of({}, data, np.ones(3))
+
+    def test_forces_of_a_frame(self) -> None:
+        """A row is the mean since the row before; the first one is zero."""
+        history = {
+            "time_s": np.array([0, 1, 2.0]),
+            "tip_force_N": np.array([0, 5, 7.0]),
+        }
+        for time, force in ((1, 5), (1.5, 7), (2, 7), (2.5, 7)):
+            self.assertEqual(forces_at(history, time), {"tip_force_N": force})
+        self.assertEqual(forces_at(history, 0), {})
 
 
 class Interpolation(unittest.TestCase):
