@@ -21,6 +21,7 @@ import numpy as np
 from scipy.sparse import coo_matrix, csr_matrix
 from scipy.sparse.linalg import splu
 
+from caisson.results import ResultsError
 from caisson_export.interpolate import Values, interpolate
 from caisson_export.mesh import Mesh
 from caisson_export.state import State
@@ -252,7 +253,13 @@ def corrected(
     level = np.linalg.norm(stress, axis=1)
     mean_level = forces.volume @ level / forces.volume.sum()
     matrix, elastic = forces.stiffness(1e3 * np.maximum(level, 0.05 * mean_level))
-    factors = splu((free.T @ matrix @ free).tocsc())
+    try:
+        factors = splu((free.T @ matrix @ free).tocsc())
+    except RuntimeError as error:
+        raise ResultsError(
+            "a part of the mesh is not held: it must be one piece, from the axis to a"
+            " vertical side"
+        ) from error
     mean = forces.integral / forces.volume[:, np.newaxis, np.newaxis]
     correction = np.zeros_like(stress)
     rest = external - forces.internal(stress)

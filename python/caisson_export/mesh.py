@@ -73,7 +73,9 @@ def default_window(state: State) -> Window:
 def steps(begin: float, end: float, spacing: float) -> np.ndarray:
     """Return equal steps of at most the spacing from begin to end, with both."""
     n = max(1, int(np.ceil(abs(end - begin) / spacing - 1e-9)))
-    return np.linspace(begin, end, n + 1)
+    found = np.linspace(begin, end, n + 1)
+    found[1:-1] = found[1:-1].round(6)  # the same in all parts of a mesh
+    return found
 
 
 def surface_of(state: State, r: np.ndarray, spacing: float) -> np.ndarray:
@@ -154,7 +156,7 @@ def regular(state: State, window: Window) -> Mesh:
         if len(r):
             top = surface_of(state, r, spacing)
             parts.append(lattice(r, rising(shoulder, top, spacing)))
-    columns = np.unique(np.concatenate([inside, beneath, outside]).round(9))
+    columns = np.unique(np.concatenate([inside, beneath, outside]))
     rows = steps(-window.depth, shoulder, spacing)
     depth = np.broadcast_to(rows, (len(columns), len(rows))).copy()
     under = (columns >= wall.inner - 1e-9) & (columns <= wall.outer + 1e-9)
@@ -211,6 +213,17 @@ def with_sets(mesh: Mesh, wall: Wall | None) -> Mesh:
     a, b = mesh.edges().T  # its ends are on other sides too
     ends = np.concatenate([a[other[a] & ~other[b]], b[other[b] & ~other[a]]])
     masks["SURFACE"][ends] = True
+    if (
+        wall is not None
+        and masks["SURFACE"].any()
+        and z[masks["SURFACE"]].min() < wall.tip
+    ):
+        lowest = np.argmin(np.where(masks["SURFACE"], z, np.inf))
+        raise ResultsError(
+            f"the mesh has an edge at r = {r[lowest]:g} m, z = {z[lowest]:g} m that is"
+            " neither on the axis, the wall or the surface, nor on a level bottom or a"
+            " vertical side"
+        )
     mesh.sets = {name: np.flatnonzero(mask) for name, mask in masks.items()}
     mesh.sets = {name: numbers for name, numbers in mesh.sets.items() if len(numbers)}
     return mesh

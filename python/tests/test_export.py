@@ -16,12 +16,20 @@ from typing import Any
 
 import numpy as np
 from plain_solver import Deck, forces_of, read_deck
+from scipy.spatial import cKDTree
 
 from caisson.results import ResultsError, read_table
 from caisson_export import command, decks, tables
 from caisson_export.balance import Balanced, balance
 from caisson_export.interpolate import interpolate
-from caisson_export.mesh import Mesh, Window, default_window, read_gmsh, regular
+from caisson_export.mesh import (
+    Mesh,
+    Window,
+    default_window,
+    read_gmsh,
+    regular,
+    with_sets,
+)
 from caisson_export.state import Layer, State, Wall, forces_at, layers_of, stress_of
 from caisson_export.text import about
 
@@ -184,6 +192,15 @@ class Grid(unittest.TestCase):
         surface = mesh.nodes[mesh.sets["SURFACE"]]
         np.testing.assert_allclose(surface[:, 1], -0.3, atol=1e-9)
 
+    def test_no_cracks(self) -> None:
+        """Parts of the grid share their nodes, whatever the spacing."""
+        state = made_up()
+        for spacing in np.linspace(0.1, 0.4, 16):
+            mesh = regular(state, Window(4.1, 4.3, spacing))
+            self.assertFalse(cKDTree(mesh.nodes).query_pairs(1e-3), spacing)
+            ends = mesh.nodes[mesh.sets["SURFACE"], 1]
+            np.testing.assert_allclose(ends, 0, atol=1e-9)
+
     def test_sets(self) -> None:
         mesh = regular(made_up(), WINDOW)
         tip = mesh.nodes[mesh.sets["TIP"]]
@@ -202,6 +219,17 @@ class Grid(unittest.TestCase):
         self.assertEqual((usual.radius, usual.spacing), (5.0, 0.1))
         with self.assertRaisesRegex(ResultsError, "does not reach beyond the wall"):
             regular(state, Window(4, 1.9, 0.2))
+
+    def test_pile_and_cone(self) -> None:
+        """Bodies without a plug, with a flat and a pointed end."""
+        r = np.array([0.0, 0.3])
+        for z in (np.array([-2.0, -2.0]), np.array([-2.5, -2.0])):
+            state = made_up(wall=Wall(0.0, 0.3, r, z))
+            found = balanced(state)
+            self.assertNotIn("INNER_WALL", found.mesh.sets)
+            self.assertLess(found.before, 2e-3)
+            whole = math.pi * 4**2 * 4 - math.pi * 0.3**2 * (2 + (z[1] - z[0]) / 3)
+            self.assertAlmostEqual(found.volume.sum() / whole, 1, delta=1e-3)
 
     def test_without_a_wall(self) -> None:
         found = balanced(made_up(wall=None))
@@ -519,6 +547,21 @@ class Gmsh(Temporary):
                 self.read(text)
         with self.assertRaisesRegex(ResultsError, "no edges on the wall"):
             self.read(MSH_2, WEDGE)
+        mesh = regular(made_up(), WINDOW)
+        r, z = mesh.centers.T
+        mesh.cells = mesh.cells[(r < 3.5) | (z > -3.5)]
+        with self.assertRaisesRegex(ResultsError, "neither on the axis"):
+            with_sets(mesh, WEDGE)
+
+    def test_a_piece_that_is_not_held(self) -> None:
+        """The plug alone, whose wall slides."""
+        state = made_up(noise=0.02)
+        mesh = regular(state, WINDOW)
+        r, z = mesh.centers.T
+        mesh.cells = mesh.cells[(r > 1.9) | (z > -1.5) | (z < -1.9)]
+        values = interpolate(state, mesh.centers)
+        with self.assertRaisesRegex(ResultsError, "not held"):
+            balance(state, mesh, values)
 
 
 class Command(Temporary):
