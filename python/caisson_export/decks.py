@@ -190,7 +190,7 @@ def opensees(state: Balanced) -> Iterator[str]:
     mesh = state.mesh
     yield from (f"# {line}" for line in [*about(state), TOTAL])
     yield "# A sector of 2 degrees of bricks: x is radial, z is upward. InitStrain"
-    yield "# gives each brick its stress by the elastic soil; OpenSees has it since 2024."
+    yield "# gives each brick its stress; OpenSees has it since 2024."
     yield "# Replace the elastic soil by your own, in a stage after this one."
     yield "import math\n\nimport openseespy.opensees as ops\n"
     yield f"HALF_ANGLE = {HALF_ANGLE:.12g}  # rad"
