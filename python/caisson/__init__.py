@@ -29,7 +29,8 @@ The modules, each above those that it uses:
 scripts/caisson is the command line. Needed besides Python 3.11: numpy,
 SciPy, matplotlib, VTK and Jinja2, as Debian packages them; pandas for history.
 The package caisson_design beside it has the design methods, and needs nothing of it;
-caisson_error has the error bars, caisson_report the page on a run.
+caisson_error has the error bars, caisson_report the page on a run, caisson_export the
+state for other programs.
 The laboratory (lab) and the workshop (tools) import both; neither imports anything of
 them.
 

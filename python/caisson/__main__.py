@@ -23,14 +23,14 @@ GROUPS: Groups = {
         "report": ("caisson_report", "write an HTML page on each run"),
         "compare": (
             "caisson.plot.comparison",
-            "draw the forces of several runs in one picture, with a table",
+            "draw or print the forces of several runs",
         ),
-        "curve": ("caisson.curve", "print forces and other numbers of runs"),
+        "export": ("caisson_export.command", "give the soil to other programs"),
     },
 }
 COMMANDS = commands_of(GROUPS)
 # those that import what they need only after they have computed or read something
-LATE = {"cpt", "plot", "report"}
+LATE = {"cpt", "plot", "report", "export"}
 ELSEWHERE = (
     "Verification, validation, stability and speed are commands of scripts/lab, and"
     " tools for developers of tools/workshop."

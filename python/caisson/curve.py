@@ -7,7 +7,6 @@ Per directory: tip force and friction (kN, means over 0.2 m) at each depth, then
   KE/W       largest kinetic energy over external work from 1 m on (%)
 and the largest counts of points in the body and of limiter firings.
 """
-import argparse
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -17,7 +16,12 @@ import numpy as np
 from caisson import curves
 from caisson.results import Results, ResultsError, Table
 
-DEPTHS = "1,1.5,2,3,4,5,6,6.4"
+DEPTHS = (1, 1.5, 2, 3, 4, 5, 6, 6.4)
+
+
+def depths(text: str) -> list[float]:
+    """Return depths with commas between them."""
+    return [float(depth) for depth in text.split(",")]
 
 
 def largest(history: Table, column: str) -> str:
@@ -53,19 +57,13 @@ def describe(directory: Path, depths: Sequence[float]) -> Iterator[str]:
     )
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson curve`."""
-    parser.add_argument("--at", default=DEPTHS, help="depths (m), with commas")
-    parser.add_argument("directories", nargs="+", type=Path, metavar="DIR")
-
-
-def main(options: argparse.Namespace) -> int:
+def print_all(directories: Sequence[Path], at: Sequence[float]) -> int:
     """Print the numbers of each run; a run that cannot be read is named."""
-    depths, status = [float(depth) for depth in options.at.split(",")], 0
-    for directory in options.directories:
+    status = 0
+    for directory in directories:
         try:
-            print("\n".join(describe(directory, depths)))
+            print("\n".join(describe(directory, at)))
         except ResultsError as error:
-            print(f"curve: {error}", file=sys.stderr)
+            print(f"compare: {error}", file=sys.stderr)
             status = 1
     return status

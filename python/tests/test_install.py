@@ -29,7 +29,7 @@ class Install(unittest.TestCase):
         for name in FILES:
             (self.project / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.project / name)
-        for part in ("", "_design", "_error", "_report"):
+        for part in ("", "_design", "_error", "_export", "_report"):
             name = f"python/caisson{part}"
             shutil.copytree(ROOT / name, self.project / name)
 

@@ -16,6 +16,7 @@ import caisson
 import caisson.__main__
 import caisson_design
 import caisson_error
+import caisson_export
 import caisson_report
 import caisson_workshop.__main__
 import lab.__main__
@@ -60,8 +61,8 @@ MOST_COMMANDS, MOST_LINES = 10, 10_000  # of the user's package
 def modules() -> list[str]:
     """Return the names of all modules of the packages."""
     packages = (
-        *(caisson, caisson_design, caisson_error, caisson_report),
-        *(lab, caisson_workshop),
+        *(caisson, caisson_design, caisson_error),
+        *(caisson_export, caisson_report, lab, caisson_workshop),
     )
     names = [
         m.name
@@ -111,7 +112,7 @@ class Product(unittest.TestCase):
         design = sorted((ROOT / "python/caisson_design").rglob("*.py"))
         others = [
             path
-            for name in ("caisson_error", "caisson_report")
+            for name in ("caisson_error", "caisson_export", "caisson_report")
             for path in sorted((ROOT / "python" / name).rglob("*.py"))
         ]
         for path in self.files + design + others:

@@ -102,7 +102,7 @@ class Tables(Directory):
 
 
 class Pictures(Directory):
-    """scripts/caisson plot and scripts/caisson curve."""
+    """scripts/caisson plot and scripts/caisson compare --values."""
 
     def test_tiny_run(self) -> None:
         path = Path(shutil.copytree(TINY, self.path / "run"))

@@ -213,7 +213,8 @@ class Needed(unittest.TestCase):
         """Each library that the package imports is looked for."""
         modules = [*needed.MODULES, *needed.TABLES]
         known = {module.split(".")[0] for module in modules}
-        own = {"caisson", "caisson_design", "caisson_error", "caisson_report"}
+        others = ("design", "error", "export", "report")
+        own = {"caisson", *(f"caisson_{name}" for name in others)}
         for path in (p for name in own for p in (ROOT / "python" / name).rglob("*.py")):
             found = set()
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

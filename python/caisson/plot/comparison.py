@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from caisson import curves
+from caisson import curve, curves
 from caisson.plot import design
 from caisson.plot.forces import penetration
 from caisson.results import Results, ResultsError, Table
@@ -185,7 +185,10 @@ def positive(text: str) -> float:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson compare`."""
-    parser.usage = "%(prog)s [--interval M] [PICTURE.png] DIR..."
+    parser.usage = (
+        "%(prog)s [--interval M] [PICTURE.png] DIR...\n"
+        "       %(prog)s --values [--at M,M...] DIR..."
+    )
     parser.add_argument(
         "words",
         nargs="+",
@@ -199,10 +202,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--interval", type=positive, default=INTERVAL, metavar="M", help=text
     )
+    text = "print forces at round depths and the roughness of curves, and draw nothing"
+    parser.add_argument("--values", action="store_true", help=text)
+    text = "depths of --values, in m"
+    parser.add_argument("--at", type=curve.depths, default=curve.DEPTHS, help=text)
 
 
 def main(options: argparse.Namespace) -> int:
-    """Draw the picture and write the file."""
+    """Draw the picture and write the file, or print."""
+    if options.values:
+        return curve.print_all(options.words, options.at)
     picture, directories = PICTURE, options.words
     if directories[0].suffix in PICTURES and not directories[0].is_dir():
         picture, directories = directories[0], directories[1:]

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Exports the state of the soil at a frame of a run to other programs.
+
+The mesh is a regular grid around the wall, or a text file of Gmsh. The stress is
+interpolated from the material points, and corrected until it balances the buoyant
+weight, the water and the forces of the run on the wall; what is printed, and written
+into the file, says how far it was out of balance and how much it has changed.
+"""
+import argparse
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from caisson.frame import Frame
+from caisson.loaded import LoadedRun, load
+from caisson.paths import short
+from caisson.results import ResultsError, read_table
+from caisson_export import decks, tables
+from caisson_export.balance import Balanced, balance
+from caisson_export.interpolate import interpolate
+from caisson_export.mesh import Mesh, Window, default_window, read_gmsh, regular
+from caisson_export.state import State, read_state
+from caisson_export.text import about, about_points
+
+Writer = Callable[[Path, Balanced], None]
+# form: end of the file, and what writes it
+FORMS: dict[str, tuple[str, Writer]] = {
+    "csv": (".csv", tables.write_csv),
+    "vtu": (".vtu", tables.write_vtu),
+    "abaqus": (
+        "_abaqus.inp",
+        lambda path, state: decks.write(path, decks.abaqus(state)),
+    ),
+    "calculix": (
+        "_calculix.inp",
+        lambda path, state: decks.write(path, decks.calculix(state)),
+    ),
+    "opensees": (
+        "_opensees.py",
+        lambda path, state: decks.write(path, decks.opensees(state)),
+    ),
+    "plaxis": ("_plaxis.csv", tables.write_plaxis),
+}
+
+
+def meters(text: str) -> float:
+    """Return a length above 0 (m). Raises ArgumentTypeError."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value < np.inf:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a length above 0 in meters")
+    return value
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson export`."""
+    add = parser.add_argument
+    add("directory", type=Path, metavar="DIR", help="output directory of a run")
+    add("--to", choices=FORMS, required=True, help="form of the file")
+    add("--output", type=Path, metavar="FILE", help="default: state... in DIR")
+    frame = parser.add_mutually_exclusive_group()
+    text = "the frame at this depth (m); default: the last one"
+    frame.add_argument("--penetration", type=float, metavar="M", help=text)
+    text = "the frame at this time (s)"
+    frame.add_argument("--time", type=float, metavar="S", help=text)
+    places = parser.add_mutually_exclusive_group()
+    text = "text file of Gmsh, 2.2 or 4.1, without the section of the body"
+    places.add_argument("--mesh", type=Path, metavar="FILE.msh", help=text)
+    text = "table with columns r_m and z_m: values there, not balanced (csv)"
+    places.add_argument("--points", type=Path, metavar="FILE.csv", help=text)
+    text = "cell size of the grid (m), default: a fortieth of the diameter"
+    add("--spacing", type=meters, metavar="M", help=text)
+    text = "radius of the grid (m), default: two diameters"
+    add("--radius", type=meters, metavar="M", help=text)
+    text = "depth of the grid (m), default: a diameter below the tip"
+    add("--depth", type=meters, metavar="M", help=text)
+
+
+def frame_of(run: LoadedRun, options: argparse.Namespace) -> Frame:
+    """Return the frame that is asked for."""
+    if options.penetration is not None:
+        return run.frame(penetration=options.penetration)
+    if options.time is not None:
+        return run.frame(time=options.time)
+    return run.frame(index=-1)
+
+
+def mesh_of(state: State, options: argparse.Namespace) -> Mesh:
+    """Return the mesh that is asked for. Raises ResultsError."""
+    given = (options.radius, options.depth, options.spacing)
+    if options.mesh is not None:
+        if any(given):
+            raise ResultsError("--radius, --depth and --spacing are not for --mesh")
+        mesh = read_gmsh(options.mesh, state.wall)
+    else:
+        usual = default_window(state)
+        window = Window(
+            options.radius or usual.radius,
+            options.depth or usual.depth,
+            options.spacing or usual.spacing,
+        )
+        mesh = regular(state, window)
+    radius, low = mesh.nodes[:, 0].max(), mesh.nodes[:, 1].min()
+    if radius > state.outer_radius + 1e-6 or low < state.bottom - 1e-6:
+        raise ResultsError(
+            f"the mesh reaches to r = {radius:g} m and z = {low:g} m, the run only to"
+            f" {state.outer_radius:g} m and {state.bottom:g} m"
+        )
+    return mesh
+
+
+def export_points(state: State, options: argparse.Namespace, path: Path) -> list[str]:
+    """Write the values at the points of a table; return what to say of them."""
+    if options.to != "csv":
+        raise ResultsError(f"--points is for --to csv, not {options.to}")
+    table = read_table(options.points)
+    if not {"r_m", "z_m"} <= table.keys():
+        raise ResultsError(f"{options.points} has no columns r_m and z_m")
+    at = np.column_stack([table["r_m"], table["z_m"]])
+    if state.wall is not None and state.wall.contains(at).any():
+        r, z = at[state.wall.contains(at)][0]
+        raise ResultsError(f"the point r = {r:g} m, z = {z:g} m lies in the wall")
+    tables.write_points(path, state, at, interpolate(state, at))
+    return about_points(state)
+
+
+def main(options: argparse.Namespace) -> int:
+    """Write the file, and print what it is."""
+    try:
+        run = load(options.directory)
+        state = read_state(run, frame_of(run, options))
+        end, write = FORMS[options.to]
+        path = options.output or options.directory / f"state{end}"
+        if options.points is not None:
+            lines = export_points(state, options, path)
+        else:
+            mesh = mesh_of(state, options)
+            balanced = balance(state, mesh, interpolate(state, mesh.centers))
+            write(path, balanced)
+            lines = about(balanced)
+        print("\n".join([*lines, f"written to {short(path)}"]))
+        return 0
+    except (ResultsError, OSError) as error:
+        print(f"export: {error}", file=sys.stderr)
+        return 1

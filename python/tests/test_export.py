@@ -1,0 +1,400 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""States of made-up points, exported and read back by a plain solver."""
+import contextlib
+import io
+import math
+import runpy
+import shutil
+import subprocess
+import sys
+import types
+import unittest
+import unittest.mock
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from made_up_state import (
+    FORCES,
+    K0,
+    WEIGHT,
+    WINDOW,
+    Temporary,
+    balanced,
+    made_up,
+)
+from plain_solver import Deck, forces_of, read_deck
+
+from caisson.results import ResultsError, read_table
+from caisson_export import command, decks, tables
+from caisson_export.balance import Balanced, balance
+from caisson_export.interpolate import interpolate
+from caisson_export.mesh import regular
+from caisson_export.state import Layer, State, forces_at, layers_of, stress_of
+from caisson_export.text import about
+
+CCX = shutil.which("ccx")
+TINY = Path(__file__).with_name("tiny_run")
+
+
+class Stresses(unittest.TestCase):
+    """The one place that knows how frames hold stress."""
+
+    def test_components_and_tensors(self) -> None:
+        parts = {f"stress_{c}_Pa": np.array([i]) for i, c in enumerate(("rr", "zz"))}
+        parts |= {"stress_tt_Pa": np.array([2]), "stress_rz_Pa": np.array([3])}
+        six = {"stress_Pa": np.array([[0, 1, 2, 3, 0, 0]])}
+        nine = {"stress_Pa": np.array([[0, 3, 0, 3, 1, 0, 0, 0, 2]])}
+        for data in (parts, six, nine):
+            np.testing.assert_array_equal(stress_of(data), [[0, 1, 2, 3]])
+
+    def test_missing(self) -> None:
+        with self.assertRaisesRegex(ResultsError, "no stress_rr_Pa"):
+            stress_of({})
+        with self.assertRaisesRegex(ResultsError, "not .n, 6 or 9"):
+            stress_of({"stress_Pa": np.zeros((2, 4))})
+
+    def test_weight_follows_void_ratio(self) -> None:
+        """Grains keep their mass; a void ratio that is not known changes nothing."""
+        one = {
+            "top_depth_m": 1.0,
+            "layer": 2,
+            "submerged_unit_weight_N_m3": 1e4,
+            "porosity": 0.5,
+        }
+        scene = {"layers": [{**one, "youngs_modulus_Pa": 1e7}]}
+        data = {"material": np.zeros(3), "void_ratio": np.array([1, 0.6, np.nan])}
+        _, weight, layers = layers_of(scene, data, np.ones(3))
+        np.testing.assert_allclose(weight, [1e4, 1.25e4, 1e4])
+        self.assertEqual((layers[0].number, layers[0].top), (2, 1.0))
+        with self.assertRaisesRegex(ResultsError, "does not list the layers"):
+            layers_of({}, data, np.ones(3))
+
+    def test_forces_of_a_frame(self) -> None:
+        """A row is the mean since the row before; the first one is zero."""
+        history = {
+            "time_s": np.array([0, 1, 2.0]),
+            "tip_force_N": np.array([0, 5, 7.0]),
+        }
+        for time, force in ((1, 5), (1.5, 7), (2, 7), (2.5, 7)):
+            self.assertEqual(forces_at(history, time), {"tip_force_N": force})
+        self.assertEqual(forces_at(history, 0), {})
+
+
+class Interpolation(unittest.TestCase):
+    """Moving least squares around a wall."""
+
+    def test_at_rest_is_exact(self) -> None:
+        """A wished-in-place state is met to 1e-6, and not corrected."""
+        state = made_up()
+        found = balanced(state)
+        vertical = WEIGHT * found.mesh.centers[:, 1]
+        exact = np.outer(vertical, [K0, 1, K0, 0])
+        self.assertLess(abs(found.stress - exact).max(), 1e-6 * WEIGHT)
+        self.assertFalse(found.correction.any())
+        self.assertLess(found.before, 1e-3)
+        self.assertIn("without a correction", "\n".join(about(found)))
+
+    def test_wall_is_a_barrier(self) -> None:
+        """Stress and pressure inside are not mixed with those outside."""
+        state = made_up()
+        inside = state.position[:, 0] < 1.95
+        state.stress = np.where(inside, -1.0, -9.0)[:, np.newaxis] * np.ones(4)
+        state.pressure = np.where(inside, 5.0, 0.0)
+        places = np.array([[1.89, -0.5], [1.89, -1.8], [2.01, -0.5], [2.01, -1.8]])
+        values = interpolate(state, places)
+        np.testing.assert_allclose(values.stress[:, 0], [-1, -1, -9, -9])
+        np.testing.assert_allclose(values.pressure, [5, 5, 0, 0], atol=1e-12)
+        np.testing.assert_allclose(values.scatter, 0, atol=1e-9)
+
+    def test_layers_are_not_mixed(self) -> None:
+        """The kink of the stress between two layers stays sharp."""
+        state = made_up(wall=None)
+        state.layer = (state.position[:, 1] < -2).astype(int)
+        state.layers = [Layer(1, WEIGHT, 1e7), Layer(2, 2 * WEIGHT, 1e7)]
+        z = state.position[:, 1]
+        state.stress[:, 1] = np.where(z < -2, 2 * WEIGHT * (z + 1), WEIGHT * z)
+        state.layers[1].top = 2.0
+        rest = state.at_rest(np.array([-1.0, -3.0])) / WEIGHT
+        np.testing.assert_allclose(rest, [1, 4])
+        values = interpolate(state, np.array([[1.0, -1.98], [1.0, -2.03]]))
+        np.testing.assert_allclose(
+            values.stress[:, 1], WEIGHT * np.array([-1.98, -2.06])
+        )
+        np.testing.assert_array_equal(values.layer, [0, 1])
+
+    def test_scatter_is_that_of_the_points(self) -> None:
+        state = made_up(noise=0.02)
+        values = interpolate(state, np.array([[1.0, -3.0], [3.0, -3.0]]))
+        expected = 0.02 * 3 * WEIGHT
+        self.assertLess(abs(values.scatter[:, 1] / expected - 1).max(), 0.5)
+
+
+class Balance(Temporary):
+    """Decks read back by the plain solver."""
+
+    def deck(self, state: Balanced) -> Deck:
+        """Return what is read back."""
+        decks.write(self.path / "a.inp", decks.abaqus(state))
+        return read_deck(self.path / "a.inp")
+
+    def test_noise_is_balanced(self) -> None:
+        """The residual is that which is stated, below 1 %, and the friction that of
+        the run; the correction is no larger than the noise asks for."""
+        found = balanced(made_up(noise=0.02))
+        deck = self.deck(found)
+        forces = forces_of(deck)
+        self.assertGreater(found.before, 0.05)
+        self.assertLess(found.after, 0.01)
+        self.assertAlmostEqual(forces.residual(deck), found.after, delta=1e-5)
+        self.assertAlmostEqual(forces.whole / found.weight, 1, delta=1e-6)
+        for name, column in (
+            ("TIP", "tip_force_N"),
+            ("INNER_WALL", "inner_friction_N"),
+            ("OUTER_WALL", "outer_friction_N"),
+        ):
+            force = forces.on_body(deck, name)
+            self.assertAlmostEqual(force / FORCES[column], 1, delta=0.02, msg=name)
+        text = "\n".join(about(found))
+        self.assertRegex(text, r"Residual.* as interpolated, 0\.\d+ % as exported")
+
+    def test_forces_that_are_not_there(self) -> None:
+        """Without a history the wall is held, and its force is that of the stress."""
+        state = made_up(noise=0.02)
+        state.forces = {}
+        found = balanced(state)
+        self.assertFalse(found.applied.any())
+        self.assertLess(found.after, 0.01)
+        self.assertIn("run unknown", "\n".join(about(found)))
+
+    def test_seepage(self) -> None:
+        """Water that flows up in the ground carries a part of its weight: effective
+        stress of the rest, and pressure, are in balance."""
+        state = made_up(wall=None)
+        rise = 3e3  # Pa/m
+        state.pressure = -rise * state.position[:, 1]
+        state.stress *= (WEIGHT - rise) / WEIGHT
+        found = balanced(state)
+        self.assertLess(found.before, 1e-3)
+        np.testing.assert_allclose(
+            found.stress[:, 1], (WEIGHT - rise) * found.mesh.centers[:, 1], rtol=1e-6
+        )
+        deck = self.deck(found)
+        self.assertLess(forces_of(deck).residual(deck), 1e-3)
+
+    def test_surcharge_and_lid(self) -> None:
+        """They are loads on the surface, the lid's on the plug only."""
+        state = made_up()
+        state.surcharge = 1e4
+        state.stress -= [1e4 * K0, 1e4, 1e4 * K0, 0]
+        self.assertLess(balanced(state).before, 1e-3)
+        state.surcharge, state.stress[:] = 0, made_up().stress
+        state.forces = {"lid_force_N": 1e5}
+        self.assertAlmostEqual(balanced(state).applied[:, 1].sum() / -1e5, 1, delta=0.1)
+
+    @unittest.skipUnless(CCX, "needs ccx of the package calculix-ccx")
+    def test_calculix(self) -> None:
+        """CalculiX finds equilibrium with hardly another stress."""
+        found = balanced(made_up(noise=0.02))
+        decks.write(self.path / "a.inp", decks.calculix(found))
+        assert CCX is not None
+        done = subprocess.run([CCX, "a"], cwd=self.path, text=True, capture_output=True)
+        self.assertNotIn("*ERROR", done.stdout)
+        lines = (self.path / "a.dat").read_text(encoding="utf-8").split("stresses")[1]
+        rows = [line.split() for line in lines.splitlines()[2:] if line.strip()]
+        stress = np.array([[float(x) for x in row[2:6]] for row in rows])
+        self.assertEqual(len(stress), 8 * len(found.stress))
+        change = stress - np.repeat(found.total, 8, axis=0)
+        self.assertLess(np.linalg.norm(change) / np.linalg.norm(stress), 0.005)
+
+
+class Sector(Temporary):
+    """The script of OpenSees, run with a module that takes down what it asks for."""
+
+    def run_script(self, state: Balanced) -> dict[str, list[tuple[Any, ...]]]:
+        """Return the calls of each function."""
+        decks.write(self.path / "a.py", decks.opensees(state))
+        calls: dict[str, list[tuple[Any, ...]]] = {}
+
+        class Module(types.ModuleType):
+            def __getattr__(self, name: str) -> Any:
+                return lambda *words: calls.setdefault(name, []).append(words)
+
+        module = Module("openseespy.opensees")
+        package = types.ModuleType("openseespy")
+        package.opensees = module  # type: ignore[attr-defined]
+        known = {"openseespy": package, "openseespy.opensees": module}
+        with unittest.mock.patch.dict(sys.modules, known):
+            runpy.run_path(str(self.path / "a.py"))
+        return calls
+
+    def test_bricks_are_in_balance(self) -> None:
+        """Strains give the stress; forces of bricks on the radial and vertical motion
+        of the two faces, with weight and loads, are as small as in the ring."""
+        found = balanced(made_up(noise=0.02))
+        calls = self.run_script(found)
+        nodes = {tag: np.array(x) for tag, *x in calls["node"]}
+        elastic = {w[1]: w[2:] for w in calls["nDMaterial"] if w[0] != "InitStrain"}
+        stress = {}
+        for _, tag, other, *strain in (w for w in calls["nDMaterial"] if len(w) > 5):
+            modulus, ratio = elastic[other]
+            shear = modulus / (2 * (1 + ratio))
+            lame = 2 * shear * ratio / (1 - 2 * ratio)
+            full = lame * sum(strain[:3]) + 2 * shear * np.array(strain[:3])
+            stress[tag] = np.array([*full, *(shear * np.array(strain[3:]))])
+        force = {tag: np.zeros(3) for tag in nodes}
+        for _, _, *corners, material, bx, by, bz in calls["element"]:
+            add_brick(force, nodes, corners, stress[material], np.array([bx, by, bz]))
+        for tag, *load in calls["load"]:
+            force[tag] += load
+        held = {tag: fixed for tag, *fixed in calls["fix"]}
+        n, slope, rest = len(nodes) // 2, math.tan(decks.HALF_ANGLE), 0.0
+        for tag in range(1, n + 1):
+            front, back = force[tag], force[tag + n]
+            radial = front[0] + back[0] + slope * (back[1] - front[1])
+            fixed = held.get(tag, (0, 0, 0))
+            parts = (radial * (not fixed[0]), (front[2] + back[2]) * (not fixed[2]))
+            rest += math.hypot(*parts)
+        weight = found.weight * decks.HALF_ANGLE / math.pi
+        self.assertAlmostEqual(rest / weight, found.after, delta=2e-3)
+        self.assertEqual(
+            len(calls["equationConstraint"]),
+            2 * (n - sum(fixed[0] for fixed in held.values()) // 2),
+        )
+
+
+def add_brick(
+    force: dict[int, np.ndarray],
+    nodes: dict[int, np.ndarray],
+    corners: list[int],
+    stress: np.ndarray,
+    body: np.ndarray,
+) -> None:
+    """Add body forces less those of the stress (11, 22, 33, 12, 23, 13) of a brick."""
+    xx, yy, zz, xy, yz, xz = stress
+    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    place = np.array([nodes[tag] for tag in corners])
+    square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    signs = np.array([[*ab, c] for c in (-1, 1) for ab in square])
+    for point in signs / math.sqrt(3):
+        one = 1 + signs * point
+        shape = one.prod(axis=1) / 8
+        local = np.array(
+            [signs[:, i] * one[:, (i + 1) % 3] * one[:, (i + 2) % 3] for i in range(3)]
+        )
+        jacobian = local / 8 @ place
+        volume = np.linalg.det(jacobian)
+        assert volume > 0
+        gradient = np.linalg.solve(jacobian, local / 8)
+        values = volume * (np.outer(shape, body) - gradient.T @ tensor)
+        for tag, value in zip(corners, values):
+            force[tag] += value
+
+
+class Tables(Temporary):
+    """Tables and pictures."""
+
+    def test_csv(self) -> None:
+        found = balanced(made_up(noise=0.02))
+        tables.write_csv(self.path / "a.csv", found)
+        table = read_table(self.path / "a.csv")
+        np.testing.assert_allclose(table["stress_tt_Pa"], found.stress[:, 2], rtol=1e-8)
+        np.testing.assert_allclose(
+            table["stress_zz_Pa"] - table["correction_zz_Pa"],
+            found.values.stress[:, 1],
+            rtol=1e-6,
+        )
+        self.assertIn("void_ratio", table)
+        text = (self.path / "a.csv").read_text(encoding="utf-8")
+        self.assertIn("# Stresses are effective, in Pa, positive in tension", text)
+
+    def test_vtu(self) -> None:
+        from caisson.plot import vtu
+
+        found = balanced(made_up())
+        tables.write_vtu(self.path / "a.vtu", found)
+        grid = vtu.read_grid(self.path / "a.vtu")
+        cells = vtu.named_arrays(grid.GetCellData())
+        np.testing.assert_array_equal(cells["stress_rr_Pa"], found.stress[:, 0])
+        self.assertEqual(grid.GetNumberOfPoints(), len(found.mesh.nodes))
+        self.assertIsNotNone(grid.GetFieldData().GetAbstractArray("about"))
+
+    def test_zones_at_rest(self) -> None:
+        """K0 is that of the soil, and nothing is overconsolidated."""
+        tables.write_plaxis(self.path / "a.csv", balanced(made_up()))
+        lines = (self.path / "a.csv").read_text(encoding="utf-8").splitlines()
+        rows = [line.split(",") for line in lines if not line.startswith("#")]
+        table = {name: [row[i] for row in rows[1:]] for i, name in enumerate(rows[0])}
+        self.assertEqual(set(table["zone"]), {"inside", "outside_near", "outside"})
+        for name, value in (("K0_radial", K0), ("K0_hoop", K0), ("OCR", 1)):
+            np.testing.assert_allclose(
+                [float(x) for x in table[name]], value, rtol=1e-5
+            )
+
+    def test_zones_that_are_unloaded(self) -> None:
+        state = made_up(wall=None)
+        state.stress[:, 1] /= 2
+        mesh = regular(state, WINDOW)
+        found = balance(state, mesh, interpolate(state, mesh.centers))
+        found.stress = found.values.stress
+        tables.write_plaxis(self.path / "a.csv", found)
+        text = (self.path / "a.csv").read_text(encoding="utf-8").splitlines()
+        ratio = [line.split(",")[9] for line in text if line.startswith("soil,")]
+        np.testing.assert_allclose([float(x) for x in ratio], 2, rtol=1e-5)
+
+
+class Command(Temporary):
+    """scripts/caisson export."""
+
+    def call(self, *words: str | Path) -> tuple[int, str]:
+        """Return the exit status and all that is said."""
+        parser = command.argparse.ArgumentParser()
+        command.add_arguments(parser)
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            with contextlib.redirect_stderr(said):
+                status = command.main(parser.parse_args(list(map(str, words))))
+        return status, said.getvalue()
+
+    def state_of(self, state: State) -> Any:
+        """Let a made-up state be that of any run."""
+        return unittest.mock.patch.object(command, "read_state", return_value=state)
+
+    def test_all_forms(self) -> None:
+        for form in command.FORMS:
+            path = self.path / form
+            with self.state_of(made_up(noise=0.02)):
+                status, text = self.call(
+                    TINY, "--to", form, "--output", path, "--spacing", "0.4"
+                )
+            self.assertEqual(status, 0, text)
+            self.assertIn("Residual", text)
+            self.assertIn(str(path), text)
+            self.assertTrue(path.stat().st_size, form)
+
+    def test_points(self) -> None:
+        points, path = self.path / "points.csv", self.path / "out.csv"
+        points.write_text("r_m,z_m\n1,-1\n3,-2\n", encoding="utf-8")
+        given = ("--points", points, "--output", path)
+        with self.state_of(made_up()):
+            status, text = self.call(TINY, "--to", "csv", *given)
+            self.assertEqual(status, 0, text)
+            found = read_table(path)
+            np.testing.assert_allclose(found["stress_zz_Pa"], [-WEIGHT, -2 * WEIGHT])
+            self.assertIn("not balanced", text)
+            self.assertEqual(self.call(TINY, "--to", "abaqus", *given)[0], 1)
+            points.write_text("r_m,z_m\n1.95,-1\n", encoding="utf-8")
+            self.assertIn("lies in the wall", self.call(TINY, "--to", "csv", *given)[1])
+
+    def test_what_is_refused(self) -> None:
+        status, text = self.call(TINY, "--to", "csv", "--output", self.path / "a")
+        self.assertEqual(status, 1)
+        self.assertIn("has no displacement_m in its frames", text)
+        with self.state_of(made_up()):
+            _, text = self.call(TINY, "--to", "csv", "--radius", "50")
+        self.assertIn("the mesh reaches to r = 50 m", text)
+        _, text = self.call(self.path, "--to", "csv")
+        self.assertIn("no history.csv", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
