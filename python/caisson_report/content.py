@@ -256,13 +256,11 @@ def remarks_on_numbers(run: Results) -> list[str]:
     if residual is not None:
         share = 100 * abs(residual)
         verdict = (
-            "the scheme neither makes nor loses energy that matters"
+            "below 1 %: acceptable"
             if share <= 1
-            else "more than one percent: read the limitations on energy"
+            else "above 1 %: read the limitations on energy"
         )
-        found.append(
-            f"Energy that nothing accounts for: {share:.2g} % of the work; {verdict}."
-        )
+        found.append(f"Energy error: {share:.2g} % of the work ({verdict}).")
     if "total_force_N" in history and penetration(history) is not None:
         depth = history["penetration_m"]
         if (depth >= curves.FROM).sum() > 10:

@@ -302,8 +302,11 @@ namespace CaissonMPM
           return "# Entries of caisson_mpm with \"" + word +
                  "\", and the values in effect.\n" + found;
       }
+    const auto meant = names_of_symbol(word, entries.entry_paths());
     throw BadInput("No entry has \"" + word + "\" in its name or meaning." +
-                   did_you_mean(nearest_names(word, entries.entry_paths())) +
+                   did_you_mean(!meant.empty() ?
+                                  meant :
+                                  nearest_names(word, entries.entry_paths())) +
                    "\n  \"caisson_mpm --print-parameters\" lists all entries.");
   }
 } // namespace CaissonMPM

@@ -121,10 +121,13 @@ namespace CaissonMPM
                   const std::vector<std::string> &known_names)
   {
     static const std::map<std::string, std::string> names = {
+      {"boiling", "Water depth"},
       {"c", "Cohesion"},
+      {"cavitation", "Water depth"},
       {"cfl", "Courant number"},
       {"d", "Outer diameter"},
       {"delta", "Friction angle of the outer wall"},
+      {"dr", "Relative density"},
       {"dt", "Time step"},
       {"e", "Youngs modulus"},
       {"g", "Gravity"},
@@ -133,8 +136,10 @@ namespace CaissonMPM
       {"l", "Skirt length"},
       {"n", "Porosity"},
       {"nu", "Poisson ratio"},
+      {"ocr", "Overconsolidation ratio"},
       {"phi", "Friction angle"},
       {"psi", "Dilatancy angle"},
+      {"su", "Cohesion"},
       {"t", "Wall thickness"},
       {"unit weight", "Solid density"},
       {"wall friction", "Friction angle of the outer wall"}};

@@ -11,10 +11,10 @@
 #include <caisson_mpm/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/timer.h>
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 namespace CaissonMPM
@@ -166,11 +166,16 @@ namespace CaissonMPM
     for (unsigned int i = 0; i < soil.n_materials(); ++i)
       cost.stiffens = cost.stiffens || soil.material(i).stiffness_varies();
 
-    unsigned int  n     = 0;
-    double        first = 0.;
-    dealii::Timer timer(grid.communicator(), true);
-    // of the processor: others who work beside do not count
-    const auto seconds = [&]() { return timer.cpu_time() / grid.n_ranks(); };
+    unsigned int n     = 0;
+    double       first = 0.;
+    // of the processor: others who work beside do not count. dealii::Timer has
+    // user time only, which Linux counts in ticks: 0 in a short process
+    std::clock_t start   = std::clock();
+    const auto   seconds = [&]() {
+      return Utilities::MPI::sum(static_cast<double>(std::clock() - start),
+                                 grid.communicator()) /
+             CLOCKS_PER_SEC / grid.n_ranks();
+    };
     try
       {
         while (n < enough_steps && !schedule.is_finished() &&
@@ -180,7 +185,7 @@ namespace CaissonMPM
             if (++n > 1)
               continue;
             first = seconds(); // longer than others: nothing is in the cache
-            timer.restart();
+            start = std::clock();
           }
         cost.seconds_per_step = n > 1 ? seconds() / (n - 1) : first;
       }

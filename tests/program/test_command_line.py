@@ -48,6 +48,9 @@ class Options(ProgramTest):
         section = self.run_program(SUCCESS, "--explain", "Layer 1")
         self.assertIn("set Friction angle", section)
         self.assertIn("No entry has", self.run_program(BAD_INPUT, "--explain", "xyz"))
+        for word, entry in (("CFL", "Courant number"), ("cavitation", "Water depth")):
+            said = self.run_program(BAD_INPUT, "--explain", word)
+            self.assert_words(["Did you mean", entry], said)
 
     def test_validate_tells_the_cost(self) -> None:
         """Without writing a file."""

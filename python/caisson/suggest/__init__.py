@@ -215,7 +215,7 @@ def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
     if any(have) and not all(have):
         raise SuggestError("give Permeability (m/s) for all layers, or for none")
     same = Entry(
-        "Permeability", "1e-4", " # ASSUMED; does not matter where it is the same"
+        "Permeability", "1e-4", " # ASSUMED; no effect if all layers have the same"
     )
     name = "Permeability by void ratio"
     follows = Entry(name, "true", " # ASSUMED: a loosened plug conducts more")
