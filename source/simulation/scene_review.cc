@@ -30,8 +30,9 @@ namespace CaissonMPM
     // Distances from the wall and below the tip, in diameters, of a body that
     // is deeper than a quarter of them: see doc/limitations.md, Boundaries.
     constexpr double least_to_side = 2., least_to_bottom = 1.5, shallow = .25;
-    // of a closed body at any depth: a pile in dense sand bears 5 % more there
-    constexpr double least_to_side_closed = 12.;
+    // of a closed body at any depth: a pile in dense sand bears 5 % more, and
+    // 1 % less, with boundaries there
+    constexpr double least_to_side_closed = 12., least_to_bottom_closed = 8.;
 
     const std::string on_rough_surface =
       ": the soil fails before it slides on such a surface. Set at most that "
@@ -408,26 +409,27 @@ namespace CaissonMPM
                n_diameters * diameter;
     };
     const bool   is_closed = shape.left() == 0. && !is_block();
-    const double least =
-      is_closed ? least_to_side_closed * diameter : needed(least_to_side);
+    const double beside    = is_closed ? least_to_side_closed * diameter :
+                                         needed(least_to_side),
+                 below     = is_closed ? least_to_bottom_closed * diameter :
+                                         needed(least_to_bottom);
     const std::string effect =
-      ", and raises the forces: see doc/limitations.md, Boundaries. Set ";
+      ", and changes the forces: see doc/limitations.md, Boundaries. Set ";
     constexpr double tolerance = 1e-9;
-    if (to_side < least - tolerance)
+    if (to_side < beside - tolerance)
       doubt("Grid/Outer radius",
             side,
             "m",
             "puts the side " + meters(to_side) +
-              " from the wall, nearer than " + meters(least) + effect +
-              "at least " + meters(shape.right() + least) + ".");
-    if (to_floor < needed(least_to_bottom) - tolerance)
+              " from the wall, nearer than " + meters(beside) + effect +
+              "at least " + meters(shape.right() + beside) + ".");
+    if (to_floor < below - tolerance)
       doubt("Grid/Bottom",
             -lines.depth(),
             "m",
             "is " + meters(to_floor) +
-              " below the tip at the end, nearer than " +
-              meters(needed(least_to_bottom)) + effect + "at most " +
-              meters(-depth - needed(least_to_bottom)) + ".");
+              " below the tip at the end, nearer than " + meters(below) +
+              effect + "at most " + meters(-depth - below) + ".");
   }
 
   bool

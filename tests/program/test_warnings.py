@@ -241,6 +241,7 @@ class Review(ProgramTest):
         self.assertNotIn("warning", self.validate(pile, {}))
         cases: tuple[tuple[Entries, list[str]], ...] = (
             ({"Grid/Outer radius": 7}, ["6.7 m from the wall", "at least 7.5 m"]),
+            ({"Grid/Bottom": -13.5}, ["4.5 m below the tip", "at most -13.8 m"]),
             (
                 {f"{BODY}/Adhesion of the inner wall": 1e3},
                 ["is set but not used", "no inner wall", "Kind is pile"],
