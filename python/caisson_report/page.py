@@ -105,11 +105,11 @@ def job_of(run: Results, summary: dict[str, Any]) -> list[tuple[str, str]]:
     """Return what a first page must name: scene, program and date."""
     if not summary:
         return []
-    ended = time.localtime((run.directory / "run.json").stat().st_mtime)
+    written = str(summary.get("written", ""))[:16].replace("T", " ")
     version, library = summary["version"], summary["dealii_version"]
     return [
         ("Scene", str(summary["scene_file"])),
-        ("Computed", time.strftime("%Y-%m-%d %H:%M", ended)),
+        ("Computed", written or "not known"),
         ("Program", f"caisson_mpm {version}, deal.II {library}"),
     ]
 

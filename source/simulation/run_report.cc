@@ -13,8 +13,11 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
+#include <iomanip>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 namespace CaissonMPM
@@ -31,6 +34,16 @@ namespace CaissonMPM
       members.insert(members.end(), more.begin(), more.end());
     }
 
+    /** The time of this moment, as in 2026-11-26T08:44:10+0100. */
+    std::string
+    now()
+    {
+      const std::time_t  time = std::time(nullptr);
+      std::ostringstream text;
+      text << std::put_time(std::localtime(&time), "%FT%T%z");
+      return text.str();
+    }
+
     Json::Members
     about_program(const RunFacts &facts)
     {
@@ -38,6 +51,7 @@ namespace CaissonMPM
               {"dealii_version", Json::text(DEAL_II_PACKAGE_VERSION)},
               {"scene_file", Json::text(facts.scene_file)},
               {"title", Json::text(facts.title)},
+              {"written", Json::text(now())},
               {"instruction_set", Json::text(facts.kernels)},
               {"fingerprint", Json::text(facts.fingerprint)},
               {"status", Json::text(facts.status)}};

@@ -227,8 +227,13 @@ namespace CaissonMPM
     if (holds_first(has_warned_of_lift,
                     heave(mudline) >
                       heave_by_wall() + .02 * scene.body.shape().right()))
-      warnings.push_back("the suction lifts the plug" + where +
-                         ": it rises by more than the wall displaces");
+      warnings.push_back(
+        suction() > 0. ?
+          "the suction lifts the plug" + where +
+            ": it rises by more than the wall displaces" :
+          "the plug rises by more than the wall displaces" + where +
+            ", before there is suction: see plug_inflow_m3 and "
+            "plug_dilation_m3");
   }
 
   std::string

@@ -196,14 +196,30 @@ def is_by_density(layer: Layer) -> bool:
     return layer.value("Law") in sand.LAWS.values()
 
 
+def is_clay(layer: Layer) -> bool:
+    """Return whether a layer is undrained clay."""
+    return layer.value("Friction angle") == "0"
+
+
+def refuse_clay(layers: Sequence[Layer]) -> None:
+    """Refuse clay that the skirt reaches under suction. Raises SuggestError."""
+    for number, layer in enumerate(layers, 1):
+        if is_clay(layer):
+            raise SuggestError(
+                f"layer {number} is undrained clay, and in a scene with suction water"
+                " flows steadily through all soil. Leave out --weight: the jacked"
+                " caisson gives the resistance, and the suction is resistance less"
+                " weight over the area inside the skirt"
+            )
+
+
 def with_adhesion(layers: Sequence[Layer]) -> list[Layer]:
     """Return the layers, where clay whose walls have no friction of their own has an
     adhesion."""
     found = []
     for layer in layers:
-        is_clay = layer.value("Friction angle") == "0"
         has_wall = any("of the walls" in entry.name for entry in layer.entries)
-        adhesion = [cone.ADHESION_OF_CLAY] if is_clay and not has_wall else []
+        adhesion = [cone.ADHESION_OF_CLAY] if is_clay(layer) and not has_wall else []
         found.append(Layer(layer.top, [*layer.entries, *adhesion]))
     return found
 
@@ -214,14 +230,15 @@ def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
     have = [bool(layer.value("Permeability")) for layer in layers]
     if any(have) and not all(have):
         raise SuggestError("give Permeability (m/s) for all layers, or for none")
-    same = Entry(
-        "Permeability", "1e-4", " # ASSUMED; no effect if all layers have the same"
-    )
+    assumed = {
+        False: Entry("Permeability", "1e-4", " # ASSUMED: sand; scales the flow"),
+        True: Entry("Permeability", "1e-9", " # ASSUMED: clay; hardly any flow"),
+    }
     name = "Permeability by void ratio"
     follows = Entry(name, "true", " # ASSUMED: a loosened plug conducts more")
     found = []
     for layer in layers:
-        added = [] if all(have) else [same]
+        added = [] if all(have) else [assumed[is_clay(layer)]]
         if is_by_density(layer) and not layer.value(name):
             added.append(follows)
         found.append(Layer(layer.top, [*layer.entries, *added]))
@@ -336,6 +353,8 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
     how = "by weight and suction" if options.weight else "jacked"
     smallest = body.wall / level.cells
     soil = with_adhesion(layers) if options.wall_friction is None else layers
+    if options.weight:
+        refuse_clay(reached(options, layers))
     return template("scene.prm.jinja").render(
         title=f"a caisson of {body.diameter:g} m with a wall of"
         f" {body.wall * 1e3:g} mm, {how}",
