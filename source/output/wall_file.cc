@@ -100,6 +100,9 @@ namespace CaissonMPM
             if (scene.is_wet)
               values.push_back(wall.pore_pressure);
           }
+        // -0 and -nan are nothing to read
+        for (double &value : values)
+          value = std::isnan(value) ? std::abs(value) : value + 0.;
         file.append(values);
       }
   }

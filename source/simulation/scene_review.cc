@@ -143,6 +143,12 @@ namespace CaissonMPM
                 *value,
                 "Pa",
                 "is not the strength of a soil. Check the unit, Pa.");
+    if (soil.law_value("Yield stress ratio") == 1. &&
+        origins.is_set(soil.section() + "/Overconsolidation ratio"))
+      origins.add_warning(soil.section() +
+                          "/Overconsolidation ratio only raises K0: the clay "
+                          "is normally consolidated, because Yield stress "
+                          "ratio is 1. Set it.");
     const auto cohesion = soil.law_value("Cohesion");
     if (cohesion == 0. && soil.friction_angle() == 0.)
       doubt(soil.section() + "/Cohesion",

@@ -363,9 +363,25 @@ test_robust()
   report("as single points", worst, 1e-12);
 }
 
+/** K0 of 0.15 and 4 lies beyond the critical state of 24 degrees. */
+void
+test_check()
+{
+  const double values[] = {lambda, kappa, nu, phi_c, 1., 1e2};
+  for (const double k0 : {.15, .5, 1., 2., 4.})
+    {
+      LawMessage message;
+      std::printf("K0 = %.2f: %s\n",
+                  k0,
+                  Law::check(values, {k0, e_0}, message) ? "taken" :
+                                                           message.text);
+    }
+}
+
 int
 main()
 {
+  test_check();
   test_isotropic();
   test_undrained();
   test_drained();

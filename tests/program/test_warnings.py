@@ -111,6 +111,14 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
         {**CLAY, f"{LAYER}/Adhesion factor of the walls": 1},
     ),
     (
+        ["Overconsolidation ratio only raises K0", "Yield stress ratio is 1. Set it."],
+        {
+            f"{LAYER}/Law": "modified Cam clay",
+            f"{LAYER}/Overconsolidation ratio": 4,
+        },
+        {},
+    ),
+    (
         ["Overconsolidation ratio", "not used", "without a friction angle. Set K0."],
         {**CLAY, f"{LAYER}/Overconsolidation ratio": 4},
         {f"{LAYER}/Overconsolidation ratio": 4},

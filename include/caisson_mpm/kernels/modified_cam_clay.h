@@ -103,12 +103,23 @@ namespace CaissonMPM
               const LawContext &context,
               LawMessage       &message)
         {
-          if (values[1] < values[0] && context.void_ratio > 0.)
-            return true;
+          // q / p at the start over M, in compression or extension
+          const double s     = __builtin_sin(values[3] * radians_per_degree),
+                       k     = context.earth_pressure_at_rest,
+                       q     = 3. * (1. - k) / (1. + 2. * k),
+                       share = q > 0. ? q * (3. - s) / (6. * s) :
+                                        -q * (3. + s) / (6. * s);
           const char *const text =
-            values[1] < values[0] ?
-              "Porosity is 0: clay of this law has a void ratio. Set it" :
-              "Slope of swelling is not below Slope of compression. Reduce it";
+            values[1] >= values[0] ?
+              "Slope of swelling is not below Slope of compression. Reduce it" :
+            context.void_ratio <= 0. ?
+              "the void ratio at the start is 0. Set Void ratio" :
+            share >= 1. ?
+              "K0 is beyond the critical state of Critical friction angle. "
+              "Correct one of them" :
+              nullptr;
+          if (text == nullptr)
+            return true;
           __builtin_strncpy(message.text, text, sizeof(message.text) - 1);
           message.text[sizeof(message.text) - 1] = 0;
           return false;
