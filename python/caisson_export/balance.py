@@ -253,9 +253,7 @@ def corrected(
     what unknowns() returns; residual_of: of forces [2 n_nodes]."""
     level = np.linalg.norm(stress, axis=1)
     mean_level = forces.volume @ level / forces.volume.sum()
-    matrix, elastic = forces.stiffness(
-        STIFFNESS * np.maximum(level, 0.05 * mean_level)
-    )
+    matrix, elastic = forces.stiffness(STIFFNESS * np.maximum(level, 0.05 * mean_level))
     try:
         factors = splu((free.T @ matrix @ free).tocsc())
     except RuntimeError as error:
@@ -338,8 +336,8 @@ def check_forces(state: Balanced, advice: str) -> None:
             continue
         if abs(force - run) > max(MOST_OFF * abs(run), ALLOWED * state.weight):
             raise ResultsError(
-                f"the vertical force on {name} is {force / 1e3:.5g} kN on this mesh, and"
-                f" {run / 1e3:.5g} kN in the run: they differ by more than"
+                f"the vertical force on {name} is {force / 1e3:.5g} kN on this mesh,"
+                f" and {run / 1e3:.5g} kN in the run: they differ by more than"
                 f" {100 * MOST_OFF:g} %. The mesh is too coarse at the wall: {advice}"
             )
 

@@ -178,7 +178,8 @@ def check_spacing(state: State, window: Window) -> None:
         fits = 1.05 * np.sqrt(window.radius * window.depth / MOST_CELLS)
         raise ResultsError(
             f"--spacing {spacing:g} m gives {across * down:.3g} cells, more than"
-            f" {MOST_CELLS}: take {fits:.2g} m or more, or a smaller --radius and --depth"
+            f" {MOST_CELLS}: take {fits:.2g} m or more, or a smaller --radius or"
+            " --depth"
         )
     if wall is None:
         return

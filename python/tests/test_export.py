@@ -73,7 +73,8 @@ class Stresses(unittest.TestCase):
 
     def test_a_law_without_a_youngs_modulus(self) -> None:
         """It follows the stress of the layer, and the file says so."""
-        one = {"top_depth_m": 0.0, "submerged_unit_weight_N_m3": 1e4, "porosity": 0.5}
+        one: dict[str, Any] = {"top_depth_m": 0.0}
+        one |= {"submerged_unit_weight_N_m3": 1e4, "porosity": 0.5}
         known = [{**one, "layer": 1, "youngs_modulus_Pa": 1e7}, {**one, "layer": 2}]
         data = {"material": np.array([0, 1, 1])}
         stress = np.outer([1e3, 2e3, 5e3], [0, 1, 0, 0])
