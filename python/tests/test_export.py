@@ -2,6 +2,7 @@
 """States of made-up points, exported and read back by a plain solver."""
 import contextlib
 import io
+import json
 import math
 import runpy
 import shutil
@@ -464,6 +465,44 @@ class Command(Temporary):
             status, text = self.call(run, "--to", "csv")
             self.assertEqual(status, 1)
             self.assertRegex(text, f"the frame is broken: .*{name} is not complete")
+
+    def run_with(self, scene: dict[str, Any]) -> Path:
+        """Return a copy of the run whose run.json has this scene."""
+        run = self.path / "run"
+        shutil.copytree(TINY, run)
+        summary = json.loads((run / "run.json").read_text(encoding="utf-8"))
+        summary["scene"] = scene
+        (run / "run.json").write_text(json.dumps(summary), encoding="utf-8")
+        return run
+
+    def test_a_run_without_a_youngs_modulus(self) -> None:
+        scene = json.loads((TINY / "run.json").read_text(encoding="utf-8"))["scene"]
+        for layer in scene["layers"]:
+            del layer["youngs_modulus_Pa"]
+        run = self.run_with(scene)
+        for form in ("csv", "plaxis", "calculix"):
+            path = self.path / form
+            status, text = self.call(run, "--to", form, "--output", path)
+            self.assertEqual(status, 0, text)
+            for said in (text, path.read_text(encoding="utf-8")):
+                self.assertIn("Layer 1: its law has no Young's modulus", said)
+
+    def test_a_run_of_another_body(self) -> None:
+        status, text = self.call(self.run_with({}), "--to", "csv")
+        self.assertEqual(status, 1)
+        self.assertIn("only runs of a caisson are exported, not those of a pile", text)
+
+    def test_a_mesh_that_is_too_coarse(self) -> None:
+        found = balanced(made_up(noise=0.02))
+        found.wall["TIP"] *= 0.6
+        path = self.path / "a.csv"
+        given = (TINY, "--to", "csv", "--output", path, "--spacing", "0.4")
+        with self.state_of(made_up(noise=0.02)):
+            with unittest.mock.patch.object(command, "balance", return_value=found):
+                status, text = self.call(*given)
+        self.assertEqual(status, 1)
+        self.assertRegex(text, "force on TIP .* coarse at the wall: take --spacing 0.1")
+        self.assertFalse(path.exists())
 
     def test_spacing(self) -> None:
         """It may have a unit, and must suit the wall and the memory."""
