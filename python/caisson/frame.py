@@ -66,6 +66,12 @@ class Frame:
                 f"{self.directory} has no {series}_*.vtu at {self.time:.6g} s"
             )
         vtu = reader()
+        for file in self._files[series]:
+            if b"</VTKFile>" not in file.read_bytes()[-64:]:
+                raise ResultsError(
+                    f"the frame is broken: {file} is not complete. Take another frame,"
+                    " or run the scene again"
+                )
         return vtu.joined([vtu.read_grid(file) for file in self._files[series]])
 
     @functools.cached_property

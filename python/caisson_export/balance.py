@@ -24,12 +24,13 @@ from scipy.sparse.linalg import splu
 from caisson.results import ResultsError
 from caisson_export.interpolate import Values, interpolate
 from caisson_export.mesh import Mesh
-from caisson_export.state import State
+from caisson_export.state import STIFFNESS, State
 
 # residuals over the weight: what is left as it is, and where a correction stops. What
 # remains then alternates from cell to cell, and would only bring such a stress
 ALLOWED, WANTED = 1e-3, 7e-3
 MOST_TIMES = 100
+MOST_OFF = 0.05  # of a force of the run on wall or tip: more is refused
 LEAST = (
     1e-5  # of the weight: forces on walls need no smaller an error than a share of it
 )
@@ -252,7 +253,7 @@ def corrected(
     what unknowns() returns; residual_of: of forces [2 n_nodes]."""
     level = np.linalg.norm(stress, axis=1)
     mean_level = forces.volume @ level / forces.volume.sum()
-    matrix, elastic = forces.stiffness(1e3 * np.maximum(level, 0.05 * mean_level))
+    matrix, elastic = forces.stiffness(STIFFNESS * np.maximum(level, 0.05 * mean_level))
     try:
         factors = splu((free.T @ matrix @ free).tocsc())
     except RuntimeError as error:
@@ -324,6 +325,21 @@ def balance(state: State, mesh: Mesh, values: Values) -> Balanced:
         wall_before=on_wall(mesh, own),
         wall=on_wall(mesh, loads + surface - inner),
     )
+
+
+def check_forces(state: Balanced, advice: str) -> None:
+    """Raise ResultsError, with the advice, where the exported force on a wall or the
+    tip differs from that of the run by more than MOST_OFF, and the allowed residual."""
+    for name, force in state.wall.items():
+        run = force_of_run(state.state, name)
+        if run is None:
+            continue
+        if abs(force - run) > max(MOST_OFF * abs(run), ALLOWED * state.weight):
+            raise ResultsError(
+                f"the vertical force on {name} is {force / 1e3:.5g} kN on this mesh,"
+                f" and {run / 1e3:.5g} kN in the run: they differ by more than"
+                f" {100 * MOST_OFF:g} %. The mesh is too coarse at the wall: {advice}"
+            )
 
 
 def surface_pressure(state: State, mesh: Mesh) -> np.ndarray:

@@ -11,16 +11,23 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
-
 from caisson.frame import Frame
 from caisson.loaded import LoadedRun, load
 from caisson.paths import short
-from caisson.results import ResultsError, read_table
+from caisson.results import ResultsError
+from caisson_design.quantity import length, number
 from caisson_export import decks, tables
-from caisson_export.balance import Balanced, balance
+from caisson_export.balance import Balanced, balance, check_forces
 from caisson_export.interpolate import interpolate
-from caisson_export.mesh import Mesh, Window, default_window, read_gmsh, regular
+from caisson_export.mesh import (
+    Mesh,
+    Window,
+    check_spacing,
+    default_window,
+    read_gmsh,
+    regular,
+)
+from caisson_export.places import read_places
 from caisson_export.state import State, read_state
 from caisson_export.text import about, about_points
 
@@ -45,17 +52,6 @@ FORMS: dict[str, tuple[str, Writer]] = {
 }
 
 
-def meters(text: str) -> float:
-    """Return a length above 0 (m). Raises ArgumentTypeError."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0 < value < np.inf:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a length above 0 in meters")
-    return value
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson export`."""
     add = parser.add_argument
@@ -64,7 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--output", type=Path, metavar="FILE", help="default: state... in DIR")
     frame = parser.add_mutually_exclusive_group()
     text = "the frame at this depth (m); default: the last one"
-    frame.add_argument("--penetration", type=float, metavar="M", help=text)
+    frame.add_argument("--penetration", type=number("m"), metavar="M", help=text)
     text = "the frame at this time (s)"
     frame.add_argument("--time", type=float, metavar="S", help=text)
     places = parser.add_mutually_exclusive_group()
@@ -73,11 +69,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     text = "table with columns r_m and z_m: values there, not balanced (csv)"
     places.add_argument("--points", type=Path, metavar="FILE.csv", help=text)
     text = "cell size of the grid (m), default: a fortieth of the diameter"
-    add("--spacing", type=meters, metavar="M", help=text)
+    add("--spacing", type=length, metavar="M", help=text)
     text = "radius of the grid (m), default: two diameters"
-    add("--radius", type=meters, metavar="M", help=text)
+    add("--radius", type=length, metavar="M", help=text)
     text = "depth of the grid (m), default: a diameter below the tip"
-    add("--depth", type=meters, metavar="M", help=text)
+    add("--depth", type=length, metavar="M", help=text)
 
 
 def frame_of(run: LoadedRun, options: argparse.Namespace) -> Frame:
@@ -103,6 +99,7 @@ def mesh_of(state: State, options: argparse.Namespace) -> Mesh:
             options.depth or usual.depth,
             options.spacing or usual.spacing,
         )
+        check_spacing(state, window)
         mesh = regular(state, window)
     radius, low = mesh.nodes[:, 0].max(), mesh.nodes[:, 1].min()
     if radius > state.outer_radius + 1e-6 or low < state.bottom - 1e-6:
@@ -113,17 +110,20 @@ def mesh_of(state: State, options: argparse.Namespace) -> Mesh:
     return mesh
 
 
+def advice_on(state: State, options: argparse.Namespace) -> str:
+    """Return what to do about a mesh that is too coarse at the wall."""
+    if options.mesh is not None:
+        return "refine it along the wall and at the tip"
+    usual = default_window(state).spacing
+    finer = min(usual, (options.spacing or usual) / 2)
+    return f"take --spacing {finer:.2g}"
+
+
 def export_points(state: State, options: argparse.Namespace, path: Path) -> list[str]:
     """Write the values at the points of a table; return what to say of them."""
     if options.to != "csv":
         raise ResultsError(f"--points is for --to csv, not {options.to}")
-    table = read_table(options.points)
-    if not {"r_m", "z_m"} <= table.keys():
-        raise ResultsError(f"{options.points} has no columns r_m and z_m")
-    at = np.column_stack([table["r_m"], table["z_m"]])
-    if state.wall is not None and state.wall.contains(at).any():
-        r, z = at[state.wall.contains(at)][0]
-        raise ResultsError(f"the point r = {r:g} m, z = {z:g} m lies in the wall")
+    at = read_places(options.points, state)
     tables.write_points(path, state, at, interpolate(state, at))
     return about_points(state)
 
@@ -140,6 +140,7 @@ def main(options: argparse.Namespace) -> int:
         else:
             mesh = mesh_of(state, options)
             balanced = balance(state, mesh, interpolate(state, mesh.centers))
+            check_forces(balanced, advice_on(state, options))
             write(path, balanced)
             lines = about(balanced)
         print("\n".join([*lines, f"written to {short(path)}"]))

@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from caisson.results import ResultsError
-from caisson_export.state import State, Wall
+from caisson_export.state import TOLERANCE, State, Wall
 
 CLOSE = 0.1  # of the shortest edge: a node so near to the wall is on it
+MOST_CELLS = 200_000  # of a regular grid: some GB of memory
 CORNERS = {2: 3, 3: 4}  # types of elements of Gmsh: triangles and quadrilaterals
 
 
@@ -168,6 +169,29 @@ def regular(state: State, window: Window) -> Mesh:
     return with_sets(joined(parts), wall)
 
 
+def check_spacing(state: State, window: Window) -> None:
+    """Raise ResultsError where a regular grid has too many cells, or where its cells
+    are too large for the wall."""
+    spacing, wall = window.spacing, state.wall
+    across, down = window.radius / spacing, window.depth / spacing
+    if (across + 2) * (down + 2) > MOST_CELLS:
+        fits = 1.05 * np.sqrt(window.radius * window.depth / MOST_CELLS)
+        raise ResultsError(
+            f"--spacing {spacing:g} m gives {across * down:.3g} cells, more than"
+            f" {MOST_CELLS}: take {fits:.2g} m or more, or a smaller --radius or"
+            " --depth"
+        )
+    if wall is None:
+        return
+    widest = min(wall.inner or wall.outer, -wall.tip) / 2
+    widest = max(widest, default_window(state).spacing)
+    if spacing > widest + TOLERANCE:
+        raise ResultsError(
+            f"--spacing {spacing:g} m does not resolve the wall of {wall.outer:g} m in"
+            f" radius and {-wall.tip:g} m in depth: take at most {widest:.4g} m"
+        )
+
+
 def length_of_edges(mesh: Mesh) -> np.ndarray:
     """Return the shortest edge at each node (m): [n]."""
     shortest = np.full(len(mesh.nodes), np.inf)
@@ -322,6 +346,11 @@ def read_gmsh(path: Path, wall: Wall | None) -> Mesh:
             f"{path} is not in the plane x = r, y = z of an axisymmetric"
         )
     corners = np.array([cell[1:] + cell[-1:] * (5 - len(cell)) for cell in cells])
+    if (missing := np.setdiff1d(corners, tags)).size:
+        raise ResultsError(
+            f"{path} has an element with the node {missing[0]}, which is not among its"
+            " $Nodes"
+        )
     mesh = Mesh(nodes[:, :2], np.searchsorted(tags, corners))
     mesh.groups = np.array([cell[0] for cell in cells])
     return with_sets(trimmed(mesh, wall, path), wall)

@@ -13,8 +13,13 @@ STRESS = ("rr", "zz", "tt", "rz")  # the order of the components everywhere
 # fields that other ones contain, or that are no state of the soil
 LEFT_OUT = {"id", "velocity_m_s", "whole_volume_m3", "material", "displacement_m"}
 LEFT_OUT |= {"mean_stress_Pa", "deviator_Pa"}
+# these follow from the exported stress (tables.py)
+LEFT_OUT |= {"vertical_effective_stress_kPa", "vertical_stress_over_stress_at_rest"}
 GRAVITY = 9.81  # m/s2: densities are unit weights over it
 TOLERANCE = 1e-6  # m
+# Young's modulus over the norm of the stress: of the correction, and of soil whose law
+# has no Young's modulus
+STIFFNESS = 1e3
 
 
 def stress_of(data: Arrays) -> np.ndarray:
@@ -78,12 +83,14 @@ class Wall:
 @dataclass
 class Layer:
     """A layer of soil: its number in the scene, its submerged unit weight (N/m3) and
-    Young's modulus (Pa), means over its points, and the depth of its top (m)."""
+    Young's modulus (Pa), means over its points, and the depth of its top (m).
+    assumed: its law has no Young's modulus, so that this one follows its stress."""
 
     number: int
     unit_weight: float
     youngs_modulus: float
     top: float = 0.0
+    assumed: bool = False
 
 
 @dataclass
@@ -170,15 +177,16 @@ def forces_at(history: Table, time: float) -> dict[str, float]:
 
 
 def layers_of(
-    scene: dict[str, Any], data: Arrays, volume: np.ndarray
+    scene: dict[str, Any], data: Arrays, volume: np.ndarray, stress: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, list[Layer]]:
     """Return for each point the index of its layer [n] and its unit weight [n] (N/m3),
     and the layers. A point keeps its mass: its weight follows its void ratio."""
     known = scene.get("layers")
     if not known:
         raise ResultsError(
-            "run.json does not list the layers of the soil: it must be of this version"
-            " and of a scene with a rigid body"
+            "run.json does not list the layers of the soil: only runs of a caisson are"
+            " exported, not those of a pile, a cone or soil alone. Run the scene of a"
+            " caisson again if it has not finished, or is of an earlier version"
         )
     material = data["material"].astype(int)
     numbers = np.array([one["layer"] for one in known])[material]
@@ -187,7 +195,9 @@ def layers_of(
     void = data["void_ratio"].astype(float) if "void_ratio" in data else n / (1 - n)
     with np.errstate(invalid="ignore"):
         ratio = np.where(void > 0, (1 + n / (1 - n)) / (1 + void), 1.0)
-    modulus = np.array([one["youngs_modulus_Pa"] for one in known])[material]
+    given = np.array([one.get("youngs_modulus_Pa", np.nan) for one in known])[material]
+    assumed = np.isnan(given)
+    modulus = np.where(assumed, STIFFNESS * np.linalg.norm(stress, axis=1), given)
     which, index = np.unique(numbers, return_inverse=True)
     layers = [
         Layer(
@@ -195,6 +205,7 @@ def layers_of(
             float(np.average((weight * ratio)[index == i], weights=volume[index == i])),
             float(np.average(modulus[index == i], weights=volume[index == i])),
             min(one["top_depth_m"] for one in known if one["layer"] == number),
+            bool(assumed[index == i].any()),
         )
         for i, number in enumerate(which)
     ]
@@ -217,7 +228,8 @@ def read_state(run: LoadedRun, frame: Frame) -> State:
         )
     position = frame.positions
     volume = data["whole_volume_m3"].astype(float)
-    index, weight, layers = layers_of(run.results.scene, data, volume)
+    stress = stress_of(data)
+    index, weight, layers = layers_of(run.results.scene, data, volume, stress)
     pressure = data.get("pore_pressure_Pa")
     fields = {
         name: values.astype(float)
@@ -231,7 +243,7 @@ def read_state(run: LoadedRun, frame: Frame) -> State:
         time=frame.time,
         penetration=frame.penetration,
         position=position,
-        stress=stress_of(data),
+        stress=stress,
         volume=volume,
         pressure=None if pressure is None else pressure.astype(float),
         displacement=data["displacement_m"][:, :2].astype(float),

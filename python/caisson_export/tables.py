@@ -30,9 +30,16 @@ def tensor(name: str, values: np.ndarray) -> Columns:
     return {f"{name}_{c}_Pa": values[:, i] for i, c in enumerate(STRESS)}
 
 
-def columns_of(state: State, values: Values, stress: np.ndarray) -> Columns:
-    """Return stress, pore pressure, displacement and state variables."""
+def columns_of(
+    state: State, values: Values, stress: np.ndarray, z: np.ndarray
+) -> Columns:
+    """Return stress, pore pressure, displacement and state variables at heights z."""
     result = tensor("stress", stress)
+    before = state.at_rest(z)
+    result["vertical_effective_stress_kPa"] = -stress[:, 1] / 1e3
+    result["vertical_stress_over_stress_at_rest"] = np.divide(
+        -stress[:, 1], before, out=np.full(len(z), np.nan), where=before > 0
+    )
     result["pore_pressure_Pa"] = values.pressure
     result["displacement_r_m"], result["displacement_z_m"] = values.displacement.T
     numbers = np.array([layer.number for layer in state.layers])
@@ -41,7 +48,9 @@ def columns_of(state: State, values: Values, stress: np.ndarray) -> Columns:
 
 def of_cells(state: Balanced) -> Columns:
     """Return the values of the cells of a mesh."""
-    result = columns_of(state.state, state.values, state.stress)
+    result = columns_of(
+        state.state, state.values, state.stress, state.mesh.centers[:, 1]
+    )
     result |= {"unit_weight_N_m3": state.unit_weight, "volume_m3": state.volume}
     result |= tensor("correction", state.correction)
     result |= tensor("scatter", state.values.scatter)
@@ -58,7 +67,7 @@ def write_csv(path: Path, state: Balanced) -> None:
 def write_points(path: Path, state: State, at: np.ndarray, values: Values) -> None:
     """Write the interpolated values at points [n, 2]."""
     columns = dict(zip(("r_m", "z_m"), at.T))
-    columns |= columns_of(state, values, values.stress)
+    columns |= columns_of(state, values, values.stress, at[:, 1])
     columns |= tensor("scatter", values.scatter)
     write_table(path, about_points(state), columns)
 

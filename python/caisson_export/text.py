@@ -3,7 +3,7 @@
 import numpy as np
 
 from caisson_export.balance import WANTED, Balanced, force_of_run
-from caisson_export.state import State
+from caisson_export.state import STIFFNESS, State
 
 SIGNS = (
     "Stresses are effective, in Pa, positive in tension: rr radial, zz vertical, tt"
@@ -82,7 +82,18 @@ def about_wall(state: Balanced) -> list[str]:
     return [*lines, f"Mean stress is tensile in {share:.2g} % of the volume."]
 
 
+def about_stiffness(state: State) -> list[str]:
+    """Return the lines on Young's moduli that are assumed."""
+    return [
+        f"Layer {layer.number}: its law has no Young's modulus. Input files assume"
+        f" {layer.youngs_modulus:.3g} Pa, {STIFFNESS:g} times the norm of its stress,"
+        " as the correction does."
+        for layer in state.layers
+        if layer.assumed
+    ]
+
+
 def about(state: Balanced) -> list[str]:
     """Return all lines on a balanced state."""
-    lines = [*about_state(state.state), *SIGNS]
+    lines = [*about_state(state.state), *SIGNS, *about_stiffness(state.state)]
     return [*lines, *about_correction(state), *about_wall(state)]

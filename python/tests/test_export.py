@@ -2,6 +2,7 @@
 """States of made-up points, exported and read back by a plain solver."""
 import contextlib
 import io
+import json
 import math
 import runpy
 import shutil
@@ -27,7 +28,7 @@ from plain_solver import Deck, forces_of, read_deck
 
 from caisson.results import ResultsError, read_table
 from caisson_export import command, decks, tables
-from caisson_export.balance import Balanced, balance
+from caisson_export.balance import Balanced, balance, check_forces
 from caisson_export.interpolate import interpolate
 from caisson_export.mesh import regular
 from caisson_export.state import Layer, State, forces_at, layers_of, stress_of
@@ -64,11 +65,32 @@ class Stresses(unittest.TestCase):
         }
         scene = {"layers": [{**one, "youngs_modulus_Pa": 1e7}]}
         data = {"material": np.zeros(3), "void_ratio": np.array([1, 0.6, np.nan])}
-        _, weight, layers = layers_of(scene, data, np.ones(3))
+        _, weight, layers = layers_of(scene, data, np.ones(3), np.ones((3, 4)))
         np.testing.assert_allclose(weight, [1e4, 1.25e4, 1e4])
         self.assertEqual((layers[0].number, layers[0].top), (2, 1.0))
-        with self.assertRaisesRegex(ResultsError, "does not list the layers"):
-            layers_of({}, data, np.ones(3))
+        self.assertEqual((layers[0].youngs_modulus, layers[0].assumed), (1e7, False))
+        with self.assertRaisesRegex(ResultsError, "only runs of a caisson"):
+            layers_of({}, data, np.ones(3), np.ones((3, 4)))
+
+    def test_a_law_without_a_youngs_modulus(self) -> None:
+        """It follows the stress of the layer, and the file says so."""
+        one: dict[str, Any] = {"top_depth_m": 0.0}
+        one |= {"submerged_unit_weight_N_m3": 1e4, "porosity": 0.5}
+        known = [{**one, "layer": 1, "youngs_modulus_Pa": 1e7}, {**one, "layer": 2}]
+        data = {"material": np.array([0, 1, 1])}
+        stress = np.outer([1e3, 2e3, 5e3], [0, 1, 0, 0])
+        volume = np.array([1.0, 2.0, 1.0])
+        _, _, layers = layers_of({"layers": known}, data, volume, stress)
+        np.testing.assert_allclose([x.youngs_modulus for x in layers], [1e7, 3e6])
+        state = made_up()
+        self.assertNotIn("no Young's modulus", "\n".join(about(balanced(state))))
+        state.layers = [layers[1]]
+        found = balanced(state)
+        self.assertIn(
+            "Layer 2: its law has no Young's modulus. Input files assume 3e+06 Pa",
+            "\n".join(about(found)),
+        )
+        self.assertIn("3e+06, 0.3", "\n".join(decks.calculix(found)))
 
     def test_forces_of_a_frame(self) -> None:
         """A row is the mean since the row before; the first one is zero."""
@@ -192,6 +214,15 @@ class Balance(Temporary):
         state.forces = {"lid_force_N": 1e5}
         self.assertAlmostEqual(balanced(state).applied[:, 1].sum() / -1e5, 1, delta=0.1)
 
+    def test_forces_of_a_mesh_that_is_too_coarse(self) -> None:
+        found = balanced(made_up(noise=0.02))
+        check_forces(found, "")
+        found.wall["OUTER_WALL"] *= 1.06
+        words = r"OUTER_WALL is 31\..* 30 kN in the run.* 5 %.* take --spacing 0.1"
+        found.weight /= 10  # the allowed residual is a share of it
+        with self.assertRaisesRegex(ResultsError, words):
+            check_forces(found, "take --spacing 0.1")
+
     @unittest.skipUnless(CCX, "needs ccx of the package calculix-ccx")
     def test_calculix(self) -> None:
         """CalculiX finds equilibrium with hardly another stress."""
@@ -305,6 +336,13 @@ class Tables(Temporary):
             rtol=1e-6,
         )
         self.assertIn("void_ratio", table)
+        vertical = -table["stress_zz_Pa"]
+        ratio = vertical / (-WEIGHT * table["z_m"])
+        for name, expected in (
+            ("vertical_effective_stress_kPa", vertical / 1e3),
+            ("vertical_stress_over_stress_at_rest", ratio),
+        ):
+            np.testing.assert_allclose(table[name], expected, rtol=1e-6)
         text = (self.path / "a.csv").read_text(encoding="utf-8")
         self.assertIn("# Stresses are effective, in Pa, positive in tension", text)
 
@@ -382,14 +420,100 @@ class Command(Temporary):
             np.testing.assert_allclose(found["stress_zz_Pa"], [-WEIGHT, -2 * WEIGHT])
             self.assertIn("not balanced", text)
             self.assertEqual(self.call(TINY, "--to", "abaqus", *given)[0], 1)
-            points.write_text("r_m,z_m\n1.95,-1\n", encoding="utf-8")
-            self.assertIn("lies in the wall", self.call(TINY, "--to", "csv", *given)[1])
+            for row, words in (
+                ("1.95,-1", "line 4: .* lies in the wall"),
+                ("1,3", r"line 4: .* above the ground, whose surface is at z = .* m"),
+                ("4,0.2", "line 4: .* above the ground"),
+                ("-1,-1", "line 4: the point r = -1 m, z = -1 m lies beyond the axis"),
+                ("6,-1", "line 4: .* which ends at r = 5 m"),
+                ("1,-6", "line 4: .* which ends at z = -5 m"),
+                ("nan,-1", "line 4: 'nan,-1' has no numbers"),
+                (",-2", "line 4: ',-2' has no numbers"),
+                ("2", "line 4: '2' has no numbers"),
+            ):
+                text = f"# remark\nr_m,z_m\n1,-1\n{row}\n"
+                points.write_text(text, encoding="utf-8")
+                with self.subTest(row):
+                    status, text = self.call(TINY, "--to", "csv", *given)
+                    self.assertEqual(status, 1)
+                    self.assertRegex(text, words)
+            points.write_text("r_m,z_m\n", encoding="utf-8")
+            self.assertIn("no point", self.call(TINY, "--to", "csv", *given)[1])
 
     def test_frames_of_a_run(self) -> None:
         path = self.path / "a.csv"
         status, text = self.call(TINY, "--to", "csv", "--output", path)
         self.assertEqual(status, 0, text)
         self.assertTrue(np.isfinite(read_table(path)["stress_zz_Pa"]).all())
+
+    def test_vertical_stress_of_a_run(self) -> None:
+        """It is that of the exported stress, not one that is interpolated."""
+        path = self.path / "a.csv"
+        self.assertEqual(self.call(TINY, "--to", "csv", "--output", path)[0], 0)
+        table = read_table(path)
+        stress = -table["stress_zz_Pa"] / 1e3
+        np.testing.assert_allclose(
+            table["vertical_effective_stress_kPa"], stress, rtol=1e-6
+        )
+
+    def test_a_broken_frame(self) -> None:
+        for name in ("points_0002.vtu", "grid_0002.vtu"):
+            run = self.path / name
+            shutil.copytree(TINY, run)
+            content = (run / name).read_bytes()
+            (run / name).write_bytes(content[: len(content) // 2])
+            status, text = self.call(run, "--to", "csv")
+            self.assertEqual(status, 1)
+            self.assertRegex(text, f"the frame is broken: .*{name} is not complete")
+
+    def run_with(self, scene: dict[str, Any]) -> Path:
+        """Return a copy of the run whose run.json has this scene."""
+        run = self.path / "run"
+        shutil.copytree(TINY, run)
+        summary = json.loads((run / "run.json").read_text(encoding="utf-8"))
+        summary["scene"] = scene
+        (run / "run.json").write_text(json.dumps(summary), encoding="utf-8")
+        return run
+
+    def test_a_run_without_a_youngs_modulus(self) -> None:
+        scene = json.loads((TINY / "run.json").read_text(encoding="utf-8"))["scene"]
+        for layer in scene["layers"]:
+            del layer["youngs_modulus_Pa"]
+        run = self.run_with(scene)
+        for form in ("csv", "plaxis", "calculix"):
+            path = self.path / form
+            status, text = self.call(run, "--to", form, "--output", path)
+            self.assertEqual(status, 0, text)
+            for said in (text, path.read_text(encoding="utf-8")):
+                self.assertIn("Layer 1: its law has no Young's modulus", said)
+
+    def test_a_run_of_another_body(self) -> None:
+        status, text = self.call(self.run_with({}), "--to", "csv")
+        self.assertEqual(status, 1)
+        self.assertIn("only runs of a caisson are exported, not those of a pile", text)
+
+    def test_a_mesh_that_is_too_coarse(self) -> None:
+        found = balanced(made_up(noise=0.02))
+        found.wall["TIP"] *= 0.6
+        path = self.path / "a.csv"
+        given = (TINY, "--to", "csv", "--output", path, "--spacing", "0.4")
+        with self.state_of(made_up(noise=0.02)):
+            with unittest.mock.patch.object(command, "balance", return_value=found):
+                status, text = self.call(*given)
+        self.assertEqual(status, 1)
+        self.assertRegex(text, "force on TIP .* coarse at the wall: take --spacing 0.1")
+        self.assertFalse(path.exists())
+
+    def test_spacing(self) -> None:
+        """It may have a unit, and must suit the wall and the memory."""
+        given = (TINY, "--to", "csv", "--output", self.path / "a.csv", "--spacing")
+        with self.state_of(made_up()):
+            status, text = self.call(*given, "400mm")
+            self.assertEqual(status, 0, text)
+            _, text = self.call(*given, "0.001")
+            self.assertRegex(text, r"gives .* cells, more than 200000: take 0\.01\d m")
+            _, text = self.call(*given, "3")
+            self.assertRegex(text, "does not resolve the wall.* at most 0.95 m")
 
     def test_what_is_refused(self) -> None:
         with self.state_of(made_up()):

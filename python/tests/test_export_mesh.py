@@ -168,6 +168,7 @@ class Gmsh(Temporary):
             (MSH_2.replace("2.2 0", "3 0"), "save it as text"),
             (MSH_2.replace("8 4 0 0", "8 4 0 1"), "not in the plane"),
             (MSH_2.replace("1 0 -4", "1 -1 -4"), "nodes at r < 0"),
+            (MSH_2.replace("1 2 7 3", "1 2 7 33"), "node 33, which is not among"),
             (MSH_2.split("$Elements")[0] + "$Elements\n0\n", "no triangles"),
         ):
             with self.subTest(words), self.assertRaisesRegex(ResultsError, words):
