@@ -203,10 +203,10 @@ def is_clay(layer: Layer) -> bool:
 
 def refuse_clay(layers: Sequence[Layer]) -> None:
     """Refuse clay that the skirt reaches under suction. Raises SuggestError."""
-    for number, layer in enumerate(layers, 1):
+    for i, layer in enumerate(layers, 1):
         if is_clay(layer):
             raise SuggestError(
-                f"layer {number} is undrained clay, and in a scene with suction water"
+                f"layer {i} is undrained clay, and in a scene with suction water"
                 " flows steadily through all soil. Leave out --weight: the jacked"
                 " caisson gives the resistance, and the suction is resistance less"
                 " weight over the area inside the skirt"
