@@ -35,17 +35,13 @@ def suction_words(history: Table, at: np.ndarray) -> list[str]:
     if not {"required_suction_Pa", "exit_gradient_axis"} <= set(history):
         return [""] * len(at)
     steepest = np.maximum(history["exit_gradient_wall"], history["exit_gradient_axis"])
-    needed, left = np.maximum(history["required_suction_Pa"], 0) / 1e3, 100 * (
-        1 - np.maximum(steepest, 0) / history["critical_gradient"]
-    )
+    needed = np.maximum(history["required_suction_Pa"], 0) / 1e3
+    left = 100 * (1 - np.maximum(steepest, 0) / history["critical_gradient"])
+    rows = curves.way_down(history["penetration_m"])
+    depth, both = history["penetration_m"][rows], (needed[rows], left[rows])
     return [
-        f"  required suction {s:5.1f} kPa, margin to piping {m:3.0f} %"
-        for s, m in zip(
-            *(
-                curves.smoothed_at(history["penetration_m"], v, at)
-                for v in (needed, left)
-            )
-        )
+        f"  required suction {suction:5.1f} kPa, margin to piping {margin:3.0f} %"
+        for suction, margin in zip(*(curves.smoothed_at(depth, v, at) for v in both))
     ]
 
 
@@ -56,8 +52,9 @@ def describe(directory: Path, depths: Sequence[float]) -> Iterator[str]:
     friction = history["inner_friction_N"] + history["outer_friction_N"]
     at = np.array([x for x in depths if depth.min() <= x])
     width = curves.FORCE_WINDOW
-    tips = curves.window_means(depth, tip, at, width) / 1e3
-    frictions = curves.window_means(depth, friction, at, width) / 1e3
+    tips, frictions = (
+        curves.window_means(depth, f, at, width) / 1e3 for f in (tip, friction)
+    )
     more = suction_words(history, at)
     yield str(directory)
     for x, a, b, words in zip(at, tips, frictions, more):

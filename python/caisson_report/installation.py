@@ -79,7 +79,7 @@ class Installation:
     @property
     def has_suction(self) -> bool:
         """Whether the caisson goes in by suction: its weight alone does not suffice."""
-        return bool((self.required > 0).any())
+        return bool((self.required > NOTHING).any())
 
     @property
     def allowable(self) -> np.ndarray:
@@ -115,7 +115,9 @@ def needs_suction(history: Table) -> bool:
     rows = curves.way_down(history["penetration_m"])
     depth = history["penetration_m"][rows]
     required = history[design.SUCTION][rows]
-    return bool((curves.smoothed_at(depth, required, depths_of(depth)) > 0).any())
+    return bool(
+        (curves.smoothed_at(depth, required, depths_of(depth)) > 1e3 * NOTHING).any()
+    )
 
 
 def bounds_at(
@@ -230,11 +232,11 @@ def bar_in_words(found: Installation, bounds: Bounds | None, unit: str) -> str:
         return f"{place}; error bar not known for this scene"
     low, high = bounds.low[-1], bounds.high[-1]
     if not np.isfinite([low, high]).all():
-        return f"{place}; error bar known only to {bounds.end:.2f} m"
+        return f"{place}; error bar known only to {bounds.end:.4g} m"
     if found.depth[-1] <= bounds.end + 1e-2:
         return f"{place}; error bar {text_of(low)} to {text_of(high)} {unit}"
     words = f"about {text_of(low)} to {text_of(high)} {unit}"
-    return f"{place}; {words} (error bar of {bounds.end:.2f} m)"
+    return f"{place}; {words} (error bar of {bounds.end:.4g} m)"
 
 
 def in_range(found: Installation, value: float, bounds: Bounds | None, i: int) -> str:
@@ -330,7 +332,7 @@ def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, .
             value = f"{found.rest:.2f} m"
             cards.append(("Self-weight penetration", value, remark))
         return cards + margin_cards(run, found) + pump_cards(run, found, rate)
-    remark = "no suction needed"
+    remark = "no suction needed to this depth"
     if found.excess is not None:
         remark = f"the weight exceeds the resistance by {found.excess:.0f} kN: {remark}"
     value = f"more than {found.depth[-1]:.2f} m"
@@ -398,7 +400,7 @@ def margin_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
     )
     if (bar := piping_bar(run, least, depth)) is not None:
         ends = [f"{100 * float(side[0]) + 0.0:.0f}" for side in (bar.low, bar.high)]
-        held = f" of {bar.end:.2f} m" if depth > bar.end + 1e-2 else ""
+        held = f" of {bar.end:.4g} m" if depth > bar.end + 1e-2 else ""
         remark = f"error bar{held} {ends[0]} to {ends[1]} %; {remark}"
     cards: list[tuple[str, ...]] = [
         ("Margin to piping", f"{100 * least:.0f} %", remark)
@@ -419,7 +421,11 @@ def margin_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
 
 def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
     """Return the largest flow, under suction where there is any."""
-    pumped = found.required > 0 if found.has_suction else np.full(len(found.flow), True)
+    pumped = (
+        found.required > NOTHING
+        if found.has_suction
+        else np.full(len(found.flow), True)
+    )
     most = int(np.argmax(np.where(pumped, found.flow, -np.inf)))
     words = f"at {found.depth[most]:.2f} m and a penetration of {rate.words}"
     if found.has_suction:
@@ -432,8 +438,8 @@ def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
 
 
 def room_card(run: Results, found: Installation) -> tuple[str, ...]:
-    """Return the room below the lid and, before the skirt is fully in, where heave
-    would use it up if it went on as over the last meter."""
+    """Return the room below the lid and, from half the skirt on, where heave would use
+    it up if it went on as over the last meter."""
     depth, heave, room = found.depth, found.heave, float(found.room[-1])
     remark = f"at {depth[-1]:.2f} m; heave of the plug {fixed(heave[-1])} m"
     last = depth >= depth[-1] - 1.0
@@ -441,7 +447,7 @@ def room_card(run: Results, found: Installation) -> tuple[str, ...]:
         rise = (heave[-1] - heave[last][0]) / (depth[-1] - depth[last][0])
         meets = depth[-1] + room / max(1 + rise, 0.1)
         length = float(run.scene["skirt_length_m"])
-        if meets < length - 5e-3:
+        if length / 2 < depth[-1] and meets < length - 5e-3:
             remark += f"; it would meet the lid at about {meets:.2f} of {length:g} m"
     return "Room below the lid", f"{fixed(room)} m", remark
 

@@ -10,6 +10,7 @@ import jinja2
 
 from caisson import plot
 from caisson.lock import is_locked
+from caisson.plot import theory
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results
 from caisson_design.houlsby_byrne import UNDISTURBED
@@ -29,6 +30,7 @@ PICTURES = {
     "forces": "Forces",
 }
 CHARTS = ("suction", "walls", "forces")  # pictures of lines, not of fields
+AS_IT_IS = ("Self-weight penetration", "Water boils at", "Computed / method")
 LAST_ROWS = "The run failed: do not use the last rows."
 
 
@@ -146,7 +148,8 @@ def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any
 def method_card(found: dict[str, Any]) -> list[tuple[str, ...]]:
     """Return a card with computed over method, of the first table of the design
     methods, at the deepest depth with an answer of a method that is fitted to field
-    data, else of the lower bound; nothing where none has an answer."""
+    data, without an assumed cone if possible, else of the lower bound; nothing where
+    none has an answer."""
     mark = "computed / "
     answers = [
         (row[0], head.removeprefix(mark), cell)
@@ -156,7 +159,8 @@ def method_card(found: dict[str, Any]) -> list[tuple[str, ...]]:
         if head.startswith(mark) and cell
     ]
     fitted = [answer for answer in answers if answer[1] != UNDISTURBED]
-    for depth, name, value in (fitted or answers)[:1]:
+    measured = [answer for answer in fitted if theory.ASSUMED_CONE not in answer[1]]
+    for depth, name, value in (measured or fitted or answers)[:1]:
         words = f"of {name}, at {depth} m"
         more = "; other methods below" if len({n for _, n, _ in answers}) > 1 else ""
         return [("Computed / method", value, words + more)]
@@ -186,7 +190,11 @@ def incomplete_of(run: Results) -> str:
 def so_far(cards: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
     """Return the cards of a run that has not come to its end."""
     return [
-        (f"{name.removesuffix(' at the end')} so far", *rest) for name, *rest in cards
+        (
+            name if name in AS_IT_IS else f"{name.removesuffix(' at the end')} so far",
+            *rest,
+        )
+        for name, *rest in cards
     ]
 
 

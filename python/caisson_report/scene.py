@@ -93,6 +93,8 @@ def entry_of(run: Results, path: str) -> str:
 
 def end_of(run: Results) -> float | None:
     """Return the penetration at which the scene ends (m), None where it has none."""
+    if not run.scene:
+        return None
     try:
         return float(entry_of(run, "Time/End penetration"))
     except ValueError:
