@@ -30,6 +30,17 @@ def largest(history: Table, column: str) -> str:
     return f"{history[column].max():.0f}"
 
 
+def means(depth: np.ndarray, force: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Return the means over 0.2 m at depths [n], and at the end of the way down those
+    of smoothed_at()."""
+    found = curves.window_means(depth, force, at, curves.FORCE_WINDOW)
+    rows = curves.way_down(depth)[1:]
+    if len(rows) < 3:
+        return found
+    ends = curves.smoothed_at(depth[rows], force[rows], at)
+    return np.where(np.isfinite(found), found, ends)
+
+
 def suction_words(history: Table, at: np.ndarray) -> list[str]:
     """Return required suction and margin to piping at depths [n]; nothing without."""
     if not {"required_suction_Pa", "exit_gradient_axis"} <= set(history):
@@ -51,10 +62,7 @@ def describe(directory: Path, depths: Sequence[float]) -> Iterator[str]:
     depth, tip = history["penetration_m"], history["tip_force_N"]
     friction = history["inner_friction_N"] + history["outer_friction_N"]
     at = np.array([x for x in depths if depth.min() <= x])
-    width = curves.FORCE_WINDOW
-    tips, frictions = (
-        curves.window_means(depth, f, at, width) / 1e3 for f in (tip, friction)
-    )
+    tips, frictions = (means(depth, force, at) / 1e3 for force in (tip, friction))
     more = suction_words(history, at)
     yield str(directory)
     for x, a, b, words in zip(at, tips, frictions, more):

@@ -53,8 +53,8 @@ class Bounds(NamedTuple):
 
     def scaled(self, factor: float, least: float = -np.inf) -> "Bounds":
         """Return them times a factor, and not below the least one."""
-        ends = (np.maximum(factor * side, least) for side in (self.low, self.high))
-        return Bounds(*ends, self.end)
+        low, high = (np.maximum(factor * side, least) for side in (self.low, self.high))
+        return Bounds(low, high, self.end)
 
 
 @dataclass

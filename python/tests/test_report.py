@@ -531,7 +531,7 @@ class Report(unittest.TestCase):
         self.assertIn("-7 % to +4 % in", content.error_remark(Results(self.path)))
 
     def leave_bar(self, end: float, half: float) -> None:
-        """Leave an error bar of the suction and of the exit gradient down to a depth."""
+        """Leave an error bar of the suction and the exit gradient down to a depth."""
         depth = np.linspace(1, end, 101)
         bounds = {"penetration_m": depth}
         for name, unit in (("required_suction", "_Pa"), ("exit_gradient_axis", "")):
