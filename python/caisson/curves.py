@@ -65,11 +65,15 @@ def window_rms(position: np.ndarray, values: np.ndarray, width: float) -> np.nda
 
 def smoothed_at(position: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarray:
     """Return the means over FORCE_WINDOW about each of at [m]: [m]; near the ends of
-    the positions [n], which grow, over as much as fits, and beyond them the last value.
-    """
+    the positions [n], which grow, over as much as fits, beyond them the last value, and
+    at the end itself that of a line through the last FORCE_WINDOW."""
     means = window_means(position, values, at, FORCE_WINDOW)
     short = means_to_the_ends(position, values, at, FORCE_WINDOW)
     short = np.where(np.isfinite(short), short, np.interp(at, position, values))
+    last = (position >= position[-1] - FORCE_WINDOW - EDGE) & np.isfinite(values)
+    if last.sum() > 2:
+        line = np.polyfit(position[last] - position[-1], values[last], 1)
+        short = np.where(np.abs(at - position[-1]) < 1e-3, line[1], short)
     return np.where(np.isfinite(means), means, short)
 
 

@@ -137,7 +137,7 @@ def method_suctions(run: Results) -> list[Curve]:
 def limit_curves(found: Installation) -> list[Curve]:
     """Return the other limits of the suction, and where the caisson rests."""
     curves_of_limits = [
-        line(label, color, found.limits[name], found.depth)
+        line(label, color, found.limits[name], found.depth, far=name == BOILING)
         for name, label, color in (
             (COMPUTED, "critical, by the exit gradient computed", "#d6604d"),
             (BOILING, "water boils below the lid", RED),
@@ -152,12 +152,25 @@ def limit_curves(found: Installation) -> list[Curve]:
     return curves_of_limits
 
 
-def beyond_the_chart(found: Installation) -> str:
-    """Return which limits are far from what is required, in a sentence."""
-    words = []
+def axis_end(shown: list[Curve]) -> float:
+    """Return where the axis of the suction ends (kPa), as in limits() of page.js."""
+    own = max(x for c in shown if c.get("thick") for x in c["x"] if x is not None)
+    ends = [
+        x
+        for curve in shown
+        if not curve.get("hidden") and not curve.get("far")
+        for x in [*curve["x"], *curve.get("to", [])]
+        if x is not None
+    ]
+    return 1.03 * (min(max(ends), 1.5 * own) if own > 0 else max(ends))
+
+
+def beyond_the_chart(found: Installation, shown: list[Curve]) -> str:
+    """Return which limits are beyond the axis of the curves, in a sentence."""
+    words, end = [], axis_end(shown)
     for name, text in ((BOILING, "water boils below the lid at"), (PUMP, "the pump")):
         limit = found.limits.get(name, np.full(1, np.nan))
-        if limit.min() > 1.5 * found.required.max():
+        if limit.min() > end:
             ends = dict.fromkeys(f"{v:.0f}" for v in (limit.min(), limit.max()))
             can = "" if name == BOILING else " can draw"
             words.append(f"{text}{can} {' to '.join(ends)} kPa")
@@ -194,13 +207,14 @@ def figures_of(run: Results, found: Installation | None) -> list[dict[str, Any]]
         return []
     figures = []
     if found is not None and found.has_suction:
+        suctions = with_points(suction_curves(run, found))
         figures.append(
             {
                 "id": "suction",
                 "title": "Installation chart: required suction and its limits",
                 "axis": "suction (kPa)",
-                "note": beyond_the_chart(found),
-                "curves": with_points(suction_curves(run, found)),
+                "note": beyond_the_chart(found, suctions),
+                "curves": suctions,
             }
         )
     figures.append(

@@ -26,6 +26,9 @@ HOUR = 3600.0
 LEAST_SHARE = 0.02  # of the critical gradient, below which the gradient is noise
 COMPUTED = "exit gradient computed"
 PIPING, BOILING, PUMP = "piping, Houlsby & Byrne", "water boils", "pump"
+NEAR = 0.25  # m, over which error bars of a force and a suction are taken together
+NOTHING = 5e-4  # of a unit of the tables
+HELD = 0.5  # m, below the error bar, over which its last width still stands
 
 
 class Rate(NamedTuple):
@@ -41,6 +44,19 @@ class Rate(NamedTuple):
         return f"{self.meters_per_hour:g} m/h{mark}"
 
 
+class Bounds(NamedTuple):
+    """Error bar of values [n]; below the depth end (m) it has the width of that."""
+
+    low: np.ndarray
+    high: np.ndarray
+    end: float
+
+    def scaled(self, factor: float, least: float = -np.inf) -> "Bounds":
+        """Return them times a factor, and not below the least one."""
+        low, high = (np.maximum(factor * side, least) for side in (self.low, self.high))
+        return Bounds(low, high, self.end)
+
+
 @dataclass
 class Installation:
     """Columns [n] at depths [n] (m) of the way down: forces in kN, suctions in kPa;
@@ -48,9 +64,10 @@ class Installation:
 
     depth: np.ndarray
     forces: dict[str, np.ndarray]
-    force_bounds: tuple[np.ndarray, np.ndarray] | None = None
+    force_bounds: Bounds | None = None
     required: np.ndarray = field(default_factory=lambda: np.empty(0))
-    required_bounds: tuple[np.ndarray, np.ndarray] | None = None
+    required_bounds: Bounds | None = None
+    excess: float | None = None  # kN, of the weight at the end, without any suction
     limits: dict[str, np.ndarray] = field(default_factory=dict)
     gradient: np.ndarray = field(default_factory=lambda: np.empty(0))  # over critical
     heave: np.ndarray = field(default_factory=lambda: np.empty(0))  # m
@@ -61,8 +78,8 @@ class Installation:
 
     @property
     def has_suction(self) -> bool:
-        """Whether the caisson goes in by suction."""
-        return len(self.required) > 0
+        """Whether the caisson goes in by suction: its weight alone does not suffice."""
+        return bool((self.required > NOTHING).any())
 
     @property
     def allowable(self) -> np.ndarray:
@@ -90,22 +107,37 @@ def depths_of(position: np.ndarray, interval: float = INTERVAL) -> np.ndarray:
     return np.append(found, end)
 
 
+def needs_suction(history: Table) -> bool:
+    """Return whether the weight of a caisson does not suffice in any row of the table;
+    False without suction."""
+    if design.SUCTION not in history:
+        return False
+    rows = curves.way_down(history["penetration_m"])
+    depth = history["penetration_m"][rows]
+    required = history[design.SUCTION][rows]
+    return bool(
+        (curves.smoothed_at(depth, required, depths_of(depth)) > 1e3 * NOTHING).any()
+    )
+
+
 def bounds_at(
     run: Results, quantity: str, unit: str, at: np.ndarray, values: np.ndarray
-) -> tuple[np.ndarray, np.ndarray] | None:
-    """Return the lower and the upper bound of values [n] of history.csv at depths [n],
-    nan beyond the depths of the error bar; None where the run has none."""
-    bounds = run.error_bounds
-    if f"{quantity}_low_{unit}" not in bounds:
+) -> Bounds | None:
+    """Return the bounds of values [n] of history.csv at depths [n]: the widest within
+    NEAR; nan above the error bar and further than HELD below; None without one."""
+    bounds, unit = run.error_bounds, f"_{unit}" if unit else ""
+    if f"{quantity}_low{unit}" not in bounds:
         return None
-    depth, known = bounds["penetration_m"], bounds[f"{quantity}_{unit}"]
-    inside = (at >= depth.min() - 1e-3) & (at <= depth.max() + 1e-3)
+    depth, known = bounds["penetration_m"], bounds[f"{quantity}{unit}"]
+    end, begin = float(depth.max()), float(depth.min())
+    inside = (at >= begin - 1e-2) & (at <= end + HELD)
     found = []
-    for side in ("low", "high"):
-        change = bounds[f"{quantity}_{side}_{unit}"] - known
-        changed = values + np.interp(at, depth, change)
-        found.append(np.where(inside, changed, np.nan))
-    return found[0], found[1]
+    for side, widest in (("low", np.nanmin), ("high", np.nanmax)):
+        change = bounds[f"{quantity}_{side}{unit}"] - known
+        near = [change[np.abs(depth - h) <= NEAR] for h in np.clip(at, begin, end)]
+        widths = np.array([widest(part) if len(part) else np.nan for part in near])
+        found.append(np.where(inside, values + widths, np.nan))
+    return Bounds(found[0], found[1], end)
 
 
 def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
@@ -156,7 +188,7 @@ def installation_of(run: Results, rate: Rate) -> Installation | None:
     total = forces["total_force_N"] * 1e3
     bars = bounds_at(run, "total_force", "N", at, total)
     if bars:
-        found.force_bounds = bars[0] / 1e3, bars[1] / 1e3
+        found.force_bounds = bars.scaled(1e-3)
     if design.SUCTION in history:
         add_suction(found, run, rate)
     return found
@@ -174,15 +206,17 @@ def add_suction(found: Installation, run: Results, rate: Rate) -> None:
     found.required = np.maximum(raw, 0) / 1e3
     bars = bounds_at(run, "required_suction", "Pa", at, raw)
     if bars:
-        low, high = (np.maximum(bar, 0) / 1e3 for bar in bars)
-        found.required_bounds = low, high
+        found.required_bounds = bars.scaled(1e-3, 0.0)
+    if weight := scene.get("submerged_weight_N"):
+        found.excess = (float(weight) - found.forces["total_force_N"][-1] * 1e3) / 1e3
     found.gradient = mean(gradient_share(history))
     found.heave = mean(history["plug_heave_m"])
     if length := scene.get("skirt_length_m"):
         found.room = float(length) - at - found.heave
     boiling = history.get("cavitation_suction_Pa")
     boils = np.full(len(at), np.nan) if boiling is None else mean(boiling) / 1e3
-    found.limits = limits_of(run, at, boils)
+    if found.has_suction:
+        found.limits = limits_of(run, at, boils)
     found.rest = rest_of_run(history)
     if scene.get("diameter_m") and "seepage_flow_m3_s" in history:
         found.seepage = HOUR * np.maximum(mean(history["seepage_flow_m3_s"]), 0)
@@ -191,33 +225,27 @@ def add_suction(found: Installation, run: Results, rate: Rate) -> None:
         found.flow = plug_area(scene) * speed + found.seepage
 
 
-def deepest_bar(bounds: tuple[np.ndarray, np.ndarray] | None) -> int | None:
-    """Return the number of the deepest row with an error bar, None without any."""
+def bar_in_words(found: Installation, bounds: Bounds | None, unit: str) -> str:
+    """Return where the end is, and its error bar."""
+    place = f"at {found.depth[-1]:.2f} m"
     if bounds is None:
-        return None
-    known = np.flatnonzero(np.isfinite(bounds[0]) & np.isfinite(bounds[1]))
-    return int(known[-1]) if len(known) else None
-
-
-def bar_in_words(
-    found: Installation, bounds: tuple[np.ndarray, np.ndarray] | None, unit: str
-) -> str:
-    """Return where the end is, and the deepest error bar that is known."""
-    place, i = f"at {found.depth[-1]:.2f} m", deepest_bar(bounds)
-    if bounds is None or i is None:
         return f"{place}; error bar not known for this scene"
-    words = f"error bar {text_of(bounds[0][i])} to {text_of(bounds[1][i])} {unit}"
-    if i < len(found.depth) - 1:
-        words += f" at {found.depth[i]:g} m"
-    return f"{place}; {words}"
+    low, high = bounds.low[-1], bounds.high[-1]
+    if not np.isfinite([low, high]).all():
+        return f"{place}; error bar known only to {bounds.end:.4g} m"
+    if found.depth[-1] <= bounds.end + 1e-2:
+        return f"{place}; error bar {text_of(low)} to {text_of(high)} {unit}"
+    words = f"about {text_of(low)} to {text_of(high)} {unit}"
+    return f"{place}; {words} (error bar of {bounds.end:.4g} m)"
 
 
-def in_range(value: float, bounds: tuple[np.ndarray, np.ndarray] | None, i: int) -> str:
-    """Return a value with its bounds, where it has any."""
-    if bounds is None or not np.isfinite([bounds[0][i], bounds[1][i]]).all():
+def in_range(found: Installation, value: float, bounds: Bounds | None, i: int) -> str:
+    """Return a value with its bounds, where it has any: about, below their end."""
+    if bounds is None or not np.isfinite([bounds.low[i], bounds.high[i]]).all():
         return text_of(value)
-    low, high = text_of(float(bounds[0][i])), text_of(float(bounds[1][i]))
-    return f"{text_of(value)} ({low} to {high})"
+    about = "about " if found.depth[i] > bounds.end + 1e-2 else ""
+    low, high = text_of(float(bounds.low[i])), text_of(float(bounds.high[i]))
+    return f"{text_of(value)} ({about}{low} to {high})"
 
 
 def rows_of(columns: dict[str, list[str]]) -> dict[str, Any]:
@@ -227,8 +255,18 @@ def rows_of(columns: dict[str, list[str]]) -> dict[str, Any]:
 
 
 def texts_of(values: np.ndarray) -> list[str]:
-    """Return numbers as text."""
-    return [text_of(float(value)) for value in values]
+    """Return numbers as text, those that are next to nothing as 0."""
+    return [text_of(0.0 if abs(v) < NOTHING else float(v)) for v in values]
+
+
+def fixed(value: float) -> str:
+    """Return two digits behind the point, and no negative zero."""
+    return f"{round(float(value), 2) + 0.0:.2f}"
+
+
+def flow_head(found: Installation) -> str:
+    """Return what moves the water out of the caisson."""
+    return "pump flow" if found.has_suction else "water to vent"
 
 
 def tables_of(found: Installation) -> list[dict[str, Any]]:
@@ -239,17 +277,22 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
     total = found.forces["total_force_N"]
     takes = {
         "depth (m)": depth,
-        "resistance (kN)": [in_range(total[i], found.force_bounds, i) for i in n],
+        "resistance (kN)": [
+            in_range(found, total[i], found.force_bounds, i) for i in n
+        ],
     }
     for name in design.FORCES[:3]:
         words = name.removesuffix("_N").removesuffix("_force").replace("_", " ")
         takes[f"{words} (kN)"] = texts_of(found.forces[name])
+    if found.has_suction:
+        takes["required suction (kPa)"] = [
+            in_range(found, found.required[i], found.required_bounds, i) for i in n
+        ]
+    takes[f"{flow_head(found)} (m³/h)"] = texts_of(found.flow)
     if not found.has_suction:
+        takes["plug heave (m)"] = texts_of(found.heave)
+        takes["room below the lid (m)"] = texts_of(found.room)
         return [rows_of(takes)]
-    takes["required suction (kPa)"] = [
-        in_range(found.required[i], found.required_bounds, i) for i in n
-    ]
-    takes["pump flow (m³/h)"] = texts_of(found.flow)
     if len(found.flow):
         takes["of which seepage (m³/h)"] = texts_of(found.seepage)
         power = found.flow / HOUR * found.required
@@ -271,57 +314,96 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
 
 def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
     """Return (name, value, remark) of what matters most."""
-    end, depth = len(found.depth) - 1, float(found.depth[-1])
-    at_end = f"at {depth:.2f} m"
-    total = found.forces["total_force_N"]
+    if not len(found.required):
+        return force_cards(found)
     cards: list[tuple[str, ...]] = []
-    if not found.has_suction:
-        cards.append(
-            (
-                "Force at the end",
-                f"{total[end]:.0f} kN",
-                bar_in_words(found, found.force_bounds, "kN"),
-            )
-        )
-        most = int(np.argmax(total))
-        if most != end:
+    weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
+    if found.has_suction:
+        value = f"{found.required[-1]:.1f} kPa"
+        remark = bar_in_words(found, found.required_bounds, "kPa")
+        cards.append(("Required suction", value, remark))
+        most = int(np.argmax(found.required))
+        if found.required[most] > 1.02 * found.required[-1]:
             remark = f"at {found.depth[most]:.2f} m"
-            cards.append(("Largest force", f"{total[most]:.0f} kN", remark))
-        tip, inner, outer = (
-            f"{found.forces[k][end]:.0f} kN" for k in design.FORCES[:3]
-        )
-        remark = f"friction inside {inner}, outside {outer}"
-        cards.append(("Of which tip", tip, remark))
-        return [*cards, ("Penetration reached", f"{depth:.2f} m", "")]
-    cards.append(
-        (
-            "Required suction",
-            f"{found.required[end]:.1f} kPa",
-            bar_in_words(found, found.required_bounds, "kPa"),
-        )
-    )
-    most = int(np.argmax(found.required))
-    if found.required[most] > 1.02 * found.required[end]:
-        remark = f"at {found.depth[most]:.2f} m"
-        value = f"{found.required[most]:.1f} kPa"
-        cards.append(("Largest required suction", value, remark))
-    if found.rest is not None:
-        weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
-        remark = f"under {weight:.4g} kN in water" if weight else ""
-        cards.append(("Self-weight penetration", f"{found.rest:.2f} m", remark))
-    return cards + margin_cards(found) + pump_cards(found, rate, at_end)
+            value = f"{found.required[most]:.1f} kPa"
+            cards.append(("Largest required suction", value, remark))
+        if found.rest is not None:
+            remark = f"under {weight:.4g} kN in water" if weight else ""
+            value = f"{found.rest:.2f} m"
+            cards.append(("Self-weight penetration", value, remark))
+        return cards + margin_cards(run, found) + pump_cards(run, found, rate)
+    remark = "no suction needed to this depth"
+    if found.excess is not None:
+        remark = f"the weight exceeds the resistance by {found.excess:.0f} kN: {remark}"
+    value = f"more than {found.depth[-1]:.2f} m"
+    cards.append(("Self-weight penetration", value, remark))
+    return cards + force_cards(found)[:1] + pump_cards(run, found, rate)
 
 
-def margin_cards(found: Installation) -> list[tuple[str, ...]]:
-    """Return the cards of the margins."""
+def force_cards(found: Installation) -> list[tuple[str, ...]]:
+    """Return the cards of the forces."""
+    total, depth = found.forces["total_force_N"], found.depth
+    remark = bar_in_words(found, found.force_bounds, "kN")
+    name = "Resistance at the end" if len(found.required) else "Force at the end"
+    cards: list[tuple[str, ...]] = [(name, f"{total[-1]:.0f} kN", remark)]
+    most = int(np.argmax(total))
+    if most != len(total) - 1:
+        remark = f"at {depth[most]:.2f} m"
+        cards.append(("Largest force", f"{total[most]:.0f} kN", remark))
+    tip, inner, outer = (f"{found.forces[k][-1]:.0f} kN" for k in design.FORCES[:3])
+    cards.append(("Of which tip", tip, f"friction inside {inner}, outside {outer}"))
+    return [*cards, ("Penetration reached", f"{depth[-1]:.2f} m", "")]
+
+
+def least_margin(run: Results, found: Installation) -> tuple[float, float]:
+    """Return the least margin to piping (a share of 1) and its depth (m): of the
+    records, or, where the run has not said it, of the table."""
+    known = (run.summary.get("results") or {}) if run.scene else {}
+    if piping := (known.get("margins") or {}).get("piping"):
+        return float(piping["least"]), float(piping["penetration_m"])
     worst = int(np.argmax(found.gradient))
+    return float(1 - found.gradient[worst]), float(found.depth[worst])
+
+
+def piping_bar(run: Results, least: float, depth: float) -> Bounds | None:
+    """Return the error bar of the least margin to piping at its depth (m), [1]."""
+    history, at = run.history, np.array([depth])
+    names = ("exit_gradient_wall", "exit_gradient_axis")
+    i = int(np.argmin(np.abs(history["penetration_m"] - depth)))
+    name = max(names, key=lambda key: float(history[key][i]))
+    critical = float(history["critical_gradient"][i])
+    bar = bounds_at(run, name, "", at, (1 - least) * critical * np.ones(1))
+    if bar is None or not np.isfinite([*bar.low, *bar.high]).all():
+        return None
+    return Bounds(1 - bar.high / critical, 1 - bar.low / critical, bar.end)
+
+
+def piping_warning(run: Results, found: Installation | None) -> list[str]:
+    """Return a warning where the error bar of the margin to piping includes 0."""
+    if found is None or not found.has_suction:
+        return []
+    least, depth = least_margin(run, found)
+    bar = piping_bar(run, least, depth)
+    if bar is None or least <= 0 or bar.low[0] > 0:
+        return []
+    return [
+        f"the margin to piping is {100 * least:.0f} % at {depth:.2f} m, and its error"
+        " bar includes 0: the run does not show that piping stays away"
+    ]
+
+
+def margin_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
+    """Return the cards of the margins."""
+    least, depth = least_margin(run, found)
+    remark = (
+        f"least, at {depth:.2f} m: exit gradient {1 - least:.2f} of the critical one"
+    )
+    if (bar := piping_bar(run, least, depth)) is not None:
+        ends = [f"{100 * float(side[0]) + 0.0:.0f}" for side in (bar.low, bar.high)]
+        held = f" of {bar.end:.4g} m" if depth > bar.end + 1e-2 else ""
+        remark = f"error bar{held} {ends[0]} to {ends[1]} %; {remark}"
     cards: list[tuple[str, ...]] = [
-        (
-            "Margin to piping",
-            f"{100 * (1 - found.gradient[worst]):.0f} %",
-            f"least, at {found.depth[worst]:.2f} m: exit gradient"
-            f" {found.gradient[worst]:.2f} of the critical one",
-        )
+        ("Margin to piping", f"{100 * least:.0f} %", remark)
     ]
     ratio = np.nan_to_num(found.required / found.allowable)
     worst = int(np.argmax(ratio))
@@ -337,26 +419,46 @@ def margin_cards(found: Installation) -> list[tuple[str, ...]]:
     return cards
 
 
-def pump_cards(found: Installation, rate: Rate, at_end: str) -> list[tuple[str, ...]]:
-    """Return the cards of plug, pump and boiling."""
-    cards: list[tuple[str, ...]] = []
-    if len(found.flow):
-        most = int(np.argmax(found.flow))
-        cards.append(
-            (
-                "Pump",
-                f"{found.flow[most]:.3g} m³/h",
-                f"at a penetration of {rate.words}, of which seepage"
-                f" {found.seepage[most]:.2g} m³/h; against"
-                f" {found.required.max():.1f} kPa",
-            )
+def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
+    """Return the largest flow, under suction where there is any."""
+    pumped = (
+        found.required > NOTHING
+        if found.has_suction
+        else np.full(len(found.flow), True)
+    )
+    most = int(np.argmax(np.where(pumped, found.flow, -np.inf)))
+    words = f"at {found.depth[most]:.2f} m and a penetration of {rate.words}"
+    if found.has_suction:
+        words += (
+            f", of which seepage {found.seepage[most]:.2g} m³/h; against"
+            f" {found.required[most]:.1f} kPa"
         )
-    boiling = found.limits[BOILING][-1]
+    name = "Pump" if found.has_suction else "Water to vent"
+    return name, f"{found.flow[most]:.3g} m³/h", words
+
+
+def room_card(run: Results, found: Installation) -> tuple[str, ...]:
+    """Return the room below the lid and, from half the skirt on, where heave would use
+    it up if it went on as over the last meter."""
+    depth, heave, room = found.depth, found.heave, float(found.room[-1])
+    remark = f"at {depth[-1]:.2f} m; heave of the plug {fixed(heave[-1])} m"
+    last = depth >= depth[-1] - 1.0
+    if last.sum() > 1 and room > 0:
+        rise = (heave[-1] - heave[last][0]) / (depth[-1] - depth[last][0])
+        meets = depth[-1] + room / max(1 + rise, 0.1)
+        length = float(run.scene["skirt_length_m"])
+        if length / 2 < depth[-1] and meets < length - 5e-3:
+            remark += f"; it would meet the lid at about {meets:.2f} of {length:g} m"
+    return "Room below the lid", f"{fixed(room)} m", remark
+
+
+def pump_cards(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
+    """Return the cards of plug, pump and boiling."""
+    cards = [flow_card(found, rate)] if len(found.flow) else []
+    boiling = found.limits.get(BOILING, np.full(1, np.nan))[-1]
     if np.isfinite(boiling):
         pump = found.limits.get(PUMP)
         words = "no pump limit is set" if pump is None else f"pump: {pump[-1]:.4g} kPa"
-        cards.append(("Water boils at", f"{boiling:.0f} kPa", f"{at_end}; {words}"))
-    if len(found.room):
-        value, remark = f"{found.room[-1]:.2f} m", f"{at_end}; heave of the plug"
-        cards.append(("Room below the lid", value, f"{remark} {found.heave[-1]:.2f} m"))
-    return cards
+        remark = f"at {found.depth[-1]:.2f} m; {words}"
+        cards.append(("Water boils at", f"{boiling:.0f} kPa", remark))
+    return [*cards, room_card(run, found)] if len(found.room) else cards

@@ -24,12 +24,13 @@ from caisson_design.reasons import (
     text_of,
 )
 from caisson_report import relief
-from caisson_report.installation import depths_of
+from caisson_report.installation import depths_of, needs_suction
 
 UNDISTURBED_IS = (
     f"{UNDISTURBED}: K0 tan \N{GREEK SMALL LETTER DELTA} without stress enhancement, a"
     " lower bound"
 )
+NO_ANSWER = "none (piping)"
 NOTHING: dict[str, Any] = {"tables": [], "why": [], "reasons": [], "notes": []}
 
 
@@ -129,6 +130,14 @@ def required_at(run: Results, at: np.ndarray) -> np.ndarray:
     return curves.smoothed_at(depth[rows], run.history[design.SUCTION][rows], at)
 
 
+def or_piping(values: np.ndarray) -> list[str]:
+    """Return suctions as text; NO_ANSWER below the depth where a method ends, as the
+    suction exceeds its critical one."""
+    known = np.flatnonzero(np.isfinite(values))
+    last = int(known[-1]) if len(known) else -1
+    return [text_of(float(v)) if i <= last else NO_ANSWER for i, v in enumerate(values)]
+
+
 def suctions_beside(run: Results, at: np.ndarray, site: theory.Site) -> dict[str, Any]:
     """Return the table of required and critical suctions (kPa)."""
     computed = np.maximum(required_at(run, at), 0) / 1e3
@@ -147,7 +156,10 @@ def suctions_beside(run: Results, at: np.ndarray, site: theory.Site) -> dict[str
         if not any(np.isfinite(values).any() for values in kilopascals):
             continue
         for case, values in zip(cases.values(), kilopascals):
-            columns[f"required, {name}, {case}"] = values
+            of_byrne = name == byrne
+            columns[f"required, {name}, {case}"] = (
+                or_piping(values) if of_byrne else values
+            )
         low, high = kilopascals[:2]
         columns[f"computed / {name}"] = ratios(computed, low, high)
         if name == byrne:
@@ -183,7 +195,7 @@ def compared(run: Results, h: float) -> Compared | None:
     suction, flow, mine = 0.0, STILL, computed.total
     ends = [byrne.forces(h, case).total for case in byrne.cases]
     caisson, _ = byrne.by_name[UNDISTURBED]
-    if design.SUCTION in run.history:
+    if needs_suction(run.history):
         suction = mine = float(required_at(run, at)[0])
         found = suction_methods.answers_of(site, at).suctions
         ends = [float(found[name][0]) for name in suction_methods.RANGE if found]
@@ -220,7 +232,7 @@ def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]
         return []
     computed = Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
     mine, what, left, suctions = computed.total, "force", None, dict[str, Any]()
-    if design.SUCTION in history:
+    if needs_suction(history):
         mine, what = float(required_at(run, at)[0]), "suction"
         suctions = suction_methods.answers_of(theory.site_of(run), at).suctions
         if not suctions:
@@ -269,7 +281,7 @@ def methods_of(run: Results) -> dict[str, Any]:
     site = theory.site_of(run)
     at = depths_of(history["penetration_m"][rows_down], 1.0)
     answers = theory.answers_of(site, at)
-    with_suction, total = design.SUCTION in history, design.FORCES[-1]
+    with_suction, total = needs_suction(history), design.FORCES[-1]
     computed = None
     if total in history and not with_suction:
         computed = design.forces_at(history, at)[total] / 1e3

@@ -79,10 +79,11 @@
     context.restore();
   }
 
-  // The methods widen the axis by at most half of what the run has.
+  // The methods widen the axis by at most half of what the run has; content.py has
+  // the same end.
   function limits(curves) {
     let low = 0, high = 0, top = 0, bottom = 0, own = 0;
-    for (const curve of curves)
+    for (const curve of curves.filter((curve) => !curve.far))
       for (const list of [curve.x, curve.to || []])
         list.forEach((x, i) => {
           if (x === null) return;
@@ -214,6 +215,9 @@
     this.renew();
   }
 
+  window.addEventListener("beforeprint", () => {
+    document.querySelectorAll("details").forEach((part) => (part.open = true));
+  });
   const figures = data.figures.map((figure) => new Figure(figure));
   const renew = () => figures.forEach((figure) => figure.renew());
   let width = window.innerWidth;

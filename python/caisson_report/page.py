@@ -10,8 +10,10 @@ import jinja2
 
 from caisson import plot
 from caisson.lock import is_locked
+from caisson.plot import theory
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results
+from caisson_design.houlsby_byrne import UNDISTURBED
 from caisson_report import content, installation, methods, scene, sketch
 from caisson_report.installation import Installation, Rate
 
@@ -27,6 +29,9 @@ PICTURES = {
     "void_ratio": "Void ratio",
     "forces": "Forces",
 }
+CHARTS = ("suction", "walls", "forces")  # pictures of lines, not of fields
+AS_IT_IS = ("Self-weight penetration", "Water boils at", "Computed / method")
+LAST_ROWS = "The run failed: do not use the last rows."
 
 
 def script(name: str) -> str:
@@ -128,32 +133,74 @@ def warnings_of(summary: dict[str, Any]) -> dict[str, list[str]]:
 def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any]:
     """Return sketch and tables of caisson and soil."""
     if not run.scene:
-        return {"sketch": "", "caisson": [], "layers": {"rows": []}}
+        return {"sketch": "", "caisson": [], "layers": {"rows": []}, "assumed": False}
     depth = float(found.depth[-1]) if found is not None else 0.0
+    caisson, layers = scene.caisson_of(run), scene.layers_table(run)
+    cells = [assumed for row in layers["rows"] for _, assumed in row]
     return {
         "sketch": sketch.of_run(run, depth, found.rest if found else None),
-        "caisson": scene.caisson_of(run),
-        "layers": scene.layers_table(run),
+        "caisson": caisson,
+        "layers": layers,
+        "assumed": any([*cells, *(item.assumed for item in caisson)]),
     }
 
 
 def method_card(found: dict[str, Any]) -> list[tuple[str, ...]]:
-    """Return a card with computed over method at the end, of the first table of the
-    design methods; nothing where none has an answer there."""
+    """Return a card with computed over method, of the first table of the design
+    methods, at the deepest depth with an answer of a method that is fitted to field
+    data, without an assumed cone if possible, else of the lower bound; nothing where
+    none has an answer."""
     mark = "computed / "
-    for table in found["tables"][:1]:
-        cells = dict(zip(table["heads"], table["rows"][-1]))
-        ratios = [
-            (head.removeprefix(mark), cell)
-            for head, cell in cells.items()
-            if head.startswith(mark) and cell
-        ]
-        if ratios:
-            (name, value), *others = ratios
-            words = f"of {name}, at {cells['depth (m)']} m"
-            more = "; other methods below" if others else ""
-            return [("Computed / method", value, words + more)]
+    answers = [
+        (row[0], head.removeprefix(mark), cell)
+        for table in found["tables"][:1]
+        for row in reversed(table["rows"])
+        for head, cell in zip(table["heads"], row)
+        if head.startswith(mark) and cell
+    ]
+    fitted = [answer for answer in answers if answer[1] != UNDISTURBED]
+    measured = [answer for answer in fitted if theory.ASSUMED_CONE not in answer[1]]
+    for depth, name, value in (measured or fitted or answers)[:1]:
+        words = f"of {name}, at {depth} m"
+        more = "; other methods below" if len({n for _, n, _ in answers}) > 1 else ""
+        return [("Computed / method", value, words + more)]
     return []
+
+
+def has_ended_early(run: Results) -> bool:
+    """Return whether a run was stopped, or failed, before its end."""
+    if run.is_running:
+        return not is_locked(run.directory)
+    ended = run.summary.get("failure") or run.scene.get("end_reason")
+    return bool(ended) or run.summary.get("status", "finished") != "finished"
+
+
+def incomplete_of(run: Results) -> str:
+    """Return what a run that did not come to its end is good for; nothing of others."""
+    depth = run.history.get("penetration_m")
+    if not has_ended_early(run) or depth is None:
+        return ""
+    wanted = scene.end_of(run)
+    of_end = f" of {wanted:.2f} m" if wanted else ""
+    words = f"Stopped at {depth.max():.2f} m{of_end}: no number below holds for the end"
+    failed = not run.is_running and run.summary.get("failure")
+    return f"{words}. {LAST_ROWS}" if failed else f"{words}."
+
+
+def so_far(cards: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
+    """Return the cards of a run that has not come to its end."""
+    return [
+        (
+            name if name in AS_IT_IS else f"{name.removesuffix(' at the end')} so far",
+            *rest,
+        )
+        for name, *rest in cards
+    ]
+
+
+def css_text(words: str) -> str:
+    """Return a text for a string of a style sheet."""
+    return "".join(c if c.isalnum() else f"\\{ord(c):x} " for c in words)
 
 
 def html(run: Results, rate: Rate) -> str:
@@ -171,13 +218,19 @@ def html(run: Results, rate: Rate) -> str:
         "name": run.directory.resolve().name,
     }
     summary = run.summary if run.scene or not run.is_running else {}
+    title = str(summary.get("title") or run.directory.resolve().name)
+    cards = cards + method_card(beside) if cards else []
+    warnings = warnings_of(summary)
+    warnings["result"] += installation.piping_warning(run, found)
     return environment.get_template("page.html").render(
-        title=summary.get("title") or run.directory.resolve().name,
+        title=title,
+        footer=css_text(title),
         job=job_of(run, summary),
         status=status_of(run),
         progress=progress_of(run)[0] if run.is_running else 0,
         refresh=REFRESH if run.is_running else 0,
-        cards=cards + method_card(beside) if cards else [],
+        incomplete=incomplete_of(run),
+        cards=so_far(cards) if run.is_running or has_ended_early(run) else cards,
         computed=what_was_computed(run, found),
         rate=rate.words,
         tables=[] if found is None else installation.tables_of(found),
@@ -187,8 +240,9 @@ def html(run: Results, rate: Rate) -> str:
         units=content.unit_table(run),
         methods=beside,
         pictures=pictures_of(run),
+        charts=CHARTS,
         remarks=content.remarks_on_numbers(run),
-        warnings=warnings_of(summary),
+        warnings=warnings,
         entries=summary.get("entries", {}),
         defaults=summary.get("defaults", {}),
         facts=facts_of(run),

@@ -32,6 +32,7 @@ ONE_RUN = (
     " For the factors of all three, jack the same scene (--set Water/Level=drained,"
     " another --output-directory), and name it: caisson report --jacked DIRECTORY."
 )
+SHARE = "s / s_cr (Senders & Randolph)"
 TWO_RUNS = "Over the forces of the jacked run at the same depth."
 LINEAR = (
     " Senders & Randolph (2009) leave 1 - s/s_cr of tip and inner friction, and all of"
@@ -73,7 +74,7 @@ def table_of(run: Results, at: np.ndarray) -> tuple[dict[str, Any], str]:
         (suction / found[suction_methods.CRITICAL_SENDERS_RANDOLPH])[rows],
     )
     mine = design.forces_at(history, at)
-    columns = {"depth (m)": at, "s / s_cr": share, "1 - s / s_cr": 1 - share}
+    columns = {"depth (m)": at, SHARE: share, f"1 - {SHARE}": 1 - share}
     if path.is_file():
         twin = design.forces_at(run.table(NAME, "time_s"), at)
         deepest = run.table(NAME, "time_s")["penetration_m"].max()

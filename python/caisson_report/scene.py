@@ -91,6 +91,16 @@ def entry_of(run: Results, path: str) -> str:
     return str(known.get(path, ""))
 
 
+def end_of(run: Results) -> float | None:
+    """Return the penetration at which the scene ends (m), None where it has none."""
+    if not run.scene:
+        return None
+    try:
+        return float(entry_of(run, "Time/End penetration"))
+    except ValueError:
+        return None
+
+
 def plug_area(scene: Mapping[str, Any]) -> float:
     """Return the area that suction acts on (m2)."""
     inner = float(scene["diameter_m"]) - 2 * float(scene["wall_thickness_m"])

@@ -4,6 +4,7 @@ import html
 from typing import Any
 
 from caisson.results import Results
+from caisson_report.scene import end_of
 
 WIDTH, MARGIN = 560.0, 52.0  # of the drawing, and of each side (pixels)
 TALL, LEAST_BAND = 420.0, 15.0  # largest height, lowest layer with a text (pixels)
@@ -18,6 +19,7 @@ class Drawing:
         self.scale = min(room / (2 * half_width), TALL / (bottom - top))
         self.top, self.half_width, self.bottom = top, half_width, bottom
         self.parts: list[str] = []
+        self.labels: list[float] = []  # pixels, of texts in the layers
 
     def x(self, r: float) -> float:
         """Return the pixel of a distance from the axis."""
@@ -55,6 +57,8 @@ class Drawing:
             self.line("dimension", x - 4, self.y(depth), x + 4, self.y(depth))
         self.line("dimension", x, self.y(top), x, self.y(low))
         middle = (self.y(top) + self.y(low)) / 2 + 4
+        if any(abs(middle - label) < LEAST_BAND for label in self.labels):
+            middle -= 2 * LEAST_BAND
         side = -1 if x < WIDTH / 2 else 1
         self.text(x + 6 * side, middle, words, "end" if side < 0 else "start")
 
@@ -97,9 +101,9 @@ def draw_ground(drawing: Drawing, layers: list[dict[str, Any]]) -> None:
             x = drawing.x(side)
             drawing.text(x + 6, written + 4, f"{top:g} m")
         if drawing.scale * (low - top) > LEAST_BAND:
-            drawing.text(
-                drawing.x(-side) + 6, drawing.y(low) - 5, about_layer(layer, i + 1)
-            )
+            y = drawing.y(low) - 5
+            drawing.labels.append(y)
+            drawing.text(drawing.x(-side) + 6, y, about_layer(layer, i + 1))
 
 
 def of_run(run: Results, depth: float, rest: float | None) -> str:
@@ -111,7 +115,8 @@ def of_run(run: Results, depth: float, rest: float | None) -> str:
     outer, wall = float(scene["diameter_m"]), float(scene["wall_thickness_m"])
     length = float(scene.get("skirt_length_m") or depth)
     radius, lid = outer / 2, depth - length
-    bottom = max(depth, 0.1) * 1.3
+    planned = end_of(run) or depth
+    bottom = max(depth, planned, 0.1) * 1.3
     drawing = Drawing(0.95 * outer, min(lid, 0.0) - 0.06 * length, bottom)
     draw_ground(drawing, scene.get("layers") or [])
     shown = max(wall, LEAST_WALL / drawing.scale)
@@ -139,4 +144,9 @@ def of_run(run: Results, depth: float, rest: float | None) -> str:
         )
         words = f"rests by weight at {rest:.2f} m"
         drawing.text(drawing.x(0), drawing.y(rest) - 4, words, "middle")
+    if planned > depth + 0.01:
+        y = drawing.y(planned)
+        drawing.line("rest", drawing.x(-radius), y, drawing.x(radius), y)
+        words = f"end of the scene at {planned:.2f} m"
+        drawing.text(drawing.x(0), y - 4, words, "middle")
     return drawing.svg("section through caisson and ground, to scale")

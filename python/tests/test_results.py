@@ -238,7 +238,21 @@ class Pictures(Directory):
     def test_curve(self) -> None:
         lines = list(curve.describe(TINY, [1.0, 9.0]))
         self.assertRegex(lines[1], r"1\.00 m: tip +\d+\.\d  friction +\d+\.\d kN")
-        self.assertEqual(len(lines), 4)
+        self.assertRegex(lines[2], r"9\.00 m: not reached \(ends at \d\.\d\d m\)")
+        self.assertEqual(len(lines), 5)
+
+    def test_curve_under_suction(self) -> None:
+        """2 kPa are required at 2 m, where the gradient is 0.2 of 0.8."""
+        depth = np.linspace(0.5, 3.0, 251)
+        history = {
+            "penetration_m": depth,
+            "required_suction_Pa": 1e3 * depth,
+            "exit_gradient_wall": 0.1 * depth,
+            "exit_gradient_axis": np.zeros(len(depth)),
+            "critical_gradient": np.full(len(depth), 0.8),
+        }
+        (words,) = curve.suction_words(history, np.array([2.0]))
+        self.assertIn("suction   2.0 kPa, margin to piping  75 %", words)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Cards, error bars and ends of runs in report.html of made-up runs."""
+import html
+import tempfile
+import unittest
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from synthetic import write_columns
+from test_report import SCENE, SUMMARY, leave_run
+
+import caisson_report as report
+from caisson.results import Results
+from caisson_report import content, installation, methods
+from caisson_report import page as page_module
+
+
+class Cards(unittest.TestCase):
+    """What a page says first."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name)
+
+    def page(self, summary: dict[str, Any] | None = None) -> str:
+        leave_run(self.path, summary)
+        return report.write(self.path).read_text(encoding="utf-8")
+
+    def installation(self) -> installation.Installation:
+        """Return the numbers of the run."""
+        found = installation.installation_of(Results(self.path), installation.Rate())
+        assert found is not None
+        return found
+
+    def leave_bar(self, end: float, half: float) -> None:
+        """Leave an error bar of the suction and the exit gradient down to a depth."""
+        depth = np.linspace(1, end, 101)
+        bounds = {"penetration_m": depth}
+        for name, unit in (("required_suction", "_Pa"), ("exit_gradient_axis", "")):
+            value, width = (1e4, 2e3) if unit else (0.3, half)
+            bounds[f"{name}{unit}"] = np.full(101, value)
+            bounds[f"{name}_low{unit}"] = np.full(101, value - width)
+            bounds[f"{name}_high{unit}"] = np.full(101, value + width)
+        write_columns(self.path / "history_error.csv", bounds)
+
+    def test_error_bar_that_ends_above_the_run(self) -> None:
+        """30 kPa at 4.5 m, of a bar of 2 kPa that ends at 4.4 m; far above the end it
+        says nothing of it."""
+        leave_run(self.path, SUMMARY)
+        self.leave_bar(4.4, 0.1)
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("about 28 to 32 kPa (error bar of 4.4 m)", page)
+        takes, _ = installation.tables_of(self.installation())
+        cells = [
+            row[takes["heads"].index("required suction (kPa)")] for row in takes["rows"]
+        ]
+        self.assertEqual(cells[-2:], ["25 (23 to 27)", "30 (about 28 to 32)"])
+        self.leave_bar(2.0, 0.1)
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("at 4.50 m; error bar known only to 2 m", page)
+
+    def test_margin_to_piping(self) -> None:
+        """That of the records, 10 % at 4.4 m, with 0.09 or 0.18 on 0.9."""
+        margins = {"piping": {"least": 0.1, "penetration_m": 4.4}}
+        leave_run(self.path, {**SUMMARY, "results": {"margins": margins}})
+        self.leave_bar(4.5, 0.045)
+        history = dict(Results(self.path).history)
+        history["exit_gradient_wall"] = np.zeros(len(history["time_s"]))
+        write_columns(self.path / "history.csv", history)
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("10 % <small>error bar 5 to 15 %; least, at 4.40 m", page)
+        self.assertNotIn("bar includes 0", page)
+        self.leave_bar(4.5, 0.18)
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("error bar -10 to 30 %", page)
+        self.assertIn("the margin to piping is 10 % at 4.40 m, and its error bar", page)
+
+    def test_caisson_that_needs_no_suction(self) -> None:
+        """4500 kN of resistance under 7000 kN."""
+        scene = {**SCENE, "submerged_weight_N": 7e6}
+        leave_run(self.path, {**SUMMARY, "scene": scene})
+        history = dict(Results(self.path).history)
+        history["required_suction_Pa"] = -1e4 * (9 - history["penetration_m"])
+        history["suction_Pa"] = np.zeros(len(history["time_s"]))
+        history["seepage_flow_m3_s"] = np.zeros(len(history["time_s"]))
+        write_columns(self.path / "history.csv", history)
+        page = report.write(self.path).read_text(encoding="utf-8")
+        text = html.unescape(page)
+        self.assertIn("more than 4.50 m", text)
+        self.assertIn("exceeds the resistance by 2500 kN: no suction needed", text)
+        self.assertIn("water to vent (m³/h)", text)
+        for words in ("required suction (kPa)", "Required and critical", "allowable"):
+            self.assertNotIn(f'<th scope="col">{words}', text)
+            self.assertNotIn(f"<h3>{words}", text)
+
+    def test_run_that_was_stopped(self) -> None:
+        """At 4.5 of 6 m; of one that failed the last rows are not to be used."""
+        entries = {"Time/End penetration": "6"}
+        known = {**SUMMARY, "entries": entries}
+        page = self.page({**known, "status": "stopped"})
+        self.assertIn("Stopped at 4.50 m of 6.00 m: no number below holds for", page)
+        self.assertIn("Required suction so far", page)
+        self.assertIn("end of the scene at 6.00 m", page)
+        self.assertNotIn(page_module.LAST_ROWS, page)
+        page = self.page({**known, "status": "failed", "failure": "no time step"})
+        self.assertIn(page_module.LAST_ROWS, page)
+        self.assertNotIn("so far", self.page(known).split("<script")[0])
+
+    def test_pictures_on_a_dark_page(self) -> None:
+        """Charts are turned dark, and fields keep their colors."""
+        leave_run(self.path, SUMMARY)
+        for name in ("stress", "forces"):
+            (self.path / f"{name}.png").write_bytes(b"")
+        images = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn(
+            '<img class="chart" src="data:image/png;base64," alt="Forces"', images
+        )
+        self.assertIn('<img src="data:image/png;base64," alt="Vertical eff', images)
+
+    def test_suction_beyond_which_a_method_ends(self) -> None:
+        """The last rows have no answer; a hole above them is only empty."""
+        values = np.array([1.0, np.nan, 3.0, np.nan, np.nan])
+        texts = ["1", "", "3", "none (piping)", "none (piping)"]
+        self.assertEqual(methods.or_piping(values), texts)
+
+    def test_limits_beyond_the_chart(self) -> None:
+        """The axis ends at 1.03 times 1.5 times the 30 kPa of the run."""
+        shown = [
+            content.line(
+                "run", "black", np.array([0, 30.0]), np.arange(2.0), thick=True
+            )
+        ]
+        found = installation.Installation(
+            np.arange(2.0), {}, required=np.array([0, 30.0])
+        )
+        shown.append(content.line("far", "red", np.full(2, 90.0), np.arange(2.0)))
+        self.assertAlmostEqual(content.axis_end(shown), 46.35)
+        for limit, words in ((46.0, ""), (47.0, "boils below the lid at 47 kPa")):
+            found.limits = {installation.BOILING: np.full(2, limit)}
+            self.assertIn(words, content.beyond_the_chart(found, shown))
+            self.assertEqual(bool(content.beyond_the_chart(found, shown)), bool(words))
+
+    def test_card_of_the_methods(self) -> None:
+        """The first ratio that there is at the end."""
+        heads = [
+            "depth (m)",
+            "computed",
+            "computed / A",
+            "computed / B",
+            "computed / C",
+        ]
+        rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "", "0.5 to 2", "3"]]
+        found: dict[str, Any] = {"tables": [{"heads": heads, "rows": rows}]}
+        card = ("Computed / method", "0.5 to 2", "of B, at 4.5 m; other methods below")
+        self.assertEqual(page_module.method_card(found), [card])
+        heads[2] = "computed / undisturbed"
+        rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "5", "", ""]]
+        found = {"tables": [{"heads": heads, "rows": rows}]}
+        card = ("Computed / method", "2", "of B, at 4 m; other methods below")
+        self.assertEqual(page_module.method_card(found), [card])
+        self.assertEqual(page_module.method_card({"tables": []}), [])
+
+    def test_error_bar_of_the_suction(self) -> None:
+        """A band of means in kPa, which does not go below zero."""
+        leave_run(self.path, SUMMARY)
+        depth = np.linspace(1, 2, 101)
+        low = 6e3 * (depth - 1) - 2e3
+        bounds = {
+            "penetration_m": depth,
+            "required_suction_Pa": low + 1e3,
+            "required_suction_low_Pa": low,
+            "required_suction_high_Pa": low + 3e3,
+        }
+        write_columns(self.path / "history_error.csv", bounds)
+        found = content.suction_curves(Results(self.path), self.installation())
+        (bar,) = [curve for curve in found if curve["label"] == "required, error bar"]
+        for i, expected in ((20, (0, 2.2)), (50, (1, 4))):
+            self.assertAlmostEqual(bar["x"][i], expected[0])
+            self.assertAlmostEqual(bar["to"][i], expected[1])
+
+    def test_error_bar_of_the_force(self) -> None:
+        """Its sides in percent of the force, under the columns of the program."""
+        leave_run(self.path, SUMMARY)
+        self.assertIn("no error bar", content.error_remark(Results(self.path)))
+        depth = np.linspace(1, 2, 11)
+        bounds = {
+            "penetration_m": depth,
+            "total_force_N": 1e6 * depth,
+            "total_force_low_N": 0.93e6 * depth,
+            "total_force_high_N": 1.04e6 * depth,
+        }
+        write_columns(self.path / "history_error.csv", bounds)
+        self.assertIn("-7 % to +4 % in", content.error_remark(Results(self.path)))
+
+    def test_end_above_the_depths_of_the_error_bar(self) -> None:
+        """Its file has no row, and the page says that none is known."""
+        leave_run(self.path, SUMMARY)
+        head = "penetration_m,total_force_N,total_force_low_N,total_force_high_N\n"
+        (self.path / "history_error.csv").write_text(head, encoding="utf-8")
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("error bar not known for this scene", page)
+
+
+if __name__ == "__main__":
+    unittest.main()
