@@ -63,9 +63,7 @@ def readings_of(path: Path, groups: Mapping[str, Rows]) -> Rows:
     return groups["SCPT"]
 
 
-def area_ratio_of(
-    groups: Mapping[str, Rows], key: Mapping[str, str]
-) -> float | None:
+def area_ratio_of(groups: Mapping[str, Rows], key: Mapping[str, str]) -> float | None:
     """Return the net area ratio of the cone of a test, None where the file has none.
     key: LOCATION and PUSH of the test, where the file has them."""
     heads: list[str] = []

@@ -20,11 +20,12 @@ HEADS = "depth_m and qc_MPa (or qc_kPa, qc_Pa)"
 MORE_HEADS = "fs_kPa and u2_kPa (or in Pa or MPa)"
 # names without blanks and accents, in English, German, Dutch and French
 WORDS = {
-    "depth": "depth tiefe teufe sondiertiefe diepte sondeerdiepte sondeerlengte"
-    " gecorrigeerdediepte profondeur penetration penetrationdepth"
+    "depth": "depth tiefe teufe sondiertiefe diepte sondeerdiepte"
+    " gecorrigeerdediepte profondeur"
     " depthbelowmudline depthbelowseabed depthbelowground depthbelowgroundlevel"
     " tiefeuntergok tiefeugok tiefeuntergelande tiefeuntergelandeoberkante"
     " dieptetovmaaiveld dieptetovmv diepteondermaaiveld profondeursouslesol",
+    "rods": "penetration penetrationdepth sondeerlengte",  # where there is no depth
     "qc": "qc coneresistance tipresistance conetipresistance spitzendruck"
     " spitzenwiderstand conusweerstand puntweerstand resistancedepointe"
     " resistancedecone resistanceducone resistanceaucone",
@@ -71,8 +72,8 @@ def refuse_levels(path: Path, heads: Sequence[str]) -> None:
     for head in heads:
         if DATUMS & set(re.split(r"[^a-z0-9]+", plain(head))):
             raise InputError(
-                f"{path}: the column {head.strip()!r} is a level above a datum; subtract"
-                " it from the level of the ground, and name the column depth_m"
+                f"{path}: the column {head.strip()!r} is a level above a datum;"
+                " subtract it from the level of the ground, and name the column depth_m"
             )
 
 
@@ -82,8 +83,11 @@ def columns_of(
     """Return the columns of the quantities that are wanted and there; depth and q_c
     must be there."""
     found: dict[str, Column] = {}
-    for place, head in enumerate(heads):
-        quantity, unit = head_of(head)
+    named = [head_of(head) for head in heads]
+    has_depth = any(quantity == "depth" for quantity, _ in named)
+    for place, (head, (quantity, unit)) in enumerate(zip(heads, named)):
+        if quantity == "rods" and not has_depth:
+            quantity = "depth"
         if quantity not in wanted:
             continue
         if unit not in UNITS[quantity] and quantity != "depth" and wanted[2:]:

@@ -83,9 +83,9 @@ def check_depth(z: float, above: float | None) -> None:
     if above is None and z > HIGHEST_START:
         raise ValueError(
             f"the test begins at a depth of {z:g} m, so that nothing is known of the"
-            f" soil above, as after predrilling. The first row must be {HIGHEST_START:g}"
-            " m deep or less: add rows above it with the cone resistance to be expected"
-            " there"
+            " soil above, as after predrilling. The first row must be"
+            f" {HIGHEST_START:g} m deep or less: add rows above it with the cone"
+            " resistance to be expected there"
         )
     if above is not None and z <= above:
         raise ValueError(
@@ -256,7 +256,7 @@ def with_hydrostatic(
         return pressure, ()
     return np.where(missing, WATER * depth, pressure), (
         f"rows without a pore pressure, which is taken as hydrostatic there:"
-        f" {missing.sum()}, from {depth[missing][0]:g} m down",
+        f" {missing.sum()}, the first at {depth[missing][0]:g} m",
     )
 
 

@@ -7,6 +7,7 @@ and #RECORDSEPARATOR what divides cells (default: blanks) and ends rows (default
 line). The table begins below #EOH.
 """
 import re
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -91,7 +92,7 @@ def columns_of(
     path: Path, infos: Sequence[Info], wanted: Sequence[str], filled: set[int]
 ) -> dict[str, Column]:
     """Return the columns of the quantities that are wanted and there. filled: places of
-    columns with values, which come first. Raises InputError."""
+    columns with values in most rows, which come first. Raises InputError."""
     found = {}
     for name in wanted:
         numbers = QUANTITIES[name]
@@ -183,7 +184,8 @@ def table_of(path: Path, lines: Sequence[str], wanted: Sequence[str]) -> Table:
                 if place < len(cells) and is_void(cells[place], void):
                     cells[place] = ""
             rows.append((row, cells))
-    filled = {place for _, cells in rows for place, cell in enumerate(cells) if cell}
+    count = Counter(i for _, cells in rows for i, cell in enumerate(cells) if cell)
+    filled = {place for place, number in count.items() if number > len(rows) / 2}
     columns = columns_of(path, infos, wanted, filled)
     places = {column.place for column in columns.values()}
     unread = tuple(info.name for info in infos if info.place not in places)

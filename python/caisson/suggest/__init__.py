@@ -203,10 +203,10 @@ def is_clay(layer: Layer) -> bool:
 
 def refuse_clay(layers: Sequence[Layer]) -> None:
     """Refuse clay that the skirt reaches under suction. Raises SuggestError."""
-    for number, layer in enumerate(layers, 1):
+    for place, layer in enumerate(layers, 1):
         if is_clay(layer):
             raise SuggestError(
-                f"layer {number} is undrained clay, and in a scene with suction water"
+                f"layer {place} is undrained clay, and in a scene with suction water"
                 " flows steadily through all soil. Leave out --weight: the jacked"
                 " caisson gives the resistance, and the suction is resistance less"
                 " weight over the area inside the skirt"
@@ -420,6 +420,9 @@ def write(options: argparse.Namespace) -> None:
             print(warning)
     else:
         layers = layers_of(texts_of(options), entries_of_layers(), law_of(options))
+        for layer in layers:
+            if layer.warning:
+                print(f"warning: layer from {layer.top:g} m: {layer.warning}")
         if options.law and not any(map(is_by_density, layers)):
             raise SuggestError("--law is for sand by its density: no layer is")
     texts = {options.file: scene_of(options, layers, LEVELS[options.error])}
