@@ -236,7 +236,8 @@ def refuse_thousands(path: Path, table: Table, largest: float) -> None:
     if not all(THOUSANDS.fullmatch(text) for _, text in divided):
         return
     has_hundreds = any(re.fullmatch(r"\d{3}", text) for _, text in cells)
-    if largest < WEAK or has_hundreds:
+    most = max(float(text.replace(",", ".")) for _, text in divided) * column.unit
+    if most < WEAK and (largest < WEAK or has_hundreds):
         row, text = divided[0]
         raise InputError(
             f"{path}, row {row}: the cone resistance {text!r} seems to have a separator"
