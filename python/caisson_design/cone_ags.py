@@ -7,7 +7,7 @@ all cells in quotation marks. The readings of static cone tests are the group SC
 belongs to a location, LOCA_ID, and to a push there, SCPG_TESN.
 """
 import csv
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from caisson_design import InputError
@@ -20,6 +20,7 @@ HEADINGS = {
     "u2": "SCPT_PWP2",
 }
 LOCATION, PUSH = "LOCA_ID", "SCPG_TESN"
+AREA_RATIO = "SCPG_CAR"  # of the group SCPG, which has a row for each test
 Rows = list[tuple[int, list[str]]]
 
 
@@ -29,27 +30,53 @@ def is_in(lines: Sequence[str]) -> bool:
     return first.replace('"', "").lstrip().upper().startswith(("GROUP,", "**"))
 
 
-def group_of(path: Path, lines: Sequence[str]) -> Rows:
-    """Return the rows of the group SCPT below its name. Raises InputError."""
-    found: Rows = []
-    names = []
+def groups_of(path: Path, lines: Sequence[str]) -> dict[str, Rows]:
+    """Return the rows of each group below its name. Raises InputError."""
+    found: dict[str, Rows] = {}
+    name = ""
     for row, line in enumerate(lines, 1):
-        cells = next(csv.reader([line])) or [""]
+        cells = next(csv.reader([line], skipinitialspace=True)) or [""]
         if cells[0].startswith("**"):
             raise InputError(
                 f"{path}, row {row}: {cells[0]!r} is a group of AGS 3; only AGS 4 is"
                 " read: export the file as that"
             )
         if cells[0] == "GROUP":
-            names.append(cells[1] if len(cells) > 1 else "")
-        elif names and names[-1] == "SCPT" and any(cells):
-            found.append((row, cells))
-    if not found:
+            name = cells[1] if len(cells) > 1 else ""
+            found.setdefault(name, [])
+        elif name and any(cells):
+            found[name].append((row, cells))
+    return found
+
+
+def readings_of(path: Path, groups: Mapping[str, Rows]) -> Rows:
+    """Return the rows of the group SCPT. Raises InputError."""
+    if "SCPT" not in groups:
         raise InputError(
             f"{path}: there is no group SCPT, which has the readings of a cone test;"
-            f" the groups are {', '.join(names)}"
+            f" the groups are {', '.join(groups)}"
         )
-    return found
+    if not groups["SCPT"]:
+        raise InputError(
+            f"{path}: the group SCPT, which has the readings of a cone test, is empty"
+        )
+    return groups["SCPT"]
+
+
+def area_ratio_of(groups: Mapping[str, Rows], key: Mapping[str, str]) -> float | None:
+    """Return the net area ratio of the cone of a test, None where the file has none.
+    key: LOCATION and PUSH of the test, where the file has them."""
+    heads: list[str] = []
+    for _, cells in groups.get("SCPG", []):
+        heads = cells if cells[0] == "HEADING" else heads
+        values = dict(zip(heads, cells))
+        is_it = all(values.get(head, text) == text for head, text in key.items())
+        if cells[0] == "DATA" and is_it:
+            try:
+                return float(values[AREA_RATIO].replace(",", "."))
+            except (KeyError, ValueError):
+                return None
+    return None
 
 
 def row_of(path: Path, rows: Rows, name: str) -> tuple[int, list[str]]:
@@ -98,7 +125,8 @@ def table_of(
 ) -> Table:
     """Return the table of the test at a location, "" for that of the file if it has
     only one. Raises InputError."""
-    group = group_of(path, lines)
+    groups = groups_of(path, lines)
+    group = readings_of(path, groups)
     columns = columns_of(path, group, wanted)
     heads = row_of(path, group, "HEADING")[1]
     rows = [(row, cells) for row, cells in group if cells[0] == "DATA"]
@@ -125,4 +153,15 @@ def table_of(
     known = {*(column.place for column in columns.values()), 0}
     known |= {heads.index(head) for head in (LOCATION, PUSH) if head in heads}
     unread = tuple(head for i, head in enumerate(heads) if i not in known)
-    return Table(columns, chosen, len(heads), unread, "the row UNIT", True)
+    first = dict(zip(heads, chosen[0][1])) if chosen else {}
+    key = {head: first[head] for head in (LOCATION, PUSH) if head in first}
+    return Table(
+        columns,
+        chosen,
+        len(heads),
+        unread,
+        "the row UNIT",
+        "each column needs a heading",
+        may_be_empty=True,
+        area_ratio=area_ratio_of(groups, key),
+    )

@@ -20,7 +20,12 @@ HEADS = "depth_m and qc_MPa (or qc_kPa, qc_Pa)"
 MORE_HEADS = "fs_kPa and u2_kPa (or in Pa or MPa)"
 # names without blanks and accents, in English, German, Dutch and French
 WORDS = {
-    "depth": "depth tiefe diepte sondeerdiepte gecorrigeerdediepte profondeur",
+    "depth": "depth tiefe teufe sondiertiefe diepte sondeerdiepte"
+    " gecorrigeerdediepte profondeur"
+    " depthbelowmudline depthbelowseabed depthbelowground depthbelowgroundlevel"
+    " tiefeuntergok tiefeugok tiefeuntergelande tiefeuntergelandeoberkante"
+    " dieptetovmaaiveld dieptetovmv diepteondermaaiveld profondeursouslesol",
+    "rods": "penetration penetrationdepth sondeerlengte",  # where there is no depth
     "qc": "qc coneresistance tipresistance conetipresistance spitzendruck"
     " spitzenwiderstand conusweerstand puntweerstand resistancedepointe"
     " resistancedecone resistanceducone resistanceaucone",
@@ -32,6 +37,8 @@ WORDS = {
     " pressiondeleau",
 }
 BY_WORD = {word: quantity for quantity, w in WORDS.items() for word in w.split()}
+# a head with one of these counts from a datum, and not from the ground
+DATUMS = frozenset("nap nhn nn taw ngf lat msl elevation kote hoogte hohe".split())
 FILLERS = ("in", "en")  # between name and unit: "Tiefe in m"
 
 
@@ -60,14 +67,27 @@ def head_of(text: str) -> tuple[str, str]:
     return quantity, re.sub(r"\s", "", unit)
 
 
+def refuse_levels(path: Path, heads: Sequence[str]) -> None:
+    """Refuse heads of levels above a datum in place of depths. Raises InputError."""
+    for head in heads:
+        if DATUMS & set(re.split(r"[^a-z0-9]+", plain(head))):
+            raise InputError(
+                f"{path}: the column {head.strip()!r} is a level above a datum;"
+                " subtract it from the level of the ground, and name the column depth_m"
+            )
+
+
 def columns_of(
     path: Path, heads: Sequence[str], wanted: Sequence[str]
 ) -> dict[str, Column]:
     """Return the columns of the quantities that are wanted and there; depth and q_c
     must be there."""
     found: dict[str, Column] = {}
-    for place, head in enumerate(heads):
-        quantity, unit = head_of(head)
+    named = [head_of(head) for head in heads]
+    has_depth = any(quantity == "depth" for quantity, _ in named)
+    for place, (head, (quantity, unit)) in enumerate(zip(heads, named)):
+        if quantity == "rods" and not has_depth:
+            quantity = "depth"
         if quantity not in wanted:
             continue
         if unit not in UNITS[quantity] and quantity != "depth" and wanted[2:]:
@@ -84,6 +104,8 @@ def columns_of(
                 f" {', '.join(heads)!r}"
             )
         found[quantity] = Column(place, UNITS[quantity][unit])
+    if "depth" not in found:
+        refuse_levels(path, heads)
     if not set(NEEDED) <= set(found):
         raise InputError(
             f"{path}: the first row must name one column of depth and one of cone"
@@ -125,4 +147,7 @@ def table_of(path: Path, lines: Sequence[str], wanted: Sequence[str]) -> Table:
     columns = columns_of(path, heads, wanted)
     places = {column.place for column in columns.values()}
     unread = tuple(h.strip() for i, h in enumerate(heads) if i not in places)
-    return Table(columns, rows, len(heads), unread, "the first row")
+    advice = "each column needs a head in the first row"
+    if divider == ",":
+        advice = "where numbers have commas, divide cells by semicolons"
+    return Table(columns, rows, len(heads), unread, "the first row", advice)

@@ -7,6 +7,7 @@ decimal comma. What is wrong is reported for each row.
 """
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import isfinite, nan
 from pathlib import Path
 from typing import NamedTuple
@@ -19,6 +20,9 @@ from caisson_design.cone_table import NAMES, NEEDED, UNITS, Column, Table, refus
 # Pa; more and less than any test has
 RANGES = {"qc": (0.0, 200e6), "fs": (0.0, 5e6), "u2": (-0.5e6, 20e6)}
 WEAKEST = 20e3  # Pa; the largest resistance of a test is more
+WEAK = 200e3  # Pa; less is doubtful
+THOUSANDS = re.compile(r"[1-9]\d{0,2}([.,])\d{3}")  # 1,424 for 1424
+WATER = 9.81e3  # N/m3, unit weight
 SMOOTHEST = 2e-4  # f_s / q_c; the median of a test is more
 HIGHEST_START = 1.0  # m, of the first row
 DEEPEST = 200.0  # m
@@ -27,24 +31,25 @@ COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")  # a number with a decimal co
 
 class Test(NamedTuple):
     """A test: depth (m), cone resistance, sleeve friction and pore pressure (Pa), [n]
-    each, the last two None where the file has none; and what was not read, in words.
-    """
+    each, the last two None where the file has none; what was not read, in words; and
+    the net area ratio of the cone, None where the file has none."""
 
     depth: np.ndarray
     resistance: np.ndarray
     friction: np.ndarray | None
     pore_pressure: np.ndarray | None
     remarks: tuple[str, ...]
+    area_ratio: float | None = None
 
     def down_to(self, deepest: float) -> "Test":
         """Return the rows down to a depth (m), at least two."""
         n = max(int(np.searchsorted(self.depth, deepest, "right")), 2)
-        return Test(
-            self.depth[:n],
-            self.resistance[:n],
-            None if self.friction is None else self.friction[:n],
-            None if self.pore_pressure is None else self.pore_pressure[:n],
-            self.remarks,
+        pressure = self.pore_pressure
+        return self._replace(
+            depth=self.depth[:n],
+            resistance=self.resistance[:n],
+            friction=None if self.friction is None else self.friction[:n],
+            pore_pressure=None if pressure is None else pressure[:n],
         )
 
 
@@ -70,10 +75,17 @@ def number_of(text: str, unit: float, has_points: bool) -> float:
 def check_depth(z: float, above: float | None) -> None:
     """Refuse a depth that cannot be meant. above: that of the row before, None for the
     first, nan where all before are wrong. Raises ValueError."""
-    if above is None and not 0 <= z <= HIGHEST_START:
+    if above is None and z < 0:
         raise ValueError(
-            f"the test begins at a depth of {z:g} m; it must begin between 0 and"
-            f" {HIGHEST_START:g} m, with depth positive downward"
+            f"the test begins at a depth of {z:g} m; depth must be positive downward,"
+            " from 0 at the mudline"
+        )
+    if above is None and z > HIGHEST_START:
+        raise ValueError(
+            f"the test begins at a depth of {z:g} m, so that nothing is known of the"
+            " soil above, as after predrilling. The first row must be"
+            f" {HIGHEST_START:g} m deep or less: add rows above it with the cone"
+            " resistance to be expected there"
         )
     if above is not None and z <= above:
         raise ValueError(
@@ -121,12 +133,12 @@ def row_of(
     """Return the values of a row in m and Pa. Raises ValueError."""
     if any(cell.strip() for cell in cells[table.n_cells :]):
         raise ValueError(
-            f"{len(cells)} cells, and {table.n_cells} columns; where numbers have"
-            " commas, divide cells by semicolons"
+            f"{len(cells)} cells, and {table.n_cells} columns; {table.advice}"
         )
     values = {
         name: number_of(cell_of(cells, column), column.unit, has_points)
         for name, column in table.columns.items()
+        if not (table.may_be_empty and name == "u2" and not cell_of(cells, column))
     }
     check_depth(values["depth"], above)
     check_stresses(values, table.units_are)
@@ -192,7 +204,7 @@ def with_values(path: Path, table: Table) -> tuple[Table, tuple[str, ...]]:
     full: list[tuple[int, list[str]]] = []
     empty: list[tuple[int, list[str]]] = []
     for row, cells in table.rows:
-        is_full = all(cell_of(cells, column) for column in columns.values())
+        is_full = all(cell_of(cells, c) for name, c in columns.items() if name != "u2")
         (full if is_full else empty).append((row, cells))
     if len(full) < 2:
         raise InputError(
@@ -210,10 +222,43 @@ def with_values(path: Path, table: Table) -> tuple[Table, tuple[str, ...]]:
             f"rows without a value, which were left out: {len(empty)}, those of number"
             f" {text}{', ...' if len(empty) > 5 else ''}"
         )
-    chosen = Table(
-        columns, full, table.n_cells, table.unread, table.units_are, table.may_be_empty
+    return replace(table, columns=columns, rows=full), tuple(found)
+
+
+def refuse_thousands(path: Path, table: Table, largest: float) -> None:
+    """Refuse cone resistances that are thousands with separators, which would be read
+    as decimals. largest: of all (Pa), as read. Raises InputError."""
+    column = table.columns["qc"]
+    cells = [(row, cell_of(row_cells, column)) for row, row_cells in table.rows]
+    divided = [(row, text) for row, text in cells if re.search("[.,]", text)]
+    if column.unit >= 1e6 or not divided:
+        return
+    if not all(THOUSANDS.fullmatch(text) for _, text in divided):
+        return
+    has_hundreds = any(re.fullmatch(r"\d{3}", text) for _, text in cells)
+    most = max(float(text.replace(",", ".")) for _, text in divided) * column.unit
+    if most < WEAK and (largest < WEAK or has_hundreds):
+        row, text = divided[0]
+        raise InputError(
+            f"{path}, row {row}: the cone resistance {text!r} seems to have a separator"
+            f" of thousands, with which the largest one is {largest / 1e3:g} kPa: write"
+            f" {re.sub('[.,]', '', text)}; if decimals are meant, write the column in"
+            f" MPa. The unit is that in {table.units_are}"
+        )
+
+
+def with_hydrostatic(
+    depth: np.ndarray, pressure: np.ndarray
+) -> tuple[np.ndarray, tuple[str, ...]]:
+    """Return the pore pressure (Pa) [n], hydrostatic where it is nan, and in words how
+    often it is."""
+    missing = np.isnan(pressure)
+    if not missing.any():
+        return pressure, ()
+    return np.where(missing, WATER * depth, pressure), (
+        f"rows without a pore pressure, which is taken as hydrostatic there:"
+        f" {missing.sum()}, the first at {depth[missing][0]:g} m",
     )
-    return chosen, tuple(found)
 
 
 def read(path: Path, with_friction: bool = True, location: str = "") -> Test:
@@ -233,21 +278,36 @@ def read(path: Path, with_friction: bool = True, location: str = "") -> Test:
         except ValueError as error:
             wrong.append((row, str(error)))
             continue
-        for name, value in values.items():
-            found[name].append(value)
+        for name, of_all in found.items():
+            of_all.append(values.get(name, nan))
     refuse(path, wrong)
     arrays = {name: np.array(values) for name, values in found.items()}
-    if arrays["qc"].max() < WEAKEST:
+    largest = float(arrays["qc"].max())
+    refuse_thousands(path, table, largest)
+    if largest < WEAKEST:
         raise InputError(
-            f"{path}: the largest cone resistance is {arrays['qc'].max():g} Pa, less"
-            f" than any soil has; check the unit in {table.units_are}"
+            f"{path}: the largest cone resistance is {largest:g} Pa, less than any soil"
+            f" has; check the unit in {table.units_are}"
+        )
+    if largest < WEAK:
+        remarks += (
+            f"the largest cone resistance is only {largest / 1e3:g} kPa: check the unit"
+            f" in {table.units_are}",
         )
     if "fs" in arrays:
         check_friction(path, arrays["fs"], arrays["qc"])
+    if "u2" in arrays:
+        arrays["u2"], said = with_hydrostatic(arrays["depth"], arrays["u2"])
+        remarks += said
     if table.unread:
         remarks += (f"columns that were not read: {', '.join(table.unread)}",)
     return Test(
-        arrays["depth"], arrays["qc"], arrays.get("fs"), arrays.get("u2"), remarks
+        arrays["depth"],
+        arrays["qc"],
+        arrays.get("fs"),
+        arrays.get("u2"),
+        remarks,
+        table.area_ratio,
     )
 
 

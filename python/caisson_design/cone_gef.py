@@ -7,12 +7,15 @@ and #RECORDSEPARATOR what divides cells (default: blanks) and ends rows (default
 line). The table begins below #EOH.
 """
 import re
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from caisson_design import InputError
 from caisson_design.cone_table import NAMES, NEEDED, Column, Table, unit_of
+
+AREA_RATIO = 3  # of #MEASUREMENTVAR
 
 # the numbers of quantities; the first one that a file has counts. 11 is the depth,
 # corrected for the inclination, and 1 the length of the rods
@@ -40,6 +43,24 @@ def heads_of(path: Path, lines: Sequence[str]) -> tuple[Heads, int]:
     raise InputError(f"{path}: there is no line #EOH=, below which the table begins")
 
 
+def place_of(text: str) -> int:
+    """Return the place of a column, from 0, by its number, from 1. Raises
+    ValueError."""
+    number = int(text)
+    if number < 1:
+        raise ValueError(f"the first column has the number 1, not {number}")
+    return number - 1
+
+
+def decimal_of(parts: Sequence[str]) -> float:
+    """Return the number at the beginning of a value that was divided at its commas, one
+    of which may be a decimal comma. Raises ValueError or IndexError."""
+    has_comma = len(parts) > 1 and re.fullmatch(r"[+-]?\d+", parts[0])
+    if has_comma and re.fullmatch(r"\d+([eE][+-]?\d+)?", parts[1]):
+        return float(f"{parts[0]}.{parts[1]}")
+    return float(parts[0])
+
+
 class Info(NamedTuple):
     """A line #COLUMNINFO: its row, and place, unit, name and quantity of a column."""
 
@@ -58,24 +79,25 @@ def infos_of(path: Path, heads: Heads) -> list[Info]:
             continue
         try:
             unit, name = value[1], ", ".join(value[2:-1])
-            found.append(Info(row, int(value[0]) - 1, unit, name, int(value[-1])))
+            found.append(Info(row, place_of(value[0]), unit, name, int(value[-1])))
         except (ValueError, IndexError) as error:
             raise InputError(
-                f"{path}, row {row}: #COLUMNINFO must have number, unit, name and"
-                f" quantity of a column; it is {', '.join(value)!r}"
+                f"{path}, row {row}: #COLUMNINFO must have number (from 1), unit, name"
+                f" and quantity of a column; it is {', '.join(value)!r}"
             ) from error
     return found
 
 
 def columns_of(
-    path: Path, infos: Sequence[Info], wanted: Sequence[str]
+    path: Path, infos: Sequence[Info], wanted: Sequence[str], filled: set[int]
 ) -> dict[str, Column]:
-    """Return the columns of the quantities that are wanted and there. Raises
-    InputError."""
+    """Return the columns of the quantities that are wanted and there. filled: places of
+    columns with values in most rows, which come first. Raises InputError."""
     found = {}
     for name in wanted:
         numbers = QUANTITIES[name]
         some = [i for number in numbers for i in infos if i.quantity == number]
+        some.sort(key=lambda info: info.place not in filled)
         if not some and name in NEEDED:
             text = " or ".join(map(str, numbers))
             raise InputError(
@@ -100,13 +122,24 @@ def voids_of(path: Path, heads: Heads) -> dict[int, float]:
     for row, key, value in heads:
         if key == "COLUMNVOID":
             try:
-                found[int(value[0]) - 1] = float(value[1])
+                found[place_of(value[0])] = decimal_of(value[1:])
             except (ValueError, IndexError) as error:
                 raise InputError(
-                    f"{path}, row {row}: #COLUMNVOID must have the number of a column"
-                    f" and a number; it is {', '.join(value)!r}"
+                    f"{path}, row {row}: #COLUMNVOID must have the number of a column,"
+                    f" from 1, and a number; it is {', '.join(value)!r}"
                 ) from error
     return found
+
+
+def area_ratio_of(heads: Heads) -> float | None:
+    """Return the net area ratio of the cone, None where the file has none."""
+    for _, key, value in heads:
+        if key == "MEASUREMENTVAR" and value[0] == str(AREA_RATIO):
+            try:
+                return decimal_of(value[1:])
+            except (ValueError, IndexError):
+                return None
+    return None
 
 
 def separator_of(lines: Sequence[str], key: str) -> str:
@@ -120,7 +153,8 @@ def separator_of(lines: Sequence[str], key: str) -> str:
 def is_void(text: str, void: float | None) -> bool:
     """Return whether a cell has no value."""
     try:
-        return void is not None and abs(float(text) - void) <= 1e-6 * abs(void)
+        value = float(text.replace(",", "."))
+        return void is not None and abs(value - void) <= 1e-6 * abs(void)
     except ValueError:
         return False
 
@@ -134,7 +168,8 @@ def table_of(path: Path, lines: Sequence[str], wanted: Sequence[str]) -> Table:
                 f"{path}, row {row}: {value[0]} is a borehole, no cone test"
             )
     infos, voids = infos_of(path, heads), voids_of(path, heads)
-    columns = columns_of(path, infos, wanted)
+    if not infos:
+        raise InputError(f"{path}: no line #COLUMNINFO says what a column is")
     divider = separator_of(lines[:last], "COLUMNSEPARATOR") or None
     end = separator_of(lines[:last], "RECORDSEPARATOR")
     n_cells = max(info.place for info in infos) + 1
@@ -149,6 +184,18 @@ def table_of(path: Path, lines: Sequence[str], wanted: Sequence[str]) -> Table:
                 if place < len(cells) and is_void(cells[place], void):
                     cells[place] = ""
             rows.append((row, cells))
+    count = Counter(i for _, cells in rows for i, cell in enumerate(cells) if cell)
+    filled = {place for place, number in count.items() if number > len(rows) / 2}
+    columns = columns_of(path, infos, wanted, filled)
     places = {column.place for column in columns.values()}
     unread = tuple(info.name for info in infos if info.place not in places)
-    return Table(columns, rows, n_cells, unread, "#COLUMNINFO", True)
+    return Table(
+        columns,
+        rows,
+        n_cells,
+        unread,
+        "#COLUMNINFO",
+        "each column needs a line #COLUMNINFO",
+        may_be_empty=True,
+        area_ratio=area_ratio_of(heads),
+    )

@@ -45,7 +45,8 @@ class Table:
     """The rows of a test with their numbers in the file, and the columns by quantity.
 
     n_cells: of a row; unread: heads that were not read; units_are: where the units
-    stand; may_be_empty: whether a cell without a value is no mistake.
+    stand; advice: for a row with more cells; may_be_empty: whether a cell without a
+    value is no mistake; area_ratio: of the cone, net, where the file has one.
     """
 
     columns: Mapping[str, Column]
@@ -53,7 +54,9 @@ class Table:
     n_cells: int
     unread: tuple[str, ...]
     units_are: str
+    advice: str
     may_be_empty: bool = False
+    area_ratio: float | None = None
 
 
 def plain(text: str) -> str:

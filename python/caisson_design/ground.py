@@ -25,10 +25,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from caisson_design import cone_file
 from caisson_design.cone_file import Test
 
 ATMOSPHERE = 100e3
-WATER = 9.81e3  # unit weight
+WATER = cone_file.WATER  # unit weight
 GRAVITY = 9.81
 LEAST_STRESS = 1e3  # of sigma'_v where something is divided by it: some 0.1 m of depth
 WEIGHTS = 14e3, 22e3  # between which the formula is held

@@ -88,9 +88,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "--area-ratio",
         type=number(""),
-        default=AREA_RATIO,
         metavar="A",
-        help="net area ratio of the cone, for u2, default %(default)g",
+        help="net area ratio of the cone, for u2; default: that of an AGS or GEF file,"
+        f" or {AREA_RATIO:g}",
     )
 
 
@@ -123,8 +123,22 @@ def check(file: Path, test: Test, options: argparse.Namespace) -> None:
             f"--tops {options.tops[-1]:g}: the test ends at {test.depth[-1]:g} m; give"
             " tops above it"
         )
-    if not 0 < options.area_ratio <= 1:
+    if options.area_ratio is not None and not 0 < options.area_ratio <= 1:
         raise InputError(f"--area-ratio {options.area_ratio:g} is not from 0 to 1")
+
+
+def area_ratio_of(test: Test, given: float | None) -> tuple[float, tuple[str, ...]]:
+    """Return the net area ratio of the cone: the one given, or that of the file, and in
+    words which one it is where it has a choice."""
+    of_file = test.area_ratio
+    if given is not None or of_file is None or test.pore_pressure is None:
+        return AREA_RATIO if given is None else given, ()
+    if not 0 < of_file <= 1:
+        return AREA_RATIO, (
+            f"net area ratio of the cone: {AREA_RATIO:g}; that of the file,"
+            f" {of_file:g}, is not between 0 and 1",
+        )
+    return of_file, (f"net area ratio of the cone: {of_file:g}, from the file",)
 
 
 def interpret(
@@ -134,9 +148,11 @@ def interpret(
     InputError."""
     whole = cone_file.read(file, location=options.location)
     check(file, whole, options)
+    area_ratio, said = area_ratio_of(whole, options.area_ratio)
+    whole = whole._replace(remarks=(*whole.remarks, *said))
     test = whole if deepest is None else whole.down_to(deepest)
     weight = options.unit_weight
-    ground = ground_of(test, options.area_ratio, weight and 1e3 * weight)
+    ground = ground_of(test, area_ratio, weight and 1e3 * weight)
     names = correlations.chosen(options.correlation)
     tops = [top for top in options.tops or () if top < test.depth[-1]]
     tops = tops or layers.tops_of(ground, options.thinnest)

@@ -48,11 +48,25 @@ def value_of(text: str, unit: str) -> float:
     return float(f"{float(found[1]) * factor:.12g}")
 
 
+def has_unit(text: str) -> bool:
+    """Return whether a number or an expression ends with a unit."""
+    found = re.fullmatch(r".*?[\d.)]\s*((?![eE][+-]?\d)[A-Za-z%°][^\s(*]*)", text)
+    return found is not None and plain(found[1]) in EVERY
+
+
 def without_unit(text: str, unit: str) -> str:
     """Return the value of an entry, a number or an expression, in the unit of the
     entry. Raises ValueError where the text ends with another unit than one of it."""
     found = re.fullmatch(r"(.*[\d.)])\s*((?![eE][+-]?\d)[A-Za-z%°].*)", text)
-    if re.fullmatch(NUMBER, text) or not found:
+    if re.fullmatch(NUMBER, text):
+        return text
+    after_word = re.fullmatch(r"(.*[A-Za-z_])\s+(\S+)", text)
+    if unit and after_word and plain(after_word[2]) in EVERY:
+        raise ValueError(
+            f"{text!r}: put what the unit belongs to in parentheses:"
+            f" ({after_word[1]}) {after_word[2]}"
+        )
+    if not found:
         return text
     if re.fullmatch(NUMBER, found[1]):
         return f"{value_of(text, unit):.10g}"

@@ -2,7 +2,6 @@
 """The page of a report: contents, pictures and scripts in one file."""
 import base64
 import json
-import time
 from pathlib import Path
 from typing import Any
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from caisson.cpt import command
-from caisson_design import InputError, cone, cone_file
+from caisson_design import InputError, cone, cone_file, interpretation
 
 HEADS = '"HEADING","LOCA_ID","SCPG_TESN","SCPT_DPTH","SCPT_RES","SCPT_FRES","SCPT_PWP2"'
 UNITS = '"UNIT","","","m","MN/m2","kN/m2","kPa"'
@@ -96,6 +96,30 @@ class Ags(Reading):
         self.refused(pushes, "CPT01/1, CPT01/2")
         self.assertEqual(self.read(pushes, "CPT01/2").resistance[0], 9e6)
 
+    def test_pore_pressure_stops(self) -> None:
+        """The other columns count; and is hydrostatic: 9.81 kPa each meter."""
+        test = self.read(AGS.replace('"20.0","15"', '"20.0",""'))
+        np.testing.assert_allclose(test.depth, [0.5, 1.5])
+        assert test.pore_pressure is not None
+        np.testing.assert_allclose(test.pore_pressure, [10e3, 1.5 * 9.81e3])
+        self.assertIn("hydrostatic there: 1, the first at 1.5 m", str(test.remarks))
+
+    def test_area_ratio(self) -> None:
+        """Of the test that is read."""
+        group = (
+            '"GROUP","SCPG"\n"HEADING","LOCA_ID","SCPG_TESN","SCPG_CAR"\n'
+            '"UNIT","","",""\n"DATA","CPT02","1","0.6"\n"DATA","CPT01","1","0.75"\n'
+        )
+        self.assertEqual(self.read(group + AGS).area_ratio, 0.75)
+        self.assertEqual(self.read(group + AGS + OTHER, "CPT02").area_ratio, 0.6)
+        self.assertIsNone(self.read(AGS).area_ratio)
+
+    def test_blanks_and_no_rows(self) -> None:
+        """Blanks behind commas; a group that is empty."""
+        test = self.read(AGS.replace(",", ", "))
+        np.testing.assert_allclose(test.resistance, [1e6, 4e6])
+        self.refused('"GROUP","SCPT"\n', "the group SCPT, .*, is empty")
+
     def test_wrong_units(self) -> None:
         """One that is not known, none at all, and megapascals below kilopascals."""
         self.refused(AGS.replace("MN/m2", "tsf"), "row 9: the unit 'tsf' of SCPT_RES")
@@ -150,6 +174,33 @@ class Gef(Reading):
             np.testing.assert_allclose(test.depth[0], first)
             np.testing.assert_allclose(test.resistance, [1e6, 4e6])
 
+    def test_decimal_commas(self) -> None:
+        """In the table and in #COLUMNVOID; 0,99900 is the void 0.999."""
+        table = GEF.replace("0.006", "0.99900").replace("-9999;", "3.0;")
+        for void in ("0.999", "0,999", "0,9990, friction"):
+            head, rows = table.replace("2, -9999.000", f"3, {void}").split("#EOH=")
+            test = self.read(f"{head}#EOH={rows.replace('.', ',')}")
+            np.testing.assert_allclose(test.depth, [0.49, 1.47])
+        for void in ("-9999", "-9999,0"):
+            head, rows = GEF.replace("-9999.000", void).split("#EOH=")
+            rows = rows.replace("-9999;", "-9999.000;").replace(".", ",")
+            test = self.read(f"{head}#EOH={rows}")
+            np.testing.assert_allclose(test.resistance, [1e6, 4e6])
+
+    def test_corrected_depth_without_values(self) -> None:
+        """The length of the rods counts."""
+        void = GEF.replace("4, -1", "5, -7").replace("-1;0.98", "1;-7")
+        void = void.replace("0.49;!", "-7;!")
+        for last in ("-7", "1.47"):  # none, or in one row of three
+            test = self.read(void.replace("1.47;!", f"{last};!"))
+            np.testing.assert_allclose(test.depth, [0.5, 1.5])
+
+    def test_area_ratio(self) -> None:
+        for text in ("0.59", "0,59"):
+            head = f"#MEASUREMENTVAR= 1, 1000, mm2, x\n#MEASUREMENTVAR= 3, {text}, -\n"
+            self.assertEqual(self.read(head + GEF).area_ratio, 0.59)
+        self.assertIsNone(self.read(GEF).area_ratio)
+
     def test_wrong_heads(self) -> None:
         for old, new, words in (
             ("#EOH=\n", "", "no line #EOH="),
@@ -157,6 +208,8 @@ class Gef(Reading):
             ("2, MPa", "2, tsf", "row 5: the unit 'tsf' of 'Conusweerstand'"),
             ("wrijving, 3", "wrijving, x", "row 6: #COLUMNINFO must have number"),
             ("wrijving, 3", "wrijving, 2", "row 6: a second column of the quantity 2"),
+            ("= 1, m, S", "= 0, m, S", r"row 4: #COLUMNINFO must have number \(from"),
+            ("2, -9999.000", "0, -9999.000", "row 9: .* a column, from 1, and"),
             ("2, -9999.000", "2", "row 9: #COLUMNVOID must have the number"),
             ("GEF-CPT-Report", "GEF-BORE-Report", "row 2: .* is a borehole"),
         ):
@@ -178,7 +231,7 @@ class Gef(Reading):
             (";1.47", ";0.2", "row 16: the depth of 0.2 m is not below"),
             ("4.00", "4.0.0", "row 16: '4.0.0' is no number"),
             ("-9999;", "-999;", "row 15: the cone resistance is -999 MPa"),
-            (";0.49;!", ";0.49;7;!", "row 14: 6 cells, and 5 columns"),
+            (";0.49;!", ";0.49;7;!", "row 14: 6 .*, and 5 .* a line #COLUMNINFO"),
         ):
             self.assertIn(old, GEF)
             self.refused(GEF.replace(old, new), words)
@@ -192,6 +245,28 @@ class Tables(Reading):
         np.testing.assert_allclose(test.resistance, [1.25e6, 2.5e6])
         mixed = "depth_m;qc_kPa\n0.5;1250\n1.0;1,300\n"
         self.refused(mixed, "row 3: '1,300' has a comma where other rows")
+
+    def test_thousands(self) -> None:
+        """With separators, which would be decimals; weak clay is a remark."""
+        for rows in ("0,5;1,424\n1;15,250\n", "0.5;712\n1;1.148\n"):
+            self.refused(f"depth_m;qc_kPa\n{rows}", "row .: .* of thousands.* write 1")
+        test = self.read("depth_m;qc_kPa\n0.5;95.25\n1;120.5\n")
+        self.assertIn("is only 120.5 kPa: check the unit in the", str(test.remarks))
+        for rows in ("0.5;712.5\n1;99\n", "0.5;712\n1;815.125\n"):
+            self.assertEqual(self.read(f"depth_m;qc_kPa\n{rows}").remarks, ())
+
+    def test_depths(self) -> None:
+        """Below the ground; not a level, and not below a hole."""
+        rows = "0.5;1\n1;4\n"
+        for head in ("Tiefe unter GOK (m)", "Teufe [m]", "Penetration (m)"):
+            self.assertEqual(self.read(f"{head};qc_MPa\n{rows}").depth[0], 0.5)
+        both = "Sondeerlengte (m);Diepte (m);qc_MPa\n0.5;0.4;1\n1;0.9;4\n"
+        self.assertEqual(self.read(both).depth[0], 0.4)
+        for head in ("Diepte t.o.v. NAP (m)", "Höhe (m)"):
+            self.refused(f"{head};qc_MPa\n{rows}", "is a level above a datum; subtract")
+        self.refused("depth_m;qc_MPa\n2;1\n3;4\n", "row 2: .* 2 m, .* add rows above")
+        self.refused("depth_m;qc_MPa\n0;1;2\n3;4\n", "row 2: .* needs a head in the f")
+        self.refused("depth_m,qc_MPa\n0,1,2\n3,4\n", "row 2: .* divide cells by semi")
 
     def test_heads(self) -> None:
         """German, Dutch, French and English; what is no measured resistance or friction
@@ -261,6 +336,21 @@ class Command(Reading):
         self.path.write_text(GEF, encoding="utf-8")
         status, said = self.call("--location", "CPT02")
         self.assertIn("--location is for AGS 4", said)
+
+    def test_area_ratio(self) -> None:
+        """That of the file counts, and is said, where none is given."""
+        group = '"GROUP","SCPG"\n"HEADING","LOCA_ID","SCPG_CAR"\n"DATA","CPT02","{}"\n'
+        for text, said_of_it in (("0.6", "0.6, from the file"), ("59", "59, is not")):
+            self.path.write_text(group.format(text) + self.deep(), encoding="utf-8")
+            said = self.call("--location", "CPT02")[1]
+            self.assertRegex(said, f"net area ratio of the cone: .*{said_of_it}")
+            said = self.call("--location", "CPT02", "--area-ratio", "0.7")[1]
+            self.assertNotIn("net area ratio", said)
+        for text, ratio in (("0.6", 0.6), ("59", 0.8)):
+            self.path.write_text(group.format(text) + self.deep(), encoding="utf-8")
+            test = cone_file.read(self.path, location="CPT02")
+            self.assertEqual(interpretation.area_ratio_of(test, None)[0], ratio)
+            self.assertEqual(interpretation.area_ratio_of(test, 0.7), (0.7, ()))
 
     def test_kept_as_a_table(self) -> None:
         """With a run, and read again from there."""

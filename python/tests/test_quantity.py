@@ -21,6 +21,7 @@ KNOWN = {
     "Porosity": "",
     "Void ratio": "",
     "Solid density": "kg/m3",
+    "Dry density": "kg/m3",
     "Relative density": "",
     "Overconsolidation ratio": "",
     "Permeability": "m/s",
@@ -78,6 +79,8 @@ class Numbers(unittest.TestCase):
             self.assertEqual(without_unit(text, "Pa"), expected)
         with self.assertRaisesRegex(ValueError, "'kN' is no unit of it"):
             without_unit("(20 + 5*d) kN", "Pa")
+        with self.assertRaisesRegex(ValueError, r"parentheses: \(20\+2\*d\) kPa"):
+            without_unit("20+2*d kPa", "Pa")
 
 
 class Layers(unittest.TestCase):
@@ -116,7 +119,32 @@ class Layers(unittest.TestCase):
         remark = [e.remark for e in layer.entries if e.name == "Porosity"][0]
         self.assertEqual(remark, " # 8.5 kN/m3 in water")
 
+    def test_doubtful_unit_weight(self) -> None:
+        """That of light wet soil, or of dense soil in water: 16.19 kN/m3 (1 - n)."""
+        for weight, taken, other in (
+            ("12", "in water, with a porosity of 0.26", "Porosity = 0.86"),
+            ("13.5", "wet soil, with a porosity of 0.77", "Porosity = 0.17"),
+        ):
+            layer = self.layer(f"0: phi = 33, E = 2 MPa, gamma = {weight} kN/m3")
+            self.assertRegex(layer.warning, f"{taken}; if .*, give {other}")
+        for weight in ("11.4", "14.1"):
+            layer = self.layer(f"0: phi = 33, E = 2 MPa, gamma = {weight} kN/m3")
+            self.assertEqual(layer.warning, "")
+
+    def test_not_assumed(self) -> None:
+        """What another entry replaces."""
+        for given, replaced in (
+            ("e = 0.6", "Porosity"),
+            ("Dr = 0.6", "Porosity"),
+            ("Dry density = 1600", "Solid density"),
+        ):
+            plain = "0: phi = 33, E = 2 MPa"
+            self.assertTrue(self.layer(plain).value(replaced))
+            self.assertEqual(self.layer(f"{plain}, {given}").value(replaced), "")
+
     def test_undrained_strength(self) -> None:
+        grows = self.layer("0: su = (20+2*d) kPa, E = 4 MPa")
+        self.assertEqual(grows.value("Cohesion"), "1000*(20+2*d)")
         layer = self.layer("0: su = 20 kPa, E = 4 MPa")
         self.assertEqual(layer.value("Cohesion"), "20000")
         self.assertEqual(layer.value("Friction angle"), "0")
@@ -128,6 +156,11 @@ class Layers(unittest.TestCase):
             (sand + "gamma = 8.5", "give the unit of 'gamma = 8.5'"),
             (sand + "gamma = 40 kN/m3", "porosity is -0.87"),
             (sand + "gamma = 8 kN/m3, e = 0.6", "give gamma or Void ratio"),
+            ("0: su = 20000, E = 4 MPa", "give the unit of .* su = 20 kPa"),
+            ("0: su = 20+2*d, E = 4 MPa", r"su = \(20\+2\*d\) kPa"),
+            ("0: gama = 8 kN/m3", r"did you mean gamma or Adhesion"),
+            ("0: Dr = 1.2", "it is a share of 1$"),
+            ("0: Dr = 85", "a share of 1. Did you mean 0.85"),
             (sand + "Friction angle = 34", "gives Friction angle twice"),
             (sand + "su = 20 kPa", "which has no Friction angle"),
             ("0: phi = 33,5, E = 20 MPa", "'5' is not .* decimals have a point"),

@@ -420,6 +420,9 @@ def write(options: argparse.Namespace) -> None:
             print(warning)
     else:
         layers = layers_of(texts_of(options), entries_of_layers(), law_of(options))
+        for layer in layers:
+            if layer.warning:
+                print(f"warning: layer from {layer.top:g} m: {layer.warning}")
         if options.law and not any(map(is_by_density, layers)):
             raise SuggestError("--law is for sand by its density: no layer is")
     texts = {options.file: scene_of(options, layers, LEVELS[options.error])}

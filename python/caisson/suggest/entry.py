@@ -20,10 +20,12 @@ class Entry:
 
 @dataclass(frozen=True)
 class Layer:
-    """A layer of soil from top (m below the surface) down to the next one."""
+    """A layer of soil from top (m below the surface) down to the next one; warning:
+    what is doubtful in what was given, "" if nothing is."""
 
     top: float
     entries: list[Entry]
+    warning: str = ""
 
     def value(self, name: str) -> str:
         """Return an entry, "" where the layer has none of this name."""

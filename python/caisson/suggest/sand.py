@@ -21,6 +21,7 @@ WORDS = {
     "dense": (0.75, "65 to 85 %"),
     "very dense": (0.925, "85 to 100 %"),
 }
+LEAST_PERCENT = 10.0  # a relative density that may be meant in %
 LAWS = {"density": names.LAW, "hypoplastic": names.HYPOPLASTIC}
 LAW_REMARKS = {
     names.LAW: " # phi and psi of each point follow from both (Bolton 1986)",
@@ -59,9 +60,9 @@ def density_of_number(text: str) -> Entry:
     except ValueError:
         value = -1.0
     if 1 < value <= 100:
+        hint = f". Did you mean {value / 100:g}?" if value >= LEAST_PERCENT else ""
         raise SuggestError(
-            f"a relative density of {text} is not from 0 to 1: it is a share of 1. Did"
-            f" you mean {value / 100:g}?"
+            f"a relative density of {text} is not from 0 to 1: it is a share of 1{hint}"
         )
     if not 0 <= value <= 1:
         raise SuggestError(f"a relative density of {text} is no number from 0 to 1")

@@ -23,6 +23,12 @@ ASSUMED = {
     "Solid density": "2650",
 }
 NEEDED = ("Friction angle", "Youngs modulus")
+# what is not assumed, by what is given in its place
+REPLACED = {
+    "Void ratio": "Porosity",
+    names.DENSITY: "Porosity",
+    "Dry density": "Solid density",
+}
 POISSON_OF_CLAY = "0.45"  # hardly any change of volume, as without drainage
 
 
@@ -55,6 +61,7 @@ DERIVED = {
 }
 UNITS_OF_DERIVED = {STRENGTH: "Pa", WEIGHT: "kN/m3"}
 LIGHTEST_WET = 13.0  # kN/m3; a smaller unit weight is that in water
+DOUBTFUL = 11.5, 14.0  # kN/m3; between them it may be either
 POROSITIES = (0.1, 0.9)
 
 
@@ -69,7 +76,7 @@ def name_of(word: str, known: Collection[str]) -> str:
         return by_lower[word.lower()]
     near = difflib.get_close_matches(word.lower(), by_lower, n=3, cutoff=0.4)
     hint = (
-        f"; did you mean {' or '.join(by_lower[n] for n in near)}?"
+        f"; did you mean {' or '.join(dict.fromkeys(by_lower[n] for n in near))}?"
         if near
         else "; caisson_mpm --explain 'Layer 1' lists them"
     )
@@ -110,9 +117,14 @@ def given_in(text: str, known: Mapping[str, str]) -> dict[str, str]:
         name = name_of(word, known)
         if name in given:
             raise SuggestError(f"--layer {text!r} gives {name} twice")
-        if name == WEIGHT and re.fullmatch(quantity.NUMBER, value):
-            raise SuggestError(f"--layer: give the unit of {part!r}, as in 8.5 kN/m3")
         given[name] = value_of(name, value, known)
+        if name in UNITS_OF_DERIVED and not quantity.has_unit(value):
+            number, unit = ("8.5", "kN/m3") if name == WEIGHT else ("20", "kPa")
+            is_number = re.fullmatch(quantity.NUMBER, value)
+            raise SuggestError(
+                f"--layer: give the unit of {part!r}, as in {word} ="
+                f" {number if is_number else f'({value})'} {unit}"
+            )
     return given
 
 
@@ -144,7 +156,8 @@ def layer_of(text: str, known: Mapping[str, str], law: str) -> Layer:
         return Layer(top, sand.sand_of(given, law))
     remarks = {entry.name: entry for entry in derived}
     entries = entries_of(given | {e.name: e.value for e in derived}, text)
-    return Layer(top, [remarks.get(entry.name, entry) for entry in entries])
+    warning = doubt_of(weight, given) if weight else ""
+    return Layer(top, [remarks.get(e.name, e) for e in entries], warning)
 
 
 def undrained(strength: str, given: Mapping[str, str]) -> list[Entry]:
@@ -163,20 +176,44 @@ def undrained(strength: str, given: Mapping[str, str]) -> list[Entry]:
     return [entry for entry in found if entry.name not in given]
 
 
+def porosity_of(weight: float, grains: float, is_wet: bool) -> float:
+    """Return the porosity of soil with a unit weight (kN/m3), of the wet soil or in
+    water, and grains of a density (kg/m3)."""
+    water = sand.WATER * sand.GRAVITY / 1e3
+    in_water = weight - (water if is_wet else 0.0)
+    return 1 - in_water / (grains * sand.GRAVITY / 1e3 - water)
+
+
+def doubt_of(weight: str, given: Mapping[str, str]) -> str:
+    """Return a warning where a unit weight (kN/m3) may be that in water or that of the
+    wet soil, else nothing."""
+    value = float(weight)
+    if not DOUBTFUL[0] <= value <= DOUBTFUL[1]:
+        return ""
+    grains = float(given.get("Solid density", ASSUMED["Solid density"]))
+    words = ["in water", "of the wet soil"]
+    is_wet = value > LIGHTEST_WET
+    taken, other = reversed(words) if is_wet else words
+    porosities = [porosity_of(value, grains, wet) for wet in (is_wet, not is_wet)]
+    return (
+        f"{WEIGHT} = {weight} kN/m3 is taken as the unit weight {taken}, with a"
+        f" porosity of {porosities[0]:.2f}; if it is that {other}, give Porosity ="
+        f" {porosities[1]:.2f} instead"
+    )
+
+
 def weight_of(weight: str, given: Mapping[str, str]) -> list[Entry]:
     """Return the porosity that a unit weight (kN/m3) stands for, with the density of
     the grains. Raises SuggestError."""
-    if wrong := {"Porosity", "Void ratio", "Dry density", names.DENSITY} & set(given):
+    if wrong := [name for name in ("Porosity", *REPLACED) if name in given]:
         raise SuggestError(f"--layer: give {WEIGHT} or {', '.join(wrong)}, not both")
     solid = given.get("Solid density", ASSUMED["Solid density"])
     try:
-        in_water, grains = float(weight), float(solid)
+        value, grains = float(weight), float(solid)
     except ValueError as error:
         raise SuggestError(f"--layer: {WEIGHT} must be a number: {error}") from error
-    water = sand.WATER * sand.GRAVITY / 1e3
-    is_wet = in_water > LIGHTEST_WET
-    in_water -= water if is_wet else 0.0
-    porosity = 1 - in_water / (grains * sand.GRAVITY / 1e3 - water)
+    is_wet = value > LIGHTEST_WET
+    porosity = porosity_of(value, grains, is_wet)
     if not POROSITIES[0] < porosity < POROSITIES[1]:
         raise SuggestError(
             f"--layer: with a unit weight of {weight} kN/m3 and grains of {grains:g}"
@@ -200,7 +237,8 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
             f"--layer {text!r} needs {' and '.join(missing)}; or, of sand,"
             f' "{sand.SAND} = dense"'
         )
-    assumed = {n: v for n, v in ASSUMED.items() if n not in given}
+    known = {*given, *(REPLACED.get(name, name) for name in given)}
+    assumed = {n: v for n, v in ASSUMED.items() if n not in known}
     return [
         *(Entry(n, v, "" if n == "Law" else ASSUMPTION) for n, v in assumed.items()),
         *(Entry(*pair) for pair in given.items()),
