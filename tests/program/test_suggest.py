@@ -187,6 +187,9 @@ class Words(SuggestTest):
         clay = "0: su = 20 kPa, E = 4 MPa, gamma = 17 kN/m3"
         self.suggest(path / "clay.prm", layers=(clay,))
         self.run_program(SUCCESS, path / "clay.prm", "--validate", "--strict")
+        light = "0: phi = 33, E = 20 MPa, gamma = 12 kN/m3"
+        said = self.suggest(path / "light.prm", layers=(light,))
+        self.assertIn("warning: layer from 0 m: gamma = 12 kN/m3 is taken as", said)
 
     def test_a_refused_scene_is_not_in_the_way(self) -> None:
         """Where the program refuses it, neither scene nor study is left."""
