@@ -119,8 +119,11 @@ namespace CaissonMPM
     std::string
     kilonewtons(const double newtons)
     {
-      constexpr double round_off = 1e-6; // N
-      return std::abs(newtons) < round_off ? "0" : to_text(1e-3 * newtons, 4);
+      constexpr double round_off   = 1e-6; // N
+      const double     kilonewtons = 1e-3 * newtons;
+      return std::abs(newtons) < round_off ? "0" :
+             std::abs(kilonewtons) < 1e3   ? to_text(kilonewtons, 4) :
+                                             to_text(std::round(kilonewtons), 9);
     }
 
     std::string
