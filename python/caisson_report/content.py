@@ -275,6 +275,13 @@ def remarks_on_numbers(run: Results) -> list[str]:
             else "above 1 %: read the limitations on energy"
         )
         found.append(f"Energy error: {share:.2g} % of the work ({verdict}).")
+    if "plug_balance_error" in history:
+        share = 100 * abs(history["plug_balance_error"][-1])
+        if share > 5:
+            found.append(
+                f"Heave and room below the lid are not reliable: {share:.2g} % of the"
+                " volume that the plug gained is unaccounted for."
+            )
     if "total_force_N" in history and penetration(history) is not None:
         depth = history["penetration_m"]
         if (depth >= curves.FROM).sum() > 10:

@@ -3,6 +3,7 @@
 import html
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 from typing import Any
 
@@ -201,6 +202,14 @@ class Cards(unittest.TestCase):
         (self.path / "history_error.csv").write_text(head, encoding="utf-8")
         page = report.write(self.path).read_text(encoding="utf-8")
         self.assertIn("error bar not known for this scene", page)
+
+    def test_plug_that_does_not_balance(self) -> None:
+        """Heave without soil that came in or dilated is an error, and is said."""
+        for share, is_said in ((0.54, True), (0.01, False)):
+            run = unittest.mock.Mock(is_running=False, summary={})
+            run.history = {"plug_balance_error": np.array([0.0, share])}
+            found = " ".join(content.remarks_on_numbers(run))
+            self.assertEqual("54 % of the volume that the plug" in found, is_said)
 
 
 if __name__ == "__main__":
