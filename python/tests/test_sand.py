@@ -25,7 +25,9 @@ EXAMPLE = SCENES / "cpt_example.csv"
 KNOWN = ["Cohesion", "Friction angle", "K0", "Permeability", "Youngs modulus"]
 KNOWN += ["Law", "Porosity", density_law.DENSITY, density_law.DENSEST]
 UNITS = dict.fromkeys(KNOWN, "")
-SIZES = ["--diameter", "4", "--skirt", "2.5", "--wall", "20mm", "own.prm"]
+# not that of a user, who may have an own.prm where the tests run
+SCENE = "scene_of_test_sand.prm"
+SIZES = ["--diameter", "4", "--skirt", "2.5", "--wall", "20mm", SCENE]
 
 
 def how_to_read(*words: str) -> argparse.Namespace:
