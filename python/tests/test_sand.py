@@ -201,7 +201,7 @@ class Studies(unittest.TestCase):
     def test_study(self) -> None:
         """It stays within 0 and 1, and the walls do not follow."""
         layers = layers_in("--density", "0.85")
-        options = options_of("--density", "0.85", "--study", "own.toml")
+        options = options_of("--density", "0.85", "--study", "study_of_test_sand.toml")
         content = tomllib.loads(suggest.study_of(options, layers))
         choices = content["parameters"]["relative density"]["choices"]
         self.assertEqual(list(choices), ["0.65", "0.75", "0.85", "0.95", "1"])
