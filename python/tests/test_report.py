@@ -110,8 +110,8 @@ def leave_run(path: Path, summary: dict[str, Any] | None) -> None:
     write_run(path, table, summary)
 
 
-class Report(unittest.TestCase):
-    """The page of a run."""
+class WithPage(unittest.TestCase):
+    """A made-up run, and its page."""
 
     def setUp(self) -> None:
         temporary = tempfile.TemporaryDirectory()
@@ -121,6 +121,10 @@ class Report(unittest.TestCase):
     def page(self, summary: dict[str, Any] | None = None) -> str:
         leave_run(self.path, summary)
         return report.write(self.path).read_text(encoding="utf-8")
+
+
+class Report(WithPage):
+    """The page of a run."""
 
     def test_all_is_in_the_page(self) -> None:
         """Nothing is loaded from elsewhere, and a title cannot break the page."""

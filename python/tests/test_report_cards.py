@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cards, error bars and ends of runs in report.html of made-up runs."""
 import html
-import tempfile
 import unittest
 import unittest.mock
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from synthetic import write_columns
-from test_report import SCENE, SUMMARY, leave_run
+from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson_report as report
 from caisson.results import Results
@@ -17,17 +15,8 @@ from caisson_report import content, installation, methods
 from caisson_report import page as page_module
 
 
-class Cards(unittest.TestCase):
+class Cards(WithPage):
     """What a page says first."""
-
-    def setUp(self) -> None:
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.path = Path(temporary.name)
-
-    def page(self, summary: dict[str, Any] | None = None) -> str:
-        leave_run(self.path, summary)
-        return report.write(self.path).read_text(encoding="utf-8")
 
     def installation(self) -> installation.Installation:
         """Return the numbers of the run."""
