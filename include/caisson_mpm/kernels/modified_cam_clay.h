@@ -120,8 +120,7 @@ namespace CaissonMPM
               nullptr;
           if (text == nullptr)
             return true;
-          __builtin_strncpy(message.text, text, sizeof(message.text) - 1);
-          message.text[sizeof(message.text) - 1] = 0;
+          __builtin_snprintf(message.text, sizeof(message.text), "%s", text);
           return false;
         }
 
