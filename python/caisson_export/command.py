@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Exports the state of the soil at a frame of a run to other programs.
+"""Exports the state of the soil at a frame of a run to other programs, and springs.
 
 The mesh is a regular grid around the wall, or a text file of Gmsh. The stress is
 interpolated from the material points, and corrected until it balances the buoyant
 weight, the water and the forces of the run on the wall; what is printed, and written
 into the file, says how far it was out of balance and how much it has changed.
+
+Springs along the walls and below the tip (tz) are those of the last motion of a run,
+such as a pull after the installation.
 """
 import argparse
 import sys
@@ -16,7 +19,7 @@ from caisson.loaded import LoadedRun, load
 from caisson.paths import short
 from caisson.results import ResultsError
 from caisson_design.quantity import length, number
-from caisson_export import decks, tables
+from caisson_export import decks, spring_files, tables
 from caisson_export.balance import Balanced, balance, check_forces
 from caisson_export.interpolate import interpolate
 from caisson_export.mesh import (
@@ -28,6 +31,7 @@ from caisson_export.mesh import (
     regular,
 )
 from caisson_export.places import read_places
+from caisson_export.springs import Springs, springs_of
 from caisson_export.state import State, read_state
 from caisson_export.text import about, about_points
 
@@ -51,12 +55,18 @@ FORMS: dict[str, tuple[str, Writer]] = {
     "plaxis": ("_plaxis.csv", tables.write_plaxis),
 }
 
+SPRINGS: dict[str, tuple[str, Callable[[Path, Springs, Springs | None], None]]] = {
+    "tz": ("springs.csv", spring_files.write_csv),
+    "tz-opensees": ("springs_opensees.py", spring_files.write_opensees),
+}
+WHERE = ("penetration", "time", "mesh", "points", "spacing", "radius", "depth")
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson export`."""
     add = parser.add_argument
     add("directory", type=Path, metavar="DIR", help="output directory of a run")
-    add("--to", choices=FORMS, required=True, help="form of the file")
+    add("--to", choices=[*FORMS, *SPRINGS], required=True, help="form of the file")
     add("--output", type=Path, metavar="FILE", help="default: state... in DIR")
     frame = parser.add_mutually_exclusive_group()
     text = "the frame at this depth (m); default: the last one"
@@ -74,6 +84,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--radius", type=length, metavar="M", help=text)
     text = "depth of the grid (m), default: a diameter below the tip"
     add("--depth", type=length, metavar="M", help=text)
+    text = "of springs: submerged weight of the caisson (N), default: 0"
+    add("--weight", type=number("N"), metavar="N", help=text)
+    text = "of springs: another run, such as of a wished-in-place caisson"
+    add("--beside", type=Path, metavar="DIR", help=text)
 
 
 def frame_of(run: LoadedRun, options: argparse.Namespace) -> Frame:
@@ -128,21 +142,44 @@ def export_points(state: State, options: argparse.Namespace, path: Path) -> list
     return about_points(state)
 
 
+def export_springs(options: argparse.Namespace) -> tuple[Path, list[str]]:
+    """Write the springs; return the file, and what to say of them."""
+    if unused := [name for name in WHERE if getattr(options, name) is not None]:
+        raise ResultsError(f"--{unused[0]} is not for --to {options.to}")
+    weight = options.weight or 0.0
+    found = springs_of(load(options.directory), weight)
+    other = None
+    if options.beside is not None:
+        other = springs_of(load(options.beside), weight)
+    name, write = SPRINGS[options.to]
+    path = options.output or options.directory / name
+    write(path, found, other)
+    return path, spring_files.about_both(found, other)
+
+
+def export_state(options: argparse.Namespace) -> tuple[Path, list[str]]:
+    """Write the state at a frame; return the file, and what to say of it."""
+    for name in ("weight", "beside"):
+        if getattr(options, name) is not None:
+            raise ResultsError(f"--{name} is for {' and '.join(SPRINGS)}")
+    run = load(options.directory)
+    state = read_state(run, frame_of(run, options))
+    end, write = FORMS[options.to]
+    path = options.output or options.directory / f"state{end}"
+    if options.points is not None:
+        return path, export_points(state, options, path)
+    mesh = mesh_of(state, options)
+    balanced = balance(state, mesh, interpolate(state, mesh.centers))
+    check_forces(balanced, advice_on(state, options))
+    write(path, balanced)
+    return path, about(balanced)
+
+
 def main(options: argparse.Namespace) -> int:
     """Write the file, and print what it is."""
     try:
-        run = load(options.directory)
-        state = read_state(run, frame_of(run, options))
-        end, write = FORMS[options.to]
-        path = options.output or options.directory / f"state{end}"
-        if options.points is not None:
-            lines = export_points(state, options, path)
-        else:
-            mesh = mesh_of(state, options)
-            balanced = balance(state, mesh, interpolate(state, mesh.centers))
-            check_forces(balanced, advice_on(state, options))
-            write(path, balanced)
-            lines = about(balanced)
+        export = export_springs if options.to in SPRINGS else export_state
+        path, lines = export(options)
         print("\n".join([*lines, f"written to {short(path)}"]))
         return 0
     except (ResultsError, OSError) as error:

@@ -43,6 +43,11 @@ namespace CaissonMPM
                "The program prints everything (full), only what does not "
                "differ from run to run (plain), or nothing (silent). Units: "
                "none.");
+    add_parameter("Walls at each record",
+                  walls_at_each_record,
+                  "wall.csv has the stresses along the walls at each row of "
+                  "history.csv, which springs along the wall need, and not at "
+                  "the frames only. Units: none.");
     leave_subsection();
   }
 

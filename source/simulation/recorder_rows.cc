@@ -90,7 +90,7 @@ namespace CaissonMPM
   Recorder::record_walls()
   {
     const double interval = parts.clock.time - last_record;
-    if (wants_walls && interval > 0.)
+    if (has_walls() && (wants_walls || walls_at_each_record) && interval > 0.)
       {
         const double tip_area =
           WallForces::area_of_tip(parts.grid, parts.contact);

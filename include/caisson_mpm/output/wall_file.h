@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// wall.csv: the stresses along the walls of the body at the frames.
+// wall.csv: the stresses along the walls of the body at the frames, or at each
+// record.
 #ifndef caisson_mpm_output_wall_file_h
 #define caisson_mpm_output_wall_file_h
 

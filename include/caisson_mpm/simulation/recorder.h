@@ -247,6 +247,7 @@ namespace CaissonMPM
     std::string title     = "a scene";
     std::string directory = "results";
     Terminal    terminal  = Terminal::full;
+    bool        walls_at_each_record = false;
 
     std::unique_ptr<OutputDirectory>      locked_directory;
     std::unique_ptr<Console>              console;

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Springs of a caisson as files: a table in the form of t-z curves, and OpenSees."""
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from caisson_export.springs import SMALL, Springs
+
+ROWS = 25  # of a curve in the table
+
+
+def about_springs(found: Springs) -> list[str]:
+    """Return what run and motion it is, and what the whole body does."""
+    down = found.direction > 0
+    largest = int(np.argmax(found.force))
+    lines = [
+        f"caisson_mpm: {found.title}",
+        f"{'Pushed' if down else 'Pulled'} by {1e3 * found.displacement[-1]:.4g} mm"
+        f" from {found.depth:.5g} m, where the soil bears the submerged weight of"
+        f" {found.weight / 1e3:.5g} kN.",
+        f"Largest resistance {found.force[largest] / 1e3:.4g} kN at"
+        f" {1e3 * found.displacement[largest]:.3g} mm.",
+    ]
+    for share in SMALL:
+        if np.isfinite(stiffness := found.stiffness(share)):
+            lines.append(
+                f"Secant stiffness at {1e3 * share * found.diameter:.3g} mm"
+                f" ({100 * share:g} % of the diameter): {stiffness / 1e6:.4g} MN/m."
+            )
+    if found.missing > 0.02 * found.force.max():
+        lines.append(
+            f"WARNING: at the beginning the soil bears {found.missing / 1e3:.4g} kN"
+            f" {'more' if down else 'less'} than the weight, so that the curves lack"
+            f" this part. Let the run {'un' if down else ''}load the caisson to its"
+            " weight first, or give its --weight."
+        )
+    return lines
+
+
+def about_both(found: Springs, other: Springs | None) -> list[str]:
+    """Return what the run is, and the one beside it."""
+    lines = about_springs(found)
+    return lines if other is None else [*lines, "Beside it:", *about_springs(other)]
+
+
+def rows_of(found: Springs) -> np.ndarray:
+    """Return the records for a table: close to each other where the curves begin."""
+    last = len(found.displacement) - 1
+    shares = np.linspace(0, 1, ROWS) ** 2
+    wanted = np.searchsorted(found.displacement, shares * found.displacement[-1])
+    return np.unique(np.minimum(wanted, last))
+
+
+def beside(found: Springs, other: Springs, number: int) -> np.ndarray:
+    """Return the resistance of the other run's nearest spring at the displacements
+    [n] (Pa); nan where it has none, or ends before."""
+    mine = found.springs[number]
+    near = [s for s in other.springs if s.place == mine.place]
+    if not near:
+        return np.full(len(found.displacement), np.nan)
+    nearest = min(near, key=lambda s: abs(s.depth - mine.depth))
+    at = found.displacement
+    values = np.interp(at, other.displacement, nearest.resistance)
+    return np.where(at <= other.displacement[-1], values, np.nan)
+
+
+def write_csv(path: Path, found: Springs, other: Springs | None) -> None:
+    """Write one row for each spring and displacement."""
+    rows = rows_of(found)
+    with path.open("w", newline="", encoding="utf-8") as file:
+        file.writelines(f"# {line}\n" for line in [*about_both(found, other), *SIGNS])
+        writer = csv.writer(file)
+        names = ["place", "depth_m", "area_m2", "displacement_mm"]
+        names += ["displacement_over_diameter", "resistance_kPa"]
+        names += ["resistance_over_ultimate", "stress_kPa"]
+        writer.writerow(names + ["beside_resistance_kPa"] * (other is not None))
+        for number, spring in enumerate(found.springs):
+            compared = None if other is None else beside(found, other, number)
+            for row in rows:
+                z, t = found.displacement[row], spring.resistance[row]
+                values = [spring.depth, spring.area, 1e3 * z, z / found.diameter]
+                values.append(t / 1e3)
+                values.append(t / spring.ultimate if spring.ultimate else np.nan)
+                values.append((spring.before + found.direction * t) / 1e3)
+                if compared is not None:
+                    values.append(compared[row] / 1e3)
+                writer.writerow([spring.place, *(f"{v:.6g}" for v in values)])
+
+
+def write_opensees(path: Path, found: Springs, other: Springs | None) -> None:
+    """Write the springs as materials and elements of OpenSees, in a module."""
+    lines = ["# SPDX-License-Identifier: LGPL-2.1-or-later", '"""Springs of a caisson.']
+    lines += ["", *about_both(found, other), *SIGNS, "", OPENSEES, '"""']
+    lines += ["# place, depth (m), ultimate (N), displacement at half of it (m)"]
+    lines += ["SPRINGS = ["]
+    for spring in found.springs:
+        pulled_tip = found.direction < 0 and spring.place in ("tip", "lid")
+        if spring.ultimate > 0 and not pulled_tip:
+            half = spring.half(found.displacement)
+            force = spring.ultimate * spring.area
+            lines.append(
+                f'    ("{spring.place}", {spring.depth:.5g}, {force:.6g}, {half:.6g}),'
+            )
+    path.write_text("\n".join([*lines, "]", *ADD, ""]), encoding="utf-8")
+
+
+SIGNS = (
+    "t of a wall and q of the tip: the resistance is the change of the stress since the"
+    " displacement began, against the motion; stress_kPa is the stress itself, upward"
+    " on the caisson. Both are effective. The ultimate is the largest of the curve.",
+)
+OPENSEES = (
+    "add(ops, node, first) adds a spring in direction 2 between node(depth), a node of"
+    " your model at that depth, and a fixed node that it makes. It takes the numbers"
+    " from first on for nodes, materials and elements. A pulled tip has no spring."
+)
+ADD = (
+    "",
+    "",
+    "def add(ops, node, first, soil_type=2):",
+    '    """soil_type: 1 clay, 2 sand, of TzSimple1 and QzSimple1."""',
+    "    for number, (place, depth, ultimate, half) in enumerate(SPRINGS, first):",
+    "        here = node(depth)",
+    "        ops.node(number, *ops.nodeCoord(here))",
+    "        ops.fix(number, *[1] * len(ops.nodeDOFs(here)))",
+    '        kind = "TzSimple1" if place in ("inner", "outer") else "QzSimple1"',
+    "        ops.uniaxialMaterial(kind, number, soil_type, ultimate, half)",
+    "        ends = number, number, here",
+    '        ops.element("zeroLength", *ends, "-mat", number, "-dir", 2)',
+)

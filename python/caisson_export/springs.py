@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Springs along the walls (t-z) and below the tip (q-z) of a caisson that a run has
+pulled or pushed.
+
+Displacement begins where the forces of the soil are in balance with the weight, so
+that what the run does before, such as unloading, does not count. The resistance of a
+spring is the change of its stress since then, against the motion: springs of a
+structural program begin without a load, too. The soil is in the curves as a whole: its
+slip at the wall and its deformation farther away.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+
+from caisson.loaded import LoadedRun
+from caisson.results import ResultsError, Table
+
+SAME = 1e-9  # m, of penetrations
+SAME_ROW = 1e-6  # m, of heights on the wall
+WALLS = ("inner", "outer")
+# of the diameter, at which the stiffness is stated
+SMALL = (1e-4, 1e-3, 1e-2)
+
+
+@dataclass
+class Spring:
+    """A part of the body: its place ("inner", "outer", "tip" or "lid"), its depth where
+    the displacement begins (m), its area (m2), its stress there (Pa, upward on the
+    body), and its resistance at the displacements of the curve [n] (Pa)."""
+
+    place: str
+    depth: float
+    area: float
+    before: float
+    resistance: np.ndarray
+
+    @property
+    def ultimate(self) -> float:
+        """The largest resistance (Pa); 0 where there is none."""
+        return max(0.0, float(self.resistance.max()))
+
+    def half(self, displacement: np.ndarray) -> float:
+        """Return where half of the largest resistance is passed first (m)."""
+        above = int(np.argmax(self.resistance >= self.ultimate / 2))
+        low = max(0, above - 1)
+        pair = slice(low, above + 1)
+        return float(
+            np.interp(self.ultimate / 2, self.resistance[pair], displacement[pair])
+        )
+
+
+@dataclass
+class Springs:
+    """All springs of a run.
+
+    direction: 1 of a push, -1 of a pull. depth: of the tip where the displacement
+    begins (m). displacement: [n], from 0 (m). force: resistance of the whole body [n]
+    (N). missing: the force by which the body is out of balance at the beginning (N).
+    """
+
+    title: str
+    direction: int
+    depth: float
+    diameter: float
+    weight: float
+    displacement: np.ndarray
+    force: np.ndarray
+    springs: list[Spring]
+    missing: float
+
+    def stiffness(self, share: float) -> float:
+        """Return force over displacement at a share of the diameter (N/m), or nan
+        where the run ends before."""
+        at = share * self.diameter
+        if at > self.displacement[-1]:
+            return np.nan
+        return float(np.interp(at, self.displacement, self.force)) / at
+
+
+def last_motion(penetration: np.ndarray) -> tuple[int, int]:
+    """Return the row [n] at which the last motion in one direction begins, and the
+    direction: 1 down, -1 up. Raises ResultsError where there is none."""
+    steps = np.diff(penetration)
+    moved = np.flatnonzero(abs(steps) > SAME)
+    if not len(moved):
+        raise ResultsError("the body does not move in this run: pull or push it")
+    direction = int(np.sign(steps[moved[-1]]))
+    other = np.flatnonzero(direction * steps[: moved[-1] + 1] <= SAME)
+    return (int(other[-1]) + 1 if len(other) else 0), direction
+
+
+def rows_of_wall(walls: Table, times: np.ndarray) -> dict[float, Table]:
+    """Return the rows of wall.csv at these times by their height over the tip; only of
+    nodes that all of them have. Raises ResultsError where a time is missing."""
+    if not walls:
+        raise ResultsError(
+            "the run has no wall.csv: only a body with walls has springs"
+        )
+    known = np.isin(times, walls["time_s"])
+    if not known.all():
+        raise ResultsError(
+            f"wall.csv has no row at {times[~known][0]:g} s: run the scene again with"
+            ' --set "Output/Walls at each record=true"'
+        )
+    chosen = np.isin(walls["time_s"], times)
+    height = np.round((walls["penetration_m"] - walls["depth_m"]) / SAME_ROW) * SAME_ROW
+    found = {}
+    for one in np.unique(height[chosen]):
+        row = chosen & (abs(height - one) < SAME_ROW / 2)
+        if row.sum() == len(times):
+            found[float(one)] = {name: values[row] for name, values in walls.items()}
+    return found
+
+
+def begin_of(force: np.ndarray) -> tuple[int, float]:
+    """Return the row and the share of the way to the next one at which the resistance
+    [n] begins. Raises ResultsError where that is at the end."""
+    idle = np.flatnonzero(force <= 0)
+    if not len(idle):
+        return 0, 0.0
+    row = int(idle[-1])
+    if row > len(force) - 3:
+        raise ResultsError(
+            "the force on the body does not pass its weight, at which the displacement"
+            " begins: move it farther, or give another --weight"
+        )
+    return row, float(-force[row] / (force[row + 1] - force[row]))
+
+
+def springs_of(run: LoadedRun, weight: float) -> Springs:
+    """Return the springs of the last motion of a run, for a submerged weight (N) of
+    the caisson. Raises ResultsError where there are none."""
+    history, scene = run.results.history, run.results.scene
+    if "diameter_m" not in scene:
+        raise ResultsError(f"{run.directory} is not a finished run of a caisson")
+    depth = history["penetration_m"]
+    first, direction = last_motion(depth)
+    if len(depth) < first + 5:
+        raise ResultsError(
+            f"the last motion has {len(depth) - first - 1} records, too few: set"
+            " Output/Record interval to a hundredth of its time"
+        )
+    table = {name: values[first + 1 :] for name, values in history.items()}
+    # a record is the mean since the one before: its place is in the middle
+    middle = (depth[first:-1] + depth[first + 1 :]) / 2
+    force = direction * (table["total_force_N"] - weight)
+    begin, share = begin_of(force)
+
+    def curve(values: np.ndarray) -> tuple[float, np.ndarray]:
+        """Return the value where the displacement begins, and its change."""
+        before = float(values[begin] + share * (values[begin + 1] - values[begin]))
+        return before, direction * (np.append(before, values[begin + 1 :]) - before)
+
+    at, displacement = curve(middle)
+    springs = [
+        Spring(
+            wall,
+            at - height,
+            float(row[f"{wall}_area_m2"][begin]),
+            *curve(row[f"{wall}_shear_stress_Pa"]),
+        )
+        for wall in WALLS
+        for height, row in rows_of_wall(run.results.walls, table["time_s"]).items()
+        if at > height
+    ]
+    springs.sort(key=lambda spring: (spring.place, spring.depth))
+    outer = scene["diameter_m"] / 2
+    inner = outer - scene["wall_thickness_m"]
+    for place, area in (("tip", outer**2 - inner**2), ("lid", inner**2)):
+        if (values := table[f"{place}_force_N"]).any():
+            stress = curve(values / (np.pi * area))
+            springs.append(Spring(place, at * (place == "tip"), np.pi * area, *stress))
+    return Springs(
+        run.results.title,
+        direction,
+        at,
+        scene["diameter_m"],
+        weight,
+        displacement,
+        curve(table["total_force_N"])[1],
+        springs,
+        float(max(force[begin], 0.0)),
+    )

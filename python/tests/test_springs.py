@@ -1,0 +1,250 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Springs of made-up runs with known curves."""
+import contextlib
+import csv
+import io
+import json
+import math
+import runpy
+import unittest
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from made_up_state import Temporary
+
+from caisson import __main__ as program
+from caisson.loaded import load
+from caisson.results import ResultsError, read_table
+from caisson_export.springs import Springs, last_motion, springs_of
+
+DIAMETER, WALL = 4.0, 0.1
+RADII = {"inner": 1.9, "outer": 2.0}
+HEIGHTS = (0.25, 0.75, 1.25, 1.75, 2.25)  # over the tip; the last one is in water
+AREA_OF_TIP = math.pi * (2.0**2 - 1.9**2)
+HALF = 4e-3  # m, at which half of the friction is mobilized
+
+
+def ultimate(wall: str, depth: float) -> float:
+    """Return the friction of the made-up soil (Pa)."""
+    return (2e3 if wall == "inner" else 5e3) * depth
+
+
+def mobilized(z: np.ndarray) -> np.ndarray:
+    """Return the share of the friction that is mobilized."""
+    return z / (HALF + z)
+
+
+class MadeUp(Temporary):
+    """Runs of a caisson at 2 m whose friction is a hyperbola of the displacement."""
+
+    def write(
+        self,
+        name: str,
+        direction: int,
+        tip: float = 0.0,
+        unloading: int = 0,
+        **scene: Any,
+    ) -> Path:
+        """Write a run that rests, is unloaded by a tip stress over some records, and
+        moves by 40 mm in the direction; return its directory."""
+        path = self.path / name
+        path.mkdir()
+        # the ends of the records, and what is mobilized in their middle
+        ends = np.concatenate([np.zeros(3), np.linspace(0, 0.2, 81)[1:] ** 2])
+        middle = (ends[:-1] + ends[1:]) / 2
+        begin = middle[2 + unloading] if unloading else 0.0
+        z = np.maximum(middle - begin, 0.0)
+        stress = np.interp(middle, [0, begin], [tip, 0.0]) if unloading else 0 * z
+        rows, walls, time = [[0.0, 2.0, 0, 0, 0, 0, 0]], [], 0.1 * np.arange(len(ends))
+        for i, share in enumerate(mobilized(z)):
+            total = {"inner": 0.0, "outer": 0.0}
+            depth_of_tip = 2.0 + direction * ends[i + 1]
+            for height in HEIGHTS:
+                row = [time[i + 1], depth_of_tip, depth_of_tip - height]
+                for wall, radius in RADII.items():
+                    area = 2 * math.pi * radius * 0.5
+                    depth = 2.0 - height
+                    shear = direction * share * max(0, ultimate(wall, depth))
+                    row += [area, shear]
+                    total[wall] += area * shear
+                walls.append(row)
+            q = stress[i] * AREA_OF_TIP
+            rows.append(
+                [
+                    time[i + 1],
+                    depth_of_tip,
+                    q,
+                    *total.values(),
+                    0,
+                    q + sum(total.values()),
+                ]
+            )
+        self.table(path / "history.csv", HISTORY, rows)
+        self.table(path / "wall.csv", WALLS, walls)
+        summary = {"title": name, "status": "finished", "entries": {}}
+        sizes = {"diameter_m": DIAMETER, "wall_thickness_m": WALL} | scene
+        text = json.dumps(summary | {"scene": sizes})
+        (path / "run.json").write_text(text, encoding="utf-8")
+        return path
+
+    @staticmethod
+    def table(path: Path, names: list[str], rows: list[list[float]]) -> None:
+        with path.open("w", newline="", encoding="utf-8") as file:
+            csv.writer(file).writerows([names, *rows])
+
+    def export(self, *words: object) -> tuple[int, str]:
+        """Return the status of the command, and what it prints."""
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
+            status = program.main(["export", *map(str, words)])
+        return status, out.getvalue()
+
+
+HISTORY = ["time_s", "penetration_m", "tip_force_N", "inner_friction_N"]
+HISTORY += ["outer_friction_N", "lid_force_N", "total_force_N"]
+WALLS = ["time_s", "penetration_m", "depth_m", "inner_area_m2", "inner_shear_stress_Pa"]
+WALLS += ["outer_area_m2", "outer_shear_stress_Pa"]
+
+
+class Curves(MadeUp):
+    """Resistance over displacement."""
+
+    def assert_hyperbolas(self, found: Springs) -> None:
+        """Ask for the made-up curves on both walls, at the nodes in the ground."""
+        walls = [s for s in found.springs if s.place in RADII]
+        self.assertEqual(len(walls), 8)
+        for spring in walls:
+            expected = ultimate(spring.place, spring.depth)
+            curve = expected * mobilized(found.displacement)
+            np.testing.assert_allclose(spring.resistance, curve, atol=0.01 * expected)
+
+    def test_push_and_pull(self) -> None:
+        for direction in (1, -1):
+            found = springs_of(load(self.write(f"run{direction}", direction)), 0.0)
+            self.assertEqual(found.direction, direction)
+            self.assert_hyperbolas(found)
+            of_body = sum(s.area * s.resistance for s in found.springs)
+            np.testing.assert_allclose(found.force, of_body, rtol=1e-6, atol=1)
+            first = sum(s.area * ultimate(s.place, s.depth) for s in found.springs)
+            stiffness = found.stiffness(1e-3)
+            self.assertLess(abs(stiffness / (first / (HALF + 4e-3)) - 1), 0.01)
+            self.assertTrue(math.isnan(found.stiffness(0.1)))
+
+    def test_unloading_does_not_count(self) -> None:
+        """The displacement begins where the forces of the soil are the weight."""
+        found = springs_of(load(self.write("pull", -1, 5e5, 20)), 0.0)
+        self.assert_hyperbolas(found)
+        self.assertAlmostEqual(found.depth, 2.0 - 2.5e-3, delta=3e-4)
+        self.assertEqual(found.missing, 0.0)
+        weight = 0.25 * 5e5 * AREA_OF_TIP
+        earlier = springs_of(load(self.path / "pull"), weight)
+        self.assertGreater(earlier.depth, found.depth + 5e-4)
+        (tip,) = [s for s in earlier.springs if s.place == "tip"]
+        self.assertAlmostEqual(tip.before / 1.25e5, 1.0, delta=0.01)
+        self.assertAlmostEqual(tip.ultimate / 1.25e5, 1.0, delta=0.01)
+
+    def test_last_motion(self) -> None:
+        for depths, expected in (
+            ([0, 1, 2], (0, 1)),
+            ([0, 1, 1, 0.5, 0.2, 0.2], (2, -1)),
+            ([0, 1, 0.5, 0.7], (2, 1)),
+        ):
+            self.assertEqual(last_motion(np.array(depths, dtype=float)), expected)
+
+
+class Files(MadeUp):
+    """The command."""
+
+    def test_table(self) -> None:
+        """It has the curves, and those of another run beside them."""
+        path, other = self.write("one", -1), self.write("other", -1)
+        status, text = self.export(path, "--to", "tz", "--beside", other)
+        self.assertEqual(status, 0, text)
+        self.assertIn("Pulled by 39.", text)
+        self.assertIn("Secant stiffness at 4 mm (0.1 % of the diameter)", text)
+        self.assertNotIn("WARNING", text)
+        with (path / "springs.csv").open(encoding="utf-8") as file:
+            rows = list(csv.DictReader(line for line in file if line[0] != "#"))
+        outer = [r for r in rows if r["place"] == "outer" and r["depth_m"] == "1.75"]
+        self.assertGreater(len(outer), 20)
+        z, t, beside, over = [
+            np.array([float(r[name]) for r in outer])
+            for name in (
+                "displacement_mm",
+                "resistance_kPa",
+                "beside_resistance_kPa",
+                "resistance_over_ultimate",
+            )
+        ]
+        np.testing.assert_allclose(t, 8.75 * mobilized(z / 1e3), atol=0.01)
+        np.testing.assert_allclose(beside, t, atol=1e-3)
+        self.assertEqual((z[0], over[-1]), (0, 1))
+        self.assertEqual(read_table(path / "wall.csv").keys(), set(WALLS))
+
+    def test_opensees(self) -> None:
+        """The module makes materials and elements with these numbers."""
+        path = self.write("one", 1)
+        status, text = self.export(path, "--to", "tz-opensees")
+        self.assertEqual(status, 0, text)
+        calls: list[tuple[Any, ...]] = []
+
+        class Model:
+            """What OpenSees would be told."""
+
+            def nodeCoord(self, tag: int) -> list[float]:
+                return [0.0, -1.0 * tag]
+
+            def nodeDOFs(self, tag: int) -> list[int]:
+                return [1, 2, 3]
+
+            def __getattr__(self, name: str) -> Any:
+                return lambda *words: calls.append((name, *words))
+
+        module = runpy.run_path(str(path / "springs_opensees.py"))
+        module["add"](Model(), lambda depth: 7, 100)
+        materials = [c for c in calls if c[0] == "uniaxialMaterial"]
+        self.assertEqual({c[1] for c in materials}, {"TzSimple1"})
+        self.assertEqual([c[2] for c in materials], list(range(100, 108)))
+        # the largest of the run is at 40 mm, ten times HALF
+        share = mobilized(np.array(0.04))
+        area = 2 * math.pi * 2 * 0.5
+        deepest = [c for c in materials if c[4] > 0.9 * share * 8750 * area]
+        self.assertEqual(len(deepest), 1)
+        half = share / 2 * HALF / (1 - share / 2)
+        self.assertAlmostEqual(deepest[0][5] / half, 1, delta=0.03)
+        self.assertIn(("fix", 100, 1, 1, 1), calls)
+        self.assertIn(
+            ("element", "zeroLength", 107, 107, 7, "-mat", 107, "-dir", 2), calls
+        )
+
+    def test_refusals(self) -> None:
+        """Each says what to do."""
+        path = self.write("one", 1)
+        for words, expected in (
+            ("tz --spacing 1", "--spacing is not for --to tz"),
+            ("csv --weight 3kN", "--weight is for tz and tz-opensees"),
+            ("tz --weight 9MN", "does not pass its weight"),
+        ):
+            status, text = self.export(path, "--to", *words.split())
+            self.assertEqual(status, 1)
+            self.assertIn(expected, text)
+        rows = (path / "wall.csv").read_text(encoding="utf-8").splitlines()
+        (path / "wall.csv").write_text("\n".join(rows[:30]), encoding="utf-8")
+        self.assertIn("Walls at each record=true", self.export(path, "--to", "tz")[1])
+        (path / "wall.csv").unlink()
+        self.assertIn("no wall.csv", self.export(path, "--to", "tz")[1])
+        with self.assertRaisesRegex(ResultsError, "does not move"):
+            last_motion(np.zeros(4))
+
+    def test_a_load_that_is_missing(self) -> None:
+        """The run begins where the soil bears less than the weight."""
+        status, text = self.export(
+            self.write("pull", -1), "--to", "tz", "--weight=50kN"
+        )
+        self.assertEqual(status, 0, text)
+        self.assertIn("WARNING: at the beginning the soil bears 50", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
