@@ -91,18 +91,23 @@ def write_csv(path: Path, found: Springs, other: Springs | None) -> None:
 def write_opensees(path: Path, found: Springs, other: Springs | None) -> None:
     """Write the springs as materials and elements of OpenSees, in a module."""
     lines = ["# SPDX-License-Identifier: LGPL-2.1-or-later", '"""Springs of a caisson.']
-    lines += ["", *about_both(found, other), *SIGNS, "", OPENSEES, '"""']
+    lines += ["", *about_both(found, other), *SIGNS, "", OPENSEES]
+    lines += [
+        f"Hyperbolas with these numbers differ together from the run by at most"
+        f" {100 * found.misfit:.2g} % of its largest resistance."
+    ]
+    lines += ['"""']
     lines += ["# place, depth (m), ultimate (N), displacement at half of it (m)"]
     lines += ["SPRINGS = ["]
     for spring in found.springs:
-        pulled_tip = found.direction < 0 and spring.place in ("tip", "lid")
-        if spring.ultimate > 0 and not pulled_tip:
+        if spring.ultimate > 0:
             half = spring.half(found.displacement)
             force = spring.ultimate * spring.area
             lines.append(
                 f'    ("{spring.place}", {spring.depth:.5g}, {force:.6g}, {half:.6g}),'
             )
-    path.write_text("\n".join([*lines, "]", *ADD, ""]), encoding="utf-8")
+    bearing = f"BEARING = {('tip', 'lid') if found.direction > 0 else ()}"
+    path.write_text("\n".join([*lines, "]", bearing, *ADD, ""]), encoding="utf-8")
 
 
 SIGNS = (
@@ -113,7 +118,8 @@ SIGNS = (
 OPENSEES = (
     "add(ops, node, first) adds a spring in direction 2 between node(depth), a node of"
     " your model at that depth, and a fixed node that it makes. It takes the numbers"
-    " from first on for nodes, materials and elements. A pulled tip has no spring."
+    " from first on for nodes, materials and elements. What a pulled tip or lid loses"
+    " is a spring, too."
 )
 ADD = (
     "",
@@ -124,7 +130,7 @@ ADD = (
     "        here = node(depth)",
     "        ops.node(number, *ops.nodeCoord(here))",
     "        ops.fix(number, *[1] * len(ops.nodeDOFs(here)))",
-    '        kind = "TzSimple1" if place in ("inner", "outer") else "QzSimple1"',
+    '        kind = "QzSimple1" if place in BEARING else "TzSimple1"',
     "        ops.uniaxialMaterial(kind, number, soil_type, ultimate, half)",
     "        ends = number, number, here",
     '        ops.element("zeroLength", *ends, "-mat", number, "-dir", 2)',

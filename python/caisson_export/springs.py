@@ -17,16 +17,20 @@ from caisson.results import ResultsError, Table
 
 SAME = 1e-9  # m, of penetrations
 SAME_ROW = 1e-6  # m, of heights on the wall
+TINY = 1e-12  # m
 WALLS = ("inner", "outer")
+SEGMENTS = 8  # of each wall
 # of the diameter, at which the stiffness is stated
 SMALL = (1e-4, 1e-3, 1e-2)
+# the wall, its mean depth (m), its area (m2) and its stress over time [n] (Pa)
+Segment = tuple[str, float, float, np.ndarray]
 
 
 @dataclass
 class Spring:
-    """A part of the body: its place ("inner", "outer", "tip" or "lid"), its depth where
-    the displacement begins (m), its area (m2), its stress there (Pa, upward on the
-    body), and its resistance at the displacements of the curve [n] (Pa)."""
+    """A part of the body: its place ("inner", "outer", "tip" or "lid"), its mean depth
+    where the displacement begins (m), its area (m2), its stress there (Pa, upward on
+    the body), and its resistance at the displacements of the curve [n] (Pa)."""
 
     place: str
     depth: float
@@ -67,6 +71,18 @@ class Springs:
     force: np.ndarray
     springs: list[Spring]
     missing: float
+
+    @property
+    def misfit(self) -> float:
+        """The largest difference between the resistance and springs that are hyperbolas
+        with the ultimate and the displacement at half of it, over the largest
+        resistance."""
+        z, together = self.displacement, np.zeros(len(self.displacement))
+        for spring in self.springs:
+            if spring.ultimate > 0:
+                share = z / (spring.half(z) + z + TINY)
+                together += spring.area * spring.ultimate * share
+        return float(abs(together - self.force).max() / self.force.max())
 
     def stiffness(self, share: float) -> float:
         """Return force over displacement at a share of the diameter (N/m), or nan
@@ -112,6 +128,23 @@ def rows_of_wall(walls: Table, times: np.ndarray) -> dict[float, Table]:
     return found
 
 
+def segments_of(walls: Table, times: np.ndarray, depth: float) -> list[Segment]:
+    """Return the parts of the walls above a depth of the tip (m) and below the surface
+    of the ground, each the mean of its nodes in wall.csv at these times."""
+    rows = [(depth - h, row) for h, row in rows_of_wall(walls, times).items()]
+    edges = np.linspace(0, depth, SEGMENTS + 1)
+    found = []
+    for wall in WALLS:
+        for low, high in zip(edges[:-1], edges[1:]):
+            if nodes := [(at, row) for at, row in rows if low < at <= high]:
+                areas = np.array([row[f"{wall}_area_m2"][0] for _, row in nodes])
+                stress = [row[f"{wall}_shear_stress_Pa"] for _, row in nodes]
+                mean = float(np.average([at for at, _ in nodes], weights=areas))
+                over_time = np.average(stress, axis=0, weights=areas)
+                found.append((wall, mean, float(areas.sum()), over_time))
+    return found
+
+
 def begin_of(force: np.ndarray) -> tuple[int, float]:
     """Return the row and the share of the way to the next one at which the resistance
     [n] begins. Raises ResultsError where that is at the end."""
@@ -153,17 +186,11 @@ def springs_of(run: LoadedRun, weight: float) -> Springs:
 
     at, displacement = curve(middle)
     springs = [
-        Spring(
-            wall,
-            at - height,
-            float(row[f"{wall}_area_m2"][begin]),
-            *curve(row[f"{wall}_shear_stress_Pa"]),
+        Spring(wall, mean_depth, area, *curve(stress))
+        for wall, mean_depth, area, stress in segments_of(
+            run.results.walls, table["time_s"], at
         )
-        for wall in WALLS
-        for height, row in rows_of_wall(run.results.walls, table["time_s"]).items()
-        if at > height
     ]
-    springs.sort(key=lambda spring: (spring.place, spring.depth))
     outer = scene["diameter_m"] / 2
     inner = outer - scene["wall_thickness_m"]
     for place, area in (("tip", outer**2 - inner**2), ("lid", inner**2)):

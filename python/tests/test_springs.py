@@ -130,6 +130,9 @@ class Curves(MadeUp):
             stiffness = found.stiffness(1e-3)
             self.assertLess(abs(stiffness / (first / (HALF + 4e-3)) - 1), 0.01)
             self.assertTrue(math.isnan(found.stiffness(0.1)))
+            # the run ends where ten elevenths are mobilized
+            self.assertLess(found.misfit, 0.5)
+            self.assertGreater(found.misfit, 0.05)
 
     def test_unloading_does_not_count(self) -> None:
         """The displacement begins where the forces of the soil are the weight."""

@@ -11,7 +11,9 @@ from pathlib import Path
 import numpy as np
 from program import ALONE, STOPPED, SUCCESS, Entries, ProgramTest, scene
 
+from caisson.loaded import load
 from caisson.results import Results, Table
+from caisson_export.springs import springs_of
 
 TAN_DELTA = math.tan(math.radians(20))  # the default
 ENTRIES: Entries = {
@@ -144,6 +146,31 @@ class Installation(WallsTest):
         self.assert_sums(path, ("inner", "outer"), 1)
         self.assertEqual(len(Results(path).history["time_s"]), 2)
         self.assertEqual(len(Results(path).frames()), 4)
+
+
+class Pull(WallsTest):
+    """A caisson that is pulled after its installation."""
+
+    def test_springs(self) -> None:
+        """wall.csv has each record, and the springs add up to the forces."""
+        path = self.walls_of(
+            "jack",
+            Output__Walls_at_each_record="true",
+            Output__Record_interval=0.02,
+            Output__Frame_penetrations="",
+            Rigid_body__Velocity_table="0:0.1, 2:0.1, 2.1:0, 2.2:0, 4:-0.1",
+            Time__End_penetration="never",
+            Time__End_time=4,
+        )
+        run = load(path)
+        times = run.results.history["time_s"]
+        np.testing.assert_array_equal(np.unique(run.results.walls["time_s"]), times[1:])
+        found = springs_of(run, 0.0)
+        self.assertEqual(found.direction, -1)
+        self.assertGreater(found.force.max(), 1e3)
+        together = sum(s.area * s.resistance for s in found.springs)
+        largest = found.force.max()
+        np.testing.assert_allclose(together, found.force, atol=0.05 * largest)
 
 
 class Others(WallsTest):
