@@ -36,7 +36,7 @@ class Network:
 @dataclass(frozen=True)
 class Work:
     """What a step consists of; the defaults are measured, but for the imbalance. See
-    doc/how_to/parallel.md for scenes and commands."""
+    lab/notes/two_hosts.md for scenes and commands."""
 
     seconds_per_point: float = 50e-9
     seconds_per_step: float = 40e-6
