@@ -19,7 +19,7 @@ from caisson.loaded import LoadedRun, load
 from caisson.paths import short
 from caisson.results import ResultsError
 from caisson_design.quantity import length, number
-from caisson_export import decks, spring_files, tables
+from caisson_export import decks, spring_files, spring_picture, tables
 from caisson_export.balance import Balanced, balance, check_forces
 from caisson_export.interpolate import interpolate
 from caisson_export.mesh import (
@@ -154,6 +154,8 @@ def export_springs(options: argparse.Namespace) -> tuple[Path, list[str]]:
     name, write = SPRINGS[options.to]
     path = options.output or options.directory / name
     write(path, found, other)
+    if options.to == "tz":
+        spring_picture.draw(path.with_suffix(".png"), found, other)
     return path, spring_files.about_both(found, other)
 
 

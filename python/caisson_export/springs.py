@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from caisson.loaded import LoadedRun
+from caisson.paths import short
 from caisson.results import ResultsError, Table
 
 SAME = 1e-9  # m, of penetrations
@@ -198,7 +199,7 @@ def springs_of(run: LoadedRun, weight: float) -> Springs:
             stress = curve(values / (np.pi * area))
             springs.append(Spring(place, at * (place == "tip"), np.pi * area, *stress))
     return Springs(
-        run.results.title,
+        f"{run.summary.get('title') or 'a run'}, {short(run.directory)}",
         direction,
         at,
         scene["diameter_m"],

@@ -167,6 +167,7 @@ class Files(MadeUp):
         self.assertIn("Pulled by 39.", text)
         self.assertIn("Secant stiffness at 4 mm (0.1 % of the diameter)", text)
         self.assertNotIn("WARNING", text)
+        self.assertGreater((path / "springs.png").stat().st_size, 10_000)
         with (path / "springs.csv").open(encoding="utf-8") as file:
             rows = list(csv.DictReader(line for line in file if line[0] != "#"))
         outer = [r for r in rows if r["place"] == "outer" and r["depth_m"] == "1.75"]
