@@ -244,9 +244,9 @@ namespace CaissonMPM
       plain,
       silent
     };
-    std::string title     = "a scene";
-    std::string directory = "results";
-    Terminal    terminal  = Terminal::full;
+    std::string title                = "a scene";
+    std::string directory            = "results";
+    Terminal    terminal             = Terminal::full;
     bool        walls_at_each_record = false;
 
     std::unique_ptr<OutputDirectory>      locked_directory;
