@@ -52,13 +52,7 @@ namespace CaissonMPM
               10.},
              Entries::poisson_ratio,
              Entries::critical_friction_angle,
-             {"Yield stress ratio",
-              "The stress p_c of a point at the start over that of the yield "
-                 "surface through its stress: 1 in normally consolidated clay. "
-                 "Units: none.",
-              1.,
-              1.,
-              1e3},
+             Entries::yield_stress_ratio,
              Entries::smallest_stress_of_stiffness};
         static constexpr int  friction_entry = 3, n_state = 1;
         static constexpr bool uses_void_ratio = true, stiffness_varies = true;
