@@ -8,16 +8,17 @@
 //   e_c(p)  = Gamma - lambda ln(p / 1 kPa),   psi_i = e - e_c(p_i),
 //   f       = eta / M_i - 1 - ln(p_i / p) <= 0,   D = M_i - eta,
 //   M_i     = M (1 - N |y|),   y = -chi_i psi_i / M_c,
-//   dp_i    = p_i H / M_c (p / p_i)^2 (r - p_i / p) dgamma,
+//   dp_i    = p_i H (M / M_c) (p / p_i)^2 (r - p_i / p) dgamma,
 //   r       = exp(y / (1 - N |y|)),   chi_i = chi / (1 - chi lambda / M_c),
 //
 // where M is that of critical_state.h, and M_c its value in triaxial
 // compression, D the plastic compression over the plastic shear dgamma, and p_i
 // the mean stress where D = 0. Where p_i has its largest value, r p, dilation
 // is the fastest, D = chi_i psi_i, which is chi psi in triaxial compression. No
-// stress exceeds eta = M_i (1 + ln r), which an unloaded soil reaches first; it
-// flows there as with p_i = r p, and p_i falls. At the start, p_i of each point
-// is a multiple of that of the yield surface through its stress.
+// stress exceeds eta = M_i (1 + max(ln r, 0)), which an unloaded soil reaches
+// first: it flows there with the D of this eta, and p_i falls. At the start,
+// p_i of each point is a multiple of that of the yield surface through its
+// stress.
 //
 // The elasticity is that of stiffness_by_stress.h with a constant Poisson
 // ratio, which also gives the stress below which e_c grows no further. y is
@@ -245,6 +246,7 @@ namespace CaissonMPM
         {
           Number less;         // M_i / M
           Number log_of_ratio; // ln r
+          Number limit;        // of ln(p_i / p) in the criterion
 
           [[gnu::always_inline]] inline State(const Number      image,
                                               const Number      void_ratio,
@@ -259,6 +261,7 @@ namespace CaissonMPM
                   Number(p.most_dilatant));
             less         = Number(1.) - Number(p.coupling) * abs(y);
             log_of_ratio = y / less;
+            limit        = max(log_of_ratio, Number(0.));
           }
         };
 
@@ -294,22 +297,24 @@ namespace CaissonMPM
             const Number K       = Number(parameters.elastic.bulk) * factor,
                          three_G = Number(3. * parameters.elastic.mu) * factor,
                          least   = least_image(parameters);
-            Number ratio(0.); // r
+            Number ratio(0.), hardening(0.); // r, H / (M_c (1 - N |y|))
             for (int i = 0; i < most_iterations; ++i)
               {
                 // f is multiplied by p
-                const Number size  = log(image / p),
-                             w     = min(size, state.log_of_ratio),
+                const Number size = log(image / p), w = min(size, state.limit),
                              f     = q * inverse_M - p * (Number(1.) + w);
                 const auto outside = f > Number(1e-9) * p + Number(1e-6);
                 if (!any(outside))
                   return;
                 if (i == 0)
-                  ratio = exp(state.log_of_ratio);
-                const auto   at_limit = size > state.log_of_ratio;
+                  {
+                    ratio     = exp(state.log_of_ratio);
+                    hardening = Number(parameters.hardening) / state.less;
+                  }
+                const auto   at_limit = size > state.limit;
                 const Number part     = p / image,
-                             rate     = Number(parameters.hardening) * part *
-                                    (ratio * part - Number(1.)),
+                             rate =
+                               hardening * part * (ratio * part - Number(1.)),
                              // on the limit, f does not depend on p_i
                   elastic = K * w * select(at_limit, Number(1.) + w, w) +
                             three_G * inverse_M * inverse_M,
@@ -334,7 +339,7 @@ namespace CaissonMPM
               }
             // what is left, at low stress
             q = min(q,
-                    p * (Number(1.) + min(log(image / p), state.log_of_ratio)) /
+                    p * (Number(1.) + min(log(image / p), state.limit)) /
                       inverse_M);
             q = max(q, Number(0.));
           }
