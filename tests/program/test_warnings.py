@@ -119,6 +119,20 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
         {},
     ),
     (
+        ["Poisson ratio = 0.3", "lets undrained clay change its volume"],
+        {f"{LAYER}/Law": "NGI-ADP", f"{LAYER}/Active strength": "60e3 + 5e3*d"},
+        {
+            f"{LAYER}/Law": "NGI-ADP",
+            f"{LAYER}/Active strength": "60e3 + 5e3*d",
+            f"{LAYER}/Poisson ratio": 0.45,
+        },
+    ),
+    (
+        ["Porosity = 0.4 is only the default", "strength of NorSand"],
+        {f"{LAYER}/Law": "NorSand"},
+        {f"{LAYER}/Law": "NorSand", f"{LAYER}/Void ratio": 0.65},
+    ),
+    (
         ["Overconsolidation ratio", "not used", "without a friction angle. Set K0."],
         {**CLAY, f"{LAYER}/Overconsolidation ratio": 4},
         {f"{LAYER}/Overconsolidation ratio": 4},
