@@ -148,7 +148,7 @@ namespace CaissonMPM
     if (soil.law_value("Yield stress ratio") == 1. &&
         origins.is_set(soil.section() + "/Overconsolidation ratio"))
       origins.add_warning(soil.section() +
-                          "/Overconsolidation ratio only raises K0: the clay "
+                          "/Overconsolidation ratio only raises K0: the soil "
                           "is normally consolidated, because Yield stress "
                           "ratio is 1. Set it.");
     const auto cohesion = soil.law_value("Cohesion");
