@@ -160,8 +160,7 @@ namespace CaissonMPM
             {
               __builtin_snprintf(message.text,
                                  sizeof(message.text),
-                                 "the void ratio at the start is 0. Set Void "
-                                 "ratio");
+                                 "Void ratio is 0 at the start. Set it.");
               return false;
             }
           return context.mean_stress <= 0. || check_state(p, context, message);
@@ -366,9 +365,9 @@ namespace CaissonMPM
             __builtin_snprintf(
               message.text,
               sizeof(message.text),
-              "the void ratio %g has the state parameter %g at a mean stress of "
-              "%g Pa, and the law holds from %g to %g. Set Void ratio, or "
-              "Critical void ratio at 1 kPa.",
+              "Void ratio = %g makes a state parameter of %g at a mean stress of "
+              "%g Pa, and the law holds from %g to %g. Correct it, or Critical "
+              "void ratio at 1 kPa.",
               context.void_ratio,
               psi,
               context.mean_stress,
