@@ -4,8 +4,9 @@ their entries, as scenes and run.json have them; nothing else in Python spells t
 
 LAW = "Mohr-Coulomb by density and stress"
 HYPOPLASTIC = "hypoplastic sand with intergranular strain"
+NOR_SAND = "NorSand"
 # in run.json the friction angle of these laws is the critical one
-BY_DENSITY = ("hypoplastic sand", HYPOPLASTIC, LAW)
+BY_DENSITY = ("hypoplastic sand", HYPOPLASTIC, LAW, NOR_SAND)
 
 # entries of LAW alone
 CRITICAL_ANGLE = "Critical friction angle"  # degrees

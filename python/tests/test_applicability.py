@@ -137,6 +137,9 @@ class Applicability(unittest.TestCase):
         for change, words in changes:
             for found in self.why(self.site({**LAYER, **change})):
                 self.assertIn(words, found)
+        clay: dict[str, Any] = {**LAYER, "cohesion_Pa": 5e3}
+        clay.update(law=theory.ANISOTROPIC, friction_angle_deg=None)
+        self.assertEqual(theory.soil_of(clay, 1), "clay")
         softening = self.why(self.site({**LAYER, "law": theory.SOFTENING}))
         self.assertIn("softening", softening[0])
 

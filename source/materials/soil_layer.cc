@@ -134,8 +134,9 @@ namespace CaissonMPM
       adhesion_factor,
       "of the body",
       "The adhesion between the layer and the inner and outer wall of the "
-      "body is this factor alpha times Cohesion over Sensitivity, instead of "
-      "the body's own. Units: none.",
+      "body is this factor alpha times Cohesion (of NGI-ADP: the strength in "
+      "direct simple shear) over Sensitivity, instead of the body's own. "
+      "Units: none.",
       Patterns::Double(0., 10.));
     add_profile(*this,
                 "Sensitivity",
@@ -445,12 +446,12 @@ namespace CaissonMPM
       result.wall_friction_angle = (*wall_friction_angle)(place);
     if (!adhesion_factor)
       return;
-    const auto cohesion = result.law_value("Cohesion");
-    if (!cohesion)
+    const auto strength = result.shear_strength();
+    if (!strength)
       throw BadInput(adhesion_factor->name() + ", but the law " + law +
-                     " has no Cohesion. Set it to \"of the body\".");
+                     " has no undrained strength. Set it to \"of the body\".");
     result.wall_adhesion =
-      (*adhesion_factor)(place) * *cohesion / sensitivity(place);
+      (*adhesion_factor)(place) * *strength / sensitivity(place);
   }
 
   double

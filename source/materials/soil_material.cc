@@ -111,10 +111,18 @@ namespace CaissonMPM
     return {};
   }
 
+  std::optional<double>
+  SoilMaterial::shear_strength() const
+  {
+    if (const auto active = law_value("Active strength"))
+      return *active * *law_value("Direct shear strength ratio");
+    return law_value("Cohesion");
+  }
+
   double
   SoilMaterial::cohesion_after(const double plastic_deviatoric) const
   {
-    const double peak     = law_value("Cohesion").value_or(0.),
+    const double peak     = shear_strength().value_or(0.),
                  residual = law_value("Residual cohesion").value_or(peak),
                  rate     = law_value("Softening shape factor").value_or(0.);
     return residual + (peak - residual) * std::exp(-rate * plastic_deviatoric);

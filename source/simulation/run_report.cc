@@ -214,7 +214,7 @@ namespace CaissonMPM
                                      {"K0", Json::number(m.earth_pressure_at_rest)}};
       const std::pair<const char *, std::optional<double>> values[] = {
         {"friction_angle_deg", m.friction_angle()},
-        {"cohesion_Pa", m.law_value("Cohesion")},
+        {"cohesion_Pa", m.shear_strength()},
         {"youngs_modulus_Pa", m.law_value("Youngs modulus")},
         {"porosity", m.porosity},
         {"relative_density", m.density_index()},

@@ -136,17 +136,19 @@ namespace CaissonMPM
               "",
               "with Method/Mean volume change = false locks, or loses strength "
               "to vibrations of the volume. Set Mean volume change = true.");
-    for (const std::string name : {"Cohesion", "Residual cohesion"})
+    for (const std::string name :
+         {"Cohesion", "Residual cohesion", "Active strength"})
       if (const auto value = soil.law_value(name))
         if (*value > largest_strength)
           doubt(soil.section() + "/" + name,
                 *value,
                 "Pa",
                 "is not the strength of a soil. Check the unit, Pa.");
+    undrained_volume(soil);
     if (soil.law_value("Yield stress ratio") == 1. &&
         origins.is_set(soil.section() + "/Overconsolidation ratio"))
       origins.add_warning(soil.section() +
-                          "/Overconsolidation ratio only raises K0: the clay "
+                          "/Overconsolidation ratio only raises K0: the soil "
                           "is normally consolidated, because Yield stress "
                           "ratio is 1. Set it.");
     const auto cohesion = soil.law_value("Cohesion");
@@ -156,12 +158,27 @@ namespace CaissonMPM
             "Pa",
             "with a friction angle of 0 is no strength at all. In clay, set it "
             "to the undrained shear strength.");
-    if (cohesion && soil.wall_adhesion && *soil.wall_adhesion > *cohesion)
+    const auto strength = soil.shear_strength();
+    if (strength && soil.wall_adhesion && *soil.wall_adhesion > *strength)
       origins.add_warning(
         soil.section() + "/Adhesion factor of the walls makes an adhesion of " +
         to_text(*soil.wall_adhesion, 4) + " Pa, more than the cohesion, " +
-        to_text(*cohesion, 4) +
+        to_text(*strength, 4) +
         " Pa: the soil fails before it slides on such a wall. Set at most 1.");
+  }
+
+  void
+  SceneReview::undrained_volume(const SoilMaterial &soil)
+  {
+    constexpr double least = .45;
+    const auto       nu    = soil.law_value("Poisson ratio");
+    if (soil.law_value("Active strength") && *nu < least &&
+        !scene.water.follows_soil && scene.water.bulk_modulus == 0.)
+      doubt(soil.section() + "/Poisson ratio",
+            *nu,
+            "",
+            "lets undrained clay change its volume. Set it to 0.45 to 0.49, or "
+            "Water/Level = undrained.");
   }
 
   void
@@ -190,8 +207,11 @@ namespace CaissonMPM
   void
   SceneReview::density_of_state(const SoilMaterial &soil)
   {
-    if (!soil.law_value("Maximum void ratio") &&
-        !soil.law_value("Critical void ratio"))
+    const auto has = [&soil](const char *const name) {
+      return soil.law_value(name).has_value();
+    };
+    if (!has("Maximum void ratio") && !has("Critical void ratio") &&
+        !has("Critical void ratio at 1 kPa"))
       return;
     for (const char *const name :
          {"Relative density", "Void ratio", "Porosity"})

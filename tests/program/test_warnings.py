@@ -119,6 +119,11 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
         {},
     ),
     (
+        ["Poisson ratio = 0.3", "lets undrained clay change its volume"],
+        {f"{LAYER}/Law": "NGI-ADP", f"{LAYER}/Active strength": "60e3 + 5e3*d"},
+        {},
+    ),
+    (
         ["Overconsolidation ratio", "not used", "without a friction angle. Set K0."],
         {**CLAY, f"{LAYER}/Overconsolidation ratio": 4},
         {f"{LAYER}/Overconsolidation ratio": 4},
@@ -262,13 +267,14 @@ class Review(ProgramTest):
 
     def test_density_not_given(self) -> None:
         """A law by density, in a scene that does not say how dense the sand is."""
-        sand: Entries = {f"{LAYER}/Law": "hypoplastic sand"}
         words = "Porosity = 0.4 is only the default"
-        for given in (False, True):
-            if given:
-                sand[f"{LAYER}/Porosity"] = 0.4
-            said = self.validate("verification/seepage_skirt", sand)
-            self.assertEqual(words in said, not given, said)
+        for law in ("hypoplastic sand", "NorSand"):
+            for given in (False, True):
+                sand: Entries = {f"{LAYER}/Law": law}
+                if given:
+                    sand[f"{LAYER}/Porosity"] = 0.4
+                said = self.validate("verification/seepage_skirt", sand)
+                self.assertEqual(words in said, not given, said)
 
     def test_doubts(self) -> None:
         """A warning, and none where the entry is just as it should be."""

@@ -16,6 +16,8 @@
 #include <caisson_mpm/kernels/mohr_coulomb_density.h>
 #include <caisson_mpm/kernels/mohr_coulomb_softening.h>
 #include <caisson_mpm/kernels/mohr_coulomb_stiffening.h>
+#include <caisson_mpm/kernels/ngi_adp.h>
+#include <caisson_mpm/kernels/nor_sand.h>
 #include <caisson_mpm/kernels/overstress.h>
 
 namespace CaissonMPM

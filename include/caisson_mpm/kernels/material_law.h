@@ -203,6 +203,14 @@ namespace CaissonMPM
           0.,
           0.,
           19.};
+        constexpr LawEntry yield_stress_ratio = {
+          "Yield stress ratio",
+          "The size of the yield surface of a point at the start over that of "
+          "the one through its stress: 1 in normally consolidated soil. Units: "
+          "none.",
+          1.,
+          1.,
+          1e3};
         constexpr LawEntry reference_stress = {
           "Reference stress",
           "Young's modulus is that of this mean effective stress. Units: Pa.",

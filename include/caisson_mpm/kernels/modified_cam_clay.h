@@ -7,17 +7,9 @@
 //   K = v p / kappa,  G = K 3 (1 - 2 nu) / (2 (1 + nu)),
 //   dp_c = p_c v / (lambda - kappa) d(plastic compression).
 //
-// M depends on the Lode angle theta (Sheng, Sloan & Yu 2000), so that the
-// critical state has the friction angle phi_c in triaxial compression and in
-// extension:
-//
-//   M = M_c (2 a^4 / (1 + a^4 + (1 - a^4) sin 3 theta))^(1/4),
-//   M_c = 6 s / (3 - s),  a = (3 - s) / (3 + s),  s = sin(phi_c),
-//
-// with sin 3 theta = -1 in compression. The flow is associated, but for the
-// deviator, which is radial: it takes M as that of the stress. p_c of each
-// point at the start is a multiple of that of the yield surface through its
-// stress.
+// M is that of critical_state.h. The flow is associated, but for the deviator,
+// which is radial: it takes M as that of the stress. p_c of each point at the
+// start is a multiple of that of the yield surface through its stress.
 //
 // The elastic part of a step is exact in p. Where it leaves the yield surface,
 // the plastic strain is found by the cutting plane algorithm (Ortiz & Simo
@@ -27,15 +19,13 @@
 // References:
 //   K. H. Roscoe, J. B. Burland (1968), On the generalized stress-strain
 //     behaviour of wet clay. Engineering Plasticity, Cambridge, 535-609.
-//   D. Sheng, S. W. Sloan, H. S. Yu (2000), Aspects of finite element
-//     implementation of critical state models. Comput. Mech. 26, 185-196.
 //   M. Ortiz, J. C. Simo (1986), An analysis of a new class of integration
 //     algorithms for elastoplastic constitutive relations. Int. J. Numer.
 //     Methods Eng. 23, 353-366.
 #ifndef caisson_mpm_kernels_modified_cam_clay_h
 #define caisson_mpm_kernels_modified_cam_clay_h
 
-#include <caisson_mpm/kernels/material_law.h>
+#include <caisson_mpm/kernels/critical_state.h>
 
 namespace CaissonMPM
 {
@@ -62,37 +52,29 @@ namespace CaissonMPM
               10.},
              Entries::poisson_ratio,
              Entries::critical_friction_angle,
-             {"Yield stress ratio",
-              "The stress p_c of a point at the start over that of the yield "
-                 "surface through its stress: 1 in normally consolidated clay. "
-                 "Units: none.",
-              1.,
-              1.,
-              1e3},
+             Entries::yield_stress_ratio,
              Entries::smallest_stress_of_stiffness};
         static constexpr int  friction_entry = 3, n_state = 1;
         static constexpr bool uses_void_ratio = true, stiffness_varies = true;
 
         struct Parameters
         {
-          double lambda, kappa;
-          double shear;    // G / K
-          double M2, a4;   // of triaxial compression; a^4
-          double at_start; // the yield stress ratio
-          double smallest_stress, sine;
+          double             lambda, kappa;
+          double             shear; // G / K
+          CriticalStateSlope slope;
+          double             at_start; // the yield stress ratio
+          double             smallest_stress, sine;
         };
 
         static Parameters
         make(const double *values)
         {
           const double nu = values[2],
-                       s  = __builtin_sin(values[3] * radians_per_degree),
-                       M = 6. * s / (3. - s), a = (3. - s) / (3. + s);
+                       s  = __builtin_sin(values[3] * radians_per_degree);
           return {values[0],
                   values[1],
                   1.5 * (1. - 2. * nu) / (1. + nu),
-                  M * M,
-                  a * a * a * a,
+                  CriticalStateSlope::make(s),
                   values[4],
                   values[5],
                   s};
@@ -103,12 +85,10 @@ namespace CaissonMPM
               const LawContext &context,
               LawMessage       &message)
         {
-          // q / p at the start over M, in compression or extension
-          const double s     = __builtin_sin(values[3] * radians_per_degree),
-                       k     = context.earth_pressure_at_rest,
-                       q     = 3. * (1. - k) / (1. + 2. * k),
-                       share = q > 0. ? q * (3. - s) / (6. * s) :
-                                        -q * (3. + s) / (6. * s);
+          const double share =
+            CriticalStateSlope::share_at_rest(__builtin_sin(values[3] *
+                                                            radians_per_degree),
+                                              context.earth_pressure_at_rest);
           const char *const text =
             values[1] >= values[0] ?
               "Slope of swelling is not below Slope of compression. Reduce it" :
@@ -171,57 +151,26 @@ namespace CaissonMPM
             select(state.variable[0] > Number(0.),
                    state.variable[0],
                    Number(p.at_start) *
-                     yield_stress_through(Invariants<Number>(sigma, p)));
-          const Number             K = add_elastic_increment(sigma, de, e, p);
-          const Invariants<Number> trial(sigma, p);
-          Return<Number>           back{trial.p, trial.q, yield_stress};
+                     yield_stress_through(
+                       CriticalStateInvariants<Number>(sigma, p.slope)));
+          const Number K = add_elastic_increment(sigma, de, e, p);
+          const CriticalStateInvariants<Number> trial(sigma, p.slope);
+          Return<Number> back{trial.p, trial.q, yield_stress};
           back.to_surface(trial.inverse_M2, K, e, p);
           const auto   torn = back.p < Number(0.);
           const Number share =
             select(torn, Number(0.), back.q / max(trial.q, Number(1e-30)));
-          const Number p_new = max(back.p, Number(0.)),
-                       mean  = share * trial.p - p_new;
-          sigma              = {share * sigma.rr + mean,
-                                share * sigma.zz + mean,
-                                share * sigma.tt + mean,
-                                share * sigma.rz};
-          state.variable[0]  = back.yield_stress;
+          sigma = trial.changed(sigma, share, max(back.p, Number(0.)));
+          state.variable[0] = back.yield_stress;
           state.plastic_volumetric -= back.compression;
           state.plastic_deviatoric += back.shear;
         }
 
       private:
-        /** p, q and M^-2 of a stress. */
-        template <typename Number>
-        struct Invariants
-        {
-          Number p, q, inverse_M2;
-
-          [[gnu::always_inline]] inline Invariants(
-            const StressState<Number> &sigma,
-            const Parameters          &parameters)
-            : p(pressure(sigma))
-          {
-            const Number rr = sigma.rr + p, zz = sigma.zz + p,
-                         tt = sigma.tt + p, rz2 = sigma.rz * sigma.rz,
-                         J2 = Number(.5) * (rr * rr + zz * zz + tt * tt) + rz2,
-                         J3 = tt * (rr * zz - rz2);
-            q               = sqrt(Number(3.) * J2);
-            const Number cubed = max(Number(2.) * J2 * sqrt(J2), Number(1e-60));
-            const Number sine =
-              max(min(Number(5.196152422706632) * J3 / cubed, Number(1.)),
-                  Number(-1.));
-            const double a4 = parameters.a4;
-            inverse_M2      = Number(1. / parameters.M2) *
-                         sqrt(Number(.5 / a4) *
-                              (Number(1. + a4) + Number(1. - a4) * sine));
-          }
-        };
-
         /** p_c of the yield surface through a stress. */
         template <typename Number>
         [[gnu::always_inline]] static inline Number
-        yield_stress_through(const Invariants<Number> &s)
+        yield_stress_through(const CriticalStateInvariants<Number> &s)
         {
           const Number p = max(s.p, Number(least_stress));
           return p + s.q * s.q * s.inverse_M2 / p;

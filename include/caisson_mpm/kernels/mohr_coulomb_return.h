@@ -167,6 +167,12 @@ namespace CaissonMPM
                       (major > Number(strength.tension_cutoff)));
         }
 
+        /** Steps 2 and 3, for trial stresses that step 1 leaves above T. */
+        [[gnu::always_inline]] static inline Stress
+        to_cutoff(const Stress                &trial,
+                  const MohrCoulombElasticity &elastic,
+                  const Strength              &strength);
+
       private:
         /** f of the major and the minor stress. Units: Pa. */
         [[gnu::always_inline]] static inline Number
@@ -181,12 +187,6 @@ namespace CaissonMPM
         /** Step 1 of the file's head. Admissible stresses do not change. */
         [[gnu::always_inline]] static inline Stress
         to_cone(const Stress &trial, const Number yield, const Strength &);
-
-        /** Steps 2 and 3, for trial stresses that step 1 leaves above T. */
-        [[gnu::always_inline]] static inline Stress
-        to_cutoff(const Stress                &trial,
-                  const MohrCoulombElasticity &elastic,
-                  const Strength              &strength);
 
         /** Add the plastic strain that took @p trial to @p final_stress. */
         [[gnu::always_inline]] static inline void

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Mohr-Coulomb whose Young's modulus follows the mean effective stress p
-// (Janbu 1963, for sand),
-//
-//   E = E_ref (max(p, p_min) / p_ref)^m,   p = -tr(sigma) / 3,
-//
-// with a constant Poisson ratio. For m = 0 stresses are those of Mohr-Coulomb.
+// Mohr-Coulomb whose Young's modulus follows the mean effective stress
+// (stiffness_by_stress.h), with a constant Poisson ratio. For m = 0 stresses
+// are those of Mohr-Coulomb.
 //
 // The step is explicit in the stiffness, which is that of the stress at its
 // start. A return to the yield surface depends on the ratios of the elastic
@@ -13,15 +10,11 @@
 // strain that is E / E_ref times as large; only the plastic strain must be
 // scaled back. The elasticity has no potential: a closed path of stress in the
 // elastic range gives or takes some work.
-//
-// Reference:
-//   N. Janbu (1963), Soil compressibility as determined by oedometer and
-//     triaxial tests. Proc. ECSMFE, Wiesbaden, vol. 1, 19-25.
 #ifndef caisson_mpm_kernels_mohr_coulomb_stiffening_h
 #define caisson_mpm_kernels_mohr_coulomb_stiffening_h
 
 #include <caisson_mpm/kernels/mohr_coulomb.h>
-#include <caisson_mpm/kernels/simd_math.h>
+#include <caisson_mpm/kernels/stiffness_by_stress.h>
 
 namespace CaissonMPM
 {
@@ -34,19 +27,6 @@ namespace CaissonMPM
       scaled(const Number factor, const StrainIncrement<Number> &de)
       {
         return {factor * de.rr, factor * de.zz, factor * de.tt, factor * de.rz};
-      }
-
-      /** What is known against the stresses p_ref and p_min, or null. */
-      inline const char *
-      warning_of_stiffness(const double reference, const double smallest)
-      {
-        if (reference < 1e4 || reference > 1e6)
-          return "Reference stress is usually 1e5 Pa: check its unit, and that "
-                 "Youngs modulus is that of this stress";
-        if (smallest >= reference)
-          return "Smallest stress of stiffness is not below Reference stress, "
-                 "so that the stiffness hardly depends on the stress";
-        return nullptr;
       }
 
       /** The law "Mohr-Coulomb with stiffness by stress": the strength is that
@@ -75,24 +55,19 @@ namespace CaissonMPM
         struct Parameters
         {
           MohrCoulomb::Parameters reference; // at the reference stress
-          double                  exponent;
-          double                  inverse_stress, smallest_stress; // 1/Pa, Pa
+          StiffnessByStress       stiffness;
 
           /** Of the elastic compression by the pressure p: that strain over p
            * over the bulk modulus at p, 1 / (1 - m). */
           double compression;
-          bool   by_roots; // 4 m is a whole number
         };
 
         static Parameters
         make(const double *values)
         {
           return {MohrCoulomb::make(values),
-                  values[8],
-                  1. / values[7],
-                  values[9],
-                  1. / (1. - (values[8] < .9 ? values[8] : .9)),
-                  has_quarter_power(values[8])};
+                  StiffnessByStress::make(values[7], values[8], values[9]),
+                  1. / (1. - (values[8] < .9 ? values[8] : .9))};
         }
 
         static bool
@@ -172,10 +147,7 @@ namespace CaissonMPM
         [[gnu::always_inline]] static inline Number
         stiffening(const StressState<Number> &s, const Parameters &p)
         {
-          const Number ratio = Number(p.inverse_stress) *
-                               max(pressure(s), Number(p.smallest_stress));
-          return p.by_roots ? quarter_power(ratio, p.exponent) :
-                              pow(ratio, p.exponent);
+          return p.stiffness(s);
         }
 
         template <typename Number>

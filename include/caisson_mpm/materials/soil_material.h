@@ -96,6 +96,12 @@ namespace CaissonMPM
     std::optional<double>
     law_value(const std::string &entry) const;
 
+    /** Return the strength on which adhesion and the design methods for clay
+     * are based: the cohesion or, where strength is anisotropic, that in direct
+     * simple shear. Units: Pa. */
+    std::optional<double>
+    shear_strength() const;
+
     /** Return the cohesion after some plastic shear, see LawState; 0 where the
      * law has none. Units: Pa. */
     double

@@ -57,6 +57,8 @@ namespace CaissonMPM
     void
     stiffness_and_strength(const SoilMaterial &soil);
     void
+    undrained_volume(const SoilMaterial &soil);
+    void
     solid_density(const SoilMaterial &soil);
     /** Warn of a law by density where no entry says how dense the soil is. */
     void

@@ -28,6 +28,7 @@ Scene = Mapping[str, Any]
 # The laws whose strength is one friction angle; run.json names the law of a layer.
 LAWS = ("Mohr-Coulomb", "Mohr-Coulomb with stiffness by stress")
 SOFTENING = "Mohr-Coulomb with softening"
+ANISOTROPIC = "NGI-ADP"  # cohesion_Pa is its strength in direct simple shear
 SIZES = ("diameter_m", "wall_thickness_m")
 PARTS = ("tip", "inner friction", "outer friction", "total")
 ASSUMED_CONE = " (cone ASSUMED)"  # behind the name of a method
@@ -170,7 +171,7 @@ def soil_of(entry: Scene, number: int) -> str:
     law = entry.get("law", LAWS[0])
     if law in BY_DENSITY:
         return "sand"
-    if law not in (*LAWS, SOFTENING):
+    if law not in (*LAWS, SOFTENING, ANISOTROPIC):
         raise NotApplicable(f"layer {number} is {law}, neither sand nor clay")
     frictional = (entry.get("friction_angle_deg") or 0) > 0
     cohesive = (entry.get("cohesion_Pa") or 0) > 0
