@@ -367,6 +367,56 @@ class Caisson(ProgramTest):
         self.assertGreater(last["tip_water_force_N"], 1e3)
         self.assertLess(last["water_balance"], 1e-7)
 
+    def mean_force(self, name: str, entries: Entries) -> tuple[float, Path]:
+        """Return that of soil and water from 0.6 m on (N), and the results."""
+        path = self.directory(name)
+        self.run_scene("suction", path, entries=entries)
+        rows = [row for row in history(path) if row["penetration_m"] >= 0.6]
+        return sum(row["total_force_with_water_N"] for row in rows) / len(rows), path
+
+    def test_tight_soil_is_undrained(self) -> None:
+        """Where no water flows, the pressure from the equation agrees with that of
+        water that is much stiffer than the soil: in sand and in Tresca's clay. Soil
+        around the tip keeps its volume, but for what the projection leaves once: a
+        small part of the strain by the pressure on the tip in soil that drains."""
+        layer = {"Friction angle": 0, "Cohesion": 1e4, "K0": 1, "Tension cut-off": 1e9}
+        clay: Entries = {f"Soil/Layer 1/{key}": x for key, x in layer.items()}
+        for part in ("tip", "inner wall", "outer wall"):
+            clay[f"Rigid body/Friction angle of the {part}"] = 0
+        shares = {"low": 0.01, "high": 0.99}  # of the points around the tip
+        area, modulus_of_soil = math.pi * (3**2 - 2.8**2), 6.73e6  # m2, Pa
+        around = "(r > 2.5)*(r < 3.3)*(z > -1.2)*(z < -0.5)"
+        soils: list[tuple[str, Entries, float]] = [  # and the modulus of the water
+            ("sand", {}, 8.33e8),
+            ("clay", clay, 2.5e8),
+        ]
+        for kind, soil, modulus in soils:
+            with self.subTest(kind):
+                soil["Output/Record interval"] = 0.1
+                undrained, _ = self.mean_force(
+                    f"{kind}_undrained",
+                    {**soil, "Water/Level": "undrained", "Water/Bulk modulus": modulus},
+                )
+                coupled, path = self.mean_force(
+                    f"{kind}_coupled",
+                    {
+                        **soil,
+                        **COUPLED,
+                        **NO_SUCTION,
+                        "Soil/Layer 1/Permeability": 1e-9,
+                        "Verification/Observations": "; ".join(
+                            f"{name} = quantile {share} volume_ratio where {around}"
+                            for name, share in shares.items()
+                        ),
+                    },
+                )
+                self.assertAlmostEqual(coupled / undrained, 1, delta=0.03)
+                last = history(path, "observations")[-1]
+                pressure = history(path)[-1]["tip_water_force_N"] / area
+                for name in shares:
+                    strain = abs(last[name] - 1)
+                    self.assertLess(strain, 0.05 * pressure / modulus_of_soil, name)
+
     def test_restart_and_ranks(self) -> None:
         """A checkpoint has the pressure, for any number of ranks."""
         begin = self.directory("begin")
