@@ -4,8 +4,9 @@
 import math
 import shutil
 import unittest
+from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import ClassVar
 
 from program import (
     FAILURE,
@@ -33,17 +34,18 @@ NO_SUCTION: Entries = {
 }
 
 
-class Clay(NamedTuple):
+@dataclass(frozen=True)
+class Clay:
     """A layer of clay between two of sand in a box. Water under pressure comes in
     through the bottom, and leaves through the top and the outer side."""
 
     thickness: float  # m
     modulus: float  # Young's, of all layers, Pa
 
-    sand = 0.1  # thickness of the sand above and below, and width of the box, m
-    permeability = 1e-9  # m/s
-    permeability_of_sand = 1e-4
-    pressure = 2e4  # at the bottom, Pa
+    sand: ClassVar = 0.1  # thickness of that above and below, width of the box, m
+    permeability: ClassVar = 1e-9  # m/s
+    permeability_of_sand: ClassVar = 1e-4
+    pressure: ClassVar = 2e4  # at the bottom, Pa
 
     def pressure_above(self, x: float, depth: float) -> float:
         """Return that in the upper sand, Pa. Series in cos(k x): the sand below does
