@@ -218,12 +218,12 @@ def of_cause(cause: str, h: float, walls: Walls | None) -> str:
             f" {little}."
         )
     at_rest, passive = (
-        " to ".join(dict.fromkeys(f"{end:.2g}" for end in ends))
+        " to ".join(dict.fromkeys(f"{end:.2f}" if end < 1 else f"{end:.1f}" for end in ends))
         for ends in (walls.at_rest, walls.passive)
     )
     return (
-        f"At {h:g} m the mean K on the walls is {walls.outer:.2g} outside and"
-        f" {walls.inner:.2g} inside; at rest it is {at_rest}, and at the passive limit"
+        f"At {h:g} m the mean K on the walls is {walls.outer:.1f} outside and"
+        f" {walls.inner:.1f} inside; at rest it is {at_rest}, and at the passive limit"
         f" {passive}; {little}."
     )
 

@@ -40,7 +40,7 @@ UNDISTURBED_IS = (
 )
 AT_DEPTH = 0.05  # m, between a depth and the frame that is taken for it
 NO_ANSWER = "none (piping)"
-NOTHING: dict[str, Any] = {"card": [], "tables": [], "why": [], "reasons": [], "notes": []}
+NOTHING: dict[str, Any] = {"tables": [], "why": [], "reasons": [], "notes": []}
 
 
 def in_ranges(heads: list[str], rows: list[list[str]]) -> dict[str, list[str]]:
@@ -365,12 +365,13 @@ def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
 # ------------------------------------------------------------------ all
 
 
-def card_of(table: dict[str, Any]) -> list[tuple[str, ...]]:
-    """Return a card with computed over method, at the deepest depth with an answer of a
+def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
+    """Return a card with computed over method, of the first table of the methods, at the deepest depth with an answer of a
     method that is fitted to field data, without an assumed cone if possible, else of
     the lower bound; nothing where none has an answer."""
     answers = [
         (row[0], head.removeprefix(RATIO), cell)
+        for table in found["tables"][:1]
         for row in reversed(table["rows"])
         for head, cell in zip(table["heads"], row)
         if head.startswith(RATIO) and cell
@@ -416,13 +417,7 @@ def methods_of(run: Results) -> dict[str, Any]:
         assumed = theory.assumptions_in_words(site.scene)
         notes.insert(0, f"{assumed}; {UNDISTURBED_IS}.")
     return {
-        "card": card_of(tables[0]),
-        "tables": [
-            part
-            for table in tables
-            if len(table["heads"]) > 2
-            for part in for_a_page(table)
-        ],
+        "tables": [table for table in tables if len(table["heads"]) > 2],
         "why": [sentence for sentence in why if sentence],
         "reasons": theory.reasons(answers),
         "notes": [note for note in notes if note],

@@ -207,7 +207,7 @@ def html(run: Results, rate: Rate) -> str:
     }
     summary = run.summary if run.scene or not run.is_running else {}
     title = str(summary.get("title") or run.directory.resolve().name)
-    cards = cards + beside["card"] if cards else []
+    cards = cards + methods.card_of(beside) if cards else []
     warnings = warnings_of(summary)
     warnings["result"] += installation.piping_warning(run, found)
     return environment.get_template("page.html").render(
@@ -228,6 +228,7 @@ def html(run: Results, rate: Rate) -> str:
         figures=data["figures"],
         units=content.unit_table(run),
         methods=beside,
+        method_tables=[t for x in beside["tables"] for t in methods.for_a_page(x)],
         pictures=pictures_of(run),
         charts=CHARTS,
         remarks=content.remarks_on_numbers(run),

@@ -105,7 +105,7 @@ def entries_of(run: Results) -> dict[str, str]:
     summary = run.summary
     units = summary.get("units", {})
     return {
-        readable(entry): entry_with_unit(value, units.get(entry, ""))
+        entry: entry_with_unit(value, units.get(entry, ""))
         for entry, value in summary.get("entries", {}).items()
     }
 
@@ -123,10 +123,7 @@ def mass_scaling_of(run: Results) -> str:
 
 def defaults_of(run: Results) -> dict[str, str]:
     """Return the entries with their defaults."""
-    found = {
-        readable(entry): value
-        for entry, value in run.summary.get("defaults", {}).items()
-    }
+    found = dict(run.summary.get("defaults", {}))
     if words := mass_scaling_of(run):
         found["Time/Mass scaling"] = words
     return found

@@ -259,7 +259,7 @@ def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
         "left halves: vertical effective stress (kPa)",
         *stress_of(frames, window),
     )
-    sides = [stress, ratio_of("right halves: the same over that at rest (-)", frames)]
+    sides = [stress, ratio_of("right halves: ratio to the stress at rest (-)", frames)]
     figure_of(frames, window, sides)[0].savefig(path, dpi=150)
     return path
 
