@@ -99,7 +99,7 @@ def query(arguments: Sequence[str], program: Path = PROGRAM) -> str:
 
 def size_in(output: str) -> Size:
     """Return the size of a run of which --validate has said this."""
-    points = re.search(r"^ *points +(\d+)$", output, re.M)
+    points = re.search(r"^ *points +(\d+)\b", output, re.M)
     found = re.search(
         r"^ *duration +about ([\d.]+) to ([\d.]+) (s|min|h)\b", output, re.M
     )
@@ -213,15 +213,20 @@ class Run:
         except (OSError, ValueError):
             return None
 
-    def share_done(self) -> float:
-        """Return what part of a run is done by its own words, 0 where it says none."""
+    def share_done(self, elapsed: float) -> float:
+        """Return what part of the time of a run is over after so many seconds, by the
+        time that it expects to need still; 0 where it says none."""
         try:
             with open(self.directory / "log", "rb") as log:
                 log.seek(-min(log.seek(0, os.SEEK_END), 1000), os.SEEK_END)
-                found = re.findall(rb"\| +([\d.]+) % \|", log.read())
+                found = re.findall(rb"\| ETA (\d+):(\d+):(\d+)", log.read())
         except OSError:
             return 0.0
-        return float(found[-1]) / 100 if found else 0.0
+        if not found:
+            return 0.0
+        hours, minutes, seconds = map(int, found[-1])
+        left = 3600 * hours + 60 * minutes + seconds
+        return elapsed / max(elapsed + left, 1e-9)
 
     def is_complete(self) -> bool:
         """Return whether the results there are those of this run."""
