@@ -21,6 +21,8 @@ from caisson.paths import PROGRAM, WORK
 from caisson.ranks import Size
 
 Entries = Mapping[str, Any]
+# what batch systems set, which may give a run several hosts
+BATCH = ("SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "PE_HOSTFILE")
 
 
 class Status(enum.IntEnum):
@@ -79,6 +81,9 @@ def environment() -> dict[str, str]:
         # MPI 5 does not know this, and has no such choice.
         "OMPI_MCA_orte_execute_quiet": "1",
     }
+    if not set(BATCH) & set(os.environ):
+        # ranks of one host share memory; without a network Open MPI complains of TCP
+        defaults["OMPI_MCA_btl"] = "^tcp"
     return {**defaults, **os.environ}
 
 

@@ -243,7 +243,7 @@ namespace CaissonMPM
       worst = std::max(worst,
                        largest_in(points, cell, squares) *
                          size_of_ancestor(cell).with_level_rows);
-    worst           = Utilities::MPI::max(worst, grid.communicator());
+    worst               = Utilities::MPI::max(worst, grid.communicator());
     const bool is_first = inertia_.empty();
     inertia_at_tip_     = inertia_for(stress_over_inertia_at_tip());
     least_inertia =

@@ -271,8 +271,7 @@ namespace CaissonMPM
         critical;
     line.fraction_done = done;
     line.eta_seconds =
-      is_first ? std::numeric_limits<double>::quiet_NaN() :
-                 seconds_left(done);
+      is_first ? std::numeric_limits<double>::quiet_NaN() : seconds_left(done);
     console->record(line);
     if (parts.grid.is_first_rank())
       write_progress(done, line.eta_seconds);

@@ -51,16 +51,14 @@ namespace CaissonMPM
   {
     const double n_points = cost.n_points, n_steps = cost.n_steps,
                  // no more than one for each step, and the first
-      n_frames       = std::min(n_steps + 1., 1. * cost.n_frames);
-    std::string text = "  grid       " + cost.grid + "\n  points     " +
-                       to_text(cost.n_points) +
-                       (cost.splits ? " at the start, and about " +
-                                        rough(split * n_points) +
-                                        " at the end by splitting" :
-                                      "") +
-                       "\n  time step  " +
-                       to_text(cost.step_size, 4) + " s, limited by " +
-                       cost.limit;
+      n_frames = std::min(n_steps + 1., 1. * cost.n_frames);
+    std::string text =
+      "  grid       " + cost.grid + "\n  points     " + to_text(cost.n_points) +
+      (cost.splits ? " at the start, and about " + rough(split * n_points) +
+                       " at the end by splitting" :
+                     "") +
+      "\n  time step  " + to_text(cost.step_size, 4) + " s, limited by " +
+      cost.limit;
     text += "\n  end        " + cost.end;
     if (std::isfinite(n_steps))
       text += "\n  steps      about " + rough(n_steps);
@@ -72,7 +70,8 @@ namespace CaissonMPM
                                 "further one") +
             "\n  frames     " + rough(n_frames) + ", about " +
             megabytes(n_frames * bytes_on_disk * n_points *
-                      (cost.splits ? split : 1.)) + " on the disk";
+                      (cost.splits ? split : 1.)) +
+            " on the disk";
     if (std::isfinite(n_steps) && cost.seconds_per_step > 0.)
       text += "\n  duration   about " + duration(cost.seconds()) + " on " +
               (cost.n_ranks > 1 ? to_text(cost.n_ranks) + " cores" :

@@ -70,7 +70,8 @@ namespace CaissonMPM
                             parts.body.motion().beginning().travel)}};
     }
 
-    /** The unit that the text of an entry ends with, empty where it has none. */
+    /** The unit that the text of an entry ends with, empty where it has none.
+     */
     std::string
     unit_of(const DeclaredEntry &entry)
     {
@@ -444,8 +445,7 @@ namespace CaissonMPM
         rows.push_back({name, seconds, 100. * seconds / total});
         sum += seconds;
       }
-    rows.push_back(
-      {"set-up and rest", total - sum, 100. * (1. - sum / total)});
+    rows.push_back({"set-up and rest", total - sum, 100. * (1. - sum / total)});
     rows.push_back({"total", total, 100.});
     console.table("wall time", rows);
   }

@@ -262,16 +262,16 @@ namespace CaissonMPM
     std::string directory = "results";
     Terminal    terminal  = Terminal::full;
 
-    std::unique_ptr<OutputDirectory>      locked_directory;
-    std::unique_ptr<Console>              console;
-    std::unique_ptr<Records>              records;
-    std::unique_ptr<Visualization>        visualization;
-    std::unique_ptr<WallFile>             wall_file;
-    std::string                           scene, command, fingerprint, installation;
-    std::string                           wrong_error_bar_;
-    std::vector<std::string>              assumed; // entries
-    std::function<double()>               steps_left;
-    const Kernels::KernelTable           *kernels = nullptr;
+    std::unique_ptr<OutputDirectory> locked_directory;
+    std::unique_ptr<Console>         console;
+    std::unique_ptr<Records>         records;
+    std::unique_ptr<Visualization>   visualization;
+    std::unique_ptr<WallFile>        wall_file;
+    std::string                      scene, command, fingerprint, installation;
+    std::string                      wrong_error_bar_;
+    std::vector<std::string>         assumed; // entries
+    std::function<double()>          steps_left;
+    const Kernels::KernelTable      *kernels = nullptr;
     std::chrono::steady_clock::time_point start_time;
 
     // since the last record
