@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cards, error bars and ends of runs in report.html of made-up runs."""
 import html
+import re
 import unittest
 import unittest.mock
 from typing import Any
@@ -11,7 +12,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson_report as report
 from caisson.results import Results
-from caisson_report import content, installation, methods
+from caisson_report import content, installation, methods, sketch
 from caisson_report import page as page_module
 
 
@@ -179,6 +180,41 @@ class Cards(WithPage):
         self.assertEqual(forces["rows"][1], ["2", "9", "4", ""])
         self.assertEqual(of_method["title"], "Computed / method: total force (kN)")
         self.assertEqual(of_method["rows"], [["1", "3 to 4"], ["2", ""]])
+
+    def test_stress_on_the_walls(self) -> None:
+        """Of the frame at a depth: 30 and 60 kPa of 10 and 20 kPa at rest, and not
+        above the mudline; none far from a frame."""
+        leave_run(self.path, SUMMARY)
+        self.assertIsNone(methods.walls_of(Results(self.path), 4.5))
+        table = {
+            "time_s": np.array([4.0, 4.5, 4.5, 4.5]),
+            "penetration_m": np.array([4.0, 4.5, 4.5, 4.5]),
+            "depth_m": np.array([1.0, -0.1, 1.0, 2.0]),
+            "vertical_stress_at_rest_Pa": np.array([1e4, 0, 1e4, 2e4]),
+        }
+        for side, k in (("inner", 3.0), ("outer", 2.0)):
+            table[f"{side}_area_m2"] = np.ones(4)
+            stress = k * table["vertical_stress_at_rest_Pa"]
+            table[f"{side}_normal_stress_Pa"] = stress + [9e9, 9e9, 0, 0]
+        write_columns(self.path / "wall.csv", table)
+        found = methods.walls_of(Results(self.path), 4.5)
+        assert found is not None
+        self.assertAlmostEqual(found.inner, 3.0)
+        self.assertAlmostEqual(found.outer, 2.0)
+        self.assertEqual(found.at_rest, (0.5, 0.5))
+        self.assertAlmostEqual(found.passive[0], 3.25, delta=0.01)  # of 32 degrees
+        self.assertIsNone(methods.walls_of(Results(self.path), 3.0))
+
+    def test_sketch(self) -> None:
+        """A triangular tip has its point in the middle of the wall; a text of a layer
+        is not wider than the caisson."""
+        for tip, corners in (("triangular", 5), ("flat", 4)):
+            leave_run(self.path, {**SUMMARY, "defaults": {"Rigid body/Tip": tip}})
+            drawn = sketch.of_run(Results(self.path), 4.5, None)
+            points = re.findall(r'<polygon class="steel" points="([^"]*)"', drawn)
+            self.assertEqual([len(x.split()) for x in points], [corners] * 2)
+        words = sketch.about_layer(SCENE["layers"][0], 1, 120)
+        self.assertEqual(words, "layer 1, φ 32°")
 
     def test_force_without_an_error_bar(self) -> None:
         """Three digits, and the command for the error of the mesh in the title."""
