@@ -218,7 +218,9 @@ def of_cause(cause: str, h: float, walls: Walls | None) -> str:
             f" {little}."
         )
     at_rest, passive = (
-        " to ".join(dict.fromkeys(f"{end:.2f}" if end < 1 else f"{end:.1f}" for end in ends))
+        " to ".join(
+            dict.fromkeys(f"{end:.2f}" if end < 1 else f"{end:.1f}" for end in ends)
+        )
         for ends in (walls.at_rest, walls.passive)
     )
     return (

@@ -256,7 +256,9 @@ def unit_table(run: Results) -> dict[str, Any]:
     columns = {"tip depth (m)": at, "tip (kPa)": mean("tip_force_N") / 1e3 / tip_area}
     for side, width in (("inner", inner), ("outer", outer)):
         friction = mean(f"{side}_friction_N") / 1e3
-        columns[f"mean {side} friction over the embedded wall (kPa)"] = friction / (math.pi * width * at)
+        columns[f"mean {side} friction over the embedded wall (kPa)"] = friction / (
+            math.pi * width * at
+        )
     texts = [[text_of(value) for value in values] for values in columns.values()]
     return {"heads": list(columns), "rows": [list(row) for row in zip(*texts)]}
 

@@ -126,9 +126,7 @@ def about_layer(layer: dict[str, Any], number: int, width: float) -> str:
     return ", ".join(words)
 
 
-def draw_ground(
-    drawing: Drawing, layers: list[dict[str, Any]], radius: float
-) -> None:
+def draw_ground(drawing: Drawing, layers: list[dict[str, Any]], radius: float) -> None:
     """Draw the layers, with their depths at the right and their numbers between the
     walls of the caisson, where no dimension is."""
     side = drawing.half_width

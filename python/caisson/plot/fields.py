@@ -166,7 +166,9 @@ def draw_layers(axes: Axes, frame: Frame) -> None:
         if len(frame.body) and frame.body[..., 1].min() < top:
             wall = frame.body[frame.body[..., 1].min(axis=1) < top][..., 0]
             skin = np.ptp(wall) if wall.min() > 0 else 0.0
-            is_near = (line[:, 0] > wall.min() - skin) & (line[:, 0] < wall.max() + skin)
+            is_near = (line[:, 0] > wall.min() - skin) & (
+                line[:, 0] < wall.max() + skin
+            )
             line[is_near, 1] = np.nan
         # to the axis and to the side of the mesh
         line[[0, -1], 0] = edges[[0, -1]]

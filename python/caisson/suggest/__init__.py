@@ -323,7 +323,11 @@ def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
         choices[name] = entries
     scene = os.path.relpath(options.file, options.study.parent)
     return template("study.toml.jinja").render(
-        scene=scene, follows=follows, choices=choices, by_density=by_density, layers=len(layers)
+        scene=scene,
+        follows=follows,
+        choices=choices,
+        by_density=by_density,
+        layers=len(layers),
     )
 
 
