@@ -366,9 +366,10 @@ def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
 
 
 def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
-    """Return a card with computed over method, of the first table of the methods, at the deepest depth with an answer of a
-    method that is fitted to field data, without an assumed cone if possible, else of
-    the lower bound; nothing where none has an answer."""
+    """Return a card with computed over method, of the first table of the methods, at
+    the deepest depth with an answer of a method that is fitted to field data, without
+    an assumed cone if possible, else of the lower bound; nothing where none has an
+    answer."""
     answers = [
         (row[0], head.removeprefix(RATIO), cell)
         for table in found["tables"][:1]

@@ -181,7 +181,7 @@ class Progress(ProgramTest):
         least, most = summary(path)["mass_scaling"]
         self.assertGreater(most, 1.01 * least)
         self.assertIn("jack_coarse.prm --output-directory", summary(path)["command"])
-        self.assertEqual(summary(path)["units"]["Grid/Outer radius"], "m")
+        self.assertEqual(summary(path)["units"]["Output/Record interval"], "s")
 
 
 if __name__ == "__main__":
