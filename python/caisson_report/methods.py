@@ -354,7 +354,7 @@ def walls_of(run: Results, h: float) -> Walls | None:
         means.append(float(np.nansum(normal * area) / below))
     passive = [math.tan(math.radians(45 + angle / 2)) ** 2 for angle in angles]
     ends = [(min(values), max(values)) for values in (at_rest, passive)]
-    return Walls(*means, *ends)
+    return Walls(means[0], means[1], ends[0], ends[1])
 
 
 def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
