@@ -110,7 +110,7 @@ class Layers(SuggestTest):
             env={**environment(), "PYTHONPATH": str(HERE.parent / "python")},
         )
         self.assertEqual(listed.returncode, 0, listed.stderr)
-        self.assertIn("friction angle of the soil", listed.stdout)
+        self.assertIn("friction angle of layers 1 and 2 of own.prm", listed.stdout)
         for words in (
             ["--overwrite", "--study", str(path / "study.txt")],
             ["--study", str(study)],
