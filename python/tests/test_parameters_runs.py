@@ -293,7 +293,7 @@ class Evaluation(WithFiles):
         below the picture; what it says of its input is not."""
         texts = {"result": "the mesh is too coarse", "input": "a small angle"}
         ranked = [{"rank": rank, "text": text} for rank, text in texts.items()]
-        known = {"results": {"warnings": ranked}}
+        known: dict[str, object] = {"results": {"warnings": ranked}}
         found = self.outcomes(PHI + "values = [30, 32]", "1.23456e7 * d + i", known)
         self.assertIn("see table.csv: Friction", pictures.caption(found, ""))
         tables.write_runs(self.path / "table.csv", found)
