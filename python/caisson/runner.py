@@ -21,6 +21,8 @@ from caisson.paths import PROGRAM, WORK
 from caisson.ranks import Size
 
 Entries = Mapping[str, Any]
+# what batch systems set, which may give a run several hosts
+BATCH = ("SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "PE_HOSTFILE")
 
 
 class Status(enum.IntEnum):
@@ -79,6 +81,9 @@ def environment() -> dict[str, str]:
         # MPI 5 does not know this, and has no such choice.
         "OMPI_MCA_orte_execute_quiet": "1",
     }
+    if not set(BATCH) & set(os.environ):
+        # ranks of one host share memory; without a network Open MPI complains of TCP
+        defaults["OMPI_MCA_btl"] = "^tcp"
     return {**defaults, **os.environ}
 
 
@@ -99,7 +104,7 @@ def query(arguments: Sequence[str], program: Path = PROGRAM) -> str:
 
 def size_in(output: str) -> Size:
     """Return the size of a run of which --validate has said this."""
-    points = re.search(r"^ *points +(\d+)$", output, re.M)
+    points = re.search(r"^ *points +(\d+)\b", output, re.M)
     found = re.search(
         r"^ *duration +about ([\d.]+) to ([\d.]+) (s|min|h)\b", output, re.M
     )
@@ -213,15 +218,20 @@ class Run:
         except (OSError, ValueError):
             return None
 
-    def share_done(self) -> float:
-        """Return what part of a run is done by its own words, 0 where it says none."""
+    def share_done(self, elapsed: float) -> float:
+        """Return what part of the time of a run is over after so many seconds, by the
+        time that it expects to need still; 0 where it says none."""
         try:
             with open(self.directory / "log", "rb") as log:
                 log.seek(-min(log.seek(0, os.SEEK_END), 1000), os.SEEK_END)
-                found = re.findall(rb"\| +([\d.]+) % \|", log.read())
+                found = re.findall(rb"\| ETA (\d+):(\d+):(\d+)", log.read())
         except OSError:
             return 0.0
-        return float(found[-1]) / 100 if found else 0.0
+        if not found:
+            return 0.0
+        hours, minutes, seconds = map(int, found[-1])
+        left = 3600 * hours + 60 * minutes + seconds
+        return elapsed / max(elapsed + left, 1e-9)
 
     def is_complete(self) -> bool:
         """Return whether the results there are those of this run."""

@@ -52,6 +52,7 @@ and the ranks are the same (caisson.runner.Run).
 """
 import concurrent.futures
 import re
+import time
 import tomllib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -139,6 +140,10 @@ class StudyRun:
             self.trouble = self.trouble or f"no result in {self.run.directory}"
             return None
         return Status(record["status"])
+
+
+# runs, how many of them at a time, and their ranks, None for their own
+Share = tuple[Sequence[StudyRun], int, int | None]
 
 
 @dataclass
@@ -327,31 +332,34 @@ def longest_first(runs: Sequence[StudyRun]) -> list[StudyRun]:
 
 
 def execute(
-    runs: Sequence[StudyRun],
-    jobs: int,
+    shares: Sequence[Share],
     again: bool = False,
     time_limit: float | None = None,
-    ranks: int | None = None,
 ) -> None:
-    """Run all that are not complete, some at a time, the longest first; ranks: others
-    than those of the runs. A run that cannot be made says why in its trouble. A bar, or
-    in a log file a line now and then, shows how far they are."""
-    ordered = longest_first(runs)
-    with (
-        Progress(
-            [run.duration for run in ordered],
-            share_of=lambda number: ordered[number].run.share_done(),
-        ) as progress,
-        concurrent.futures.ThreadPoolExecutor(jobs) as pool,
-    ):
+    """Run all that are not complete, share by share, in each of them the longest first.
+    A run that cannot be made says why in its trouble. A bar, or in a log file a line
+    now and then, shows how far all of them are."""
+    sorted_shares = [(longest_first(runs), n, ranks) for runs, n, ranks in shares]
+    ordered = [run for runs, _, _ in sorted_shares for run in runs]
 
-        def one(number: int) -> None:
-            run = ordered[number]
-            progress.start(number)
-            try:
-                run.execute(again, time_limit, ranks, progress.say)
-            except (RunError, OSError) as error:
-                run.trouble = f"{type(error).__name__}: {error}"
-            progress.end(number)
+    def share_of(number: int) -> float:
+        begin = progress.begins.get(number, 0.0)
+        return ordered[number].run.share_done(time.monotonic() - begin)
 
-        list(pool.map(one, range(len(ordered))))
+    def one(number: int, ranks: int | None) -> None:
+        run = ordered[number]
+        progress.start(number)
+        try:
+            run.execute(again, time_limit, ranks, progress.say)
+        except (RunError, OSError) as error:
+            run.trouble = f"{type(error).__name__}: {error}"
+        progress.end(number)
+
+    progress = Progress([run.duration for run in ordered], share_of=share_of)
+    with progress:
+        first = 0
+        for runs, jobs, ranks in sorted_shares:
+            numbers = range(first, first + len(runs))
+            with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+                list(pool.map(lambda number, r=ranks: one(number, r), numbers))
+            first += len(runs)

@@ -22,6 +22,7 @@ from caisson.runner import RunError, Status
 from caisson.study import (
     Options,
     Reader,
+    Share,
     Study,
     StudyError,
     StudyRun,
@@ -35,8 +36,6 @@ KINDS = {"parameters": "caisson.parameters"}
 # runs for each core above which several ranks gain nothing that matters, and the
 # duration of a run (s) below which it is not worth to ask for its size
 FEW, LONG = 4, 20
-# runs, how many of them at a time, and their ranks, None for their own
-Share = tuple[Sequence[StudyRun], int, int | None]
 
 
 def whole_number(text: str) -> int:
@@ -173,8 +172,8 @@ def run_and_evaluate(
         if arguments.part:
             runs = runs[arguments.part[0] - 1 :: arguments.part[1]]
         limit = getattr(module, "TIME_LIMIT", None)
-        for some, at_a_time, ranks in shares_of(to_do_of(runs, arguments.again), jobs):
-            execute(some, at_a_time, arguments.again, limit, ranks)
+        shares = shares_of(to_do_of(runs, arguments.again), jobs)
+        execute(shares, arguments.again, limit)
         if arguments.part:
             return report_part(runs, arguments)
     minutes = (time.monotonic() - begin) / 60

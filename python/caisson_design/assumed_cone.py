@@ -95,26 +95,44 @@ class AssumedCone(Profile):
         super().__init__([0.0, *rows], [0.0, *map(ground.resistance_at, rows)])
         self.assumed = self.words(deepest)
 
+    def densities(self, layers: Sequence[Sand], deepest: float) -> list[list[float]]:
+        """Return D_r over each layer, without what is close to the mudline."""
+        bottoms = [*(x.top for x in layers[1:]), deepest]
+        return [
+            [
+                self.ground.density_at(z)
+                for z in self.depth
+                if max(layer.top, 0.05 * deepest) < z < bottom
+            ]
+            for layer, bottom in zip(layers, bottoms)
+        ]
+
     def words(self, deepest: float) -> str:
-        """Return what is assumed, in a sentence."""
+        """Return what is assumed, in sentences."""
         layers = [x for x in self.ground.layers if x.top < deepest or x.top <= 0]
-        found = [self.ground.density_at(z) for z in self.depth if z > 0.05 * deepest]
-        ends = dict.fromkeys(f"{end:.2f}" for end in (min(found), max(found)))
+        by_layer = []
+        for layer, found in zip(layers, self.densities(layers, deepest)):
+            if found:
+                ends = dict.fromkeys(f"{100 * x:.0f}" for x in (min(found), max(found)))
+                by_layer.append(f"{' to '.join(ends)} % from {max(layer.top, 0):g} m")
         from_angle = [x for x in layers if x.density is None]
-        source = "of the sand"
-        if from_angle:
-            source = "that gives the friction angle by Bolton (1986) under a tip"
+        source = "from the friction angle by Bolton (1986)"
+        if not from_angle:
+            source = "of the sand"
+        elif len(from_angle) < len(layers):
+            source = f"of the sand, or {source}"
+        more = ""
         if any(x.friction_angle <= density.CRITICAL_ANGLE for x in from_angle):
-            source += (
-                f" (the largest possible: {density.CRITICAL_ANGLE:g} degrees and less"
-                " say no more)"
+            more = (
+                f" An angle of {density.CRITICAL_ANGLE:g} degrees or less does not tell"
+                " looser sands apart, and the largest density is taken."
             )
-        elif from_angle and max(found) == 1:
-            source += " (1.00 is the densest, and has a smaller angle at this depth)"
+        elif from_angle and any("100" in text for text in by_layer):
+            more = " Sand of 100 % is the densest, and has a smaller angle there."
         return (
-            "The cone resistance is ASSUMED, as no cone test is given: it is that of"
-            f" {SOURCE} at the relative density of {' to '.join(ends)} {source}. The"
-            " formula was fitted at 50 to 400 kPa, not near the mudline."
+            "The cone resistance is ASSUMED, as no cone test is given: relative density"
+            f" {source}, cone resistance from it by {SOURCE}: {', '.join(by_layer)}."
+            f"{more} The formula was fitted at 50 to 400 kPa, not near the mudline."
         )
 
 

@@ -142,8 +142,8 @@ def of_undisturbed(h: float, computed: float, bound: float, what: str) -> str:
         return ""
     name = f"undisturbed ground (K0 {K_TAN[2:]})"
     return (
-        f"{head(h, (computed, bound, bound), what, name)} nobody has back-figured this"
-        " lower bound from an installation. It leaves out that the wall pushes sand"
+        f"{head(h, (computed, bound, bound), what, name)} no installation has"
+        " confirmed this lower bound. It leaves out that the wall pushes sand"
         " aside, which raises the stress on it up to the passive limit, and that the"
         " friction of the walls adds to the stress at the tip."
     )
@@ -154,7 +154,8 @@ def of_undisturbed(h: float, computed: float, bound: float, what: str) -> str:
 
 ASSUMED_CONE = (
     "The methods from a cone were fitted to measured resistances of dense sand; here"
-    " the resistance is ASSUMED, and a cone test may change these ratios much."
+    " the resistance is ASSUMED, and a cone test may change these ratios"
+    " considerably."
 )
 
 
@@ -172,8 +173,22 @@ class ByCone(NamedTuple):
     relief: float | None  # 1 - s / s_cr of the run, None where it is jacked
 
 
+class Walls(NamedTuple):
+    """Horizontal over vertical stress at rest on the walls of a run, means over them,
+    and its ends in the layers that the skirt reaches."""
+
+    inner: float
+    outer: float
+    at_rest: tuple[float, float]  # K0
+    passive: tuple[float, float]  # Rankine, of a smooth wall
+
+
+AT_TIP = "most of the difference is at the tip"
+AT_WALLS = "most of the difference is at the walls"
+
+
 def cause_by_cone(found: ByCone) -> str:
-    """Return which part makes most of the difference, and why."""
+    """Return which part makes most of the difference."""
     above = found.ends[0] > max(found.ends[1:])
     side = found.high if above else found.low
     tip = abs(found.computed.tip - side.tip)
@@ -185,17 +200,34 @@ def cause_by_cone(found: ByCone) -> str:
             f" {max(found.relief, 0):.2f} of its force, and the run does not follow it"
         )
     if tip >= walls:
+        return AT_TIP
+    return AT_WALLS if above else f"{AT_WALLS}, which do not grip yet in the run"
+
+
+def of_cause(cause: str, h: float, walls: Walls | None) -> str:
+    """Return why a part is not like in methods from a cone, once for all of them;
+    nothing where its cause says all."""
+    if cause == AT_TIP:
+        return "The methods give the tip a fixed share of the cone resistance."
+    if cause != AT_WALLS:
+        return ""
+    little = "the methods give the walls a small share of the cone resistance"
+    if walls is None:
         return (
-            "most of the difference is at the tip, which has a fixed share of the cone"
-            " resistance in the method"
+            "The walls have pushed sand aside, which raises the stress on them;"
+            f" {little}."
         )
-    if above:
-        return (
-            "most of the difference is at the walls, which bring the sand beside them"
-            " to the passive limit, and have a small share of the cone resistance in"
-            " the method"
+    at_rest, passive = (
+        " to ".join(
+            dict.fromkeys(f"{end:.2f}" if end < 1 else f"{end:.1f}" for end in ends)
         )
-    return "most of the difference is at the walls, which do not grip yet in the run"
+        for ends in (walls.at_rest, walls.passive)
+    )
+    return (
+        f"At {h:g} m the mean K on the walls is {walls.outer:.1f} outside and"
+        f" {walls.inner:.1f} inside; at rest it is {at_rest}, and at the passive limit"
+        f" {passive}; {little}."
+    )
 
 
 def of_cone(found: ByCone) -> str:

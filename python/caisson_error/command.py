@@ -285,8 +285,7 @@ class Plan:
         """Run what is not complete. Raises StudyError where a run has no result."""
         self.check_results(runs)
         self.results.mkdir(parents=True, exist_ok=True)
-        for some, at_a_time, ranks in shares_of(to_do_of(runs, again), None):
-            execute(some, at_a_time, again, None, ranks)
+        execute(shares_of(to_do_of(runs, again), None), again)
         if missing := [run for run in runs if not run.run.is_complete()]:
             raise StudyError(f"{missing[0].name}: {missing[0].trouble}")
 

@@ -253,10 +253,12 @@ def unit_table(run: Results) -> dict[str, Any]:
     outer, wall = float(scene["diameter_m"]), float(scene["wall_thickness_m"])
     inner = outer - 2 * wall
     tip_area = math.pi / 4 * (outer**2 - inner**2)
-    columns = {"depth (m)": at, "tip (kPa)": mean("tip_force_N") / 1e3 / tip_area}
+    columns = {"tip depth (m)": at, "tip (kPa)": mean("tip_force_N") / 1e3 / tip_area}
     for side, width in (("inner", inner), ("outer", outer)):
         friction = mean(f"{side}_friction_N") / 1e3
-        columns[f"{side} friction (kPa)"] = friction / (math.pi * width * at)
+        columns[f"mean {side} friction over the embedded wall (kPa)"] = friction / (
+            math.pi * width * at
+        )
     texts = [[text_of(value) for value in values] for values in columns.values()]
     return {"heads": list(columns), "rows": [list(row) for row in zip(*texts)]}
 

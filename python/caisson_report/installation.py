@@ -8,12 +8,14 @@ the boiling of water below the lid, and of Water/Largest suction. No safety fact
 in it. The pump moves the water that the lid displaces at a stated rate of penetration
 and that which seeps through the plug; a run is usually far faster than a caisson.
 """
+import re
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from caisson import curves
+from caisson.paths import INSTALLED
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import penetration
 from caisson.plot.suction import pump_limit, rest_of_run
@@ -80,6 +82,11 @@ class Installation:
     def has_suction(self) -> bool:
         """Whether the caisson goes in by suction: its weight alone does not suffice."""
         return bool((self.required > NOTHING).any())
+
+    @property
+    def has_bar(self) -> bool:
+        """Whether the tables have an error bar."""
+        return bool(self.force_bounds or self.required_bounds)
 
     @property
     def allowable(self) -> np.ndarray:
@@ -225,11 +232,23 @@ def add_suction(found: Installation, run: Results, rate: Rate) -> None:
         found.flow = plug_area(scene) * speed + found.seepage
 
 
-def bar_in_words(found: Installation, bounds: Bounds | None, unit: str) -> str:
-    """Return where the end is, and its error bar."""
+def way_to_an_error(run: Results) -> str:
+    """Return the command that computes the error bar of a scene, for the error of its
+    mesh where the title says that."""
+    known = run.summary if run.scene else {}
+    said = re.search(r"error of about (\d+) ?%", str(known.get("title", "")))
+    command = "caisson run" if INSTALLED else "scripts/run"
+    scene = known.get("scene_file") or "FILE.prm"
+    return f"{command} --error {said[1] if said else 10}% {scene}"
+
+
+def bar_in_words(
+    run: Results, found: Installation, bounds: Bounds | None, unit: str
+) -> str:
+    """Return where the end is, and its error bar, or what computes it."""
     place = f"at {found.depth[-1]:.2f} m"
     if bounds is None:
-        return f"{place}; error bar not known for this scene"
+        return f"{place}; error bar not known, {way_to_an_error(run)} computes it"
     low, high = bounds.low[-1], bounds.high[-1]
     if not np.isfinite([low, high]).all():
         return f"{place}; error bar known only to {bounds.end:.4g} m"
@@ -237,6 +256,11 @@ def bar_in_words(found: Installation, bounds: Bounds | None, unit: str) -> str:
         return f"{place}; error bar {text_of(low)} to {text_of(high)} {unit}"
     words = f"about {text_of(low)} to {text_of(high)} {unit}"
     return f"{place}; {words} (error bar of {bounds.end:.4g} m)"
+
+
+def three_digits(value: float, bounds: Bounds | None) -> str:
+    """Return a number of a card: without an error bar no more digits than three."""
+    return f"{value if bounds else float(f'{value:.3g}'):.0f}"
 
 
 def in_range(found: Installation, value: float, bounds: Bounds | None, i: int) -> str:
@@ -315,12 +339,12 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
 def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
     """Return (name, value, remark) of what matters most."""
     if not len(found.required):
-        return force_cards(found)
+        return force_cards(run, found)
     cards: list[tuple[str, ...]] = []
     weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
     if found.has_suction:
         value = f"{found.required[-1]:.1f} kPa"
-        remark = bar_in_words(found, found.required_bounds, "kPa")
+        remark = bar_in_words(run, found, found.required_bounds, "kPa")
         cards.append(("Required suction", value, remark))
         most = int(np.argmax(found.required))
         if found.required[most] > 1.02 * found.required[-1]:
@@ -337,22 +361,28 @@ def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, .
         remark = f"the weight exceeds the resistance by {found.excess:.0f} kN: {remark}"
     value = f"more than {found.depth[-1]:.2f} m"
     cards.append(("Self-weight penetration", value, remark))
-    return cards + force_cards(found)[:1] + pump_cards(run, found, rate)
+    return cards + force_cards(run, found)[:1] + pump_cards(run, found, rate)
 
 
-def force_cards(found: Installation) -> list[tuple[str, ...]]:
+def force_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
     """Return the cards of the forces."""
     total, depth = found.forces["total_force_N"], found.depth
-    remark = bar_in_words(found, found.force_bounds, "kN")
+    remark = bar_in_words(run, found, found.force_bounds, "kN")
+
+    def words(force: float) -> str:
+        return f"{three_digits(float(force), found.force_bounds)} kN"
+
     name = "Resistance at the end" if len(found.required) else "Force at the end"
-    cards: list[tuple[str, ...]] = [(name, f"{total[-1]:.0f} kN", remark)]
+    cards: list[tuple[str, ...]] = [(name, words(total[-1]), remark)]
     most = int(np.argmax(total))
     if most != len(total) - 1:
         remark = f"at {depth[most]:.2f} m"
-        cards.append(("Largest force", f"{total[most]:.0f} kN", remark))
-    tip, inner, outer = (f"{found.forces[k][-1]:.0f} kN" for k in design.FORCES[:3])
+        cards.append(("Largest force", words(total[most]), remark))
+    tip, inner, outer = (words(found.forces[k][-1]) for k in design.FORCES[:3])
     cards.append(("Of which tip", tip, f"friction inside {inner}, outside {outer}"))
-    return [*cards, ("Penetration reached", f"{depth[-1]:.2f} m", "")]
+    length = run.scene.get("skirt_length_m")
+    of_skirt = f"of {float(length):g} m of skirt" if length else ""
+    return [*cards, ("Penetration reached", f"{depth[-1]:.2f} m", of_skirt)]
 
 
 def least_margin(run: Results, found: Installation) -> tuple[float, float]:

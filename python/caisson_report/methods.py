@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a report says of the design methods: their numbers beside those of the run,
 computed over method, and why the run is where it is."""
+import math
+import re
 from typing import Any
 
 import numpy as np
@@ -16,6 +18,9 @@ from caisson_design.reasons import (
     ASSUMED_CONE,
     ByCone,
     Compared,
+    Walls,
+    cause_by_cone,
+    of_cause,
     of_cone,
     of_houlsby_byrne,
     of_undisturbed,
@@ -26,17 +31,81 @@ from caisson_design.reasons import (
 from caisson_report import relief
 from caisson_report.installation import depths_of, needs_suction
 
+RATIO = "computed / "  # before the name of a method
+# the lower case of a method: the upper one
+LOWER = {"low": "high", "most probable": "highest"}
 UNDISTURBED_IS = (
     f"{UNDISTURBED}: K0 tan \N{GREEK SMALL LETTER DELTA} without stress enhancement, a"
     " lower bound"
 )
+AT_DEPTH = 0.05  # m, between a depth and the frame that is taken for it
 NO_ANSWER = "none (piping)"
 NOTHING: dict[str, Any] = {"tables": [], "why": [], "reasons": [], "notes": []}
+
+
+def in_ranges(heads: list[str], rows: list[list[str]]) -> dict[str, list[str]]:
+    """Return columns in which the lower and the upper case of a method are one."""
+    columns = {head: [row[i] for row in rows] for i, head in enumerate(heads)}
+    found: dict[str, list[str]] = {}
+    skip = ""
+    for head, after in zip(heads, [*heads[1:], ""]):
+        name, _, case = head.rpartition(", ")
+        if head == skip:
+            continue
+        if case in LOWER and after == f"{name}, {LOWER[case]}":
+            skip = after
+            pairs = zip(columns[head], columns[after])
+            found[f"{name}, {case} to {LOWER[case]}"] = [
+                " to ".join(dict.fromkeys(filter(None, pair))) for pair in pairs
+            ]
+        else:
+            found[head] = columns[head]
+    return found
+
+
+def for_a_page(table: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the numbers of a table, the cases of a method as ranges, and below them
+    the ratios: as many columns beside each other as a page can show."""
+    columns = in_ranges(table["heads"], table["rows"])
+    is_ratio = [head.startswith(RATIO) for head in columns]
+    depth = table["heads"][0]
+    found = []
+    for title, wanted in ((table["title"], False), ("Computed / method", True)):
+        part = {h: c for (h, c), r in zip(columns.items(), is_ratio) if r is wanted}
+        if wanted:
+            part = {h.removeprefix(RATIO): c for h, c in part.items()}
+            title = f"{title}: {table['title'][0].lower()}{table['title'][1:]}"
+        part = {depth: columns[depth], **part}
+        if len(part) > 1:
+            rows = [list(row) for row in zip(*part.values())]
+            found.append({"title": title, "heads": list(part), "rows": rows})
+    return found
 
 
 def ratios(computed: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[str]:
     """Return ratio_in_words() of each row."""
     return [ratio_in_words(*map(float, row)) for row in zip(computed, low, high)]
+
+
+def place_of(ratio: str) -> str:
+    """Return where a run is beside the band of a method, from ratio_in_words()."""
+    ends = [float(end) for end in re.findall(r"[\d.]+", ratio)]
+    if ends[0] > 1 and not ratio.startswith("at most"):
+        return "above"
+    return "below" if ends[-1] < 1 and not ratio.startswith("at least") else "within"
+
+
+def beside_the_band(rows: list[tuple[str, str]]) -> str:
+    """Return where a run is beside the band of a method over (depth, ratio), the
+    deepest last: "above the band to 4 m, within it deeper"."""
+    places = [(depth, place_of(ratio)) for depth, ratio in rows]
+    parts = [
+        f"{place} {{}} to {depth} m"
+        for (depth, place), (_, after) in zip(places, places[1:])
+        if after != place
+    ]
+    parts.append(f"{places[-1][1]} {{}} deeper" if parts else f"{places[0][1]} {{}}")
+    return ", ".join(p.format("it" if i else "the band") for i, p in enumerate(parts))
 
 
 def table(title: str, columns: dict[str, Any]) -> dict[str, Any]:
@@ -64,11 +133,11 @@ def forces_beside(
             columns[f"{answer.name}, {case}"] = forces["total"] / 1e3
         if answer.forces and computed is not None:
             low, high = [force / 1e3 for force in answer.band("total")]
-            name = f"computed / {answer.name}"
+            name = f"{RATIO}{answer.name}"
             columns[name] = ratios(computed, low, high)
             for bound in answer.method.bound:
                 force = answer.forces[bound]["total"] / 1e3
-                columns[f"computed / {bound}"] = ratios(computed, force, force)
+                columns[f"{RATIO}{bound}"] = ratios(computed, force, force)
     title = (
         "Force of jacking, without suction (kN)"
         if computed is None
@@ -118,7 +187,7 @@ def resistance_beside(
     for name, cases in by_method.items():
         ends = [np.array([forces.total for forces in case]) / 1e3 for case in cases]
         columns |= {f"{name}, low": ends[0], f"{name}, high": ends[1]}
-        columns[f"computed / {name}"] = ratios(total, ends[0], ends[1])
+        columns[f"{RATIO}{name}"] = ratios(total, ends[0], ends[1])
     return table("Resistance under the suction of the run (kN)", columns)
 
 
@@ -161,10 +230,10 @@ def suctions_beside(run: Results, at: np.ndarray, site: theory.Site) -> dict[str
                 or_piping(values) if of_byrne else values
             )
         low, high = kilopascals[:2]
-        columns[f"computed / {name}"] = ratios(computed, low, high)
+        columns[f"{RATIO}{name}"] = ratios(computed, low, high)
         if name == byrne:
             bound = kilopascals[2]
-            columns[f"computed / {UNDISTURBED}"] = ratios(computed, bound, bound)
+            columns[f"{RATIO}{UNDISTURBED}"] = ratios(computed, bound, bound)
     for name, column in (
         (byrne, suction_methods.PIPING),
         (
@@ -238,7 +307,7 @@ def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]
         if not suctions:
             return []
         left = 1 - mine / suctions[suction_methods.CRITICAL_SENDERS_RANDOLPH][0]
-    found, sentences = list[str](), list[str]()
+    found, sentences, causes = list[str](), list[str](), dict[str, None]()
     for answer in filter(lambda answer: answer.forces, answers):
         parts = {c: by_case(answer, c) for c in answer.method.all_cases}
         low, high = (parts[case] for case in answer.method.cases)
@@ -257,10 +326,35 @@ def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]
             continue
         name = answer.name
         by_cone = ByCone(name, h, what, ends, computed, low, high, left)
-        sentences.append(of_cone(by_cone))
+        if sentence := of_cone(by_cone):
+            sentences.append(sentence)
+            causes[of_cause(cause_by_cone(by_cone), h, walls_of(run, h))] = None
+    sentences += causes
     if any(sentences) and any(answer.assumed for answer in answers):
         sentences.append(ASSUMED_CONE)
     return [sentence for sentence in [*found, *sentences] if sentence]
+
+
+def walls_of(run: Results, h: float) -> Walls | None:
+    """Return the stress on the walls at the frame at a depth; None without one."""
+    table, scene = run.walls, run.scene
+    rows = np.abs(table.get("penetration_m", np.empty(0)) - h) < AT_DEPTH
+    layers = [x for x in scene["layers"] if theory.top_of(x) < h]
+    angles = [float(x.get("friction_angle_deg") or 0) for x in layers]
+    at_rest = [float(x.get("K0") or 0) for x in layers]
+    if not {"inner_area_m2", "outer_area_m2"} <= set(table) or not rows.any():
+        return None
+    rows &= table["time_s"] == table["time_s"][rows][-1]
+    rows &= table["vertical_stress_at_rest_Pa"] > 0
+    means = []
+    for side in ("inner", "outer"):
+        area = table[f"{side}_area_m2"][rows]
+        normal = table[f"{side}_normal_stress_Pa"][rows]
+        below = table["vertical_stress_at_rest_Pa"][rows] @ area
+        means.append(float(np.nansum(normal * area) / below))
+    passive = [math.tan(math.radians(45 + angle / 2)) ** 2 for angle in angles]
+    ends = [(min(values), max(values)) for values in (at_rest, passive)]
+    return Walls(means[0], means[1], ends[0], ends[1])
 
 
 def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
@@ -269,6 +363,28 @@ def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
 
 
 # ------------------------------------------------------------------ all
+
+
+def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
+    """Return a card with computed over method, of the first table of the methods, at
+    the deepest depth with an answer of a method that is fitted to field data, without
+    an assumed cone if possible, else of the lower bound; nothing where none has an
+    answer."""
+    answers = [
+        (row[0], head.removeprefix(RATIO), cell)
+        for table in found["tables"][:1]
+        for row in reversed(table["rows"])
+        for head, cell in zip(table["heads"], row)
+        if head.startswith(RATIO) and cell
+    ]
+    fitted = [answer for answer in answers if answer[1] != UNDISTURBED]
+    measured = [answer for answer in fitted if theory.ASSUMED_CONE not in answer[1]]
+    for depth, name, value in (measured or fitted or answers)[:1]:
+        rows = [(d, v) for d, n, v in reversed(answers) if n == name]
+        words = f"of {name}, at {depth} m; {beside_the_band(rows)}"
+        more = "; other methods below" if len({n for _, n, _ in answers}) > 1 else ""
+        return [("Computed / method", value, words + more)]
+    return []
 
 
 def methods_of(run: Results) -> dict[str, Any]:

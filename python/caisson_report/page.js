@@ -177,7 +177,9 @@
 
     function listCurves() {
       legend.replaceChildren();
-      for (const curve of figure.curves) {
+      const results = (curve) => (curve.thick ? 0 : 1);
+      const first = [...figure.curves].sort((a, b) => results(a) - results(b));
+      for (const curve of first) {
         const label = document.createElement("label");
         const box = document.createElement("input");
         box.type = "checkbox";
@@ -187,7 +189,7 @@
           self.draw();
         };
         const mark = document.createElement("i");
-        mark.style.background = shown(curve.color);
+        mark.style.color = shown(curve.color);
         if (curve.to) mark.className = "range";
         label.append(box, mark, curve.label);
         legend.append(label);

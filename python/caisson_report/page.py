@@ -6,13 +6,12 @@ from pathlib import Path
 from typing import Any
 
 import jinja2
+import numpy as np
 
 from caisson import plot
 from caisson.lock import is_locked
-from caisson.plot import theory
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results
-from caisson_design.houlsby_byrne import UNDISTURBED
 from caisson_report import content, installation, methods, scene, sketch
 from caisson_report.installation import Installation, Rate
 
@@ -62,15 +61,27 @@ def facts_of(run: Results) -> list[tuple[str, str]]:
     facts = [
         ("Results", str(run.directory)),
         ("Cells, material points", f"{summary['cells']}, {points}"),
-        ("Steps", f"{summary['steps']} of {summary['time_step_s']:.3g} s"),
+        ("Steps", steps_of(run)),
         ("Limit of the step", str(summary["time_step_limit"])),
         ("Ranks", str(summary["ranks"])),
         ("Time", f"{summary['wall_time_s']:.0f} s"),
         ("Fingerprint of the scene", str(summary["fingerprint"])),
     ]
+    if words := scene.mass_scaling_of(run):
+        facts.insert(3, ("Mass scaling", words))
+    if command := summary.get("command"):
+        facts.insert(1, ("Command", str(command)))
     if "peak_memory_bytes" in summary:
         facts.append(("Memory", f"{summary['peak_memory_bytes'] / 1e6:.0f} MB"))
     return facts
+
+
+def steps_of(run: Results) -> str:
+    """Return the number of steps, and their range of lengths."""
+    steps = run.history.get("time_step_s", np.array([run.summary["time_step_s"]]))
+    steps = steps[np.isfinite(steps) & (steps > 0)]
+    ends = dict.fromkeys(f"{end:.2g}" for end in (steps.min(), steps.max()))
+    return f"{run.summary['steps']} of {' to '.join(ends)} s"
 
 
 def duration_in_words(seconds: float) -> str:
@@ -115,7 +126,7 @@ def job_of(run: Results, summary: dict[str, Any]) -> list[tuple[str, str]]:
         ("Scene", str(summary["scene_file"])),
         ("Computed", written or "not known"),
         ("Program", f"caisson_mpm {version}, deal.II {library}"),
-    ]
+    ] + ([("Use", use)] if (use := scene.use_of(run)) else [])
 
 
 def warnings_of(summary: dict[str, Any]) -> dict[str, list[str]]:
@@ -142,28 +153,6 @@ def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any
         "layers": layers,
         "assumed": any([*cells, *(item.assumed for item in caisson)]),
     }
-
-
-def method_card(found: dict[str, Any]) -> list[tuple[str, ...]]:
-    """Return a card with computed over method, of the first table of the design
-    methods, at the deepest depth with an answer of a method that is fitted to field
-    data, without an assumed cone if possible, else of the lower bound; nothing where
-    none has an answer."""
-    mark = "computed / "
-    answers = [
-        (row[0], head.removeprefix(mark), cell)
-        for table in found["tables"][:1]
-        for row in reversed(table["rows"])
-        for head, cell in zip(table["heads"], row)
-        if head.startswith(mark) and cell
-    ]
-    fitted = [answer for answer in answers if answer[1] != UNDISTURBED]
-    measured = [answer for answer in fitted if theory.ASSUMED_CONE not in answer[1]]
-    for depth, name, value in (measured or fitted or answers)[:1]:
-        words = f"of {name}, at {depth} m"
-        more = "; other methods below" if len({n for _, n, _ in answers}) > 1 else ""
-        return [("Computed / method", value, words + more)]
-    return []
 
 
 def has_ended_early(run: Results) -> bool:
@@ -218,7 +207,7 @@ def html(run: Results, rate: Rate) -> str:
     }
     summary = run.summary if run.scene or not run.is_running else {}
     title = str(summary.get("title") or run.directory.resolve().name)
-    cards = cards + method_card(beside) if cards else []
+    cards = cards + methods.card_of(beside) if cards else []
     warnings = warnings_of(summary)
     warnings["result"] += installation.piping_warning(run, found)
     return environment.get_template("page.html").render(
@@ -231,6 +220,7 @@ def html(run: Results, rate: Rate) -> str:
         incomplete=incomplete_of(run),
         cards=so_far(cards) if run.is_running or has_ended_early(run) else cards,
         computed=what_was_computed(run, found),
+        has_bar=found is not None and found.has_bar,
         rate=rate.words,
         tables=[] if found is None else installation.tables_of(found),
         has_suction=found is not None and found.has_suction,
@@ -238,12 +228,13 @@ def html(run: Results, rate: Rate) -> str:
         figures=data["figures"],
         units=content.unit_table(run),
         methods=beside,
+        method_tables=[t for x in beside["tables"] for t in methods.for_a_page(x)],
         pictures=pictures_of(run),
         charts=CHARTS,
         remarks=content.remarks_on_numbers(run),
         warnings=warnings,
-        entries=summary.get("entries", {}),
-        defaults=summary.get("defaults", {}),
+        entries=scene.entries_of(run) if summary else {},
+        defaults=scene.defaults_of(run) if summary else {},
         facts=facts_of(run),
         style=(HERE / "page.css").read_text(encoding="utf-8"),
         scripts=[script(name) for name in SCRIPTS],

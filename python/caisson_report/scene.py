@@ -2,6 +2,7 @@
 """What was computed: the caisson and the layers of the soil with all their numbers,
 those that equal a default included, and which of them the scene marks ASSUMED."""
 import math
+import re
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
@@ -12,6 +13,7 @@ ASSUMED = "ASSUMED"
 BODY, SOIL = "Rigid body", "Soil/Layer"
 SCALES = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
 SCALED = ("Pa", "N", "N/m3")  # units that are written with a prefix
+READABLE = {"degrees": "°", "m3": "m³", "m2": "m²", "Youngs": "Young's"}
 # number of a layer in run.json: its name, its unit, and the entry that sets it
 OF_LAYER = {
     "submerged_unit_weight_N_m3": ("Submerged unit weight", "N/m3", ""),
@@ -73,10 +75,68 @@ def scale_of(values: list[float], unit: str) -> tuple[float, str]:
     return 1.0, unit
 
 
+def readable(text: str) -> str:
+    """Return a name or a unit as an engineer writes it."""
+    for plain, written in READABLE.items():
+        text = re.sub(rf"\b{plain}\b", written, text)
+    return text
+
+
 def with_unit(value: float, unit: str) -> str:
     """Return a number with its unit, as an engineer writes it."""
     factor, name = scale_of([value], unit)
-    return f"{value / factor:.4g} {name.replace('degrees', '°')}".rstrip()
+    space = "" if name == "degrees" else " "
+    return f"{value / factor:.4g}{space}{readable(name)}".rstrip()
+
+
+def entry_with_unit(value: str, unit: str) -> str:
+    """Return the value of an entry with its unit, a word as it is."""
+    try:
+        number = float(value)
+    except ValueError:
+        is_list = re.fullmatch(r"[-+\d.eE, ]+", value) and unit
+        return f"{value} {readable(unit)}" if is_list else value
+    return with_unit(number, unit) if unit else value
+
+
+def entries_of(run: Results) -> dict[str, str]:
+    """Return the entries that the scene sets, with their units; those of older files
+    have none."""
+    summary = run.summary
+    units = summary.get("units", {})
+    return {
+        entry: entry_with_unit(value, units.get(entry, ""))
+        for entry, value in summary.get("entries", {}).items()
+    }
+
+
+def mass_scaling_of(run: Results) -> str:
+    """Return the mass scaling found by an inertia tolerance, in words; nothing without
+    one, and of older files."""
+    scaling = run.summary.get("mass_scaling")
+    tolerance = entry_of(run, "Time/Inertia tolerance")
+    if not scaling or tolerance in ("", "none"):
+        return ""
+    least, most = (text_of(float(f"{x:.2g}")) for x in scaling)
+    return f"{least} to {most}, by Inertia tolerance {tolerance}"
+
+
+def defaults_of(run: Results) -> dict[str, str]:
+    """Return the entries with their defaults."""
+    found = dict(run.summary.get("defaults", {}))
+    if words := mass_scaling_of(run):
+        found["Time/Mass scaling"] = words
+    return found
+
+
+def use_of(run: Results) -> str:
+    """Return what the numbers of a run are for: drainage, and how it is installed."""
+    level = entry_of(run, "Water/Level")
+    if not caisson_of(run) or not level:
+        return ""
+    has_weight = run.scene.get("submerged_weight_N") is not None
+    how = "by weight and suction" if has_weight else "jacked, no suction"
+    return f"{level}, {how}"
 
 
 def is_assumed(run: Results, entry: str) -> bool:
@@ -128,21 +188,34 @@ def caisson_of(run: Results) -> list[Item]:
         Item("Area inside, of the lid", f"{plug_area(scene):.4g} m²"),
         Item("Area of the tip", f"{tip:.3g} m²"),
     ]
-    if shape := entry_of(run, f"{BODY}/Tip"):
-        slope = entry_of(run, f"{BODY}/Tip angle")
-        words = f"{shape}, {slope} °" if shape == "triangular" else shape
-        found.append(Item("Shape of the tip", words))
+    found += tip_of(run)
     for side in ("outer", "inner"):
         angle = scene.get(f"{side}_wall_friction_angle_deg")
         if angle is not None:
             entry = f"{BODY}/Friction angle of the {side} wall"
             name = f"Friction angle of the {side} wall"
-            found.append(Item(name, f"{float(angle):g} °", is_assumed(run, entry)))
+            found.append(Item(name, f"{float(angle):g}°", is_assumed(run, entry)))
         adhesion = float(scene.get(f"{side}_wall_adhesion_Pa") or 0)
         if adhesion:
             name = f"Adhesion of the {side} wall"
             found.append(Item(name, with_unit(adhesion, "Pa")))
     return found + installation_of(run)
+
+
+def tip_of(run: Results) -> list[Item]:
+    """Return shape and friction of the tip; nothing of older files."""
+    found, shape = [], entry_of(run, f"{BODY}/Tip")
+    if shape:
+        slope = entry_of(run, f"{BODY}/Tip angle")
+        words = f"{shape}, {slope}°" if shape == "triangular" else shape
+        entries = [f"{BODY}/Tip", f"{BODY}/Tip angle"]
+        assumed = any(is_assumed(run, entry) for entry in entries)
+        found.append(Item("Shape of the tip", words, assumed))
+    entry = f"{BODY}/Friction angle of the tip"
+    if angle := entry_of(run, entry):
+        words = f"{float(angle):g}°"
+        found.append(Item("Friction angle of the tip", words, is_assumed(run, entry)))
+    return found
 
 
 def installation_of(run: Results) -> list[Item]:
@@ -219,7 +292,7 @@ def layers_table(run: Results) -> dict[str, Any]:
     for column in columns_of(run):
         known = [value for value in column.values if value is not None]
         factor, unit = scale_of(known, column.unit)
-        head = f"{column.name} ({unit})" if unit else column.name
+        head = readable(f"{column.name} ({unit})" if unit else column.name)
         columns[head] = [
             ("" if value is None else text_of(value / factor), assumed)
             for value, assumed in zip(column.values, column.assumed)

@@ -1,14 +1,31 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A section through caisson and ground, to scale and with dimensions, as SVG."""
 import html
-from typing import Any
+import math
+from typing import Any, NamedTuple
 
 from caisson.results import Results
-from caisson_report.scene import end_of
+from caisson_report.scene import BODY, end_of, entry_of
 
+LETTER = 7.2  # pixels, the width of a letter
 WIDTH, MARGIN = 560.0, 52.0  # of the drawing, and of each side (pixels)
 TALL, LEAST_BAND = 420.0, 15.0  # largest height, lowest layer with a text (pixels)
 LEAST_WALL = 1.6  # pixels
+
+
+class Tip(NamedTuple):
+    """The lowest point of a wall, and the slope of the faces that meet there."""
+
+    depth: float  # m
+    slope: float  # tangent of their angle to the horizontal
+
+
+def tip_of(run: Results, depth: float) -> Tip:
+    """Return the tip at a depth (m); that of older files is flat."""
+    if entry_of(run, f"{BODY}/Tip") != "triangular":
+        return Tip(depth, 0.0)
+    angle = float(entry_of(run, f"{BODY}/Tip angle") or 45)
+    return Tip(depth, math.tan(math.radians(angle)))
 
 
 class Drawing:
@@ -38,6 +55,21 @@ class Drawing:
             f' height="{height:.1f}"/>'
         )
 
+    def wall(self, left: float, top: float, width: float, tip: Tip) -> None:
+        """Add a wall with its tip, from left and down to the depth of the tip."""
+        shoulder = tip.depth - tip.slope * width / 2
+        corners = [
+            (left, top),
+            (left, shoulder),
+            (left + width / 2, tip.depth),
+            (left + width, shoulder),
+            (left + width, top),
+        ]
+        if not tip.slope:
+            del corners[2]
+        points = " ".join(f"{self.x(r):.1f},{self.y(z):.1f}" for r, z in corners)
+        self.parts.append(f'<polygon class="steel" points="{points}"/>')
+
     def line(self, kind: str, *ends: float) -> None:
         """Add a line between two pixels."""
         x1, y1, x2, y2 = (f"{end:.1f}" for end in ends)
@@ -57,10 +89,16 @@ class Drawing:
             self.line("dimension", x - 4, self.y(depth), x + 4, self.y(depth))
         self.line("dimension", x, self.y(top), x, self.y(low))
         middle = (self.y(top) + self.y(low)) / 2 + 4
-        if any(abs(middle - label) < LEAST_BAND for label in self.labels):
-            middle -= 2 * LEAST_BAND
         side = -1 if x < WIDTH / 2 else 1
         self.text(x + 6 * side, middle, words, "end" if side < 0 else "start")
+
+    def rest(self, radius: float, depth: float, words: str) -> None:
+        """Add a line between the walls with a text, not on that of a layer."""
+        y = self.y(depth)
+        self.line("rest", self.x(-radius), y, self.x(radius), y)
+        if any(abs(y - 4 - label) < LEAST_BAND for label in self.labels):
+            y += LEAST_BAND + 4
+        self.text(self.x(0), y - 4, words, "middle")
 
     def svg(self, words: str) -> str:
         """Return the drawing; words say what it shows."""
@@ -71,8 +109,9 @@ class Drawing:
         )
 
 
-def about_layer(layer: dict[str, Any], number: int) -> str:
-    """Return the most important numbers of a layer in a few words."""
+def about_layer(layer: dict[str, Any], number: int, width: float) -> str:
+    """Return the most important numbers of a layer, as many as are not wider (pixels):
+    the table beside it has all."""
     words = [f"layer {layer.get('layer', number)}"]
     if layer.get("friction_angle_deg"):
         words.append(f"φ {float(layer['friction_angle_deg']):.3g}°")
@@ -81,11 +120,15 @@ def about_layer(layer: dict[str, Any], number: int) -> str:
     if layer.get("relative_density") is not None:
         words.append(f"density {100 * float(layer['relative_density']):.0f} %")
     weight = float(layer.get("submerged_unit_weight_N_m3") or 0) / 1e3
-    return ", ".join([*words, f"γ′ {weight:.3g} kN/m³"])
+    words.append(f"γ′ {weight:.3g} kN/m³")
+    while len(words) > 1 and LETTER * len(", ".join(words)) > width:
+        words.pop()
+    return ", ".join(words)
 
 
-def draw_ground(drawing: Drawing, layers: list[dict[str, Any]]) -> None:
-    """Draw the layers, with their depths at the right."""
+def draw_ground(drawing: Drawing, layers: list[dict[str, Any]], radius: float) -> None:
+    """Draw the layers, with their depths at the right and their numbers between the
+    walls of the caisson, where no dimension is."""
     side = drawing.half_width
     tops = [float(layer.get("top_depth_m") or 0) for layer in layers]
     written = -1e9
@@ -103,7 +146,9 @@ def draw_ground(drawing: Drawing, layers: list[dict[str, Any]]) -> None:
         if drawing.scale * (low - top) > LEAST_BAND:
             y = drawing.y(low) - 5
             drawing.labels.append(y)
-            drawing.text(drawing.x(-side) + 6, y, about_layer(layer, i + 1))
+            width = 2 * drawing.scale * radius - 8
+            words = about_layer(layer, i + 1, width)
+            drawing.text(drawing.x(0), y, words, "middle")
 
 
 def of_run(run: Results, depth: float, rest: float | None) -> str:
@@ -118,10 +163,10 @@ def of_run(run: Results, depth: float, rest: float | None) -> str:
     planned = end_of(run) or depth
     bottom = max(depth, planned, 0.1) * 1.3
     drawing = Drawing(0.95 * outer, min(lid, 0.0) - 0.06 * length, bottom)
-    draw_ground(drawing, scene.get("layers") or [])
+    draw_ground(drawing, scene.get("layers") or [], radius)
     shown = max(wall, LEAST_WALL / drawing.scale)
     for left in (-radius, radius - shown):
-        drawing.box("steel", left, lid, left + shown, depth)
+        drawing.wall(left, lid, shown, tip_of(run, depth))
     drawing.box("steel", -radius, lid - shown, radius, lid)
     y, x = drawing.y(lid - shown) - 8, (drawing.x(-radius), drawing.x(radius))
     drawing.line("dimension", x[0], y, x[1], y)
@@ -135,18 +180,7 @@ def of_run(run: Results, depth: float, rest: float | None) -> str:
     axis = WIDTH / 2
     drawing.line("axis", axis, drawing.y(lid), axis, drawing.y(bottom))
     if rest is not None and 0 < rest < depth:
-        drawing.line(
-            "rest",
-            drawing.x(-radius),
-            drawing.y(rest),
-            drawing.x(radius),
-            drawing.y(rest),
-        )
-        words = f"rests by weight at {rest:.2f} m"
-        drawing.text(drawing.x(0), drawing.y(rest) - 4, words, "middle")
+        drawing.rest(radius, rest, f"rests by weight at {rest:.2f} m")
     if planned > depth + 0.01:
-        y = drawing.y(planned)
-        drawing.line("rest", drawing.x(-radius), y, drawing.x(radius), y)
-        words = f"end of the scene at {planned:.2f} m"
-        drawing.text(drawing.x(0), y - 4, words, "middle")
+        drawing.rest(radius, planned, f"end of the scene at {planned:.2f} m")
     return drawing.svg("section through caisson and ground, to scale")

@@ -73,19 +73,22 @@ class Profiles(unittest.TestCase):
         for words in (
             "ASSUMED",
             "Jamiolkowski",
-            "0.85 of the sand",
+            "relative density of the sand,",
+            ": 85 % from 0 m.",
             "near the mudline",
         ):
             self.assertIn(words, known)
-        self.assertNotIn("0.20", known)
+        self.assertNotIn("20 %", known)
         angle = AssumedCone([DENSE._replace(density=None, friction_angle=40)], 5)
-        self.assertIn("that gives the friction angle by Bolton (1986)", angle.assumed)
-        self.assertNotIn("largest possible", angle.assumed)
-        self.assertIn("1.00 is the densest", angle.assumed)
+        self.assertIn("from the friction angle by Bolton (1986)", angle.assumed)
+        self.assertNotIn("looser sands", angle.assumed)
+        self.assertIn("100 % is the densest", angle.assumed)
         shallow = AssumedCone([DENSE._replace(density=None, friction_angle=40)], 1)
-        self.assertNotIn("1.00 is the densest", shallow.assumed)
+        self.assertNotIn("100 % is the densest", shallow.assumed)
         small = AssumedCone([DENSE._replace(density=None, friction_angle=30)], 5)
-        self.assertIn("largest possible: 33 degrees", small.assumed)
+        self.assertIn("33 degrees or less does not", small.assumed)
+        two = AssumedCone([DENSE._replace(density=0.2), DENSE._replace(top=3)], 5)
+        self.assertIn(": 20 % from 0 m, 85 % from 3 m.", two.assumed)
 
 
 if __name__ == "__main__":

@@ -14,11 +14,11 @@ from unittest import mock
 from caisson import launch, ranks
 from caisson.paths import ROOT
 from caisson.ranks import Size
-from caisson.runner import mpi_command, size_in
+from caisson.runner import environment, mpi_command, size_in
 
 VALID = """jack.prm is valid
   grid       57 x 97 cells, axisymmetric
-  points     36504
+  points     36504 at the start, and about 73000 at the end by splitting
   duration   about 2.9 to 8.7 min on one core: at the speed of the first steps"""
 
 
@@ -100,6 +100,17 @@ class Sharing(WithMpirun):
     def plan(self, durations: list[float], cores: int, points: int = 40_000) -> str:
         """Return the plan in words."""
         return str(ranks.plan([Size(points, s) for s in durations], cores))
+
+    def test_network(self) -> None:
+        """On one host ranks do without TCP; in a job of a batch system, which may have
+        several, and where the user has chosen, they do not."""
+        for known, expected in (
+            ({}, "^tcp"),
+            ({"SLURM_JOB_ID": "1"}, None),
+            ({"OMPI_MCA_btl": "self,vader"}, "self,vader"),
+        ):
+            with mock.patch.dict("os.environ", known, clear=True):
+                self.assertEqual(environment().get("OMPI_MCA_btl"), expected)
 
     def test_plans(self) -> None:
         alone = "2 at a time on one rank each"

@@ -16,12 +16,12 @@ from unittest import mock
 import numpy as np
 from synthetic import write_run
 
-from caisson import parameters, study_command
-from caisson.parameters import effects
+from caisson import parameters, progress, study_command
+from caisson.parameters import effects, pictures, tables
 from caisson.parameters.outcome import Outcomes
 from caisson.ranks import cores
 from caisson.results import read_table
-from caisson.study import Options, Study, StudyError
+from caisson.study import Options, Study, StudyError, execute
 
 FAKE_PROGRAM = Path(__file__).resolve().parent / "fake_program.py"
 HEAD = 'kind = "parameters"\nscene = "a.prm"\n'
@@ -127,7 +127,8 @@ class Commands(WithFiles):
         self.assertIn("/nowhere cannot be run", said)
         status, said = self.study("--evaluate")
         self.assertEqual(status, 0)
-        self.assertIn("132 kN at 28", said)
+        self.assertIn("148.5 kN (-6 %) at 28", said)
+        self.assertIn("s: next: open", said)
         self.assertTrue((self.path / "results/s/tornado.png").exists())
         for part in ("0/3", "4/3", "3"):
             with self.assertRaises(SystemExit):
@@ -212,6 +213,22 @@ class Commands(WithFiles):
             self.assertEqual(len(started.splitlines()), 1, started)
             self.assertIn("runs to do: 0\n", self.study()[1])
 
+    def test_progress_of_all_shares(self) -> None:
+        """Runs that are made one after the other are counted with those at a time."""
+        self.write(PHI + "values = [30, 32, 34]")
+        file = self.path / "s.toml"
+        options = Options(program=FAKE_PROGRAM, results=self.path / "results")
+        module = study_command.module_of(file)
+        (study,) = study_command.reader_of(file, options, module).studies()
+        seen = []
+        with mock.patch.object(
+            progress.Progress, "end", autospec=True, side_effect=progress.Progress.end
+        ) as end:
+            execute([(study.runs[:2], 2, None), (study.runs[2:], 1, None)])
+            for call in end.call_args_list:
+                seen.append(call.args[0].words()[1].split(",")[0])
+        self.assertEqual(seen, ["3 of 3 runs"] * 3)
+
     def test_list(self) -> None:
         """Where the file does not say how long runs take, the program does."""
         self.write(PHI + "values = [30, 32, 34, 36, 38]")
@@ -270,6 +287,24 @@ class Evaluation(WithFiles):
         self.assertEqual(second.ends, (1e6, 9e6))
         np.testing.assert_allclose((second.low, second.high), (20, 36))
         self.assertTrue(second.rises)
+
+    def test_warnings(self) -> None:
+        """What a run says against its results is in the table, on the terminal and
+        below the picture; what it says of its input is not."""
+        texts = {"result": "the mesh is too coarse", "input": "a small angle"}
+        ranked = [{"rank": rank, "text": text} for rank, text in texts.items()]
+        known: dict[str, object] = {"results": {"warnings": ranked}}
+        found = self.outcomes(PHI + "values = [30, 32]", "1.23456e7 * d + i", known)
+        self.assertIn("see table.csv: Friction", pictures.caption(found, ""))
+        tables.write_runs(self.path / "table.csv", found)
+        for text in (
+            (self.path / "table.csv").read_text(encoding="utf-8"),
+            said := "\n".join(tables.lines(found, 4.0)),
+        ):
+            self.assertIn("the mesh is too coarse", text)
+            self.assertNotIn("a small angle", text)
+        self.assertIn("numbers of ranks differ by about 1 %", said)
+        self.assertIn("| 49380 | 55560 |", said)
 
     def test_grid(self) -> None:
         """Main effects: means over the other parameter."""
@@ -389,7 +424,7 @@ class Evaluation(WithFiles):
         """What there is; what there is not is refused with the columns there are."""
         found = self.outcomes(PHI + "values = [30]", "1e3 * d", {})
         self.assertEqual(found.column, "total_force_N")
-        np.testing.assert_array_equal(found.depths, [1, 2, 3, 4])
+        np.testing.assert_array_equal(found.depths, [1, 2, 3, 4, 4.5])
         for text, words in {
             'observe = "tip_force"': "choose one of time_s, penetration_m, total_force",
             'depths = "all"': "depths is 'all'; give depths in m",

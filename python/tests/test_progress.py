@@ -2,12 +2,15 @@
 """The bar of a study: on a terminal only, and never within a line of a log file."""
 import contextlib
 import io
+import tempfile
 import time
 import unittest
+from pathlib import Path
 from unittest import mock
 
 from caisson import progress
 from caisson.progress import Progress
+from caisson.runner import Run
 
 
 class Terminal(io.StringIO):
@@ -98,6 +101,15 @@ class Bars(unittest.TestCase):
         self.assertAlmostEqual(shown.scale, 2.0, places=2)
         self.assertAlmostEqual(shown.share, (30 + 15) / 60, places=2)
         self.assertRegex(shown.line(80), "] 1 of 3 runs, 75 %, about 30 s left$")
+
+    def test_share_of_a_run(self) -> None:
+        """By the time that it expects to need still, not by its depth."""
+        with tempfile.TemporaryDirectory() as folder:
+            run = Run(Path("a.prm"), directory=Path(folder))
+            self.assertEqual(run.share_done(30.0), 0.0)
+            line = "pen 1 m | total 8 kN |  12.0 % | ETA 00:01:30\n"
+            (run.directory / "log").write_text(f"{line}a warning\n", encoding="utf-8")
+            self.assertAlmostEqual(run.share_done(30.0), 0.25)
 
     def test_durations(self) -> None:
         words = [progress.duration(x) for x in (4.56, 600, 7200)]

@@ -32,7 +32,7 @@ class Beyond(unittest.TestCase):
     def test_undisturbed_ground(self) -> None:
         said = reasons.of_undisturbed(4, 3e6, 1e6, "force")
         self.assertIn("At 4 m the run has 3.00 times the force of undisturbed", said)
-        for words in ("nobody has back-figured", "passive limit", "at the tip"):
+        for words in ("no installation has", "passive limit", "at the tip"):
             self.assertIn(words, said)
         self.assertEqual(reasons.of_undisturbed(4, 1.2e6, 1e6, "force"), "")
         none = reasons.of_undisturbed(2, 1e4, 0, "suction")
@@ -54,15 +54,27 @@ class FromACone(unittest.TestCase):
         said = self.said(low, low)
         self.assertIn(f"At 2 m the run has 2.20 times the force of {NAME}", said)
         self.assertIn("its tip bears 900 kN (method: 300), its walls 50 kN (50)", said)
-        self.assertIn("is at the tip, which has a fixed share", said)
+        self.assertIn("most of the difference is at the tip.", said)
         self.assertIn("leaves the tip 1 - s/s_cr = 0.20", self.said(low, low, 0.2))
         self.assertIn("1 - s/s_cr = 0.00", self.said(low, low, -0.2))
 
     def test_walls(self) -> None:
         low = Forces(850e3, 5e3, 10e3)
-        self.assertIn("the walls, which bring the sand", self.said(low, low, 0.2))
+        self.assertIn("is at the walls.", self.said(low, low, 0.2))
         high = Forces(950e3, 500e3, 900e3)
         self.assertIn("walls, which do not grip yet", self.said(high, high))
+
+    def test_why(self) -> None:
+        """With K of the run where it is known, and nothing where all is said."""
+        walls = reasons.Walls(3.32, 2.04, (0.398, 0.455), (3.39, 4.02))
+        said = reasons.of_cause(reasons.AT_WALLS, 7.5, walls)
+        self.assertIn("At 7.5 m the mean K on the walls is 2.0 outside and 3.3", said)
+        self.assertIn("at rest it is 0.40 to 0.46, and at the passive limit 3.4", said)
+        unknown = reasons.of_cause(reasons.AT_WALLS, 7.5, None)
+        self.assertNotIn("passive", unknown)
+        self.assertIn("small share", unknown)
+        self.assertIn("fixed share", reasons.of_cause(reasons.AT_TIP, 7.5, walls))
+        self.assertEqual(reasons.of_cause(f"{reasons.AT_WALLS}, which", 7.5, walls), "")
 
     def test_like(self) -> None:
         low, high = Forces(300e3, 50e3, 150e3), Forces(800e3, 50e3, 150e3)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cards, error bars and ends of runs in report.html of made-up runs."""
 import html
+import re
 import unittest
 import unittest.mock
 from typing import Any
@@ -11,7 +12,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson_report as report
 from caisson.results import Results
-from caisson_report import content, installation, methods
+from caisson_report import content, installation, methods, sketch
 from caisson_report import page as page_module
 
 
@@ -133,24 +134,103 @@ class Cards(WithPage):
             self.assertEqual(bool(content.beyond_the_chart(found, shown)), bool(words))
 
     def test_card_of_the_methods(self) -> None:
-        """The first ratio that there is at the end."""
-        heads = [
-            "depth (m)",
-            "computed",
-            "computed / A",
-            "computed / B",
-            "computed / C",
-        ]
+        """The first ratio that there is at the end, and where it is beside the band."""
+        heads = ["depth (m)", "computed"]
+        heads += [f"computed / {name}" for name in "ABC"]
         rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "", "0.5 to 2", "3"]]
         found: dict[str, Any] = {"tables": [{"heads": heads, "rows": rows}]}
-        card = ("Computed / method", "0.5 to 2", "of B, at 4.5 m; other methods below")
-        self.assertEqual(page_module.method_card(found), [card])
+        words = "above the band to 4 m, within it deeper; other methods below"
+        card = ("Computed / method", "0.5 to 2", f"of B, at 4.5 m; {words}")
+        self.assertEqual(methods.card_of(found), [card])
         heads[2] = "computed / undisturbed"
         rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "5", "", ""]]
         found = {"tables": [{"heads": heads, "rows": rows}]}
-        card = ("Computed / method", "2", "of B, at 4 m; other methods below")
-        self.assertEqual(page_module.method_card(found), [card])
-        self.assertEqual(page_module.method_card({"tables": []}), [])
+        words = "above the band; other methods below"
+        card = ("Computed / method", "2", f"of B, at 4 m; {words}")
+        self.assertEqual(methods.card_of(found), [card])
+        self.assertEqual(methods.card_of({"tables": []}), [])
+
+    def test_beside_the_band(self) -> None:
+        """Open ends, and more than one change."""
+        for ratio, place in (
+            ("at least 1.10", "above"),
+            ("at least 0.90", "within"),
+            ("at most 0.90", "below"),
+            ("at most 1.20", "within"),
+            ("0.70 to 0.90", "below"),
+        ):
+            self.assertEqual(methods.place_of(ratio), place, ratio)
+        rows = [("1", "2"), ("2", "0.9 to 2"), ("3", "0.9 to 2"), ("4", "0.5")]
+        words = "above the band to 1 m, within it to 3 m, below it deeper"
+        self.assertEqual(methods.beside_the_band(rows), words)
+
+    def test_tables_of_a_page(self) -> None:
+        """Cases are a range, and ratios a table of their own."""
+        heads = ["depth (m)", "computed", "A, low", "A, high", "A, undisturbed"]
+        table = {
+            "title": "Total force (kN)",
+            "heads": [*heads, "computed / A"],
+            "rows": [["1", "9", "2", "3", "1", "3 to 4"], ["2", "9", "4", "4", "", ""]],
+        }
+        forces, of_method = methods.for_a_page(table)
+        self.assertEqual(
+            forces["heads"], [*heads[:2], "A, low to high", "A, undisturbed"]
+        )
+        self.assertEqual(forces["rows"][0], ["1", "9", "2 to 3", "1"])
+        self.assertEqual(forces["rows"][1], ["2", "9", "4", ""])
+        self.assertEqual(of_method["title"], "Computed / method: total force (kN)")
+        self.assertEqual(of_method["rows"], [["1", "3 to 4"], ["2", ""]])
+
+    def test_stress_on_the_walls(self) -> None:
+        """Of the frame at a depth: 30 and 60 kPa of 10 and 20 kPa at rest, and not
+        above the mudline; none far from a frame."""
+        leave_run(self.path, SUMMARY)
+        self.assertIsNone(methods.walls_of(Results(self.path), 4.5))
+        table = {
+            "time_s": np.array([4.0, 4.5, 4.5, 4.5]),
+            "penetration_m": np.array([4.0, 4.5, 4.5, 4.5]),
+            "depth_m": np.array([1.0, -0.1, 1.0, 2.0]),
+            "vertical_stress_at_rest_Pa": np.array([1e4, 0, 1e4, 2e4]),
+        }
+        for side, k in (("inner", 3.0), ("outer", 2.0)):
+            table[f"{side}_area_m2"] = np.ones(4)
+            stress = k * table["vertical_stress_at_rest_Pa"]
+            table[f"{side}_normal_stress_Pa"] = stress + [9e9, 9e9, 0, 0]
+        write_columns(self.path / "wall.csv", table)
+        found = methods.walls_of(Results(self.path), 4.5)
+        assert found is not None
+        self.assertAlmostEqual(found.inner, 3.0)
+        self.assertAlmostEqual(found.outer, 2.0)
+        self.assertEqual(found.at_rest, (0.5, 0.5))
+        self.assertAlmostEqual(found.passive[0], 3.25, delta=0.01)  # of 32 degrees
+        self.assertIsNone(methods.walls_of(Results(self.path), 3.0))
+
+    def test_sketch(self) -> None:
+        """A triangular tip has its point in the middle of the wall; a text of a layer
+        is not wider than the caisson."""
+        for tip, corners in (("triangular", 5), ("flat", 4)):
+            leave_run(self.path, {**SUMMARY, "defaults": {"Rigid body/Tip": tip}})
+            drawn = sketch.of_run(Results(self.path), 4.5, None)
+            points = re.findall(r'<polygon class="steel" points="([^"]*)"', drawn)
+            self.assertEqual([len(x.split()) for x in points], [corners] * 2)
+        words = sketch.about_layer(SCENE["layers"][0], 1, 120)
+        self.assertEqual(words, "layer 1, φ 32°")
+
+    def test_force_without_an_error_bar(self) -> None:
+        """Three digits, and the command for the error of the mesh in the title."""
+        title = "a caisson, on a mesh for an error of about 20 %"
+        scene = {**SCENE, "skirt_length_m": 5.0}
+        leave_run(self.path, {**SUMMARY, "title": title, "scene": scene})
+        history = dict(Results(self.path).history)
+        for name in [n for n in history if "suction" in n]:
+            del history[name]
+        history["total_force_N"] = 1.23456e6 * history["penetration_m"]
+        write_columns(self.path / "history.csv", history)
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn(">5560 kN <small>at 4.50 m; error bar not known, ", page)
+        self.assertIn("--error 20% mine.prm computes it", page)
+        self.assertIn("4.50 m <small>of 5 m of skirt</small>", page)
+        self.assertNotIn("brackets the error bar", page)
 
     def test_error_bar_of_the_suction(self) -> None:
         """A band of means in kPa, which does not go below zero."""
@@ -190,7 +270,7 @@ class Cards(WithPage):
         head = "penetration_m,total_force_N,total_force_low_N,total_force_high_N\n"
         (self.path / "history_error.csv").write_text(head, encoding="utf-8")
         page = report.write(self.path).read_text(encoding="utf-8")
-        self.assertIn("error bar not known for this scene", page)
+        self.assertIn("error bar not known, scripts/run --error 10% mine.prm", page)
 
     def test_plug_that_does_not_balance(self) -> None:
         """Heave without soil that came in or dilated is an error, and is said."""

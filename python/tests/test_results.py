@@ -14,7 +14,7 @@ import numpy as np
 from caisson import curve, plot, table, units
 from caisson.plot import forces
 from caisson.plot.cells import CellMeans, cell_of
-from caisson.plot.fields import chosen, layer_boundaries, window_of
+from caisson.plot.fields import boundary_now, chosen, tops_of, window_of
 from caisson.plot.walls import draw as draw_walls
 from caisson.plot.walls import shown_times
 from caisson.results import Results, ResultsError, read_table
@@ -197,23 +197,28 @@ class Pictures(Directory):
         self.assertTrue(np.allclose(tops[5:], [2.8, 1.8]), "at the surface")
 
     def test_boundaries_between_layers(self) -> None:
-        """The sides between cells of different layers, and none beside a wall."""
-        cells = np.array(
-            [
-                [[r, z], [r + 1, z], [r + 1, z + 1], [r, z + 1]]
-                for r in (0, 3)
-                for z in (0, 1, 2)
-            ]
-        )
-        sides = layer_boundaries(cells, np.array([2, 2, 1, 2, 1, 1]))
-        np.testing.assert_array_equal(sides, [[[0, 2], [1, 2]], [[3, 1], [4, 1]]])
+        """They move with the points beside them, not with the cells, and are unknown
+        where there is no point. Pieces of a layer have no boundary."""
+        r, z = (x.ravel() for x in np.meshgrid([0.5, 1.5, 3.5], [-1.5, -2.5, -3.5]))
+        move = np.column_stack([0 * r, -0.1 * r])
+        now = np.column_stack([r, z]) + move
+        found = boundary_now(now, move, -2.0, np.array([0.0, 1, 2, 3, 4]))
+        np.testing.assert_allclose(found[:, 1], [-2.05, -2.15, np.nan, -2.35])
+        np.testing.assert_allclose(found[:, 0], [0.5, 1.5, 2.5, 3.5])
+        depths = ((1, 0.0), (1, 2.0), (2, 3.0))
+        layers = [{"layer": n, "top_depth_m": top} for n, top in depths]
+        self.assertEqual(tops_of({"layers": layers}), [-3.0])
 
     def test_walls(self) -> None:
         """At most four times, the last among them; no picture without a wall."""
         walls = Results(TINY).walls
         self.assertEqual(walls["time_s"].max(), shown_times(walls)[-1])
-        times = shown_times({"time_s": np.repeat(np.arange(9.0), 5)})
-        self.assertEqual(times.tolist(), [0, 3, 5, 8])
+        time = np.repeat(np.arange(9.0), 5)
+        table = {"time_s": time, "penetration_m": 0.5 * time}
+        self.assertEqual(shown_times(table).tolist(), [0, 3, 5, 8])
+        wanted = [0.01, 2.5, 4.0]  # as of the pictures of fields
+        self.assertEqual(shown_times(table, wanted).tolist(), [0, 5, 8])
+        self.assertEqual(shown_times(table, [9.0]).tolist(), [0, 3, 5, 8])
         self.assertIsNone(draw_walls(self.path / "walls.png", Results(self.path)))
 
     def test_means_pass_over_what_is_unknown(self) -> None:

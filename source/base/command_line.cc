@@ -153,7 +153,10 @@ namespace CaissonMPM
   {
     try
       {
-        return to_command_line(parse_options(argc, argv));
+        CommandLine result = to_command_line(parse_options(argc, argv));
+        for (int i = 1; i < argc; ++i)
+          result.text += (i > 1 ? " " : "") + std::string(argv[i]);
+        return result;
       }
     catch (const po::unknown_option &error)
       {

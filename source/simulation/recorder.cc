@@ -144,12 +144,14 @@ namespace CaissonMPM
 
   void
   Recorder::describe(const std::string          &scene_file,
+                     const std::string          &command_words,
                      const std::string          &fingerprint,
                      const std::string          &installation,
                      const Kernels::KernelTable &kernels)
   {
     start_time         = std::chrono::steady_clock::now();
     scene              = scene_file;
+    command            = command_words;
     this->fingerprint  = fingerprint;
     this->installation = installation;
     this->kernels      = &kernels;
@@ -314,7 +316,7 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::print_header(const ParameterOrigins &input, const double n_steps)
+  Recorder::print_header(const ParameterOrigins &input)
   {
     assumed         = input.assumed();
     double own_mass = 0.;
@@ -336,7 +338,7 @@ namespace CaissonMPM
                   std::string(kernels->name) + ", " + to_text(kernels->width) + " lanes"},
                  {"ranks", to_text(parts.grid.n_ranks())},
                  {"step limited by", parts.time_step.reason()}};
-    if (std::isfinite(n_steps))
+    if (const double n_steps = steps_left(); std::isfinite(n_steps))
       first.emplace_back("steps", "about " + rough(n_steps));
     if (!installation.empty())
       first.emplace_back("installation", installation);
@@ -396,6 +398,7 @@ namespace CaissonMPM
     RunFacts result;
     result.status         = status;
     result.scene_file     = scene;
+    result.command        = command;
     result.title          = title;
     result.fingerprint    = fingerprint;
     result.installation   = installation;
@@ -503,11 +506,14 @@ namespace CaissonMPM
                        directory +
                          ": history.csv, run.json, points.pvd, grid.pvd" +
                          (parts.body.shape().exists() ? ", body.pvd" : ""));
-    lines.emplace_back("next",
-                       "scripts/caisson plot " + directory +
-                         " draws the results (of an installed program: "
-                         "caisson plot); --restart with a later end continues "
-                         "the run");
     console->header(lines);
+    print_run_times(*console, parts, seconds_running());
+    console->header(
+      {{"next",
+        "open " + directory +
+          "/report.html, which scripts/run (of an installed program: caisson "
+          "run) writes now, and scripts/caisson report " +
+          directory +
+          " at any time; --restart with a later end continues the run"}});
   }
 } // namespace CaissonMPM

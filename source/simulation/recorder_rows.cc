@@ -230,6 +230,16 @@ namespace CaissonMPM
     last_depth_and_suction = {row.penetration, *suction};
   }
 
+  double
+  Recorder::seconds_left(const double fraction_done) const
+  {
+    const double n = steps_left(), n_made = parts.clock.step - first_step;
+    return seconds_running() *
+           (std::isfinite(n) ?
+              std::max(n, 0.) / n_made :
+              (1. - fraction_done) / (fraction_done - fraction_at_start));
+  }
+
   void
   Recorder::print_record(const HistoryRow &row)
   {
@@ -261,8 +271,7 @@ namespace CaissonMPM
         critical;
     line.fraction_done = done;
     line.eta_seconds =
-      is_first ? std::numeric_limits<double>::quiet_NaN() :
-                 seconds_running() * (1. - done) / (done - fraction_at_start);
+      is_first ? std::numeric_limits<double>::quiet_NaN() : seconds_left(done);
     console->record(line);
     if (parts.grid.is_first_rank())
       write_progress(done, line.eta_seconds);

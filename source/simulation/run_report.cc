@@ -50,6 +50,7 @@ namespace CaissonMPM
       return {{"version", Json::text(program_version())},
               {"dealii_version", Json::text(DEAL_II_PACKAGE_VERSION)},
               {"scene_file", Json::text(facts.scene_file)},
+              {"command", Json::text("caisson_mpm " + facts.command)},
               {"title", Json::text(facts.title)},
               {"written", Json::text(now())},
               {"instruction_set", Json::text(facts.kernels)},
@@ -69,6 +70,21 @@ namespace CaissonMPM
                             parts.body.motion().beginning().travel)}};
     }
 
+    /** The unit that the text of an entry ends with, empty where it has none.
+     */
+    std::string
+    unit_of(const DeclaredEntry &entry)
+    {
+      const std::string mark = "Units: ";
+      const std::size_t at   = entry.documentation.rfind(mark);
+      if (at == std::string::npos)
+        return "";
+      const std::size_t begin = at + mark.size(),
+                        end   = entry.documentation.find('.', begin);
+      const std::string unit  = entry.documentation.substr(begin, end - begin);
+      return unit == "none" ? "" : unit;
+    }
+
     /** What the scene sets to another value than the default, what has its
      * default, and what the program warned of. Layers have their numbers in
      * the scene. */
@@ -76,10 +92,14 @@ namespace CaissonMPM
     about_input(const RunFacts &facts)
     {
       const DeclaredEntries declared(ParameterAcceptor::prm);
-      Json::Members         entries, defaults;
+      Json::Members         entries, defaults, units;
       for (const DeclaredEntry &entry : declared.all())
         if (entry.alias_of.empty() && entry.value != entry.default_value)
-          entries.emplace_back(entry.path, Json::text(entry.value));
+          {
+            entries.emplace_back(entry.path, Json::text(entry.value));
+            if (const std::string unit = unit_of(entry); !unit.empty())
+              units.emplace_back(entry.path, Json::text(unit));
+          }
         else if (entry.alias_of.empty() && entry.path.find("Soil/Layer ") != 0)
           defaults.emplace_back(entry.path, Json::text(entry.value));
       std::vector<std::string> warnings, assumed;
@@ -88,6 +108,7 @@ namespace CaissonMPM
       for (const std::string &entry : facts.assumed)
         assumed.push_back(Json::text(entry));
       return {{"entries", Json::object(entries, 2)},
+              {"units", Json::object(units, 2)},
               {"defaults", Json::object(defaults, 2)},
               {"assumed", Json::list(assumed)},
               {"warnings", Json::list(warnings)}};
@@ -170,7 +191,12 @@ namespace CaissonMPM
     Json::Members
     about_step(const RecordedParts &parts)
     {
-      return {{"time_step_s", Json::number(parts.clock.step_size)},
+      const double scaling        = parts.soil.mass_scaling();
+      const auto [least, largest] = parts.time_step.range_of_inertia();
+      return {{"mass_scaling",
+               Json::list({Json::number(scaling * least),
+                           Json::number(scaling * largest)})},
+              {"time_step_s", Json::number(parts.clock.step_size)},
               {"time_step_limit", Json::text(parts.time_step.reason())},
               {"time_step_limits_s",
                Json::object(Json::numbers(parts.time_step.zone_limits()), 2)}};
@@ -336,22 +362,6 @@ namespace CaissonMPM
                         percent(energy.relative, 3) +
                         " of the work: see doc/limitations.md, Energy");
     }
-
-    void
-    print_times(Console &console, const SectionTimer &timer, const double total)
-    {
-      std::vector<TableRow> rows;
-      double                sum = 0.;
-      for (const auto &[name, seconds] : timer.seconds())
-        {
-          rows.push_back({name, seconds, 100. * seconds / total});
-          sum += seconds;
-        }
-      rows.push_back(
-        {"set-up and rest", total - sum, 100. * (1. - sum / total)});
-      rows.push_back({"total", total, 100.});
-      console.table("wall time", rows);
-    }
   } // namespace
 
 
@@ -419,6 +429,24 @@ namespace CaissonMPM
   {
     print_counts(console, parts, facts);
     print_energies(console, parts.energy);
-    print_times(console, parts.timer, facts.wall_time);
+  }
+
+
+
+  void
+  print_run_times(Console             &console,
+                  const RecordedParts &parts,
+                  const double         total)
+  {
+    std::vector<TableRow> rows;
+    double                sum = 0.;
+    for (const auto &[name, seconds] : parts.timer.seconds())
+      {
+        rows.push_back({name, seconds, 100. * seconds / total});
+        sum += seconds;
+      }
+    rows.push_back({"set-up and rest", total - sum, 100. * (1. - sum / total)});
+    rows.push_back({"total", total, 100.});
+    console.table("wall time", rows);
   }
 } // namespace CaissonMPM

@@ -219,18 +219,18 @@ namespace CaissonMPM
 
 
   double
-  Schedule::next_frame_time() const
+  Schedule::next_frame_time(const double after) const
   {
     double     next = end;
     const auto listed =
-      std::upper_bound(frame_times.begin(), frame_times.end(), passed);
+      std::upper_bound(frame_times.begin(), frame_times.end(), after);
     if (listed != frame_times.end())
       next = std::min(next, *listed);
     if (frame_interval)
       {
         double at =
-          (std::floor(passed / *frame_interval) + 1.) * *frame_interval;
-        if (at <= passed) // rounded
+          (std::floor(after / *frame_interval) + 1.) * *frame_interval;
+        if (at <= after) // rounded
           at += *frame_interval;
         // none close to one that is listed, or to the end
         const auto is_close = [&](const double time) {
@@ -250,7 +250,7 @@ namespace CaissonMPM
   double
   Schedule::shorten(const double step_size) const
   {
-    double event = std::min(end, next_frame_time());
+    double event = std::min(end, next_frame_time(passed));
     if (record_interval)
       event = std::min(event, next_record);
     const double left = event - clock.time;
@@ -289,7 +289,7 @@ namespace CaissonMPM
     const bool   finished = is_finished();
     Due          due;
     due.record            = finished || now >= next_record;
-    const bool is_at_time = now >= next_frame_time();
+    const bool is_at_time = now >= next_frame_time(passed);
     due.frame             = finished || (is_at_time && !follows_a_frame()) ||
                 std::any_of(frame_depths.begin(),
                             frame_depths.end(),
@@ -326,13 +326,16 @@ namespace CaissonMPM
   unsigned int
   Schedule::n_frames() const
   {
-    double n = 2. + frame_depths.size() +
-               std::count_if(frame_times.begin(),
-                             frame_times.end(),
-                             [this](const double t) { return t < end; });
-    if (frame_interval && std::isfinite(end))
-      n += std::floor(end / *frame_interval);
-    return std::min(n, 1e9);
+    // the first, and those at depths whose times are not known
+    double n = 1. + frame_depths.size();
+    if (!std::isfinite(end))
+      return n + 1. + frame_times.size();
+    constexpr double many = 1e6;
+    if (frame_interval && end / *frame_interval > many)
+      return std::min(end / *frame_interval, 1e9);
+    for (double time = passed; time < end; ++n)
+      time = next_frame_time(time) + tolerance;
+    return n;
   }
 
 

@@ -62,6 +62,7 @@ namespace CaissonMPM
     });
     time_step.follow_tip(
       [this]() { return stress_over_inertia_at_tip(body.motion().travel()); });
+    recorder.follow_steps([this]() { return number_of_steps(); });
     enter_subsection("Method");
     add_parameter("Instruction set",
                   instruction_set,
@@ -544,7 +545,7 @@ namespace CaissonMPM
       recorder.start(overwrites);
     if (is_restart && schedule.is_finished())
       return nothing_left();
-    recorder.print_header(input, number_of_steps());
+    recorder.print_header(input);
     if (!is_restart)
       {
         if (installation.is_given())

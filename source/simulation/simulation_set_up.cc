@@ -159,6 +159,7 @@ namespace CaissonMPM
     cost.n_points  = Utilities::MPI::sum<unsigned long>(points.n_points(),
                                                        grid.communicator());
     cost.n_frames  = schedule.n_frames();
+    cost.splits    = generator.splits_and_merges() && body.shape().exists();
     cost.step_size = time_step.step_size();
     cost.end   = schedule.end_description() + ", by " + schedule.entry_of_end();
     cost.limit = time_step.reason();
@@ -254,6 +255,7 @@ namespace CaissonMPM
     find_beginning();
     check_parameters();
     recorder.describe(command_line.parameter_file,
+                      command_line.text,
                       fingerprint_of(changed_physics(prm)),
                       installation.directory(),
                       *kernels);

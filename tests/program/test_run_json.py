@@ -155,6 +155,34 @@ class Progress(ProgramTest):
         self.assertIn(process.wait(), (STOPPED, SUCCESS))
         self.assertNotIn("progress", summary(path))
 
+    def test_time_left(self) -> None:
+        """By the steps that are left, which an inertia tolerance makes longer and
+        longer: the first part of the way takes more than its share of the time."""
+        path = self.directory()
+        entries = {
+            "Time/Mass scaling": 1,
+            "Time/Inertia tolerance": 0.4,
+            "Output/Record interval": "every step",
+        }
+        where = ["--output-directory", path]
+        process = self.start(user_scene("jack_coarse"), *where, entries=entries)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        done, left, ran = 0.0, None, 0.0
+        while process.poll() is None and not (left and done > 0.01):
+            if (path / "run.json").is_file():
+                found = summary(path)
+                ran = found["wall_time_s"]
+                done, left = found.get("progress", {}).values() or (1.0, None)
+        assert left
+        self.assertLess(left / ran, 0.7 * (1 - done) / done)
+        (path / "stop").touch()
+        process.wait()
+        least, most = summary(path)["mass_scaling"]
+        self.assertGreater(most, 1.01 * least)
+        self.assertIn("jack_coarse.prm --output-directory", summary(path)["command"])
+        self.assertEqual(summary(path)["units"]["Output/Record interval"], "s")
+
 
 if __name__ == "__main__":
     unittest.main()

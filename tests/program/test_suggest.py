@@ -110,7 +110,7 @@ class Layers(SuggestTest):
             env={**environment(), "PYTHONPATH": str(HERE.parent / "python")},
         )
         self.assertEqual(listed.returncode, 0, listed.stderr)
-        self.assertIn("friction angle of the soil", listed.stdout)
+        self.assertIn("friction angle of layers 1 and 2 of own.prm", listed.stdout)
         for words in (
             ["--overwrite", "--study", str(path / "study.txt")],
             ["--study", str(study)],
@@ -134,6 +134,25 @@ class Layers(SuggestTest):
         last = history(path / "run")[-1]
         self.assertGreater(last["tip_force_N"], 1e5)
         self.assertLess(last["kinetic_energy_J"], 1e3)
+
+    def test_what_is_left_out(self) -> None:
+        """A part of the skirt and the suction are said; tip and K0 are assumed, and
+        the number of points, which splitting doubles, is that of the start."""
+        path = self.made_directory() / "own.prm"
+        said = self.suggest(path)
+        self.assertIn("ends at 7.5 m, and the skirt is 8 m long: --penetration 8", said)
+        self.assertIn("without suction. For suction add --weight", said)
+        self.assertRegex(said, r"points +\d+ at the start, and about \d+ at the end")
+        self.assertRegex(said, r"frames +9, ")
+        assumed = re.findall(r"set (.*?) *=.*# ASSUMED", path.read_text("utf-8"))
+        names = {"Tip", "Tip angle", "Friction angle of the tip", "K0"}
+        self.assertEqual(names - set(assumed), set())
+        words = ["--weight", "2e6", "--penetration", "8", "--overwrite"]
+        said = self.suggest(path, *words, layers=(SAND + ", K0 = 0.5",))
+        self.assertNotIn("skirt is", said)
+        self.assertNotIn("For suction", said)
+        assumed = re.findall(r"set (.*?) *=.*# ASSUMED", path.read_text("utf-8"))
+        self.assertNotIn("K0", assumed)
 
     def test_what_is_given_is_in_effect(self) -> None:
         path = self.made_directory() / "own.prm"

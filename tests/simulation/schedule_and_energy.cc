@@ -97,6 +97,15 @@ namespace
               "subsection Time\nset End time = 1\nend\n");
     every.go(.4);
     every.print("every step");
+
+    // 0.5 and 1 of the interval are a frame at a depth and the end
+    Run once(
+      output("set Frame interval = 0.5\nset Frame penetrations = 0.52\n") +
+      "subsection Time\nset End penetration = 0.6\nend\n");
+    const unsigned int n = once.schedule.n_frames();
+    once.go(.1);
+    once.print("frames that coincide");
+    verdict("number of frames", n - 1. - once.frames.size(), 0.);
   }
 
   /** A motion that knows only its present. */

@@ -20,6 +20,8 @@ namespace CaissonMPM
     std::string output_directory;
     /** The word of --explain, or empty where it was not given. */
     std::string explain;
+    /** All words behind the name of the program. */
+    std::string text;
     bool        print_parameters = false;
     bool        validate         = false;
     bool        strict           = false;

@@ -64,6 +64,14 @@ namespace CaissonMPM
       return inertia_at_tip_;
     }
 
+    /** The least and the largest scaling of the smallest cells since this
+     * process began. */
+    std::pair<double, double>
+    range_of_inertia() const
+    {
+      return {least_inertia, largest_inertia};
+    }
+
     /** The factor of the inertia in each cell of this rank [n_cells], or null
      * if all of them are 1. */
     const double *
@@ -181,6 +189,8 @@ namespace CaissonMPM
     std::string             limiting_cell;
     std::function<double()> stress_over_inertia_at_tip;
     double                  inertia_at_tip_ = 1.;
+    double                  least_inertia   = 1.;
+    double                  largest_inertia = 1.;
     std::vector<double>     inertia_;
   };
 } // namespace CaissonMPM

@@ -22,6 +22,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -60,6 +61,7 @@ namespace CaissonMPM
      */
     void
     describe(const std::string          &scene_file,
+             const std::string          &command_words,
              const std::string          &fingerprint,
              const std::string          &installation,
              const Kernels::KernelTable &kernels);
@@ -112,9 +114,18 @@ namespace CaissonMPM
     void
     request_walls();
 
+    /** Let the time that is left follow from the number of steps that are
+     * left, infinite where it is not known. The step grows with the depth, so
+     * that the first part of the way takes more than its share of the time. */
+    void
+    follow_steps(const std::function<double()> &steps_left)
+    {
+      this->steps_left = steps_left;
+    }
+
     /** Print what is run, and the warnings of its scene. */
     void
-    print_header(const ParameterOrigins &input, const double n_steps);
+    print_header(const ParameterOrigins &input);
 
     /** Add a step: the impulses of this rank's nodes, for the whole
      * circumference. Units: N s. */
@@ -140,7 +151,7 @@ namespace CaissonMPM
     void
     write_failure(const std::string &reason) noexcept;
 
-    /** Print sums, energies and times. */
+    /** Print sums and energies. */
     void
     print_report();
 
@@ -222,6 +233,9 @@ namespace CaissonMPM
     /** Write run.json of a run that has not ended; not collective. */
     void
     write_progress(const double fraction_done, const double eta_seconds) const;
+    /** The wall time that is left. Units: s. */
+    double
+    seconds_left(const double fraction_done) const;
     void
     warn_of_no_rest();
     /** What a report needs. Collective. */
@@ -249,15 +263,16 @@ namespace CaissonMPM
     Terminal    terminal             = Terminal::full;
     bool        walls_at_each_record = false;
 
-    std::unique_ptr<OutputDirectory>      locked_directory;
-    std::unique_ptr<Console>              console;
-    std::unique_ptr<Records>              records;
-    std::unique_ptr<Visualization>        visualization;
-    std::unique_ptr<WallFile>             wall_file;
-    std::string                           scene, fingerprint, installation;
-    std::string                           wrong_error_bar_;
-    std::vector<std::string>              assumed; // entries
-    const Kernels::KernelTable           *kernels = nullptr;
+    std::unique_ptr<OutputDirectory> locked_directory;
+    std::unique_ptr<Console>         console;
+    std::unique_ptr<Records>         records;
+    std::unique_ptr<Visualization>   visualization;
+    std::unique_ptr<WallFile>        wall_file;
+    std::string                      scene, command, fingerprint, installation;
+    std::string                      wrong_error_bar_;
+    std::vector<std::string>         assumed; // entries
+    std::function<double()>          steps_left;
+    const Kernels::KernelTable      *kernels = nullptr;
     std::chrono::steady_clock::time_point start_time;
 
     // since the last record

@@ -27,6 +27,8 @@ namespace CaissonMPM
     double seconds_per_step = 0.;
     /** Whether the soil grows stiffer with its stress, and the step shorter. */
     bool stiffens = false;
+    /** Whether points are split where the mesh is fine. */
+    bool splits = false;
     /** Return the least and the most time of the processor that the run may
      * take (s): at the speed of the first steps, and with what slows runs. */
     std::pair<double, double>

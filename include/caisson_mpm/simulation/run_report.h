@@ -18,6 +18,7 @@ namespace CaissonMPM
     std::string          status;  // how the run ended, for instance "finished"
     std::string          failure; // why the run could not go on, or empty
     std::string          scene_file;
+    std::string          command; // words behind the name of the program
     std::string          title;
     std::string          fingerprint; // of all parameters that are not defaults
     std::string          installation; // directory of the run before, or empty
@@ -50,11 +51,18 @@ namespace CaissonMPM
                       const RecordedParts &parts,
                       const RunFacts      &facts);
 
-  /** Print the counts, the energies and the wall times. Not collective. */
+  /** Print the counts and the energies. Not collective. */
   void
   print_run_report(Console             &console,
                    const RecordedParts &parts,
                    const RunFacts      &facts);
+
+  /** Print what took the wall time, of which there is this. Units: s. Not
+   * collective. */
+  void
+  print_run_times(Console             &console,
+                  const RecordedParts &parts,
+                  const double         total);
 } // namespace CaissonMPM
 
 #endif

@@ -166,7 +166,7 @@ namespace CaissonMPM
     double
     find_end() const;
     double
-    next_frame_time() const;
+    next_frame_time(const double after) const;
 
     /** Whether a frame at a penetration, whose time was not known, was written
      * just now, so that none is needed for the interval. */

@@ -11,7 +11,7 @@ because the parameters make the runs:
     correlations   of a Latin hypercube: [["phi", "E", 0.5]], rank correlations
     observe        a column of history.csv; default: required_suction_Pa,
                    total_force_with_water_N or total_force_N, the first there is
-    depths         of the table (m), default each meter
+    depths         of the table (m), default each meter and the end
     tornado_depth  of tornado.png (m), default the deepest of depths in all runs
     reference = {} runs the scene as it is, too, for fan.png
     cone           a file with a cone test, beside this one: the design methods stand
@@ -140,6 +140,8 @@ def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
         print("\n".join(tables.lines(outcomes, depth)))
         for file in filter(None, files):
             print(f"{study.id}: {short(file)}")
+        if outcomes.complete:
+            print(f"{study.id}: next: open {short(directory / 'fan.png')}")
         if len(outcomes.complete) < len(outcomes.all):
             status = 1
     return status

@@ -138,8 +138,12 @@ def spread(matrix: np.ndarray) -> tuple[list[str], np.ndarray]:
     return names, np.quantile(matrix, shares, axis=0)
 
 
-def text_of_effect(effect: Effect, unit: str, scale: float) -> list[str]:
-    """Return the cells of an effect of a list or a grid."""
-    low, high = (f"{x * scale:.4g} {unit}".strip() for x in (effect.low, effect.high))
-    ends = [text_of(end) for end in effect.ends]
-    return [effect.parameter.label, f"{low} at {ends[0]}", f"{high} at {ends[1]}"]
+def text_of_effect(effect: Effect, base: float, unit: str, scale: float) -> list[str]:
+    """Return the cells of an effect of a list or a grid, with its share of what it is
+    beside."""
+    cells = [effect.parameter.label]
+    for result, end in zip((effect.low, effect.high), effect.ends):
+        value = f"{float(f'{result * scale:.4g}'):.12g} {unit}".strip()
+        share = f" ({100 * (result / base - 1):+.0f} %)" if base else ""
+        cells.append(f"{value}{share} at {text_of(end)}")
+    return cells

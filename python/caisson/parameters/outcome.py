@@ -50,6 +50,7 @@ class Outcome:
     run: StudyRun
     wall: float | None  # s
     is_reference: bool
+    warnings: tuple[str, ...] = ()  # about its results
 
     @property
     def is_complete(self) -> bool:
@@ -92,6 +93,16 @@ def status_of(run: StudyRun) -> tuple[str, str]:
     return COMPLETE, ""
 
 
+def warnings_of(run: StudyRun) -> tuple[str, ...]:
+    """Return what the program has said against the results of a run."""
+    try:
+        results = run.results.summary.get("results") or {}
+    except ResultsError:
+        return ()
+    ranked = results.get("warnings", [])
+    return tuple(x["text"] for x in ranked if x["rank"] == "result")
+
+
 def outcome_of(run: StudyRun) -> Outcome:
     """Return what a run has left."""
     status, why = status_of(run)
@@ -114,6 +125,7 @@ def outcome_of(run: StudyRun) -> Outcome:
         run,
         record.get("wall_s"),
         is_reference=sample is None,
+        warnings=warnings_of(run) if history is not None else (),
     )
 
 
@@ -202,10 +214,13 @@ class Outcomes:
         self.grid = curves.common_depths(ways, step)
 
     def table_depths(self, ways: Sequence[np.ndarray]) -> np.ndarray:
-        """Return the depths of the table."""
+        """Return the depths of the table: those of the study, or each meter and the
+        last depth that all runs have reached."""
         if "depths" in self.study.keys:
             return np.array(numbers_of(self.study.keys, "depths"))
-        return curves.round_depths(np.concatenate(ways))
+        found = curves.round_depths(np.concatenate(ways))
+        end = min(float(way.max()) for way in ways)
+        return np.append(found, end) if len(found) and end > found[-1] + 1e-3 else found
 
     @property
     def free(self) -> list[Parameter]:

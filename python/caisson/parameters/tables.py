@@ -11,8 +11,12 @@ from caisson import table
 from caisson.parameters import effects
 from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import DEPTH, Outcome, Outcomes, title_of, unit_of
-from caisson.parameters.sampling import LATIN
+from caisson.parameters.sampling import LATIN, ONE
 
+RANKS = (
+    "Runs of one scene on different numbers of ranks differ by about 1 %, beside a thin"
+    " wall by more (doc/limitations.md)."
+)
 PRINTED = 20  # rows of runs; of more runs the quantiles are printed
 
 
@@ -42,7 +46,8 @@ def row_of(outcomes: Outcomes, outcome: Outcome, has_rest: bool) -> list[str]:
     row.append(digits(None if history is None else float(history[DEPTH].max())))
     if has_rest:
         row.append(digits(outcome.rest))
-    return [*row, digits(outcome.wall), outcome.why]
+    remark = "; ".join(filter(None, [outcome.why, *outcome.warnings]))
+    return [*row, digits(outcome.wall), remark]
 
 
 def write_runs(path: Path, outcomes: Outcomes) -> Path:
@@ -89,7 +94,7 @@ def lines(outcomes: Outcomes, depth: float | None) -> Iterator[str]:
         names, values = effects.spread(outcomes.matrix(outcomes.depths))
         rows = [[n, *(cell(x * scale) for x in v)] for n, v in zip(names, values)]
         yield table.markdown(["quantile", *heads], rows)
-    _, found = effects.effects_of(outcomes, depth)
+    base, found = effects.effects_of(outcomes, depth)
     if found and outcomes.sampling == LATIN:
         rows = [[e.parameter.label, f"{e.high:+.2f}"] for e in found]
         yield f"rank correlation (Spearman) at {depth:g} m; by chance below" + (
@@ -97,14 +102,19 @@ def lines(outcomes: Outcomes, depth: float | None) -> Iterator[str]:
         )
         yield table.markdown(["parameter", "correlation"], rows)
     elif found:
-        rows = [effects.text_of_effect(effect, unit, scale) for effect in found]
-        yield f"effects at {depth:g} m:"
+        rows = [effects.text_of_effect(e, base, unit, scale) for e in found]
+        of = "the base" if outcomes.sampling == ONE else "the mean of all runs"
+        yield f"effects at {depth:g} m, beside {of}:"
         yield table.markdown(["parameter", "smallest", "largest"], rows)
     for outcome in outcomes.all:
         if not outcome.is_complete:
             yield f"{outcome.name}: {outcome.status}, {outcome.why}".rstrip(", ")
+        for warning in outcome.warnings:
+            yield f"{outcome.name}: warning: {warning}"
+    yield RANKS
 
 
 def cell(value: float) -> str:
-    """Return a value for the printed tables."""
-    return f"{value:.4g}" if math.isfinite(value) else "-"
+    """Return a value for the printed tables: four digits, and no power of ten where it
+    is large."""
+    return f"{float(f'{value:.4g}'):.12g}" if math.isfinite(value) else "-"

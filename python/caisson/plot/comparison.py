@@ -86,8 +86,8 @@ def panels_of(histories: Histories) -> dict[str, Table]:
         for name, history in histories.items()
     }
     if not suctions:
-        return {"force that pushes the body (kN), negative: pulls": forces}
-    axis = "resistance; without suction, force that pushes (kN)"
+        return {"applied force (kN), push positive": forces}
+    axis = "resistance; without suction, applied force (kN)"
     return {"required suction (kPa)": suctions, axis: forces}
 
 

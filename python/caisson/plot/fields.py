@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
+from matplotlib.collections import EllipseCollection, PolyCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
@@ -26,6 +26,7 @@ Field = tuple[str, Sequence[np.ndarray], Style]  # label, means [frame][cell], c
 MOST_FRAMES = 4  # of a picture
 SLENDEREST = 0.3  # width over height of a picture on one side of the axis, at least
 RIGID = "#8c8c8c"
+CLOSEST, CLOSE = 6, 1.0  # points that show a boundary, and how close one must be (m)
 NEEDED = {"whole_volume", "stress_zz", "displacement"}  # of the fields of a point
 RATIO = "vertical_stress_over_stress_at_rest"
 
@@ -34,14 +35,15 @@ class Frame:
     """The soil and the rigid body at one recorded time."""
 
     def __init__(
-        self, time: float, files: Sequence[Path], grids: Series, history: Table
+        self, time: float, files: Sequence[Path], grids: Series, run: Results
     ) -> None:
         """files: of the points; grids: the series of the background grid. Raises
         ResultsError where a field is missing."""
+        history = run.history
         points = read_points(files)
         nearest = min(grids, key=lambda entry: abs(entry[0] - time))
         cells = read_cells(nearest[1])
-        missing = (NEEDED - points.keys()) | ({RATIO, "layer"} - cells.keys())
+        missing = (NEEDED - points.keys()) | ({RATIO} - cells.keys())
         if missing:
             raise ResultsError(
                 f"{files[0]} has no field {', '.join(sorted(missing))}: it is of"
@@ -53,9 +55,8 @@ class Frame:
         self.means = CellMeans(
             points["position"], points["whole_volume"], corners, rigid
         )
-        self.ratio, self.layer = [
-            cells[name][self.means.used].astype(float) for name in (RATIO, "layer")
-        ]
+        self.ratio = cells[RATIO][self.means.used].astype(float)
+        self.tops = tops_of(run.scene)
         self.time = time
         self.label = f"t = {time:.3g} s"
         if penetration(history) is not None:
@@ -126,23 +127,55 @@ def paint_cells(
     return painted
 
 
-def layer_boundaries(polygons: np.ndarray, layer: np.ndarray) -> np.ndarray:
-    """Return the sides [n, 2, 2] between cells [n, 4, 2] of different layers that lie
-    on top of each other."""
-    middle = polygons[..., 1].mean(axis=1)
-    order = np.lexsort((middle, polygons[:, 1, 0], polygons[:, 0, 0]))
-    lower, upper = polygons[order[:-1]], polygons[order[1:]]
-    touching = np.isclose(lower[:, [3, 2]], upper[:, :2]).all(axis=(1, 2))
-    return upper[touching & (np.diff(layer[order]) != 0), :2]
+def tops_of(scene: dict[str, Any]) -> list[float]:
+    """Return the z (m) at which another layer began; not those within a layer that
+    changes with depth."""
+    layers = scene.get("layers") or []
+    return [
+        -float(below["top_depth_m"])
+        for above, below in zip(layers, layers[1:])
+        if above.get("layer") != below.get("layer")
+    ]
+
+
+def boundary_now(
+    position: np.ndarray, displacement: np.ndarray, z: float, edges: np.ndarray
+) -> np.ndarray:
+    """Return where a boundary that was at z is now, [n, 2] in the strips between
+    edges [n + 1]: it has moved as the material points [n_points, 2] that were closest
+    to it; nan where none was close."""
+    off = position[:, 1] - displacement[:, 1] - z
+    strip = np.searchsorted(edges, position[:, 0]) - 1
+    found = np.full((len(edges) - 1, 2), np.nan)
+    found[:, 0] = (edges[:-1] + edges[1:]) / 2
+    for i in range(len(found)):
+        points = np.flatnonzero(strip == i)
+        points = points[np.argsort(np.abs(off[points]))[:CLOSEST]]
+        if len(points) and np.abs(off[points[0]]) < CLOSE:
+            found[i, 1] = z + displacement[points, 1].mean()
+    return found
 
 
 def draw_layers(axes: Axes, frame: Frame) -> None:
-    """Draw the boundaries between layers where they are now, for all colors."""
-    sides = layer_boundaries(frame.means.polygons, frame.layer)
-    both = np.concatenate([sides, sides * [-1, 1]])
-    for color, width in (("0.2", 1.8), ("white", 0.9)):
-        style: Style = {"colors": color, "linewidths": width, "zorder": 2.4}
-        axes.add_collection(LineCollection(both, **style))
+    """Draw the boundaries between layers where they are now, for all colors; not at a
+    wall that has passed, which has dragged a skin of soil with it."""
+    edges = np.unique(frame.means.polygons[:, :2, 0])
+    move = frame.soil["displacement"]
+    for top in frame.tops:
+        line = boundary_now(frame.soil["position"], move, top, edges)
+        if len(frame.body) and frame.body[..., 1].min() < top:
+            wall = frame.body[frame.body[..., 1].min(axis=1) < top][..., 0]
+            skin = np.ptp(wall) if wall.min() > 0 else 0.0
+            is_near = (line[:, 0] > wall.min() - skin) & (
+                line[:, 0] < wall.max() + skin
+            )
+            line[is_near, 1] = np.nan
+        # to the axis and to the side of the mesh
+        line[[0, -1], 0] = edges[[0, -1]]
+        for side in (1, -1):
+            for color, width in (("0.2", 1.8), ("white", 0.9)):
+                style: Style = {"color": color, "linewidth": width, "zorder": 2.4}
+                axes.plot(side * line[:, 0], line[:, 1], **style)
 
 
 def draw_body(axes: Axes, frame: Frame) -> None:
@@ -259,7 +292,7 @@ def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
         "left halves: vertical effective stress (kPa)",
         *stress_of(frames, window),
     )
-    sides = [stress, ratio_of("right halves: the same over that at rest (-)", frames)]
+    sides = [stress, ratio_of("right halves: ratio to the stress at rest (-)", frames)]
     figure_of(frames, window, sides)[0].savefig(path, dpi=150)
     return path
 
@@ -366,7 +399,7 @@ def frames_of(run: Results) -> list[Frame]:
         return []
     wanted = run.scene.get("frame_penetrations_m") or []
     return [
-        Frame(time, files, grids, run.history)
+        Frame(time, files, grids, run)
         for time, files in chosen(series, run.history, wanted)
     ]
 

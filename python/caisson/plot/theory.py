@@ -401,10 +401,12 @@ def answers_to(site: Site, deepest: float) -> list[Answer]:
 
 
 def reasons(answers: list[Answer]) -> list[tuple[str, str]]:
-    """Return (methods, why they say nothing), each reason once."""
+    """Return (methods, why they say nothing), each reason once. That the method of clay
+    is not for sand, of which another one has an answer, needs no words."""
     found: dict[str, list[str]] = {}
+    is_sand = any(answer.forces for answer in answers if answer.method.key != "clay")
     for answer in answers:
-        if answer.why_not:
+        if answer.why_not and not (is_sand and answer.method.key == "clay"):
             found.setdefault(answer.why_not, []).append(answer.method.name)
     return [(", ".join(names), reason) for reason, names in found.items()]
 

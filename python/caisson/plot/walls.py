@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Stresses along the walls at the frames, beside those at rest."""
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,22 +17,35 @@ STRESSES = {
     "normal_stress": ("effective normal stress", "$K_0\\,\\sigma'_{v0}$"),
     "shear_stress": ("shear stress, upward", "$K_0\\,\\sigma'_{v0}\\,\\tan\\delta$"),
 }
+AT_FRAME = 0.05  # m, between a penetration and its frame
 AT_REST: dict[str, Any] = {"color": "0.35", "linewidth": 1.4, "linestyle": "--"}
 
 
-def shown_times(walls: Table) -> np.ndarray:
-    """Return the times to draw, MOST_FRAMES at most, the last among them."""
+def shown_times(walls: Table, wanted: Sequence[float] = ()) -> np.ndarray:
+    """Return the times to draw, MOST_FRAMES at most, the last among them: those at the
+    penetrations that the scene asks for (m), as in the pictures of fields, or evenly.
+    """
     times = np.unique(walls["time_s"])
-    picks = np.linspace(0, len(times) - 1, min(MOST_FRAMES, len(times)))
-    return times[np.round(picks).astype(int)]
+    depths = [walls["penetration_m"][walls["time_s"] == time][0] for time in times]
+    near = [int(np.argmin(np.abs(np.array(depths) - goal))) for goal in wanted]
+    picks = {i for i, goal in zip(near, wanted) if abs(depths[i] - goal) < AT_FRAME}
+    picks.add(len(times) - 1)
+    if not 2 <= len(picks) <= MOST_FRAMES:
+        evenly = np.linspace(0, len(times) - 1, min(MOST_FRAMES, len(times)))
+        picks = set(np.round(evenly).astype(int))
+    return times[sorted(picks)]
 
 
 def draw_panel(
-    axes: Axes, walls: Table, column: str, factor: float, label: str
+    axes: Axes,
+    walls: Table,
+    times: np.ndarray,
+    column: str,
+    beside: tuple[float, str],
 ) -> None:
-    """Draw a column over depth at each time, and a multiple of the horizontal stress
-    at rest."""
-    times = shown_times(walls)
+    """Draw a column over depth at times, and a multiple of the horizontal stress at
+    rest with its label."""
+    factor, label = beside
     for time, share in zip(times, np.linspace(0.85, 0, len(times))):
         rows = walls["time_s"] == time
         name = f"{walls['penetration_m'][rows][0]:.2f} m"
@@ -49,13 +63,15 @@ def draw(path: Path, run: Results) -> Path | None:
     names = [n for n in ("inner", "outer") if f"{n}_area_m2" in walls]
     if not names:
         return None
+    times = shown_times(walls, run.scene.get("frame_penetrations_m") or ())
     figure = Figure(figsize=(4.4 * len(names) + 1, 8.4), layout="constrained")
     axes = figure.subplots(2, len(names), squeeze=False, sharey=True, sharex="row")
     for row, (stress, (label, beside)) in zip(axes, STRESSES.items()):
         for panel, name in zip(row, names):
             angle = run.scene.get(f"{name}_wall_friction_angle_deg", np.nan)
             factor = 1.0 if stress == "normal_stress" else np.tan(np.radians(angle))
-            draw_panel(panel, walls, f"{name}_{stress}_Pa", factor, beside)
+            column = f"{name}_{stress}_Pa"
+            draw_panel(panel, walls, times, column, (factor, beside))
             panel.set_xlabel(f"{label} (kPa)")
             panel.set_title(f"{name} wall", fontsize=10)
         row[0].set_ylabel("depth (m)")

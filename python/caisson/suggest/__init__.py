@@ -323,7 +323,11 @@ def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
         choices[name] = entries
     scene = os.path.relpath(options.file, options.study.parent)
     return template("study.toml.jinja").render(
-        scene=scene, follows=follows, choices=choices, by_density=by_density
+        scene=scene,
+        follows=follows,
+        choices=choices,
+        by_density=by_density,
+        layers=len(layers),
     )
 
 
@@ -391,6 +395,23 @@ def entries_of_layers() -> dict[str, str]:
     return found
 
 
+def remarks_on(options: argparse.Namespace) -> list[str]:
+    """Return what the scene leaves out: a part of the skirt, and the suction."""
+    end, skirt, found = end_of(options), options.skirt, list[str]()
+    if end < skirt - 1e-9:
+        found.append(
+            f"The run ends at {end:g} m, and the skirt is {skirt:g} m long:"
+            f" --penetration {skirt:g} pushes all of it in, until the lid may press on"
+            " the plug"
+        )
+    if not options.weight:
+        found.append(
+            "Without --weight the caisson is jacked, without suction. For suction add"
+            " --weight and --water-depth"
+        )
+    return found
+
+
 def cost_of(file: Path, text: str) -> str:
     """Return what the program says of a scene, which is going to be this file, and of
     its cost. Raises SuggestError where it refuses it."""
@@ -438,6 +459,8 @@ def write(options: argparse.Namespace) -> None:
     print(cost)
     assumed = texts[options.file].count(ASSUMPTION)
     print(f"assumed: {assumed} lines of {options.file} are marked ASSUMED: check them")
+    for remark in remarks_on(options):
+        print(remark)
 
 
 def main(options: argparse.Namespace) -> int:

@@ -239,8 +239,11 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
         )
     known = {*given, *(REPLACED.get(name, name) for name in given)}
     assumed = {n: v for n, v in ASSUMED.items() if n not in known}
+    if not {"K0", "Overconsolidation ratio"} & given.keys():
+        assumed["K0"] = "auto"
+    remarks = {"Law": "", "K0": f"{ASSUMPTION}: 1 - sin phi"}
     return [
-        *(Entry(n, v, "" if n == "Law" else ASSUMPTION) for n, v in assumed.items()),
+        *(Entry(n, v, remarks.get(n, ASSUMPTION)) for n, v in assumed.items()),
         *(Entry(*pair) for pair in given.items()),
     ]
 
