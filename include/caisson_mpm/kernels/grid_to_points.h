@@ -13,6 +13,7 @@
 #include <caisson_mpm/kernels/deferred_blocks.h>
 #include <caisson_mpm/kernels/loosest_state.h>
 #include <caisson_mpm/kernels/packed_points.h>
+#include <caisson_mpm/kernels/user_points.h>
 #include <caisson_mpm/kernels/volume_change.h>
 
 namespace CaissonMPM
@@ -288,6 +289,49 @@ namespace CaissonMPM
         return outside;
       }
 
+      /** Update a block of a law that the user has written. */
+      template <typename Number>
+      [[gnu::noinline]] unsigned int
+      update_user_block(const PointsView     &points,
+                        const int             block,
+                        const CellUpdate     &cell,
+                        const UpdateSettings &settings,
+                        const Material       &material,
+                        unsigned int         &limited,
+                        UpdateSums<Number>   &sums)
+      {
+        PointBlock  &b = points.blocks[block];
+        const auto  &parameters =
+          reinterpret_cast<const UserMaterial::Parameters &>(
+            material.parameters);
+        const double cell_size =
+          __builtin_sqrt(cell.map.width * cell.map.mean_height());
+        unsigned int outside = 0;
+        limited              = 0;
+        for (int lane = 0; lane < block_size; lane += Number::width)
+          {
+            Number r = Number::load(b.r + lane), z = Number::load(b.z + lane);
+            const LocalPoint<Number> p      = cell.map.at_position(r, z);
+            const Number             mass   = Number::load(b.mass + lane),
+                                     volume = Number::load(b.volume + lane);
+            sums.add_work(
+              p,
+              mass,
+              volume,
+              update_user_points(points,
+                                 block,
+                                 lane,
+                                 points.headers[block].count - lane,
+                                 begin_stress_step(b, lane, p, cell, settings),
+                                 cell_size,
+                                 parameters));
+            sums.sum[4] += Number::load(b.volume + lane);
+            limited |= move_points(b, lane, p, cell, settings, r, z) << lane;
+            outside |= to_integer(!cell.moved.contains(r, z)) << lane;
+          }
+        return outside;
+      }
+
       /** Give a field the value at a corner that the cell sees, if it has this
        * share of the body's velocity. */
       [[gnu::always_inline]] inline void
@@ -421,7 +465,10 @@ namespace CaissonMPM
             const Material &material = step.materials[header.material];
             with_law(material, [&](auto law, const auto &) CAISSON_LAMBDA {
               using Law = decltype(law);
-              if constexpr (is_packed<Law>(0))
+              if constexpr (is_external<Law>(0))
+                outside = update_user_block(
+                  points, block, update, settings, material, limited, sums);
+              else if constexpr (is_packed<Law>(0))
                 outside = update_packed_block<Law>(points,
                                                    block,
                                                    in_group,

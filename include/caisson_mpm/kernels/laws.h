@@ -17,6 +17,7 @@
 #include <caisson_mpm/kernels/mohr_coulomb_softening.h>
 #include <caisson_mpm/kernels/mohr_coulomb_stiffening.h>
 #include <caisson_mpm/kernels/overstress.h>
+#include <caisson_mpm/kernels/user_material.h>
 
 namespace CaissonMPM
 {
