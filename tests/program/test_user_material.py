@@ -18,6 +18,7 @@ from program import (
     ProgramTest,
     history,
     scene,
+    set_options,
     summary,
 )
 
@@ -106,27 +107,66 @@ class BuiltInLaws(UserMaterialTest):
         )
         self.assert_same("jack_cohesion", user, {})
 
-    def test_apex(self) -> None:
-        """Soil that is torn to the apex of its cone, in which it stays."""
-        torn = {
-            "Soil/Initial velocity": "0 ; 2*z",
-            "Rigid body/Initial penetration": 0,
-            "Time/End penetration": 0.05,
-            "Output/Record interval": 0.01,
-            f"{LAYER}/Cohesion": 1e3,
+    def test_element_paths(self) -> None:
+        """All planes, edges and corners of the yield surface, in uniform strain."""
+        library = self.compiled("mohr_coulomb.f90")
+        paths = {
+            "torn to the corner": "0.5*r ; 0.3*z",
+            "torn along an edge": "0.5*r ; -0.2*z",
+            "pulled along the axis": "-0.01*r ; 0.2*z",
+            "pressed with shear": "-0.05*r ; -0.3*z + 0.4*r",
+            "pressed from the side": "-0.2*r ; 0.1*z + 0.1*r",
+            "sheared": "0 ; 0.5*r",
         }
-        user = self.law(
-            self.compiled("mohr_coulomb.f90"),
-            [5e6, 0.3, 30, 0, 1e3, 1e9],
-            Friction_angle=30,
-            Volume_in_shear="kept",
-        )
-        del torn[f"{LAYER}/Cohesion"]
-        self.assert_same(
-            "jack",
-            {**user, **torn},
-            {**torn, f"{LAYER}/Cohesion": 1e3, f"{LAYER}/Tension cut-off": 1e9},
-        )
+        soils = [
+            [5e6, 0.3, 30, 0, 0, 0],
+            [5e6, 0.3, 35, 10, 5e3, 1e9],
+            [5e6, 0.2, 25, 25, 5e3, 2e3],
+            [5e6, 0.45, 0, 0, 2e4, 1e3],
+        ]
+        for name, velocity in paths.items():
+            for soil in soils:
+                with self.subTest(name, soil=soil):
+                    self.assert_same_path(library, velocity, soil)
+
+    def assert_same_path(self, library: Path, velocity: str, soil: list[float]) -> None:
+        """Ask for the same stress after a uniform strain."""
+        names = [
+            "Youngs modulus",
+            "Poisson ratio",
+            "Friction angle",
+            "Dilatancy angle",
+            "Cohesion",
+            "Tension cut-off",
+        ]
+        own = {f"{LAYER}/{name}": value for name, value in zip(names, soil)}
+        own[f"{LAYER}/Law"] = "Mohr-Coulomb"
+        user = self.law(library, soil)
+        more = {
+            "Soil/Initial stress": "uniform",
+            "Soil/Uniform stress": "-2e4, -3e4, -2.5e4, 3e3",
+            "Soil/Initial velocity": velocity,
+            "Boundary conditions/Prescribed velocity": velocity,
+            "Time/Time step": 1e-3,
+            "Time/End time": 0.05,
+            "Grid/Cell width": 0.2,
+            "Grid/Cell height": 0.2,
+            f"{LAYER}/K0": 0.8,
+            "Verification/Checks": "",
+            "Verification/Observations": "; ".join(
+                f"{i} = rms stress_{i}" for i in ("rr", "zz", "tt", "rz")
+            ),
+        }
+        last = []
+        for folder, entries in (("user", user), ("own", own)):
+            path = self.directory(folder)
+            self.run_scene("patch_stretching", path, entries={**entries, **more})
+            last.append(history(path, "observations")[-1])
+        largest = max(last[1][i] for i in ("rr", "zz", "tt", "rz"))
+        for i in ("rr", "zz", "tt", "rz"):
+            self.assertAlmostEqual(
+                last[0][i], last[1][i], delta=1e-6 * max(largest, 1.0), msg=i
+            )
 
     def test_time_step(self) -> None:
         """Without a given step it is the one of elasticity: DDSDDE is constant."""
@@ -424,20 +464,16 @@ class Input(UserMaterialTest):
         self.assert_same_history(history(path)[-1:], history(stopped)[-1:], 1e-5)
 
     def test_command(self) -> None:
-        """caisson explains and validates such a scene."""
+        """caisson run makes tables, pictures and the page of such a run."""
         library = self.compiled("elastic.f90")
-        words = [
-            str(HERE.parent / "scripts/caisson"),
-            "validate",
-            scene("jack"),
-            *[
-                word
-                for key, value in self.law(library, ELASTIC).items()
-                for word in ("--set", f"{key}={value}")
-            ],
-        ]
+        path = self.directory()
+        entries = {**self.law(library, ELASTIC), "Time/End penetration": 0.52}
+        words = [str(HERE.parent / "scripts/caisson"), "run", scene("jack")]
+        words += ["--output-directory", str(path), *set_options(entries)]
         done = subprocess.run(words, env=ALONE, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        page = (path / "report.html").read_text(encoding="utf-8")
+        self.assertIn("user material", page)
 
 
 if __name__ == "__main__":
