@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/guarded_call.h>
+#include <caisson_mpm/base/text.h>
 
 #include <deal.II/base/mpi.h>
+
+#include <unistd.h>
 
 #include <array>
 #include <csetjmp>
@@ -10,8 +13,6 @@
 #include <cstring>
 #include <iostream>
 #include <utility>
-
-#include <unistd.h>
 
 namespace CaissonMPM
 {
@@ -124,6 +125,6 @@ namespace CaissonMPM
     for (const auto &[crash, name] : crashes)
       if (crash == number)
         return std::string(name) + " (" + strsignal(number) + ")";
-    return "signal " + std::to_string(number);
+    return "signal " + to_text(number);
   }
 } // namespace CaissonMPM

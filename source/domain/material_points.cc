@@ -95,25 +95,6 @@ namespace CaissonMPM
       }
   }
 
-  void
-  MaterialPoints::level_volume_ratio(std::vector<double> &ratio)
-  {
-    ratio.assign(grid.n_cells(), 1.);
-    for (const unsigned int cell : active_cells)
-      {
-        double now = 0., initial = 0.;
-        for_each_lane(cell, [&](const int b, const int lane) {
-          now += blocks[b].volume[lane];
-          initial += histories[b].initial_volume[lane];
-        });
-        ratio[cell] = now / initial;
-        for_each_lane(cell, [&](const int b, const int lane) {
-          histories[b].initial_volume[lane] =
-            blocks[b].volume[lane] / ratio[cell];
-        });
-      }
-  }
-
   int
   MaterialPoints::last_block(const unsigned int cell, const int material) const
   {

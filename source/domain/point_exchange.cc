@@ -19,7 +19,7 @@ namespace CaissonMPM
     {
       if (points.empty())
         return {};
-      const unsigned int n = points.front().point.user_state.size();
+      const unsigned int  n = points.front().point.user_state.size();
       std::vector<double> message;
       message.reserve(1 + points.size() * (1 + n_numbers(n)));
       message.push_back(n);

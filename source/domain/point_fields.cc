@@ -5,9 +5,8 @@
 
 namespace CaissonMPM
 {
-  static_assert(sizeof(MaterialPoint) ==
-                  (n_point_fields + 1) * sizeof(double) +
-                    sizeof(std::vector<double>),
+  static_assert(sizeof(MaterialPoint) == (n_point_fields + 1) * sizeof(double) +
+                                           sizeof(std::vector<double>),
                 "a MaterialPoint holds its fields and its material");
 
   void

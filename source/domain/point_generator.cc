@@ -365,10 +365,9 @@ namespace CaissonMPM
             const SoilMaterial &m = soil.material(i);
             states.push_back(m.start_of_state());
             user_states.push_back(
-              m.umat ?
-                m.umat->start_of_state(m.umat_stiffness.p_wave_modulus,
-                                       soil.n_user_state()) :
-                std::vector<double>(soil.n_user_state(), 0.));
+              m.umat ? m.umat->start_of_state(m.umat_stiffness.p_wave_modulus,
+                                              soil.n_user_state()) :
+                       std::vector<double>(soil.n_user_state(), 0.));
           }
       }
 

@@ -278,7 +278,8 @@ namespace CaissonMPM
   void
   Soil::load_libraries(const std::string &directory)
   {
-    for (unsigned int i = 0; i < std::min<std::size_t>(n_layers_, layers.size());
+    for (unsigned int i = 0;
+         i < std::min<std::size_t>(n_layers_, layers.size());
          ++i)
       layers[i]->load_library(directory);
   }
@@ -550,9 +551,9 @@ namespace CaissonMPM
       constexpr double harmless = .3, harmful = .4, with_friction = .1;
       const double     least =
         m.friction_angle().value_or(0.) > 0. ? with_friction : 0.;
-      const double nu = m.law_value("Poisson ratio")
-                          .value_or(m.umat ? m.umat_stiffness.poisson :
-                                             harmless);
+      const double nu =
+        m.law_value("Poisson ratio")
+          .value_or(m.umat ? m.umat_stiffness.poisson : harmless);
       return std::clamp((nu - harmless) / (harmful - harmless), least, 1.);
     }
   } // namespace

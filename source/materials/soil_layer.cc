@@ -122,10 +122,11 @@ namespace CaissonMPM
   void
   SoilLayer::declare_user_material()
   {
-    add_parameter("Library",
-                  umat_settings.library,
-                  "The shared library of a user material, a UMAT of Abaqus, has "
-                  "this path relative to the scene's file. Units: none.");
+    add_parameter(
+      "Library",
+      umat_settings.library,
+      "The shared library of a user material, a UMAT of Abaqus, has "
+      "this path relative to the scene's file. Units: none.");
     add_entry(*this,
               "Properties",
               "",
@@ -162,8 +163,8 @@ namespace CaissonMPM
   {
     if (law != Kernels::UserMaterial::name)
       return;
-    const std::string needs = section() + "/Law = " + law + " needs " +
-                              section();
+    const std::string needs =
+      section() + "/Law = " + law + " needs " + section();
     if (umat_settings.library.empty())
       throw BadInput(needs + "/Library. Set it to the path of the shared "
                              "library with the UMAT, relative to the scene's "
@@ -185,12 +186,11 @@ namespace CaissonMPM
         }
     const std::size_t n = umat_settings.variables.size();
     if (n > umat_settings.n_variables)
-      throw BadInput(section() + "/State at the start has " + to_text(n) +
-                     " numbers, but " + section() + "/State variables = " +
-                     to_text(umat_settings.n_variables) +
-                     ". Raise it, or remove numbers.");
-    soil.umat =
-      std::make_shared<UmatLaw>(umat_settings, section(), directory);
+      throw BadInput(
+        section() + "/State at the start has " + to_text(n) + " numbers, but " +
+        section() + "/State variables = " + to_text(umat_settings.n_variables) +
+        ". Raise it, or remove numbers.");
+    soil.umat = std::make_shared<UmatLaw>(umat_settings, section(), directory);
   }
 
   void

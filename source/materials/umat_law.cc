@@ -44,33 +44,24 @@ namespace CaissonMPM
       std::size_t begin, size;
     };
 
-#define CAISSON_INPUT(name, member) \
-  {name, offsetof(UmatInput, member), sizeof(UmatInput::member)}
-    constexpr InputName input_names[] = {CAISSON_INPUT("STRAN", stran),
-                                         CAISSON_INPUT("DSTRAN", dstran),
-                                         CAISSON_INPUT("TIME", time),
-                                         CAISSON_INPUT("DTIME", dtime),
-                                         CAISSON_INPUT("TEMP", temp),
-                                         CAISSON_INPUT("DTEMP", dtemp),
-                                         CAISSON_INPUT("PREDEF", predef),
-                                         CAISSON_INPUT("DPRED", dpred),
-                                         CAISSON_INPUT("COORDS", coords),
-                                         CAISSON_INPUT("DROT", drot),
-                                         CAISSON_INPUT("CELENT", celent),
-                                         CAISSON_INPUT("DFGRD0", dfgrd0),
-                                         CAISSON_INPUT("DFGRD1", dfgrd1),
-                                         CAISSON_INPUT("NDI", ndi),
-                                         CAISSON_INPUT("NSHR", nshr),
-                                         CAISSON_INPUT("NTENS", ntens),
-                                         CAISSON_INPUT("NSTATV", nstatv),
-                                         CAISSON_INPUT("NPROPS", nprops),
-                                         CAISSON_INPUT("NOEL", noel),
-                                         CAISSON_INPUT("NPT", npt),
-                                         CAISSON_INPUT("LAYER", layer),
-                                         CAISSON_INPUT("KSPT", kspt),
-                                         CAISSON_INPUT("JSTEP", jstep),
-                                         CAISSON_INPUT("KINC", kinc),
-                                         CAISSON_INPUT("CMNAME", cmname)};
+#define CAISSON_INPUT(name, member)                              \
+  {                                                              \
+    name, offsetof(UmatInput, member), sizeof(UmatInput::member) \
+  }
+    constexpr InputName input_names[] = {
+      CAISSON_INPUT("STRAN", stran),   CAISSON_INPUT("DSTRAN", dstran),
+      CAISSON_INPUT("TIME", time),     CAISSON_INPUT("DTIME", dtime),
+      CAISSON_INPUT("TEMP", temp),     CAISSON_INPUT("DTEMP", dtemp),
+      CAISSON_INPUT("PREDEF", predef), CAISSON_INPUT("DPRED", dpred),
+      CAISSON_INPUT("COORDS", coords), CAISSON_INPUT("DROT", drot),
+      CAISSON_INPUT("CELENT", celent), CAISSON_INPUT("DFGRD0", dfgrd0),
+      CAISSON_INPUT("DFGRD1", dfgrd1), CAISSON_INPUT("NDI", ndi),
+      CAISSON_INPUT("NSHR", nshr),     CAISSON_INPUT("NTENS", ntens),
+      CAISSON_INPUT("NSTATV", nstatv), CAISSON_INPUT("NPROPS", nprops),
+      CAISSON_INPUT("NOEL", noel),     CAISSON_INPUT("NPT", npt),
+      CAISSON_INPUT("LAYER", layer),   CAISSON_INPUT("KSPT", kspt),
+      CAISSON_INPUT("JSTEP", jstep),   CAISSON_INPUT("KINC", kinc),
+      CAISSON_INPUT("CMNAME", cmname)};
 #undef CAISSON_INPUT
 
     template <typename List>
@@ -117,31 +108,32 @@ namespace CaissonMPM
 
     /**
      * The largest stiffness rho c^2 of plane waves in the r-z plane: for each
-     * direction n, the norm of B^T D B, where B takes the amplitude of a wave to
+     * direction n, the norm of B^T D B, where B takes the amplitude of a wave
+     * to
      * its strain (rr, zz, and rz as engineering strain). @p ddsdde by columns.
      */
     double
     acoustic_bound(const std::array<double, 16> &ddsdde)
     {
       constexpr unsigned int n_directions = 36, row[3] = {0, 1, 3};
-      double                 largest      = 0.;
+      double                 largest = 0.;
       for (unsigned int d = 0; d < n_directions; ++d)
         {
-          const double angle = pi * d / n_directions,
-                       c = std::cos(angle), s = std::sin(angle);
+          const double angle = pi * d / n_directions, c = std::cos(angle),
+                       s       = std::sin(angle);
           const double B[3][2] = {{c, 0.}, {0., s}, {s, c}};
           double       A[2][2] = {};
           for (unsigned int i = 0; i < 3; ++i)
             for (unsigned int j = 0; j < 3; ++j)
               for (unsigned int k = 0; k < 2; ++k)
                 for (unsigned int l = 0; l < 2; ++l)
-                  A[k][l] +=
-                    B[i][k] * ddsdde[row[i] + 4 * row[j]] * B[j][l];
+                  A[k][l] += B[i][k] * ddsdde[row[i] + 4 * row[j]] * B[j][l];
           const double p = A[0][0] * A[0][0] + A[1][0] * A[1][0],
                        q = A[0][0] * A[0][1] + A[1][0] * A[1][1],
                        r = A[0][1] * A[0][1] + A[1][1] * A[1][1];
-          largest = std::max(
-            largest, std::sqrt(.5 * (p + r) + std::hypot(.5 * (p - r), q)));
+          largest =
+            std::max(largest,
+                     std::sqrt(.5 * (p + r) + std::hypot(.5 * (p - r), q)));
         }
       return largest;
     }
@@ -169,7 +161,7 @@ namespace CaissonMPM
     given.ndi                                             = 3;
     given.nshr                                            = 1;
     given.ntens                                           = 4;
-    given.nstatv                                          = settings.n_variables;
+    given.nstatv = settings.n_variables;
     given.nprops = settings.properties.size();
     std::fill_n(given.cmname, sizeof(given.cmname), ' ');
     std::string name = section; // SOIL-LAYER-1
@@ -208,8 +200,8 @@ namespace CaissonMPM
       return;
     point = &p;
     prepare(p);
-    const int       status = static_cast<int>(is_testing ? ExitStatus::bad_input :
-                                                           ExitStatus::failure);
+    const int status = static_cast<int>(is_testing ? ExitStatus::bad_input :
+                                                     ExitStatus::failure);
     const EndOfCall end =
       guarded_call(&UmatLaw::call_umat, this, &UmatLaw::text_of_exit, status);
     const std::string fault = find_fault(end);
@@ -229,10 +221,10 @@ namespace CaissonMPM
                  difference = .5 * (e[0] - e[1]), shear = .5 * e[3],
                  cos2 = c * c - s * s, sin2 = 2. * s * c,
                  turned = cos2 * difference + sin2 * shear;
-    given.stran[0] = mean + turned;
-    given.stran[1] = mean - turned;
-    given.stran[2] = e[2];
-    given.stran[3] = 2. * (cos2 * shear - sin2 * difference);
+    given.stran[0]      = mean + turned;
+    given.stran[1]      = mean - turned;
+    given.stran[2]      = e[2];
+    given.stran[3]      = 2. * (cos2 * shear - sin2 * difference);
     std::copy_n(p.strain, 4, given.dstran);
     std::copy_n(p.place, 2, given.coords);
     double *const turn = given.drot;
@@ -256,9 +248,9 @@ namespace CaissonMPM
   void
   UmatLaw::call_umat(void *law)
   {
-    UmatLaw   &l      = *static_cast<UmatLaw *>(law);
-    UmatInput &in     = l.input;
-    double     sse    = 0., spd = 0., scd = 0., rpl = 0., drpldt = 0.;
+    UmatLaw   &l   = *static_cast<UmatLaw *>(law);
+    UmatInput &in  = l.input;
+    double     sse = 0., spd = 0., scd = 0., rpl = 0., drpldt = 0.;
     double     ddsddt[4] = {}, drplde[4] = {};
     l.library.umat()(l.stress.data(),
                      l.statev.data(),
@@ -330,7 +322,7 @@ namespace CaissonMPM
         pnewdt >= 1.)
       return "";
     if (end == EndOfCall::stopped)
-      return "has called XIT: it says above why, or its source does";
+      return "has called XIT, or STDB_ABQERR with an error";
     if (end != EndOfCall::returned)
       return "has crashed with " + name_of_signal(end) +
              ". Compile it with -g -fcheck=all to find out where";
@@ -455,9 +447,9 @@ namespace CaissonMPM
     const Answer                first  = ask(at, strain);
     ask(at, {{-1e-4, 1e-4, 0., 2e-4}});
     const Answer again = ask(at, strain);
-    const bool   same =
-      first.stress == again.stress && first.ddsdde == again.ddsdde &&
-      first.variables == again.variables;
+    const bool   same  = first.stress == again.stress &&
+                      first.ddsdde == again.ddsdde &&
+                      first.variables == again.variables;
     if (!same)
       throw BadInput(
         entry + ": the UMAT gives two answers to the same call, the STRESS " +
@@ -473,9 +465,9 @@ namespace CaissonMPM
     constexpr double strain = 1e-6;
     check_reproducible(at);
     // 1. DDSDDE of small strains, and what the stress says
-    const Answer none     = ask(at, {{0., 0., 0., 0.}});
-    double       bound    = acoustic_bound(none.ddsdde),
-           diagonal       = largest_diagonal(none.ddsdde), measured = 0.;
+    const Answer none  = ask(at, {{0., 0., 0., 0.}});
+    double       bound = acoustic_bound(none.ddsdde),
+           diagonal = largest_diagonal(none.ddsdde), measured = 0.;
     for (const double sign : {1., -1.})
       {
         std::array<double, 16> found;

@@ -4,6 +4,8 @@
 #include <caisson_mpm/base/guarded_call.h>
 #include <caisson_mpm/materials/user_library.h>
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cfenv>
 #include <cstring>
@@ -11,8 +13,6 @@
 #include <fstream>
 #include <iostream>
 #include <sstream>
-
-#include <dlfcn.h>
 
 namespace CaissonMPM
 {
@@ -52,14 +52,15 @@ namespace CaissonMPM
       // program computes
       std::fenv_t arithmetic;
       std::fegetenv(&arithmetic);
-      const EndOfCall end = guarded_call(open_library,
-                                         &opening,
-                                         text_of_exit_while_opening,
-                                         static_cast<int>(
-                                           ExitStatus::bad_input));
+      const EndOfCall end =
+        guarded_call(open_library,
+                     &opening,
+                     text_of_exit_while_opening,
+                     static_cast<int>(ExitStatus::bad_input));
       std::fesetenv(&arithmetic);
       if (end != EndOfCall::returned)
-        throw BadInput(entry + ": the library crashes while it is loaded, with " +
+        throw BadInput(entry +
+                       ": the library crashes while it is loaded, with " +
                        name_of_signal(end) + ". Correct it.");
       if (opening.handle == nullptr)
         throw BadInput(

@@ -372,13 +372,12 @@ namespace CaissonMPM
                   "checkpoint-a.h5";
     info.n_points =
       Utilities::MPI::sum<unsigned long>(points.n_points(), communicator);
-    info.fields               = checksums_of(fields);
-    info.state                = state;
-    info.fingerprint          = fingerprint;
-    const std::string path    = directory + "/" + info.file;
-    unsigned long     n_bytes = info.n_points *
-                                PointFile::bytes_per_point(
-                                  points.n_user_state());
+    info.fields            = checksums_of(fields);
+    info.state             = state;
+    info.fingerprint       = fingerprint;
+    const std::string path = directory + "/" + info.file;
+    unsigned long     n_bytes =
+      info.n_points * PointFile::bytes_per_point(points.n_user_state());
     for (const auto &field : fields)
       n_bytes += field.second.size() * sizeof(double);
     const auto on_failure = [&]() {

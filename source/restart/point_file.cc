@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/domain/point_fields.h>
 #include <caisson_mpm/restart/point_file.h>
 
@@ -30,7 +31,7 @@ namespace CaissonMPM
         names += " " + field.name();
       });
       for (unsigned int i = 0; i < n_user_state; ++i)
-        names += " user_state_" + std::to_string(i);
+        names += " user_state_" + to_text(i);
       return names;
     }
 

@@ -255,8 +255,9 @@ namespace CaissonMPM
     is_restart = command_line.restart;
     overwrites = command_line.overwrite;
     recorder.set_output_directory(command_line.output_directory);
-    soil.load_libraries(
-      std::filesystem::path(command_line.parameter_file).parent_path().string());
+    soil.load_libraries(std::filesystem::path(command_line.parameter_file)
+                          .parent_path()
+                          .string());
     find_beginning();
     check_parameters();
     recorder.describe(command_line.parameter_file,

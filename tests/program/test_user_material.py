@@ -16,6 +16,7 @@ from program import (
     SUCCESS,
     Entries,
     ProgramTest,
+    Status,
     history,
     scene,
     set_options,
@@ -61,7 +62,9 @@ class UserMaterialTest(ProgramTest):
             f"{LAYER}/Library": library,
             f"{LAYER}/Properties": ", ".join(map(str, properties)),
             f"{LAYER}/Friction angle": 0,
-            **{f"{LAYER}/{key.replace('_', ' ')}": value for key, value in more.items()},
+            **{
+                f"{LAYER}/{key.replace('_', ' ')}": value for key, value in more.items()
+            },
         }
 
 
@@ -77,7 +80,7 @@ class BuiltInLaws(UserMaterialTest):
             rows.append(history(path))
         self.assertGreater(len(rows[0]), 5)
         self.assertGreater(max(abs(row["total_force_N"]) for row in rows[0]), 1e4)
-        self.assert_same_history(*rows, 1e-6)
+        self.assert_same_history(rows[0], rows[1], 1e-6)
 
     def test_elastic(self) -> None:
         """In Fortran and in C, in soil that a caisson is jacked into."""
@@ -139,7 +142,7 @@ class BuiltInLaws(UserMaterialTest):
             "Cohesion",
             "Tension cut-off",
         ]
-        own = {f"{LAYER}/{name}": value for name, value in zip(names, soil)}
+        own: Entries = {f"{LAYER}/{n}": value for n, value in zip(names, soil)}
         own[f"{LAYER}/Law"] = "Mohr-Coulomb"
         user = self.law(library, soil)
         more = {
@@ -317,7 +320,7 @@ class Faults(UserMaterialTest):
     """UMATs that fail are named, with the place and the step."""
 
     def run_fault(
-        self, status: int, source: str, more: str, **entries: object
+        self, status: Status, source: str, more: str, **entries: object
     ) -> str:
         """Run a scene with a faulty UMAT; return what the program says."""
         law = self.law(self.compiled(source, more), ELASTIC, **entries)
@@ -341,6 +344,15 @@ class Faults(UserMaterialTest):
                 later = f"  if (*kinc == 4 && coords[0] < 1.) {{ {more} }}"
                 text = self.run_fault(FAILURE, "elastic.c", later)
                 self.assert_words([*words, "in step 3 at t = ", "at r = 0."], text)
+
+    def test_message_of_abaqus(self) -> None:
+        """STDB_ABQERR prints, and ends the run where it is an error."""
+        later = (
+            "  if (kinc == 4) call stdb_abqerr(-3, 'angle %R of %S in %I', [noel], &\n"
+            "    [30.5d0], 'SAND    ')"
+        )
+        text = self.run_fault(FAILURE, "elastic.f90", later)
+        self.assert_words(["angle 30.5 of SAND", "XIT", "in step 3"], text)
 
     def test_stop_of_fortran(self) -> None:
         """On two ranks all end."""
@@ -392,7 +404,11 @@ class Input(UserMaterialTest):
         (folder / "text.so").write_text("no library")
         (folder / "none.c").write_text("int nothing = 0;")
         (folder / "lacks.c").write_text("void f(void); void umat_(void) { f(); }")
-        for name in ("none", "lacks"):
+        (folder / "crashes.c").write_text(
+            "void umat_(void) {} __attribute__((constructor)) static void f(void)"
+            "{ *(volatile int *)0 = 1; }"
+        )
+        for name in ("none", "lacks", "crashes"):
             words = ["gcc", "-shared", "-fPIC", "-o", f"{name}.so", f"{name}.c"]
             subprocess.run(words, cwd=folder, check=True)
         for name, words in {
@@ -400,6 +416,7 @@ class Input(UserMaterialTest):
             "text": ["cannot be loaded", "gfortran -shared"],
             "none": ["no symbol umat_"],
             "lacks": ["undefined symbol: f", "XIT"],
+            "crashes": ["while it is loaded", "SIGSEGV"],
         }.items():
             with self.subTest(name):
                 self.refused(
@@ -446,7 +463,7 @@ class Input(UserMaterialTest):
 
     def test_layers(self) -> None:
         """A user material above a law of the program, stopped and resumed."""
-        entries = {
+        entries: Entries = {
             **self.law(
                 self.compiled("elastic.f90", COUNT), ELASTIC, State_variables=40
             ),

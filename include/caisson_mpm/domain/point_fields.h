@@ -125,8 +125,8 @@ namespace CaissonMPM
     (sizeof(Kernels::PointBlock) + sizeof(Kernels::PointHistory)) /
     sizeof(double[Kernels::block_size]);
 
-  /** Append all numbers of a point to a list: its material, its fields, and what
-   * a user's law keeps. */
+  /** Append all numbers of a point to a list: its material, its fields, and
+   * what a user's law keeps. */
   void
   append_numbers(const MaterialPoint &point, std::vector<double> &list);
 

@@ -29,8 +29,8 @@ namespace CaissonMPM
             if constexpr (is_external<Law>(0))
               for (int lane = 0; lane < points.headers[block].count; ++lane)
                 {
-                  const double modulus = user_state_of(
-                    points, block, lane)[UserState::modulus];
+                  const double modulus =
+                    user_state_of(points, block, lane)[UserState::modulus];
                   largest[m] = modulus > largest[m] ? modulus : largest[m];
                 }
             else if constexpr (Law::stiffness_varies)

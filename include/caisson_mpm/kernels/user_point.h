@@ -22,9 +22,9 @@ namespace CaissonMPM
      * turn of the step; SI units. */
     struct UserPoint
     {
-      double  stress[4];   // at the start of the step, and then at its end
-      double  strain[4];   // the increment; rz is the engineering one
-      double  gradient[5]; // dt L in the fixed axes: rr, rz, zr, zz, tt
+      double  stress[4];    // at the start of the step, and then at its end
+      double  strain[4];    // the increment; rz is the engineering one
+      double  gradient[5];  // dt L in the fixed axes: rr, rz, zr, zz, tt
       double  cosine, sine; // of the turn, from z to r
       double  place[2];     // r, z at the start of the step
       double  cell_size;

@@ -4,7 +4,7 @@
 #ifndef caisson_mpm_kernels_user_points_h
 #define caisson_mpm_kernels_user_points_h
 
-#include <caisson_mpm/kernels/update_stress.h>
+#include <caisson_mpm/kernels/move_points.h>
 
 namespace CaissonMPM
 {
@@ -112,6 +112,50 @@ namespace CaissonMPM
         (Number::load(b.volume + lane) * (Number(1.) + s.step.volume_change))
           .store(b.volume + lane);
         return work_per_volume(old, stress, turned.step);
+      }
+
+      /** Update a block of a law that the user has written, and add its work to
+       * the sums of its cell; returns the points outside the moved cell. */
+      template <typename Number, typename Sums>
+      [[gnu::noinline]] unsigned int
+      update_user_block(const PointsView     &points,
+                        const int             block,
+                        const CellUpdate     &cell,
+                        const UpdateSettings &settings,
+                        const Material       &material,
+                        unsigned int         &limited,
+                        Sums                 &sums)
+      {
+        PointBlock &b = points.blocks[block];
+        const auto &parameters =
+          reinterpret_cast<const UserMaterial::Parameters &>(
+            material.parameters);
+        const double cell_size =
+          __builtin_sqrt(cell.map.width * cell.map.mean_height());
+        unsigned int outside = 0;
+        limited              = 0;
+        for (int lane = 0; lane < block_size; lane += Number::width)
+          {
+            Number r = Number::load(b.r + lane), z = Number::load(b.z + lane);
+            const LocalPoint<Number> p    = cell.map.at_position(r, z);
+            const Number             mass = Number::load(b.mass + lane),
+                         volume           = Number::load(b.volume + lane);
+            sums.add_work(
+              p,
+              mass,
+              volume,
+              update_user_points(points,
+                                 block,
+                                 lane,
+                                 points.headers[block].count - lane,
+                                 begin_stress_step(b, lane, p, cell, settings),
+                                 cell_size,
+                                 parameters));
+            sums.sum[4] += Number::load(b.volume + lane);
+            limited |= move_points(b, lane, p, cell, settings, r, z) << lane;
+            outside |= to_integer(!cell.moved.contains(r, z)) << lane;
+          }
+        return outside;
       }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

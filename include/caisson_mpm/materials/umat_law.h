@@ -41,7 +41,7 @@ namespace CaissonMPM
   {
     double stran[4], dstran[4], time[2], dtime, temp, dtemp, predef, dpred,
       coords[3], drot[9], celent, dfgrd0[9], dfgrd1[9];
-    int  ndi, nshr, ntens, nstatv, nprops, noel, npt, layer, kspt, jstep[4],
+    int ndi, nshr, ntens, nstatv, nprops, noel, npt, layer, kspt, jstep[4],
       kinc;
     char cmname[80];
   };
@@ -158,7 +158,7 @@ namespace CaissonMPM
     std::string        failure_;
 
     // the call in progress; what the UMAT reads is a copy
-    const Kernels::UserPoint *point = nullptr;
+    const Kernels::UserPoint *point      = nullptr;
     bool                      is_testing = true;
     UmatInput                 given = {}, input = {};
     std::vector<double>       given_props, props, given_statev, statev;
