@@ -17,7 +17,7 @@ namespace CaissonMPM
     namespace UserState = Kernels::UserState;
 
     // behind PROPS and STATEV: reading there makes a stress that is not finite
-    constexpr unsigned int n_guards = 64;
+    constexpr unsigned int n_guards = 16;
     constexpr double       guard    = std::numeric_limits<double>::quiet_NaN();
 
     /** The list with guards behind it. */
@@ -372,8 +372,13 @@ namespace CaissonMPM
     modulus = std::max(modulus, modulus_ratio * largest_diagonal(ddsdde));
     for (unsigned int i = 0; i < 4; ++i)
       state[UserState::strain + i] = given.stran[i] + given.dstran[i];
-    const auto f = next_gradient(state + UserState::gradient, p.gradient);
-    std::copy(f.begin(), f.end(), state + UserState::gradient);
+    const double *const F = given.dfgrd1;
+    double *const       f = state + UserState::gradient;
+    f[0]                  = F[0] - 1.;
+    f[1]                  = F[3];
+    f[2]                  = F[1];
+    f[3]                  = F[4] - 1.;
+    f[4]                  = F[8] - 1.;
     std::copy_n(statev.begin(),
                 settings.n_variables,
                 state + UserState::variables);
