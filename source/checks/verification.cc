@@ -80,10 +80,7 @@ namespace CaissonMPM
       check.form      = check.of_points ? point_modes().at(check.mode).form :
                                           series_modes().at(check.mode).form;
       if (check.of_points)
-        check_known(check.name,
-                    names_of(point_quantities()),
-                    place,
-                    "quantity");
+        point_quantity(check.name, place);
       else
         check_known(check.name,
                     series,
@@ -200,7 +197,7 @@ namespace CaissonMPM
       const std::string place = place_of(check.head);
       const Expression  exact(check.exact, place);
       const Expression region(check.region.empty() ? "1" : check.region, place);
-      const PointQuantity value = point_quantities().at(check.name);
+      const PointQuantity value = point_quantity(check.name, "");
       PointSamples        samples;
       points.for_each([&](const MaterialPoint &p) {
         if (region(p.initial_position, time) == 0.)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/base/bytes.h>
 #include <caisson_mpm/domain/all_points.h>
+#include <caisson_mpm/domain/point_fields.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -17,12 +17,15 @@ namespace CaissonMPM
   {
     if (on_one_rank)
       return;
-    std::vector<MaterialPoint> own;
-    points.for_each(
-      [&](const MaterialPoint &p, const unsigned int) { own.push_back(p); });
-    for (const auto &message :
-         Utilities::MPI::gather(communicator, to_bytes(own)))
-      append_bytes(gathered, message);
+    const unsigned int  n = points.n_user_state();
+    std::vector<double> own;
+    own.reserve(std::size_t(points.n_points()) * n_numbers(n));
+    points.for_each([&](const MaterialPoint &p, const unsigned int) {
+      append_numbers(p, own);
+    });
+    for (const auto &message : Utilities::MPI::gather(communicator, own))
+      for (std::size_t i = 0; i < message.size(); i += n_numbers(n))
+        gathered.push_back(point_of_numbers(message.data() + i, n));
     std::sort(gathered.begin(),
               gathered.end(),
               [](const MaterialPoint &a, const MaterialPoint &b) {

@@ -30,6 +30,12 @@ namespace CaissonMPM
       [&](const PointField &, const auto &in_block, const auto &in_point) {
         in_point(p) = in_block(blocks[block], histories[block])[lane];
       });
+    if (n_user_state_ > 0)
+      {
+        const double *const begin =
+          user_state.data() + place_of_user_state(block, lane);
+        p.user_state.assign(begin, begin + n_user_state_);
+      }
     return p;
   }
 
@@ -40,6 +46,10 @@ namespace CaissonMPM
       [&](const PointField &, const auto &in_block, const auto &in_point) {
         in_block(blocks[block], histories[block])[lane] = in_point(p);
       });
+    AssertDimension(p.user_state.size(), n_user_state_);
+    std::copy(p.user_state.begin(),
+              p.user_state.end(),
+              user_state.begin() + place_of_user_state(block, lane));
   }
 
   // ------------------------------------------------------------ blocks
@@ -69,6 +79,9 @@ namespace CaissonMPM
   {
     copy_fields(blocks[from], from_lane, blocks[to], lane);
     copy_fields(histories[from], from_lane, histories[to], lane);
+    std::copy_n(user_state.begin() + place_of_user_state(from, from_lane),
+                n_user_state_,
+                user_state.begin() + place_of_user_state(to, lane));
   }
 
   void
@@ -79,25 +92,6 @@ namespace CaissonMPM
         copy_lane(block, 0, block, lane);
         blocks[block].mass[lane]   = 0.;
         blocks[block].volume[lane] = 0.;
-      }
-  }
-
-  void
-  MaterialPoints::level_volume_ratio(std::vector<double> &ratio)
-  {
-    ratio.assign(grid.n_cells(), 1.);
-    for (const unsigned int cell : active_cells)
-      {
-        double now = 0., initial = 0.;
-        for_each_lane(cell, [&](const int b, const int lane) {
-          now += blocks[b].volume[lane];
-          initial += histories[b].initial_volume[lane];
-        });
-        ratio[cell] = now / initial;
-        for_each_lane(cell, [&](const int b, const int lane) {
-          histories[b].initial_volume[lane] =
-            blocks[b].volume[lane] / ratio[cell];
-        });
       }
   }
 
@@ -139,6 +133,7 @@ namespace CaissonMPM
         free_blocks.push_back(blocks.size());
         blocks.emplace_back();
         histories.emplace_back();
+        user_state.resize(place_of_user_state(blocks.size(), 0));
         headers.push_back({-1, 0, 0});
       }
     const int block = free_blocks.back();
@@ -238,7 +233,9 @@ namespace CaissonMPM
             static_cast<unsigned int>(active_cells.size()),
             filled_volume.data(),
             changed.data(),
-            n_yielding.data()};
+            n_yielding.data(),
+            user_state.data(),
+            static_cast<int>(n_user_state_)};
   }
 
   const std::vector<unsigned int> &
@@ -520,6 +517,7 @@ namespace CaissonMPM
   {
     blocks.clear();
     histories.clear();
+    user_state.clear();
     headers.clear();
     free_blocks.clear();
     first_block.assign(grid.n_cells(), -1);
@@ -530,6 +528,13 @@ namespace CaissonMPM
     n_points_            = 0;
     active_cells_changed = true;
     is_settled           = false;
+  }
+
+  void
+  MaterialPoints::keep_user_state(const unsigned int n)
+  {
+    AssertThrow(blocks.empty(), ExcInternalError());
+    n_user_state_ = n;
   }
 
   void

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Points are split where they are too large for their cell, and merged where
-// they are too small.
+// they are too small; and their volumes are leveled.
 #include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_fields.h>
@@ -192,5 +192,24 @@ namespace CaissonMPM
         moving.insert(moving.end(), points.begin(), points.end());
       }
     bring_to_cells(moving);
+  }
+
+  void
+  MaterialPoints::level_volume_ratio(std::vector<double> &ratio)
+  {
+    ratio.assign(grid.n_cells(), 1.);
+    for (const unsigned int cell : active_cells)
+      {
+        double now = 0., initial = 0.;
+        for_each_lane(cell, [&](const int b, const int lane) {
+          now += blocks[b].volume[lane];
+          initial += histories[b].initial_volume[lane];
+        });
+        ratio[cell] = now / initial;
+        for_each_lane(cell, [&](const int b, const int lane) {
+          histories[b].initial_volume[lane] =
+            blocks[b].volume[lane] / ratio[cell];
+        });
+      }
   }
 } // namespace CaissonMPM

@@ -58,6 +58,7 @@ namespace CaissonMPM
   {
     blocks.reserve(n_blocks);
     histories.reserve(n_blocks);
+    user_state.reserve(place_of_user_state(n_blocks, 0));
     headers.reserve(n_blocks);
     use_large_pages(blocks);
     use_large_pages(histories);
@@ -99,5 +100,14 @@ namespace CaissonMPM
       free_blocks.push_back(i);
     permute(blocks, source);
     permute(histories, source);
+    if (n_user_state_ == 0)
+      return;
+    std::vector<double> state;
+    state.reserve(user_state.capacity());
+    for (const int block : source)
+      state.insert(state.end(),
+                   user_state.begin() + place_of_user_state(block, 0),
+                   user_state.begin() + place_of_user_state(block + 1, 0));
+    user_state.swap(state);
   }
 } // namespace CaissonMPM

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/base/bytes.h>
 #include <caisson_mpm/domain/point_exchange.h>
+#include <caisson_mpm/domain/point_fields.h>
 
 #include <set>
-#include <type_traits>
 
 namespace CaissonMPM
 {
@@ -13,8 +12,39 @@ namespace CaissonMPM
   {
     constexpr int tag_of_points = 411, tag_of_cells = 412;
 
-    static_assert(std::is_trivially_copyable<TravelingPoint>::value,
-                  "points are sent as bytes");
+    /** The points as numbers: how many a user's law keeps of each, and a row
+     * for each point, which begins with its cell. Empty if there is none. */
+    std::vector<double>
+    to_numbers(const std::vector<TravelingPoint> &points)
+    {
+      if (points.empty())
+        return {};
+      const unsigned int  n = points.front().point.user_state.size();
+      std::vector<double> message;
+      message.reserve(1 + points.size() * (1 + n_numbers(n)));
+      message.push_back(n);
+      for (const TravelingPoint &p : points)
+        {
+          message.push_back(index_of(p.cell));
+          append_numbers(p.point, message);
+        }
+      return message;
+    }
+
+    /** Append the points of a message. */
+    void
+    append_points(const std::vector<double>   &message,
+                  std::vector<TravelingPoint> &points)
+    {
+      if (message.empty())
+        return;
+      const auto        n     = static_cast<unsigned int>(message[0]);
+      const std::size_t width = 1 + n_numbers(n);
+      points.reserve(points.size() + message.size() / width);
+      for (std::size_t i = 1; i < message.size(); i += width)
+        points.push_back({GlobalCell(static_cast<unsigned int>(message[i])),
+                          point_of_numbers(message.data() + i + 1, n)});
+    }
 
     void
     wait_for(std::vector<MPI_Request> &requests)
@@ -32,19 +62,19 @@ namespace CaissonMPM
       MPI_Status status;
       int        error = MPI_Probe(rank, tag_of_points, communicator, &status);
       AssertThrowMPI(error);
-      int n_bytes = 0;
-      error       = MPI_Get_count(&status, MPI_BYTE, &n_bytes);
+      int n = 0;
+      error = MPI_Get_count(&status, MPI_DOUBLE, &n);
       AssertThrowMPI(error);
-      const std::size_t n = points.size();
-      points.resize(n + n_bytes / sizeof(TravelingPoint));
-      error = MPI_Recv(points.data() + n,
-                       n_bytes,
-                       MPI_BYTE,
+      std::vector<double> message(n);
+      error = MPI_Recv(message.data(),
+                       n,
+                       MPI_DOUBLE,
                        rank,
                        tag_of_points,
                        communicator,
                        MPI_STATUS_IGNORE);
       AssertThrowMPI(error);
+      append_points(message, points);
     }
   } // namespace
 
@@ -84,16 +114,18 @@ namespace CaissonMPM
   PointExchange::exchange(
     const std::map<unsigned int, std::vector<TravelingPoint>> &abroad) const
   {
-    static const std::vector<TravelingPoint> none;
-    std::vector<MPI_Request>                 requests;
+    std::vector<std::vector<double>> messages; // until all have been sent
+    std::vector<MPI_Request>         requests;
+    messages.reserve(neighbors.size());
     for (const Neighbor &neighbor : neighbors)
       {
-        const auto  found  = abroad.find(neighbor.rank);
-        const auto &points = found == abroad.end() ? none : found->second;
+        const auto found = abroad.find(neighbor.rank);
+        messages.push_back(found == abroad.end() ? std::vector<double>() :
+                                                   to_numbers(found->second));
         requests.emplace_back();
-        const int error = MPI_Isend(points.data(),
-                                    points.size() * sizeof(TravelingPoint),
-                                    MPI_BYTE,
+        const int error = MPI_Isend(messages.back().data(),
+                                    messages.back().size(),
+                                    MPI_DOUBLE,
                                     neighbor.rank,
                                     tag_of_points,
                                     communicator,
@@ -152,13 +184,13 @@ namespace CaissonMPM
     std::map<unsigned int, std::vector<TravelingPoint>> by_rank;
     for (const TravelingPoint &p : points)
       by_rank[owners[index_of(p.cell)]].push_back(p);
-    std::map<unsigned int, std::vector<char>> messages;
+    std::map<unsigned int, std::vector<double>> messages;
     for (const auto &[rank, some] : by_rank)
-      messages[rank] = to_bytes(some);
+      messages[rank] = to_numbers(some);
     std::vector<TravelingPoint> received;
     for (const auto &[rank, message] :
          Utilities::MPI::some_to_some(grid.communicator(), messages))
-      append_bytes(received, message);
+      append_points(message, received);
     return received;
   }
 } // namespace CaissonMPM

@@ -5,8 +5,35 @@
 
 namespace CaissonMPM
 {
-  static_assert(sizeof(MaterialPoint) == (n_point_fields + 1) * sizeof(double),
+  static_assert(sizeof(MaterialPoint) == (n_point_fields + 1) * sizeof(double) +
+                                           sizeof(std::vector<double>),
                 "a MaterialPoint holds its fields and its material");
+
+  void
+  append_numbers(const MaterialPoint &point, std::vector<double> &list)
+  {
+    list.push_back(point.material);
+    for_each_value(point, [&](const PointField &, const double value) {
+      list.push_back(value);
+    });
+    list.insert(list.end(), point.user_state.begin(), point.user_state.end());
+  }
+
+  MaterialPoint
+  point_of_numbers(const double *numbers, const unsigned int n_user_state)
+  {
+    MaterialPoint point;
+    // a damaged file may contain anything
+    const double material = *numbers++;
+    point.material        = material >= 0. && material < 4294967296. ?
+                              static_cast<unsigned int>(material) :
+                              0u;
+    for_each_value(point, [&](const PointField &, double &value) {
+      value = *numbers++;
+    });
+    point.user_state.assign(numbers, numbers + n_user_state);
+    return point;
+  }
 
   MaterialPoint
   half_of(const MaterialPoint &point,
@@ -53,6 +80,8 @@ namespace CaissonMPM
               break;
           }
       });
+    for (std::size_t i = 0; i < result.user_state.size(); ++i)
+      result.user_state[i] += by_mass * (b.user_state[i] - a.user_state[i]);
     result.size[direction] = a.size[direction] + b.size[direction];
     return result;
   }

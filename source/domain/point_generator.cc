@@ -361,7 +361,14 @@ namespace CaissonMPM
         , velocity(soil.initial_velocity())
       {
         for (unsigned int i = 0; i < soil.n_materials(); ++i)
-          states.push_back(soil.material(i).start_of_state());
+          {
+            const SoilMaterial &m = soil.material(i);
+            states.push_back(m.start_of_state());
+            user_states.push_back(
+              m.umat ? m.umat->start_of_state(m.umat_stiffness.p_wave_modulus,
+                                              soil.n_user_state()) :
+                       std::vector<double>(soil.n_user_state(), 0.));
+          }
       }
 
       MaterialPoint
@@ -377,7 +384,8 @@ namespace CaissonMPM
               p.velocity[d] = velocity_at(p.position, d);
             p.size[d] = part.size[d];
           }
-        p.state  = states[p.material];
+        p.state      = states[p.material];
+        p.user_state = user_states[p.material];
         p.volume = p.initial_volume = part.volume;
         p.mass = soil.inertial_density(p.material) * p.volume;
         p.id   = id;
@@ -401,6 +409,8 @@ namespace CaissonMPM
       const Soil                 &soil;
       const VectorExpression      velocity;
       std::vector<StateVariables> states;
+      // [material], of user materials
+      std::vector<std::vector<double>> user_states;
     };
   } // namespace
 

@@ -254,11 +254,73 @@ namespace CaissonMPM
                      "or set Soil/Submerged = false.");
     m.check(vertical_stress(bottom, below) *
             (1. + 2. * m.earth_pressure_at_rest) / 3.);
+    if (m.umat)
+      m.umat_stiffness = m.umat->test(
+        stress_of_element_test(m, bottom, vertical_stress(bottom, below)));
     m.top_depth = top;
     if (top == 0.)
       m.added_weight = surcharge / (bottom - top);
     stress = below;
     materials.push_back(m);
+  }
+
+  Stress
+  Soil::stress_of_element_test(const SoilMaterial &m,
+                               const double        bottom,
+                               const double        vertical_stress) const
+  {
+    if (stress_state != InitialStress::k0)
+      return initial_stress(Point<2>(0., -bottom));
+    const double horizontal = m.earth_pressure_at_rest * vertical_stress;
+    return {{-horizontal, -vertical_stress, -horizontal, 0.}};
+  }
+
+  void
+  Soil::load_libraries(const std::string &directory)
+  {
+    for (unsigned int i = 0;
+         i < std::min<std::size_t>(n_layers_, layers.size());
+         ++i)
+      layers[i]->load_library(directory);
+  }
+
+  std::string
+  Soil::checksums_of_libraries() const
+  {
+    std::string lines;
+    for (const auto &layer : layers)
+      if (layer->umat() != nullptr)
+        lines += layer->section() +
+                 "/Library (checksum) = " + layer->umat()->checksum() + "\n";
+    return lines;
+  }
+
+  unsigned int
+  Soil::n_user_state() const
+  {
+    unsigned int n = 0;
+    for (const auto &layer : layers)
+      if (layer->umat() != nullptr)
+        n = std::max(n, layer->umat()->n_state());
+    return n;
+  }
+
+  void
+  Soil::begin_step(const double       time,
+                   const double       step_size,
+                   const unsigned int step) const
+  {
+    for (const auto &layer : layers)
+      if (layer->umat() != nullptr)
+        layer->umat()->begin_step(time, step_size, step);
+  }
+
+  void
+  Soil::check_user_materials() const
+  {
+    for (const auto &layer : layers)
+      if (layer->umat() != nullptr && !layer->umat()->failure().empty())
+        throw RunFailure(layer->umat()->failure());
   }
 
   double
@@ -489,7 +551,9 @@ namespace CaissonMPM
       constexpr double harmless = .3, harmful = .4, with_friction = .1;
       const double     least =
         m.friction_angle().value_or(0.) > 0. ? with_friction : 0.;
-      const double nu = m.law_value("Poisson ratio").value_or(harmless);
+      const double nu =
+        m.law_value("Poisson ratio")
+          .value_or(m.umat ? m.umat_stiffness.poisson : harmless);
       return std::clamp((nu - harmless) / (harmful - harmless), least, 1.);
     }
   } // namespace

@@ -166,6 +166,17 @@ namespace CaissonMPM
   }
 
   double
+  SoilMaterial::modulus_to_come(const double found) const
+  {
+    // what stress and density may add
+    constexpr double margin = 1.25;
+    const bool       is_constant =
+      umat && !umat_stiffness.varies &&
+      found <= (1. + 1e-6) * umat_stiffness.p_wave_modulus;
+    return is_constant ? umat_stiffness.p_wave_modulus : margin * found;
+  }
+
+  double
   SoilMaterial::permeability_at(const double e) const
   {
     if (!loosening_conducts)
@@ -183,6 +194,14 @@ namespace CaissonMPM
     material.initial_void_ratio = void_ratio();
     material.overstress_time    = internal_length / internal_velocity;
     material.stress_measure     = stress_measure;
+    if (!umat)
+      return;
+    auto &of_law = reinterpret_cast<Kernels::UserMaterial::Parameters &>(
+      material.parameters);
+    of_law.modulus           = umat_stiffness.p_wave_modulus;
+    of_law.update            = &UmatLaw::call;
+    of_law.law               = umat.get();
+    material.volume_in_shear = volume_in_shear;
   }
 
   StateVariables

@@ -131,8 +131,6 @@ namespace CaissonMPM
                           const Soil                     &soil,
                           std::vector<Kernels::Material> &materials)
   {
-    // what stress and density may add until the next update
-    constexpr double margin = 1.25;
     // 1. the materials whose stiffness varies, if any
     bool any = false;
     for (unsigned int i = 0; i < materials.size(); ++i)
@@ -143,11 +141,12 @@ namespace CaissonMPM
     std::vector<double> found(materials.size(), 0.);
     kernels.largest_moduli(points.view(), materials.data(), found.data());
     Utilities::MPI::max(found, communicator, found);
-    // 3. the margin multiplies the part of the soil, not that of the water
+    // 3. what may come until the next update, and the water
     for (unsigned int i = 0; i < materials.size(); ++i)
       if (found[i] > 0.) // else no point is of this material
         materials[i].p_wave_modulus =
-          materials[i].water_modulus + margin * found[i];
+          materials[i].water_modulus +
+          soil.material(i).modulus_to_come(found[i]);
   }
 
   namespace

@@ -236,13 +236,12 @@ namespace CaissonMPM
                                    "position_r.");
         }
       in >> quantity >> rest;
-      check_known(quantity, names_of(point_quantities()), place, "quantity");
+      o.quantity = point_quantity(quantity, place);
       if (!rest.empty())
         throw BadInput(place + "\"" + rest +
                        "\" is not understood; after the quantity, expected "
                        "\"at R Z\" (kind point), \"on SHAPE\" (kind "
                        "projection) or \"where REGION\".");
-      o.quantity = point_quantities().at(quantity);
     }
 
     Observation

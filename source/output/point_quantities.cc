@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/output/check_text.h>
 #include <caisson_mpm/output/point_quantities.h>
 
 #include <algorithm>
@@ -150,6 +151,21 @@ namespace CaissonMPM
     return by_name;
   }
 
+  PointQuantity
+  point_quantity(const std::string &name, const std::string &place)
+  {
+    const std::string beginning = "statev_";
+    if (name.compare(0, beginning.size(), beginning) == 0)
+      {
+        const std::string number = name.substr(beginning.size());
+        if (!number.empty() && number.size() <= 4 && number[0] != '0' &&
+            number.find_first_not_of("0123456789") == std::string::npos)
+          return PointQuantity::state_variable(std::stoul(number) - 1);
+      }
+    check_known(name, names_of(point_quantities()), place, "quantity");
+    return point_quantities().at(name);
+  }
+
   std::string
   point_quantities_text()
   {
@@ -162,6 +178,6 @@ namespace CaissonMPM
                 (meaning.empty() ? "" : meaning + "; ") +
                 (unit == "none" ? "no unit" : unit) + ")";
       }
-    return text + ".";
+    return text + ", statev_1 (and so on; STATEV of a user material; no unit).";
   }
 } // namespace CaissonMPM

@@ -255,7 +255,8 @@ namespace CaissonMPM
       PointFile                   file(path,
                      PointFile::Access::create,
                      std::accumulate(n.begin(), n.end(), 0ul),
-                     communicator);
+                     communicator,
+                     points.n_user_state());
       std::vector<TravelingPoint> piece;
       piece.reserve(std::min(*own, rows_per_piece));
       const auto write_piece = [&]() {
@@ -371,11 +372,12 @@ namespace CaissonMPM
                   "checkpoint-a.h5";
     info.n_points =
       Utilities::MPI::sum<unsigned long>(points.n_points(), communicator);
-    info.fields               = checksums_of(fields);
-    info.state                = state;
-    info.fingerprint          = fingerprint;
-    const std::string path    = directory + "/" + info.file;
-    unsigned long     n_bytes = info.n_points * PointFile::bytes_per_point;
+    info.fields            = checksums_of(fields);
+    info.state             = state;
+    info.fingerprint       = fingerprint;
+    const std::string path = directory + "/" + info.file;
+    unsigned long     n_bytes =
+      info.n_points * PointFile::bytes_per_point(points.n_user_state());
     for (const auto &field : fields)
       n_bytes += field.second.size() * sizeof(double);
     const auto on_failure = [&]() {
@@ -479,7 +481,8 @@ namespace CaissonMPM
     std::vector<unsigned int> n_in_cell(grid.n_global_cells(), 0);
     for_each_piece([&](const std::vector<TravelingPoint> &piece) {
       for (const TravelingPoint &p : piece)
-        if (index_of(p.cell) < n_in_cell.size())
+        if (index_of(p.cell) < n_in_cell.size() &&
+            p.point.user_state.size() == points.n_user_state())
           ++n_in_cell[index_of(p.cell)];
     });
     Utilities::MPI::sum(n_in_cell, communicator, n_in_cell);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/domain/point_fields.h>
 #include <caisson_mpm/restart/point_file.h>
 
@@ -11,8 +12,8 @@ namespace CaissonMPM
 {
   namespace
   {
-    // the cell and the material are columns besides the fields
-    constexpr unsigned int n_columns = n_point_fields + 2;
+    // the cell is a column besides the numbers of the point
+    constexpr unsigned int least_columns = 1 + n_numbers(0);
 
     // by value: a damaged file may contain anything
     unsigned int
@@ -21,36 +22,24 @@ namespace CaissonMPM
       return x >= 0. && x < 4294967296. ? static_cast<unsigned int>(x) : 0u;
     }
 
-    /** Call action(value) for all numbers of a point, in the order of the
-     * columns. They may be changed. */
-    template <typename Action>
-    void
-    for_each_column(TravelingPoint &traveling, const Action &action)
-    {
-      MaterialPoint &p        = traveling.point;
-      double         cell     = index_of(traveling.cell);
-      double         material = p.material;
-      action(cell);
-      action(material);
-      for_each_value(p, [&](const PointField &, double &x) { action(x); });
-      traveling.cell = GlobalCell(whole_number(cell));
-      p.material     = whole_number(material);
-    }
-
     std::string
-    names_of_columns()
+    names_of_columns(const unsigned int n_user_state)
     {
       std::string         names = "cell material";
       const MaterialPoint any;
       for_each_value(any, [&](const PointField &field, const double) {
         names += " " + field.name();
       });
+      for (unsigned int i = 0; i < n_user_state; ++i)
+        names += " user_state_" + to_text(i);
       return names;
     }
 
     /** Every step can be undone, so that no single change is lost. */
     std::uint64_t
-    checksum_of(const std::uint64_t row, const double *values)
+    checksum_of(const std::uint64_t row,
+                const double       *values,
+                const unsigned int  n_columns)
     {
       std::uint64_t result = row;
       for (unsigned int c = 0; c < n_columns; ++c)
@@ -64,24 +53,33 @@ namespace CaissonMPM
     }
 
     std::uint64_t
-    checksum_of(const std::uint64_t first_row, const std::vector<double> &rows)
+    checksum_of(const std::uint64_t        first_row,
+                const std::vector<double> &rows,
+                const unsigned int         n_columns)
     {
       std::uint64_t sum = 0;
       for (std::size_t i = 0; i < rows.size() / n_columns; ++i)
-        sum += checksum_of(first_row + i, rows.data() + i * n_columns);
+        sum +=
+          checksum_of(first_row + i, rows.data() + i * n_columns, n_columns);
       return sum;
     }
   } // namespace
 
-  const unsigned int PointFile::bytes_per_point = n_columns * sizeof(double);
+  unsigned int
+  PointFile::bytes_per_point(const unsigned int n_user_state)
+  {
+    return (least_columns + n_user_state) * sizeof(double);
+  }
 
 
 
   PointFile::PointFile(const std::string  &path,
                        const Access        access,
                        const unsigned long n_points,
-                       const MPI_Comm      communicator)
-    : is_first_rank(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+                       const MPI_Comm      communicator,
+                       const unsigned int  n_user_state)
+    : n_columns(least_columns + n_user_state)
+    , is_first_rank(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
   {
     // close() reports errors; HDF5 shall not print them
     check(H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr));
@@ -132,7 +130,7 @@ namespace CaissonMPM
   void
   PointFile::name_columns()
   {
-    const std::string names = names_of_columns();
+    const std::string names = names_of_columns(n_user_state());
     const hid_t       type  = check(H5Tcopy(H5T_C_S1));
     check(H5Tset_size(type, names.size() + 1));
     const hid_t space     = check(H5Screate(H5S_SCALAR));
@@ -161,8 +159,9 @@ namespace CaissonMPM
       }
     hsize_t dimensions[2] = {0, 0};
     check(H5Sget_simple_extent_dims(dataspace, dimensions, nullptr));
+    n_columns = std::max<hsize_t>(dimensions[1], least_columns);
     if (dimensions[0] != n_points || dimensions[1] != n_columns ||
-        read_names_of_columns() != names_of_columns())
+        read_names_of_columns() != names_of_columns(n_user_state()))
       succeeded = false;
   }
 
@@ -200,7 +199,7 @@ namespace CaissonMPM
     check(operation(
       dataset, H5T_NATIVE_DOUBLE, memory, dataspace, H5P_DEFAULT, rows.data()));
     check(H5Sclose(memory));
-    sum_of_rows += checksum_of(first_row, rows);
+    sum_of_rows += checksum_of(first_row, rows, n_columns);
   }
 
 
@@ -211,8 +210,12 @@ namespace CaissonMPM
   {
     std::vector<double> rows;
     rows.reserve(points.size() * n_columns);
-    for (TravelingPoint p : points)
-      for_each_column(p, [&](const double x) { rows.push_back(x); });
+    for (const TravelingPoint &p : points)
+      {
+        AssertDimension(p.point.user_state.size(), n_user_state());
+        rows.push_back(index_of(p.cell));
+        append_numbers(p.point, rows);
+      }
     transfer(first_row, rows, H5Dwrite);
   }
 
@@ -223,10 +226,11 @@ namespace CaissonMPM
   {
     std::vector<double> rows(n * n_columns);
     transfer(first_row, rows, H5Dread);
-    std::vector<TravelingPoint> points(n);
-    const double               *next = rows.data();
-    for (TravelingPoint &p : points)
-      for_each_column(p, [&](double &x) { x = *next++; });
+    std::vector<TravelingPoint> points;
+    points.reserve(n);
+    for (std::size_t i = 0; i < rows.size(); i += n_columns)
+      points.push_back({GlobalCell(whole_number(rows[i])),
+                        point_of_numbers(rows.data() + i + 1, n_user_state())});
     return points;
   }
 
@@ -273,6 +277,14 @@ namespace CaissonMPM
     check(H5Sclose(space));
     check(H5Dclose(field));
     return values;
+  }
+
+
+
+  unsigned int
+  PointFile::n_user_state() const
+  {
+    return n_columns - least_columns;
   }
 
 

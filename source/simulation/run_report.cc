@@ -252,6 +252,8 @@ namespace CaissonMPM
       append(members,
              {{"solid_density_kg_m3", Json::number(m.solid_density)},
               {"law_entries", entries_of_law(m)}});
+      if (m.umat)
+        append(members, {{"library_checksum", Json::text(m.umat->checksum())}});
       if (uses_permeability)
         append(members,
                {{"permeability_m_s", Json::number(m.permeability)},

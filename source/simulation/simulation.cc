@@ -341,11 +341,13 @@ namespace CaissonMPM
   {
     if (!nodal_motion.is_finite())
       report_not_finite();
+    soil.begin_step(clock.time, clock.step_size, clock.step);
     auto &result = points.update_result();
     nodal_motion.update_points(grid.next(),
                                water->volume_rates(nodal_motion.new_velocity(),
                                                    contact.corners().views()),
                                result);
+    soil.check_user_materials();
     n_limited += result.n_limited;
   }
 
@@ -456,7 +458,7 @@ namespace CaissonMPM
                      points,
                      gather(grid, water->fields()),
                      state,
-                     physics(prm));
+                     physics(prm) + soil.checksums_of_libraries());
   }
 
   std::string

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
 #include <limits>
 
 namespace CaissonMPM
@@ -27,7 +28,8 @@ namespace CaissonMPM
     if (is_restart)
       {
         const Checkpoint checkpoint(recorder.output_directory());
-        checkpoint.check_fingerprint(physics(prm));
+        checkpoint.check_fingerprint(physics(prm) +
+                                     soil.checksums_of_libraries());
         const auto number = [&](const std::string &name) {
           return number_named(name, checkpoint.state()).value_or(0.);
         };
@@ -38,7 +40,8 @@ namespace CaissonMPM
       }
     else if (installation.is_given())
       {
-        installation.open(recorder.output_directory(), physics(prm));
+        installation.open(recorder.output_directory(),
+                          physics(prm) + soil.checksums_of_libraries());
         begin_at(installation.end_of_motion(),
                  installation.checkpoint().state());
       }
@@ -135,6 +138,7 @@ namespace CaissonMPM
     grid.create_mesh();
     recorder.register_walls(totals);
     grid.move_to(body.motion().travel());
+    points.keep_user_state(soil.n_user_state());
     nodal_forces.initialize(soil.mass_scaling());
     materials = soil.kernel_materials(water->traits().bulk_modulus);
     body.compute_weight(mass_of_body(), soil);
@@ -252,6 +256,9 @@ namespace CaissonMPM
     is_restart = command_line.restart;
     overwrites = command_line.overwrite;
     recorder.set_output_directory(command_line.output_directory);
+    soil.load_libraries(std::filesystem::path(command_line.parameter_file)
+                          .parent_path()
+                          .string());
     find_beginning();
     check_parameters();
     recorder.describe(command_line.parameter_file,

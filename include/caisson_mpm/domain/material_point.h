@@ -11,6 +11,8 @@
 
 #include <deal.II/base/point.h>
 
+#include <vector>
+
 namespace CaissonMPM
 {
   using Kernels::n_state_variables;
@@ -32,6 +34,10 @@ namespace CaissonMPM
     CAISSON_HISTORY_FIELDS(CAISSON_NO_MEMBER,
                            CAISSON_LIST_MEMBER,
                            CAISSON_MEMBER)
+
+    /** What a user's law keeps (kernels/user_point.h): of all points as many
+     * numbers, and none where no soil has such a law. */
+    std::vector<double> user_state;
 
     double
     void_ratio(const double initial_void_ratio) const

@@ -43,6 +43,18 @@ namespace CaissonMPM
     void
     reset(const std::vector<unsigned int> &n_in_cell);
 
+    /** Let each point keep so many numbers of a user's law; before there are
+     * points. */
+    void
+    keep_user_state(const unsigned int n);
+
+    /** Return the number of numbers that a point keeps of a user's law. */
+    unsigned int
+    n_user_state() const
+    {
+      return n_user_state_;
+    }
+
     /** Add a point to a cell of this rank in which it lies; settle() must
      * follow. */
     void
@@ -235,6 +247,12 @@ namespace CaissonMPM
     /** Add a point, while the points may be settled. */
     void
     insert(const unsigned int cell, const MaterialPoint &point);
+    /** Where the numbers of a point begin that a user's law keeps. */
+    std::size_t
+    place_of_user_state(const int block, const int lane) const
+    {
+      return (std::size_t(block) * Kernels::block_size + lane) * n_user_state_;
+    }
     MaterialPoint
     get(const int block, const int lane) const;
     void
@@ -305,6 +323,8 @@ namespace CaissonMPM
     std::vector<Kernels::PointBlock>   blocks;
     std::vector<Kernels::PointHistory> histories; // of the blocks
     std::vector<Kernels::BlockHeader>  headers;
+    unsigned int                       n_user_state_ = 0;
+    std::vector<double>                user_state; // of the lanes of the blocks
     std::vector<int>                   free_blocks;
     // [n_cells], -1: none. For a ghost cell it is only a flag and leads to no
     // block: 0 = its owner has points there, -1 = none

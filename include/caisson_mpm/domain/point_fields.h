@@ -9,6 +9,7 @@
 #include <caisson_mpm/kernels/blocks.h>
 
 #include <string>
+#include <vector>
 
 namespace CaissonMPM
 {
@@ -123,6 +124,22 @@ namespace CaissonMPM
   constexpr unsigned int n_point_fields =
     (sizeof(Kernels::PointBlock) + sizeof(Kernels::PointHistory)) /
     sizeof(double[Kernels::block_size]);
+
+  /** Append all numbers of a point to a list: its material, its fields, and
+   * what a user's law keeps. */
+  void
+  append_numbers(const MaterialPoint &point, std::vector<double> &list);
+
+  /** The number of numbers of a point, of which a user's law keeps some. */
+  constexpr unsigned int
+  n_numbers(const unsigned int n_user_state)
+  {
+    return 1 + n_point_fields + n_user_state;
+  }
+
+  /** The point of these numbers, in the order of append_numbers(). */
+  MaterialPoint
+  point_of_numbers(const double *numbers, const unsigned int n_user_state);
 
   /** Return one half of a point, from its middle to one side of it: -1 for the
    * lower and 1 for the upper half in the direction r or z. */

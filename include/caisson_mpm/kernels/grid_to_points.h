@@ -12,7 +12,9 @@
 #include <caisson_mpm/kernels/cell_sums.h>
 #include <caisson_mpm/kernels/deferred_blocks.h>
 #include <caisson_mpm/kernels/loosest_state.h>
+#include <caisson_mpm/kernels/move_points.h>
 #include <caisson_mpm/kernels/packed_points.h>
+#include <caisson_mpm/kernels/user_points.h>
 #include <caisson_mpm/kernels/volume_change.h>
 
 namespace CaissonMPM
@@ -21,19 +23,6 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** Reduce a velocity above the limit to it; returns the lanes cut. */
-      template <typename Number>
-      [[gnu::always_inline]] inline unsigned int
-      limit_speed(const double limit, Number &r, Number &z)
-      {
-        const Number speed = sqrt(r * r + z * z);
-        const auto   fast  = speed > Number(limit);
-        const Number scale = select(fast, Number(limit) / speed, Number(1.));
-        r *= scale;
-        z *= scale;
-        return to_integer(fast);
-      }
-
       /** Sums over the points of a cell after the update. */
       template <typename Number>
       struct UpdateSums : LaneSums<Number, 5>
@@ -88,46 +77,6 @@ namespace CaissonMPM
                 (half + center - x) *
                   (inverse.xx * slope_x + inverse.xy * slope_y) +
                 (half - y) * (inverse.xy * slope_x + inverse.yy * slope_y));
-      }
-
-      /** New velocity and place of the points in the lanes from @p lane on;
-       * returns the lanes whose velocity was cut. */
-      template <typename Number>
-      [[gnu::always_inline]] inline unsigned int
-      move_points(PointBlock               &b,
-                  const int                 lane,
-                  const LocalPoint<Number> &p,
-                  const CellUpdate         &cell,
-                  const UpdateSettings     &settings,
-                  Number                   &r,
-                  Number                   &z)
-      {
-        // V_p <- keep V_p + S v_transfer;  x_p <- x_p + dt S v_advection
-        const Number dt(settings.time_step), keep(settings.keep_velocity);
-        Number       velocity_r = keep * Number::load(b.velocity_r + lane) +
-                            evaluate(cell.transfer.r, p);
-        Number velocity_z = keep * Number::load(b.velocity_z + lane) +
-                            evaluate(cell.transfer.z, p);
-        Number move_r = evaluate(cell.advection.r, p),
-               move_z = evaluate(cell.advection.z, p);
-        const Number one(1.),
-          bubble_xi  = Number(cell.bubble[0]) * p.xi * (p.xi - one),
-          bubble_eta = Number(cell.bubble[1]) * p.eta * (p.eta - one);
-        move_r += Number(cell.map.width) * bubble_xi;
-        move_z += p.height * (p.slope * bubble_xi + bubble_eta);
-        // Beside the body a cell may be squeezed flat: |v| <= k H / dt keeps a
-        // point from passing more than a share of it in a step.
-        unsigned int limited = 0;
-        if (cell.speed_limit > 0.)
-          limited = limit_speed(cell.speed_limit, velocity_r, velocity_z) |
-                    limit_speed(cell.speed_limit, move_r, move_z);
-        velocity_r.store(b.velocity_r + lane);
-        velocity_z.store(b.velocity_z + lane);
-        r += dt * move_r;
-        z += dt * move_z;
-        r.store(b.r + lane);
-        z.store(b.z + lane);
-        return limited;
       }
 
       /** What grid_to_points() keeps while it goes through the cells. */
@@ -288,6 +237,35 @@ namespace CaissonMPM
         return outside;
       }
 
+      /** Update a block of a law that is packed, or that the user has written.
+       */
+      template <typename Law, typename Number>
+      [[gnu::always_inline]] inline unsigned int
+      update_block_apart(const PointsView         &points,
+                         const int                 block,
+                         const int                 in_group,
+                         const CellUpdate         &cell,
+                         const UpdateSettings     &settings,
+                         const Material           &material,
+                         unsigned int             &limited,
+                         UpdateSums<Number>       &sums,
+                         UpdateInProgress<Number> &progress)
+      {
+        if constexpr (is_external<Law>(0))
+          return update_user_block<Number>(
+            points, block, cell, settings, material, limited, sums);
+        else
+          return update_packed_block<Law>(points,
+                                          block,
+                                          in_group,
+                                          cell,
+                                          settings,
+                                          material,
+                                          limited,
+                                          progress.of_group,
+                                          progress.packed);
+      }
+
       /** Give a field the value at a corner that the cell sees, if it has this
        * share of the body's velocity. */
       [[gnu::always_inline]] inline void
@@ -421,16 +399,16 @@ namespace CaissonMPM
             const Material &material = step.materials[header.material];
             with_law(material, [&](auto law, const auto &) CAISSON_LAMBDA {
               using Law = decltype(law);
-              if constexpr (is_packed<Law>(0))
-                outside = update_packed_block<Law>(points,
-                                                   block,
-                                                   in_group,
-                                                   update,
-                                                   settings,
-                                                   material,
-                                                   limited,
-                                                   progress.of_group,
-                                                   progress.packed);
+              if constexpr (is_packed<Law>(0) || is_external<Law>(0))
+                outside = update_block_apart<Law>(points,
+                                                  block,
+                                                  in_group,
+                                                  update,
+                                                  settings,
+                                                  material,
+                                                  limited,
+                                                  sums,
+                                                  progress);
               else
                 with_lanes<Number>(header, [&](auto n_lanes) CAISSON_LAMBDA {
                   outside = update_block<Law, n_lanes>(points.blocks[block],

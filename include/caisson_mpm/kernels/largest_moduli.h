@@ -5,7 +5,7 @@
 #define caisson_mpm_kernels_largest_moduli_h
 
 #include <caisson_mpm/kernels/for_each_block.h>
-#include <caisson_mpm/kernels/update_stress.h>
+#include <caisson_mpm/kernels/user_points.h>
 
 namespace CaissonMPM
 {
@@ -26,7 +26,14 @@ namespace CaissonMPM
           const Material   &material = materials[m];
           with_law(material, [&](auto law, const auto &p) CAISSON_LAMBDA {
             using Law = decltype(law);
-            if constexpr (Law::stiffness_varies)
+            if constexpr (is_external<Law>(0))
+              for (int lane = 0; lane < points.headers[block].count; ++lane)
+                {
+                  const double modulus =
+                    user_state_of(points, block, lane)[UserState::modulus];
+                  largest[m] = modulus > largest[m] ? modulus : largest[m];
+                }
+            else if constexpr (Law::stiffness_varies)
               for (int lane = 0; lane < block_size; lane += Number::width)
                 {
                   const Number volume  = Number::load(b.volume + lane);

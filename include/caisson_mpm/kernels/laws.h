@@ -19,6 +19,7 @@
 #include <caisson_mpm/kernels/ngi_adp.h>
 #include <caisson_mpm/kernels/nor_sand.h>
 #include <caisson_mpm/kernels/overstress.h>
+#include <caisson_mpm/kernels/user_material.h>
 
 namespace CaissonMPM
 {

@@ -15,6 +15,8 @@
 //   static constexpr int         n_state; // of LawState::variable in use
 //   static constexpr bool        state_is_a_tensor; // optional: the first four
 //                                   // variables turn with the soil
+//   static constexpr bool        is_external; // optional: has no update(), but
+//                                   // is called point by point: user_points.h
 //   struct Parameters;                              // plain data
 //
 //   static Parameters make(const double *values);

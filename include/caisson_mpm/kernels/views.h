@@ -31,6 +31,10 @@ namespace CaissonMPM
       // [n_cells], blocks that the return to a yield surface took time for in
       // the last step
       unsigned short *n_yielding;
+      // [blocks][block_size][n_user_state], what the user's law keeps
+      // (user_point.h), if there is one
+      double *user_state   = nullptr;
+      int     n_user_state = 0;
     };
 
     /** The cells that a rank knows, at one position of the moving grid. */

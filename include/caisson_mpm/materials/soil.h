@@ -38,6 +38,30 @@ namespace CaissonMPM
     bool
     declare_subsection(const std::string &path);
 
+    /** Load the libraries of user materials; @p directory is that of the scene's
+     * file. Throws BadInput. */
+    void
+    load_libraries(const std::string &directory);
+
+    /** A line for each layer with a user material, which differs where the
+     * content of its library does. */
+    std::string
+    checksums_of_libraries() const;
+
+    /** The number of numbers that each point keeps for user materials. */
+    unsigned int
+    n_user_state() const;
+
+    /** Tell the user materials of a step. Units: s. */
+    void
+    begin_step(const double       time,
+               const double       step_size,
+               const unsigned int step) const;
+
+    /** Throws RunFailure where a user material has failed. */
+    void
+    check_user_materials() const;
+
     /** Throws BadInput where the entries contradict each other. */
     void
     check_parameters() const;
@@ -207,6 +231,12 @@ namespace CaissonMPM
                  const double     top,
                  const double     bottom,
                  const double     stress) const;
+
+    /** The stress that the element test of a user material begins with. */
+    Stress
+    stress_of_element_test(const SoilMaterial &material,
+                           const double        bottom,
+                           const double        vertical_stress) const;
 
     /** Parse Stress expression. */
     void

@@ -28,6 +28,18 @@ namespace CaissonMPM
     /** @p index counts from 0. */
     explicit SoilLayer(const unsigned int index);
 
+    /** Load the library of a user material; @p directory is that of the scene's
+     * file. Throws BadInput. */
+    void
+    load_library(const std::string &directory);
+
+    /** The law of a user material, or null. */
+    UmatLaw *
+    umat() const
+    {
+      return soil.umat.get();
+    }
+
     /** Name the entries of laws other than the layer's own. */
     void
     name_unused_entries(ParameterOrigins &origins) const;
@@ -84,6 +96,8 @@ namespace CaissonMPM
     void
     declare_permeability();
     void
+    declare_user_material();
+    void
     declare_walls();
 
     /** Whether the law has a friction angle that is not 0 everywhere. */
@@ -113,6 +127,8 @@ namespace CaissonMPM
                       const PlaceInGround &place) const;
 
     SoilMaterial soil; // the numbers that cannot change
+    UmatSettings umat_settings;
+    std::string  properties_text; // empty: not given
     std::string  law = "Mohr-Coulomb";
     Profile      porosity, solid_density, permeability, overconsolidation;
     std::unique_ptr<Profile> k0;                  // none: the law's own

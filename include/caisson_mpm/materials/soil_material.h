@@ -6,7 +6,9 @@
 
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/kernels/material.h>
+#include <caisson_mpm/materials/umat_law.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -42,6 +44,11 @@ namespace CaissonMPM
     std::optional<double> wall_adhesion;       // Pa; none: the body's
 
     Kernels::StressMeasure stress_measure = Kernels::StressMeasure::cauchy;
+
+    // of a user material; of other laws none
+    std::shared_ptr<UmatLaw> umat;
+    UmatStiffness            umat_stiffness; // at the start
+    Kernels::VolumeInShear   volume_in_shear = Kernels::VolumeInShear::by_state;
 
     double internal_length   = 0.;  // m
     double internal_velocity = 0.1; // m/s
@@ -122,6 +129,11 @@ namespace CaissonMPM
     /** Whether the stiffness depends on stress or void ratio. */
     bool
     stiffness_varies() const;
+
+    /** The largest modulus that points may have until the next look, where the
+     * largest one now is @p found. Units: Pa. */
+    double
+    modulus_to_come(const double found) const;
 
     /** Return the vertical permeability at a void ratio. Units: m/s. */
     double

@@ -6,16 +6,18 @@
 #define caisson_mpm_output_point_quantities_h
 
 #include <caisson_mpm/domain/point_fields.h>
+#include <caisson_mpm/kernels/user_point.h>
 
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace CaissonMPM
 {
-  /** How a quantity follows from a material point: a field of it, or a function
-   * of several. */
+  /** How a quantity follows from a material point: a field of it, a function of
+   * several, or a state variable of a user material. */
   class PointQuantity
   {
   public:
@@ -30,9 +32,22 @@ namespace CaissonMPM
       : offset(offset)
     {}
 
+    /** The state variable of a user material, counted from 0. */
+    static PointQuantity
+    state_variable(const unsigned int i)
+    {
+      PointQuantity result;
+      result.in_user_state = Kernels::UserState::variables + i;
+      return result;
+    }
+
     double
     operator()(const MaterialPoint &p) const
     {
+      if (in_user_state > 0)
+        return in_user_state < p.user_state.size() ?
+                 p.user_state[in_user_state] :
+                 std::numeric_limits<double>::quiet_NaN();
       return function != nullptr ?
                function(p) :
                *reinterpret_cast<const double *>(
@@ -40,8 +55,9 @@ namespace CaissonMPM
     }
 
   private:
-    Function    function = nullptr;
-    std::size_t offset   = 0;
+    Function    function      = nullptr;
+    std::size_t offset        = 0;
+    std::size_t in_user_state = 0; // 0: none
   };
 
   /** A quantity with its name, unit and meaning, as a field has them. */
@@ -64,6 +80,11 @@ namespace CaissonMPM
   /** Return the same by name, also by the names of earlier versions. */
   const std::map<std::string, PointQuantity> &
   point_quantities();
+
+  /** Return the quantity of this name, among them "statev_3". Throws BadInput
+   * where there is none; @p place begins the message. */
+  PointQuantity
+  point_quantity(const std::string &name, const std::string &place);
 
   /** Return their names with the meaning of those that need one, for the text
    * of a parameter. */

@@ -17,7 +17,8 @@ namespace CaissonMPM
   /**
    * A file with one dataset of doubles, "points" [n_points][n_columns]. A row
    * is a point: the global number of its cell, its material, and its fields
-   * (kernels/point_fields.h) to the last digit, in SI units. The attribute
+   * (kernels/point_fields.h) to the last digit, in SI units, and what a user's
+   * law keeps, if there is one. The attribute
    * "columns" of the dataset names the columns; a file with others is not read.
    * Fields of the grid are further datasets [n_places], each with its name.
    *
@@ -37,14 +38,16 @@ namespace CaissonMPM
     };
 
     /** The size of a row. Units: bytes. */
-    static const unsigned int bytes_per_point;
+    static unsigned int
+    bytes_per_point(const unsigned int n_user_state);
 
-    /** Create a file for so many points, or open the one that has as many.
-     * Collective. */
+    /** Create a file for so many points, with so many numbers of a user's law
+     * each, or open the one that has as many points. Collective. */
     PointFile(const std::string  &path,
               const Access        access,
               const unsigned long n_points,
-              const MPI_Comm      communicator);
+              const MPI_Comm      communicator,
+              const unsigned int  n_user_state = 0);
     ~PointFile();
 
     PointFile(const PointFile &) = delete;
@@ -68,6 +71,10 @@ namespace CaissonMPM
     /** Return a field on all ranks, empty where there is none. Collective. */
     std::vector<double>
     read_field(const std::string &name);
+
+    /** The number of numbers that each point has of a user's law. */
+    unsigned int
+    n_user_state() const;
 
     /** Bring all to the file and close it. Returns whether all that this rank
      * has done with it succeeded. Collective. */
@@ -105,6 +112,7 @@ namespace CaissonMPM
     hid_t
     check(const hid_t result);
 
+    unsigned int  n_columns;
     const bool    is_first_rank;
     hid_t         file = -1, dataset = -1, dataspace = -1;
     bool          succeeded   = true;
