@@ -189,6 +189,65 @@ namespace CaissonMPM
     }
   } // namespace
 
+  namespace
+  {
+    /** Return how a pulled caisson with a sealed lid fails, by what bears it and
+     * by how far the plug has followed. */
+    std::string
+    mechanism(const double share_of_suction,
+              const double share_that_plug_follows,
+              const bool   boils)
+    {
+      constexpr double little = .1, half = .5;
+      if (boils)
+        return "cavitation beneath the lid";
+      if (share_of_suction < little)
+        return "drained: friction on both walls";
+      if (share_that_plug_follows < half)
+        return "partly drained: passive suction, and water flows in through the "
+               "plug";
+      return "undrained: the plug rises with the caisson (reverse bearing)";
+    }
+
+    /** What bears the largest pull of a caisson with a sealed lid. */
+    Console::Lines
+    lines_of_pull(const Records &records)
+    {
+      const auto names = records.names();
+      if (std::find(names.begin(), names.end(), "lid_growth_m3") == names.end())
+        return {};
+      const auto value = [&](const char *name, const std::size_t i) {
+        return records.series(name).value[i];
+      };
+      const auto pull = [&](const std::size_t i) {
+        return value("suction_force_N", i) - value("total_force_N", i) -
+               value("tip_water_force_N", i);
+      };
+      const std::size_t n    = records.series("penetration_m").value.size();
+      std::size_t       most = 0;
+      for (std::size_t i = 1; i < n; ++i)
+        if (most == 0 || pull(i) > pull(most))
+          most = i;
+      if (most == 0 || pull(most) <= 0.)
+        return {};
+      const double growth  = value("lid_growth_m3", most),
+                   suction = value("suction_force_N", most);
+      return {
+        {"largest pull",
+         kilonewtons(pull(most)) + " kN at a penetration of " +
+           to_text(value("penetration_m", most), 5) + " m: suction " +
+           kilonewtons(suction) + ", outer friction " +
+           kilonewtons(-value("outer_friction_N", most)) + ", inner friction " +
+           kilonewtons(-value("inner_friction_N", most)) + ", tip " +
+           kilonewtons(-value("tip_force_N", most) -
+                       value("tip_water_force_N", most)) +
+           " kN; " +
+           mechanism(suction / pull(most),
+                     growth > 0. ? value("plug_rise_m3", most) / growth : 0.,
+                     value("lid_cavity_m3", most) > 0.)}};
+    }
+  } // namespace
+
   Console::Lines
   result_lines(const Records &records, const ErrorBar &error_bar)
   {
@@ -207,6 +266,8 @@ namespace CaissonMPM
       lines.emplace_back("largest force", where(largest));
     if (*least < 0.)
       lines.emplace_back("largest tension", where(least));
+    for (const auto &line : lines_of_pull(records))
+      lines.push_back(line);
     if (const auto depth = self_weight_penetration(records))
       lines.emplace_back("rests by weight", "at " + to_text(*depth, 4) + " m");
     for (const bool down : {true, false})

@@ -265,12 +265,17 @@ namespace CaissonMPM
       return (1. + s / std::sqrt(1. + s * s)) *
              (face.is_horizontal ? 1. + s * s : 1.);
     };
+    // The cell below takes part where soil hardly fills the one at the surface.
+    const auto share_of_whole_cell = [this](const auto &face) {
+      const double half = .5 * height_of(grid->geometry(face.cell));
+      return std::min(1., face.distance / half);
+    };
     const auto &faces = solver_.faces();
     seepage.resize(faces.size());
     inertia.resize(faces.size());
     auto &conductances = solver_.conductances();
     conductances.resize(faces.size());
-    double largest = 0., open = 0.;
+    double largest = 0., open = 0., of_plug = 0.;
     for (std::size_t f = 0; f < faces.size(); ++f)
       {
         seepage[f] = faces[f].is_open ?
@@ -282,11 +287,15 @@ namespace CaissonMPM
         largest         = std::max(largest, conductances[f]);
         if (faces[f].beyond != Beyond::cell)
           open += conductances[f];
+        if (faces[f].beyond == Beyond::plug)
+          of_plug += conductances[f] * share_of_whole_cell(faces[f]);
       }
     // 3. The solver gets F + dt I over the largest of them.
     find_faces_below();
     scale            = Utilities::MPI::max(largest, grid->communicator());
     open_conductance = Utilities::MPI::sum(open, grid->communicator());
+    plug_conductance = grid->circumference() *
+                       Utilities::MPI::sum(of_plug, grid->communicator());
     for (double &g : conductances)
       g /= scale;
   }
