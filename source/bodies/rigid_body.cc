@@ -167,16 +167,15 @@ namespace CaissonMPM
                        "without lid and ballast where the mesh has none. "
                        "Units: N.",
                        Patterns::Double(0.));
-    add_parameter("Force table",
-                  force_text,
-                  "Pairs time : force, separated by commas, give the force that "
-                  "acts on a body besides its weight and the suction, positive "
-                  "downward; linear in between and constant beyond. Units: s : "
-                  "N.",
-                  prm,
-                  Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"),
-                                 0,
-                                 10000));
+    add_parameter(
+      "Force table",
+      force_text,
+      "Pairs time : force, separated by commas, give the force that "
+      "acts on a body besides its weight and the suction, positive "
+      "downward; linear in between and constant beyond. Units: s : "
+      "N.",
+      prm,
+      Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"), 0, 10000));
     parse_parameters_call_back.connect(
       [this]() { force_table = parse_time_table(force_text); });
   }

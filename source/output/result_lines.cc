@@ -191,8 +191,8 @@ namespace CaissonMPM
 
   namespace
   {
-    /** Return how a pulled caisson with a sealed lid fails, by what bears it and
-     * by how far the plug has followed. */
+    /** Return how a pulled caisson with a sealed lid fails, by what bears it
+     * and by how far the plug has followed. */
     std::string
     mechanism(const double share_of_suction,
               const double share_that_plug_follows,

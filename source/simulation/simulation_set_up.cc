@@ -68,11 +68,12 @@ namespace CaissonMPM
     check_inertia_tolerance();
     const WaterTraits &traits = water->traits();
     if (traits.uses_permeability && body.motion().largest_mach_number())
-      throw BadInput("Rigid body/Largest Mach number slows the motion down, but "
-                     "Water/Level lets water flow, which takes its own time. "
-                     "Set it to unlimited, and reduce Rigid body/Velocity and "
-                     "Time/Mass scaling.");
-    const bool strains_water  = traits.follows_soil || traits.bulk_modulus > 0.;
+      throw BadInput(
+        "Rigid body/Largest Mach number slows the motion down, but "
+        "Water/Level lets water flow, which takes its own time. "
+        "Set it to unlimited, and reduce Rigid body/Velocity and "
+        "Time/Mass scaling.");
+    const bool strains_water = traits.follows_soil || traits.bulk_modulus > 0.;
     if (strains_water && !nodal_motion.settings().uses_mean_volume())
       throw BadInput("Water/Level is coupled or undrained, but Method/Mean "
                      "volume change is false: the points of a cell are "

@@ -89,8 +89,8 @@ namespace CaissonMPM
             mudline.side_of(cell) != Mudline::Side::plug)
           continue;
         // the vertical velocity at the surface of the soil, linear in r
-        const auto          &g    = scene.grid.geometry(cell);
-        const unsigned int  *node = scene.grid.cell_nodes(cell).node;
+        const auto           &g    = scene.grid.geometry(cell);
+        const unsigned int   *node = scene.grid.cell_nodes(cell).node;
         std::array<double, 2> v;
         for (unsigned int i = 0; i < 2; ++i)
           v[i] = (1. - filled) * velocity[node[i]].value[vertical] +

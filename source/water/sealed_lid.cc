@@ -59,11 +59,11 @@ namespace CaissonMPM
         raised += more * suction_;
       }
     // 2. by how much more they expand
-    const double leak     = dt * own.leak * suction_;
-    const double plug     = dt * rates.plug, flow = dt * rates.seepage,
-                 lid      = displaced - displaced_;
-    const double expanded = expansion(suction_) + cavity_ - lid - plug - flow -
-                            leak;
+    const double leak = dt * own.leak * suction_;
+    const double plug = dt * rates.plug, flow = dt * rates.seepage,
+                 lid = displaced - displaced_;
+    const double expanded =
+      expansion(suction_) + cavity_ - lid - plug - flow - leak;
     displaced_ = displaced;
     risen_ += plug;
     seepage += flow;
@@ -72,7 +72,7 @@ namespace CaissonMPM
     // 3. the suction, which is at most that at which water boils
     const double largest = expansion(boiling);
     cavity_              = std::max(expanded - largest, 0.);
-    suction_ = cavity_ > 0. ? boiling : suction_of(expanded);
+    suction_             = cavity_ > 0. ? boiling : suction_of(expanded);
   }
 
   NamedNumbers

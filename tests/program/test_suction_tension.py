@@ -196,7 +196,8 @@ class SealedLid(ProgramTest):
             "set Moving zone below tip = 1\nend\n"
             "subsection Time\nset Mass scaling = 25\nend\n"
             "subsection Water\nset Level = undrained\nset Bulk modulus = 2e8\nend\n"
-            "subsection Output\nset Terminal = plain\nset Frame interval = never\nend\n",
+            "subsection Output\nset Terminal = plain\n"
+            "set Frame interval = never\nend\n",
             encoding="utf-8",
         )
         return path

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The water beneath a sealed lid over rigid soil that conducts water: its suction in
-// closed form, its balance, gas, and the cavity at which water boils.
+// The water beneath a sealed lid over rigid soil that conducts water: its
+// suction in closed form, its balance, gas, and the cavity at which water
+// boils.
 #include <caisson_mpm/water/sealed_lid.h>
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 
 using namespace CaissonMPM;
 
-constexpr double area = 28., volume = 40.; // m2, m3
+constexpr double area = 28., volume = 40.;    // m2, m3
 constexpr double seepage = 2e-6, leak = 1e-6; // m3/(s Pa)
 constexpr double modulus = 2e8, boiling = 4e5;
 constexpr double dt = 2e-3; // s
@@ -24,11 +25,11 @@ balance_of(const SealedLid &lid)
 
 /** Pull at a velocity (m/s, upward) for a time, from a place (m). */
 void
-pull(SealedLid    &lid,
-     const double  velocity,
-     const double  time,
-     double       &place,
-     const double  conductance)
+pull(SealedLid   &lid,
+     const double velocity,
+     const double time,
+     double      &place,
+     const double conductance)
 {
   const unsigned int n = std::lround(time / dt);
   for (unsigned int i = 0; i < n; ++i)
@@ -61,9 +62,9 @@ check_pull_at_a_rate()
   verdict("  suction at last, error over A v / L",
           std::abs(lid.suction() * L / (area * velocity) - 1.),
           1e-8);
+  pull(lid, 0., 2., place, seepage);
   verdict("  held, suction over that before",
-          (pull(lid, 0., 2., place, seepage), std::abs(lid.suction())) * L /
-            (area * velocity),
+          std::abs(lid.suction()) * L / (area * velocity),
           1e-8);
   verdict("  balance", balance_of(lid), 1e-12);
 }
@@ -88,7 +89,8 @@ check_cycles()
 void
 check_gas()
 {
-  heading("tight soil, 1 m3 of gas at p_0: pulled by V, s = p_0 V / (1 m3 + V)");
+  heading(
+    "tight soil, 1 m3 of gas at p_0: pulled by V, s = p_0 V / (1 m3 + V)");
   constexpr double ambient = 4e5, gas = 1., lifted = .02;
   SealedLid        lid;
   lid.set_properties({0., 1e30, gas, ambient});
@@ -114,7 +116,9 @@ check_cavity()
   verdict("  suction less that at which it boils",
           std::abs(lid.suction() - boiling),
           0.);
-  verdict("  volume of the cavity, error", std::abs(lid.cavity() - expected), 1e-12);
+  verdict("  volume of the cavity, error",
+          std::abs(lid.cavity() - expected),
+          1e-12);
   pull(lid, -.01, 1., place, 0.);
   verdict("  back: suction, Pa", std::abs(lid.suction()), 1e-4);
   verdict("  back: cavity", lid.cavity(), 0.);
@@ -137,7 +141,9 @@ check_least_compliance()
   verdict("  error over A v / G",
           std::abs(lid.suction() * seepage / (area * .01) - 1.),
           1e-12);
-  verdict("  largest over A v / G", largest * seepage / (area * .01), 1. + 1e-12);
+  verdict("  largest over A v / G",
+          largest * seepage / (area * .01),
+          1. + 1e-12);
   verdict("  balance", balance_of(lid), 1e-12);
 }
 

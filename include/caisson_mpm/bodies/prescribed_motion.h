@@ -82,9 +82,9 @@ namespace CaissonMPM
     std::vector<double>
     turning_times(const double end) const;
 
-    double      constant_velocity = 0.1;
-    double      ramp_time         = 0.;
-    std::string table_text;
+    double                constant_velocity = 0.1;
+    double                ramp_time         = 0.;
+    std::string           table_text;
     std::optional<double> mach_number;
     double                slowness = 1.; // by which the table is slowed down
 

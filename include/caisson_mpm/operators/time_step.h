@@ -115,8 +115,8 @@ namespace CaissonMPM
       return fixed_step.value_or(courant * limit);
     }
 
-    /** Return the scaling of the smallest cells with this stress over the inertia
-     * at the tip. There must be a tolerance. */
+    /** Return the scaling of the smallest cells with this stress over the
+     * inertia at the tip. There must be a tolerance. */
     double
     inertia_for(const double stress_over_inertia) const;
 

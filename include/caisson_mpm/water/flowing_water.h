@@ -125,7 +125,7 @@ namespace CaissonMPM
     bool                            has_started      = false;
     unsigned int                    steps_since_look = 0;
     double                          time = 0., last_force_on_body = 0.; // s, N
-    double                          plug_rate = 0.; // m3/s
+    double                          plug_rate = 0.;                     // m3/s
 
   private:
     boost::signals2::scoped_connection before_change, after_change;

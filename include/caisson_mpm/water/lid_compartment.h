@@ -20,15 +20,15 @@ namespace CaissonMPM
   /** The flow of the water as the compartment sees it. */
   struct WaterFlow
   {
-    double       scale = 1.;           // of both flows
-    double       out = 0., in = 0.;    // of the plug, into the rest; m3/s
-    double       tip_force       = 0.; // on the tip, upward; N
-    double       tip_resistance  = 0.; // of it, what the suction must bear
-    double       tip_area        = 0.; // that the suction reaches, m2
-    double       pressure_factor = 0.; // at the tip, over the suction
-    double       plug_rate = 0.; // at which the plug's surface rises, m3/s
-    double       response  = 0.; // of plug_rate and out to the suction in a
-                                 // step, m3/(s Pa)
+    double scale = 1.;             // of both flows
+    double out = 0., in = 0.;      // of the plug, into the rest; m3/s
+    double tip_force       = 0.;   // on the tip, upward; N
+    double tip_resistance  = 0.;   // of it, what the suction must bear
+    double tip_area        = 0.;   // that the suction reaches, m2
+    double pressure_factor = 0.;   // at the tip, over the suction
+    double plug_rate       = 0.;   // at which the plug's surface rises, m3/s
+    double response        = 0.;   // of plug_rate and out to the suction in a
+                                   // step, m3/(s Pa)
     unsigned int n_iterations = 0; // of the solver
   };
 
@@ -171,7 +171,7 @@ namespace CaissonMPM
     RecentMean recent_heave; // of the plug, m
     bool       has_started          = false;
     bool       has_warned_of_piping = false, has_warned_of_lift = false,
-               has_warned_of_cavity = false;
+         has_warned_of_cavity = false;
   };
 } // namespace CaissonMPM
 

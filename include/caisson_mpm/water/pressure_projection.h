@@ -239,7 +239,7 @@ namespace CaissonMPM
     // [n_faces]
     std::vector<double>             seepage, inertia;
     std::vector<std::array<int, 2>> faces_below; // -1: none, as at most faces
-    double                          open_conductance = 0., plug_conductance = 0.;
+    double   open_conductance = 0., plug_conductance = 0.;
     CellData pressure_, remainder_, wet_, source, mobility[2], inverse_density;
     AtNodes  at_nodes;
   };

@@ -12,8 +12,8 @@ namespace CaissonMPM
 {
   /**
    * Between lid and plug there is water of the volume V_0 at the start, and gas
-   * of the volume V_g at the ambient pressure p_0. With the suction s, both have
-   * expanded by
+   * of the volume V_g at the ambient pressure p_0. With the suction s, both
+   * have expanded by
    *
    *   E(s) = C s + V_g s / (p_0 - s),   C = V_0 / K,
    *
@@ -26,7 +26,8 @@ namespace CaissonMPM
    *   dE/dt = A v - Q_p - Q_s - L s.
    *
    * At the suction at which water boils, it grows no more: what E exceeds that
-   * of this suction is a cavity of vapor, which closes before the suction falls.
+   * of this suction is a cavity of vapor, which closes before the suction
+   * falls.
    *
    * The rates are those of the step before. That is stable while the
    * compartment gives way by more than soil and seepage do in a step; C is
@@ -121,12 +122,12 @@ namespace CaissonMPM
     suction_of(const double expansion) const;
 
     Properties own;
-    bool       started = false;
-    double     C       = 0.; // m3/Pa
+    bool       started  = false;
+    double     C        = 0.;               // m3/Pa
     double     suction_ = 0., cavity_ = 0.; // Pa, m3
     // E at the start, and what has passed since then, m3
-    double expansion_at_start = 0., displaced_ = 0., displaced_at_start = 0., risen_ = 0.,
-           seepage = 0., leaked = 0., raised = 0.;
+    double expansion_at_start = 0., displaced_ = 0., displaced_at_start = 0.,
+           risen_ = 0., seepage = 0., leaked = 0., raised = 0.;
     double passed = 0.; // the sum of all magnitudes, m3
   };
 } // namespace CaissonMPM
