@@ -2,8 +2,8 @@
 """Studies of kind "tension": the pull of a caisson with a sealed lid over its rate.
 
 The runs differ in their permeability, and so in v D / c_v. Prints the largest pull of
-each and what bears it, and draws them over v D / c_v. Keys of a study beside the usual
-ones:
+each, a median over 5 mm, and what bears it, and draws them over v D / c_v. Keys of a
+study beside the usual ones:
 
     width      the length D of v D / c_v (m)
     velocity   v of the body (m/s)
@@ -24,6 +24,7 @@ from .drainage import group_of
 NAME = "tension"
 STUDY_KEYS = set("width velocity".split())
 RUN_KEYS = set[str]()
+WINDOW = 0.005  # m, of the medians
 PARTS = ("suction", "outer friction", "inner friction", "tip")
 COLUMNS = [
     "study",
@@ -63,9 +64,12 @@ def largest_pull(study: Study, run: StudyRun) -> Pull:
             -history["tip_force_N"] - history["tip_water_force_N"],
         ]
     )
-    total = parts.sum(axis=0)
-    most = int(total.argmax())
     depth = history["penetration_m"]
+    total = parts.sum(axis=0)
+    n = 2 * int(WINDOW / np.abs(np.diff(depth)).max() / 2) + 1
+    windows = np.lib.stride_tricks.sliding_window_view(total, n)
+    first = int(np.median(windows, axis=1).argmax())
+    most = first + int(windows[first].argsort()[n // 2])
     growth = history["lid_growth_m3"][most]
     return Pull(
         group_of(study, run),

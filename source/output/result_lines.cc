@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 namespace CaissonMPM
@@ -209,6 +210,30 @@ namespace CaissonMPM
       return "undrained: the plug rises with the caisson (reverse bearing)";
     }
 
+    /** The record in which the median of the pull over this and two records on
+     * either side is largest, so that a single jump does not count; nothing
+     * where nothing pulls. */
+    std::optional<std::size_t>
+    record_of_largest(const std::vector<double> &pull)
+    {
+      constexpr std::size_t      beside = 2;
+      std::optional<std::size_t> best;
+      for (std::size_t i = beside; i + beside < pull.size(); ++i)
+        {
+          std::array<std::size_t, 2 * beside + 1> window;
+          std::iota(window.begin(), window.end(), i - beside);
+          std::nth_element(window.begin(),
+                           window.begin() + beside,
+                           window.end(),
+                           [&](const std::size_t a, const std::size_t b) {
+                             return pull[a] < pull[b];
+                           });
+          if (pull[window[beside]] > (best ? pull[*best] : 0.))
+            best = window[beside];
+        }
+      return best;
+    }
+
     /** What bears the largest pull of a caisson with a sealed lid. */
     Console::Lines
     lines_of_pull(const Records &records)
@@ -216,35 +241,33 @@ namespace CaissonMPM
       const auto names = records.names();
       if (std::find(names.begin(), names.end(), "lid_growth_m3") == names.end())
         return {};
-      const auto value = [&](const char *name, const std::size_t i) {
-        return records.series(name).value[i];
-      };
-      const auto pull = [&](const std::size_t i) {
-        return value("suction_force_N", i) - value("total_force_N", i) -
-               value("tip_water_force_N", i);
-      };
-      const std::size_t n    = records.series("penetration_m").value.size();
-      std::size_t       most = 0;
-      for (std::size_t i = 1; i < n; ++i)
-        if (most == 0 || pull(i) > pull(most))
-          most = i;
-      if (most == 0 || pull(most) <= 0.)
+      std::vector<double> pull = records.series("suction_force_N").value;
+      for (const char *const name : {"total_force_N", "tip_water_force_N"})
+        {
+          const auto force = records.series(name).value;
+          for (std::size_t i = 0; i < pull.size(); ++i)
+            pull[i] -= force[i];
+        }
+      const auto most = record_of_largest(pull);
+      if (!most)
         return {};
-      const double growth  = value("lid_growth_m3", most),
-                   suction = value("suction_force_N", most);
+      const auto value = [&](const char *const name) {
+        return records.series(name).value[*most];
+      };
+      const double growth  = value("lid_growth_m3"),
+                   suction = value("suction_force_N");
       return {
         {"largest pull",
-         kilonewtons(pull(most)) + " kN at a penetration of " +
-           to_text(value("penetration_m", most), 5) + " m: suction " +
+         kilonewtons(pull[*most]) + " kN at a penetration of " +
+           to_text(value("penetration_m"), 5) + " m: suction " +
            kilonewtons(suction) + ", outer friction " +
-           kilonewtons(-value("outer_friction_N", most)) + ", inner friction " +
-           kilonewtons(-value("inner_friction_N", most)) + ", tip " +
-           kilonewtons(-value("tip_force_N", most) -
-                       value("tip_water_force_N", most)) +
+           kilonewtons(-value("outer_friction_N")) + ", inner friction " +
+           kilonewtons(-value("inner_friction_N")) + ", tip " +
+           kilonewtons(-value("tip_force_N") - value("tip_water_force_N")) +
            " kN; " +
-           mechanism(suction / pull(most),
-                     growth > 0. ? value("plug_rise_m3", most) / growth : 0.,
-                     value("lid_cavity_m3", most) > 0.)}};
+           mechanism(suction / pull[*most],
+                     growth > 0. ? value("plug_rise_m3") / growth : 0.,
+                     value("lid_cavity_m3") > 0.)}};
     }
   } // namespace
 
