@@ -107,6 +107,13 @@ namespace CaissonMPM
                   "constant temperature; the pump takes it, too. Units: m3.",
                   prm,
                   Patterns::Double(0.));
+    add_entries_of_sealed_lid();
+    parse_parameters_call_back.connect([this]() { fill_tables(); });
+  }
+
+  void
+  SuctionSettings::add_entries_of_sealed_lid()
+  {
     add_parameter("Lid water modulus",
                   bulk_modulus,
                   "The bulk modulus of the water beneath a sealed lid, which "
@@ -120,7 +127,6 @@ namespace CaissonMPM
                   "m3/(s Pa).",
                   prm,
                   Patterns::Double(0.));
-    parse_parameters_call_back.connect([this]() { fill_tables(); });
   }
 
   void

@@ -65,11 +65,12 @@ class Drained(ProgramTest):
         before = self.directory("before")
         self.run_scene("jack", before, entries={END: 0.75})
         tension = {}
-        for name, entries in (
-            ("fast", {}),
-            ("slow", {"Rigid body/Velocity": -0.05}),
-            ("unlimited", {LIMIT: "unlimited"}),
-        ):
+        runs: dict[str, Entries] = {
+            "fast": {},
+            "slow": {"Rigid body/Velocity": -0.05},
+            "unlimited": {LIMIT: "unlimited"},
+        }
+        for name, entries in runs.items():
             path = self.directory(name)
             more: Entries = {
                 **PULL,
@@ -172,10 +173,9 @@ class SealedLid(ProgramTest):
         ]
         n = len(rows) // 5  # the last fifth of the way
         factor = math.pi * RADIUS**2 * STRENGTH
-        self.assertGreater(np.mean(at_tip[-n:]) / factor, 6)
-        self.assertAlmostEqual(
-            np.mean(at_tip[-n:]) / np.mean(of_pile[-n:]), 1, delta=0.05
-        )
+        found, expected = (float(np.mean(x[-n:])) for x in (at_tip, of_pile))
+        self.assertGreater(found / factor, 6)
+        self.assertAlmostEqual(found / expected, 1, delta=0.05)
 
     def pile_scene(self) -> Path:
         """Write the scene of a pile that is 1.2 m deep in the clay."""

@@ -192,6 +192,9 @@ namespace CaissonMPM
     find_integrals(const unsigned int cell);
     void
     find_conductances(const std::vector<WaterProperties> &properties);
+    /** Sum those of the open faces. Collective. */
+    void
+    sum_open_conductances();
     /** Begin with the pressure of the free water in cells that soil enters. */
     void
     begin_in_new_cells();

@@ -81,6 +81,8 @@ namespace CaissonMPM
 
   private:
     void
+    add_entries_of_sealed_lid();
+    void
     fill_tables();
 
     std::string table_text, flow_text;
