@@ -100,6 +100,13 @@ namespace CaissonMPM
                        "The run ends where the required suction exceeds that "
                        "of the pump. Units: Pa.",
                        Patterns::Double(0.));
+    add_entries_of_water_beneath_lid();
+    parse_parameters_call_back.connect([this]() { fill_tables(); });
+  }
+
+  void
+  SuctionSettings::add_entries_of_water_beneath_lid()
+  {
     add_parameter("Trapped gas",
                   gas,
                   "The volume of gas beneath the lid at the pressure of the "
@@ -107,13 +114,6 @@ namespace CaissonMPM
                   "constant temperature; the pump takes it, too. Units: m3.",
                   prm,
                   Patterns::Double(0.));
-    add_entries_of_sealed_lid();
-    parse_parameters_call_back.connect([this]() { fill_tables(); });
-  }
-
-  void
-  SuctionSettings::add_entries_of_sealed_lid()
-  {
     add_parameter("Lid water modulus",
                   bulk_modulus,
                   "The bulk modulus of the water beneath a sealed lid, which "

@@ -81,7 +81,7 @@ namespace CaissonMPM
 
   private:
     void
-    add_entries_of_sealed_lid();
+    add_entries_of_water_beneath_lid();
     void
     fill_tables();
 
