@@ -126,8 +126,14 @@ class SealedLid(ProgramTest):
     def test_drained_limit(self) -> None:
         """Soil that conducts well bears the pull by friction, as with an open lid."""
         drained, sealed = self.directory("drained"), self.directory("sealed")
-        entries: Entries = {**SEALED, "Soil/Layer 1/Permeability": 10, END: 0.99}
-        self.run_scene("jack", sealed, entries=entries)
+        entries: Entries = {
+            **SEALED,
+            "Soil/Layer 1/Permeability": 10,
+            END: 0.99,
+            "Output/Terminal": "full",
+        }
+        text = self.run_scene("jack", sealed, entries=entries)
+        self.assert_words(["largest pull", "drained: friction on both walls"], text)
         self.run_scene("jack", drained, entries={**entries, "Water/Level": "drained"})
         rows = history(sealed)
         self.assert_balanced(rows)
@@ -150,7 +156,9 @@ class SealedLid(ProgramTest):
             "Rigid body/Adhesion of the inner wall": STRENGTH,
             "Rigid body/Velocity": -0.02,
         }
-        self.run_scene("jack", path, entries=entries)
+        entries["Output/Terminal"] = "full"
+        text = self.run_scene("jack", path, entries=entries)
+        self.assert_words(["largest pull", "reverse bearing"], text)
         self.run_program(
             SUCCESS,
             self.pile_scene(),
