@@ -53,6 +53,7 @@ GROUPS: Groups = {
         "suction-error-bar": (STUDY, "compute those of the scenes with suction"),
         "tip": (STUDY, "study the tip force of prm/jack_coarse.prm"),
         "drainage": (STUDY, "study the resistance between the limits of drainage"),
+        "tension": (STUDY, "study the pull of a sealed caisson over its rate"),
         "study": (STUDY, "run and evaluate a study of any kind from its file"),
         "scene-results": (
             "lab.studies.scene_results",

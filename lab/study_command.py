@@ -20,6 +20,7 @@ KINDS = study_command.KINDS | {
     "stability": "lab.stability",
     "forces": "lab.studies.forces",
     "drainage": "lab.studies.drainage",
+    "tension": "lab.studies.tension",
     "speed": "lab.performance",
 }
 # the studies that have a command of their own
@@ -32,6 +33,7 @@ STUDIES = {
     "suction-error-bar": SCENES / "suction_study.toml",
     "tip": LAB / "studies/tip_study.toml",
     "drainage": LAB / "studies/drainage_study.toml",
+    "tension": LAB / "studies/tension_study.toml",
     "speed": LAB / "performance/speed.toml",
 }
 

@@ -102,6 +102,8 @@ def short_way(run: Run) -> Entries | None:
     if run.scene.stem in AFTER or end == "never":
         return None
     start = float(run.parameter("Rigid body/Initial penetration", run.program))
+    if float(end) < start:  # it is pulled
+        return None
     ramp = 0.03  # m, until the velocity is constant
     return {"Time/End penetration": start + ramp + SHORT_SHARE * (float(end) - start)}
 

@@ -4,7 +4,8 @@
 All studies have one format. A file (TOML) says what it is for,
 
     kind = "parameters"     # or one of the laboratory: verification, validation,
-                            # accuracy, error bar, stability, forces, drainage, speed
+                            # accuracy, error bar, stability, forces, drainage,
+                            # tension, speed
 
 and holds studies, or is one itself if it holds none (its id is then its name):
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/time_table.h>
 #include <caisson_mpm/bodies/prescribed_motion.h>
 
@@ -38,6 +39,17 @@ namespace CaissonMPM
                   Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"),
                                  0,
                                  10000));
+    add_word_or_number(*this,
+                       "Largest Mach number",
+                       mach_number,
+                       "unlimited",
+                       0.,
+                       "In drained soil, the whole motion is slowed down until "
+                       "the velocity of the body is at most this share of that "
+                       "of compression waves, which Time/Mass scaling makes "
+                       "slow. Other times of the scene stay as they are. "
+                       "Units: none.",
+                       Patterns::Double(1e-6));
     parse_parameters_call_back.connect([this]() { fill_table(); });
   }
 
@@ -58,6 +70,18 @@ namespace CaissonMPM
                         {ramp_time, constant_velocity}};
     else if (velocity_table.empty())
       velocity_table = {{0., constant_velocity}};
+    slowness = 1.;
+  }
+
+  void
+  PrescribedMotion::slow_down(const double factor)
+  {
+    slowness *= factor;
+    for (auto &[time, velocity] : velocity_table)
+      {
+        time *= factor;
+        velocity /= factor;
+      }
   }
 
   double
@@ -66,7 +90,7 @@ namespace CaissonMPM
     double largest = 0.;
     for (const auto &row : velocity_table)
       largest = std::max(largest, std::abs(row.second));
-    return largest;
+    return slowness * largest;
   }
 
   void

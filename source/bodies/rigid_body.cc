@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/time_table.h>
 #include <caisson_mpm/bodies/box.h>
 #include <caisson_mpm/bodies/caisson.h>
 #include <caisson_mpm/bodies/cone.h>
@@ -166,6 +167,23 @@ namespace CaissonMPM
                        "without lid and ballast where the mesh has none. "
                        "Units: N.",
                        Patterns::Double(0.));
+    add_parameter(
+      "Force table",
+      force_text,
+      "Pairs time : force, separated by commas, give the force that "
+      "acts on a body besides its weight and the suction, positive "
+      "downward; linear in between and constant beyond. Units: s : "
+      "N.",
+      prm,
+      Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"), 0, 10000));
+    parse_parameters_call_back.connect(
+      [this]() { force_table = parse_time_table(force_text); });
+  }
+
+  double
+  RigidBody::applied_force(const double time) const
+  {
+    return force_table.empty() ? 0. : value_at(force_table, time);
   }
 
   void
@@ -182,6 +200,7 @@ namespace CaissonMPM
   {
     shape().check_parameters();
     motion().check_parameters();
+    check_time_table(force_table, "Rigid body/Force table");
     for (std::size_t i = 0; i < shapes.size(); ++i)
       if (i != chosen_shape)
         shapes[i]->check_not_chosen();
@@ -215,5 +234,8 @@ namespace CaissonMPM
     shape().name_unused_entries(origins);
     surface().name_unused_entries(origins, shape());
     motion().name_unused_entries(origins);
+    if (!motion().follows_loads())
+      origins.add_unused({"Rigid body/Force table"},
+                         "Rigid body/Motion is " + motion().name());
   }
 } // namespace CaissonMPM

@@ -63,16 +63,17 @@ namespace CaissonMPM
                   heights.end());
     impulses.resize(heights.size());
     row_of_node.assign(grid.n_nodes(), -1);
-    contact.for_each_end([&](const ContactFace &face,
-                             const unsigned int end,
-                             const FaceStrength &) {
-      const unsigned int node = face.nodes[end];
-      if (is_wall(face.surface))
-        row_of_node[node] = std::upper_bound(heights.begin(),
-                                             heights.end(),
-                                             grid.z_of(node) + same_height) -
-                            heights.begin() - 1;
-    });
+    // Also of nodes that count to the wall only at times, as those of a lid
+    // that soil does not touch: they belong to the row below.
+    for (const ContactFace &face : collect_contact_faces(grid))
+      for (const unsigned int node : face.nodes)
+        if (is_wall(face.surface))
+          {
+            const auto above  = std::upper_bound(heights.begin(),
+                                                heights.end(),
+                                                grid.z_of(node) + same_height);
+            row_of_node[node] = std::max<int>(above - heights.begin(), 1) - 1;
+          }
   }
 
   void

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 namespace CaissonMPM
@@ -189,6 +190,87 @@ namespace CaissonMPM
     }
   } // namespace
 
+  namespace
+  {
+    /** Return how a pulled caisson with a sealed lid fails, by what bears it
+     * and by how far the plug has followed. */
+    std::string
+    mechanism(const double share_of_suction,
+              const double share_that_plug_follows,
+              const bool   boils)
+    {
+      constexpr double little = .1, half = .5;
+      if (boils)
+        return "cavitation beneath the lid";
+      if (share_of_suction < little)
+        return "drained: friction on both walls";
+      if (share_that_plug_follows < half)
+        return "partly drained: passive suction, and water flows in through the "
+               "plug";
+      return "undrained: the plug rises with the caisson (reverse bearing)";
+    }
+
+    /** The record in which the median of the pull over this and two records on
+     * either side is largest, so that a single jump does not count; nothing
+     * where nothing pulls. */
+    std::optional<std::size_t>
+    record_of_largest(const std::vector<double> &pull)
+    {
+      constexpr std::size_t      beside = 2;
+      std::optional<std::size_t> best;
+      for (std::size_t i = beside; i + beside < pull.size(); ++i)
+        {
+          std::array<std::size_t, 2 * beside + 1> window;
+          std::iota(window.begin(), window.end(), i - beside);
+          std::nth_element(window.begin(),
+                           window.begin() + beside,
+                           window.end(),
+                           [&](const std::size_t a, const std::size_t b) {
+                             return pull[a] < pull[b];
+                           });
+          if (pull[window[beside]] > (best ? pull[*best] : 0.))
+            best = window[beside];
+        }
+      return best;
+    }
+
+    /** What bears the largest pull of a caisson with a sealed lid. */
+    Console::Lines
+    lines_of_pull(const Records &records)
+    {
+      const auto names = records.names();
+      if (std::find(names.begin(), names.end(), "lid_growth_m3") == names.end())
+        return {};
+      std::vector<double> pull = records.series("suction_force_N").value;
+      for (const char *const name : {"total_force_N", "tip_water_force_N"})
+        {
+          const auto force = records.series(name).value;
+          for (std::size_t i = 0; i < pull.size(); ++i)
+            pull[i] -= force[i];
+        }
+      const auto most = record_of_largest(pull);
+      if (!most)
+        return {};
+      const auto value = [&](const char *const name) {
+        return records.series(name).value[*most];
+      };
+      const double growth  = value("lid_growth_m3"),
+                   suction = value("suction_force_N");
+      return {
+        {"largest pull",
+         kilonewtons(pull[*most]) + " kN at a penetration of " +
+           to_text(value("penetration_m"), 5) + " m: suction " +
+           kilonewtons(suction) + ", outer friction " +
+           kilonewtons(-value("outer_friction_N")) + ", inner friction " +
+           kilonewtons(-value("inner_friction_N")) + ", tip " +
+           kilonewtons(-value("tip_force_N") - value("tip_water_force_N")) +
+           " kN; " +
+           mechanism(suction / pull[*most],
+                     growth > 0. ? value("plug_rise_m3") / growth : 0.,
+                     value("lid_cavity_m3") > 0.)}};
+    }
+  } // namespace
+
   Console::Lines
   result_lines(const Records &records, const ErrorBar &error_bar)
   {
@@ -207,6 +289,8 @@ namespace CaissonMPM
       lines.emplace_back("largest force", where(largest));
     if (*least < 0.)
       lines.emplace_back("largest tension", where(least));
+    for (const auto &line : lines_of_pull(records))
+      lines.push_back(line);
     if (const auto depth = self_weight_penetration(records))
       lines.emplace_back("rests by weight", "at " + to_text(*depth, 4) + " m");
     for (const bool down : {true, false})

@@ -216,7 +216,8 @@ namespace CaissonMPM
   Recorder::report_suction(const HistoryRow &row)
   {
     const auto suction = number_named("suction_Pa", row.counts);
-    if (!suction)
+    // beneath a sealed lid, it has nothing to do with the weight
+    if (!suction || number_named("lid_growth_m3", row.counts))
       return;
     if (!has_reported_suction && *suction > 0. && last_depth_and_suction &&
         last_depth_and_suction->second <= 0.)

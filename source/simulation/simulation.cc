@@ -190,7 +190,9 @@ namespace CaissonMPM
   void
   Simulation::move_body()
   {
-    body.motion().set_load(body.submerged_weight() + water->load_on_body());
+    body.motion().set_load(body.submerged_weight() +
+                           body.applied_force(clock.time) +
+                           water->load_on_body());
     body.motion().advance(clock.step_size, force_on_body);
   }
 

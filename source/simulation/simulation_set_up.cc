@@ -70,7 +70,13 @@ namespace CaissonMPM
     nodal_motion.settings().check_parameters();
     check_inertia_tolerance();
     const WaterTraits &traits = water->traits();
-    const bool strains_water  = traits.follows_soil || traits.bulk_modulus > 0.;
+    if (traits.uses_permeability && body.motion().largest_mach_number())
+      throw BadInput(
+        "Rigid body/Largest Mach number slows the motion down, but "
+        "Water/Level lets water flow, which takes its own time. "
+        "Set it to unlimited, and reduce Rigid body/Velocity and "
+        "Time/Mass scaling.");
+    const bool strains_water = traits.follows_soil || traits.bulk_modulus > 0.;
     if (strains_water && !nodal_motion.settings().uses_mean_volume())
       throw BadInput("Water/Level is coupled or undrained, but Method/Mean "
                      "volume change is false: the points of a cell are "
@@ -133,6 +139,8 @@ namespace CaissonMPM
   void
   Simulation::make_mesh()
   {
+    materials = soil.kernel_materials(water->traits().bulk_modulus);
+    slow_body_down();
     body.motion().register_totals(totals);
     body.motion().start();
     grid.create_mesh();
@@ -140,8 +148,25 @@ namespace CaissonMPM
     grid.move_to(body.motion().travel());
     points.keep_user_state(soil.n_user_state());
     nodal_forces.initialize(soil.mass_scaling());
-    materials = soil.kernel_materials(water->traits().bulk_modulus);
     body.compute_weight(mass_of_body(), soil);
+  }
+
+  void
+  Simulation::slow_body_down()
+  {
+    const auto mach_number = body.motion().largest_mach_number();
+    if (!mach_number)
+      return;
+    double slowest_wave = wave_speed(0);
+    for (unsigned int i = 1; i < soil.n_materials(); ++i)
+      slowest_wave = std::min(slowest_wave, wave_speed(i));
+    if (time_step.has_inertia_tolerance())
+      slowest_wave /= std::sqrt(time_step.inertia_for(
+        stress_over_inertia_at_tip(body.motion().beginning().travel)));
+    const double factor =
+      body.motion().usual_velocity() / (*mach_number * slowest_wave);
+    if (factor > 1.)
+      body.motion().slow_down(factor);
   }
 
   double

@@ -237,6 +237,8 @@ namespace CaissonMPM
     result.in             = projection.flow().in;
     result.tip_force      = tip.value();
     result.tip_resistance = tip.value();
+    result.plug_rate      = plug_rate;
+    result.response       = projection.conductance_of_plug();
     if (suction() > 0. && tip.area() > 0.)
       result.pressure_factor = -tip.value() / tip.area() / suction();
     result.n_iterations = projection.solver().n_iterations();
@@ -284,10 +286,10 @@ namespace CaissonMPM
   CoupledWater::take_warnings()
   {
     std::vector<std::string> warnings;
-    warn_of_open_lid(suction(),
-                     "Give the suction beneath a sealed one with Water/"
-                     "Suction control = table",
-                     warnings);
+    if (!lid || !lid->is_sealed())
+      warn_of_open_lid(suction(),
+                       "Set Water/Suction control = sealed for a sealed one",
+                       warnings);
     extremes.warn(time, place_in_words(), warnings);
     const auto of_plug = FlowingWater::take_warnings();
     warnings.insert(warnings.end(), of_plug.begin(), of_plug.end());

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/kernels/cell_map.h>
+#include <caisson_mpm/kernels/nodal_sums.h>
 #include <caisson_mpm/water/flowing_water.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <array>
 
 namespace CaissonMPM
 {
@@ -68,6 +73,33 @@ namespace CaissonMPM
     mudline.find(scene.grid, scene.points);
     if (lid)
       lid->update_touching(mudline);
+  }
+
+  void
+  FlowingWater::find_plug_rate(const Kernels::NodalVector *velocity)
+  {
+    if (!lid || !lid->is_sealed() || !mudline.is_found())
+      return;
+    double sum = 0.;
+    for (unsigned int cell = 0; cell < scene.grid.n_cells(); ++cell)
+      {
+        const double filled = mudline.filled()[cell];
+        if (!scene.grid.is_owned(cell) || filled <= 0. ||
+            !mudline.is_top(cell) ||
+            mudline.side_of(cell) != Mudline::Side::plug)
+          continue;
+        // the vertical velocity at the surface of the soil, linear in r
+        const auto           &g    = scene.grid.geometry(cell);
+        const unsigned int   *node = scene.grid.cell_nodes(cell).node;
+        std::array<double, 2> v;
+        for (unsigned int i = 0; i < 2; ++i)
+          v[i] = (1. - filled) * velocity[node[i]].value[vertical] +
+                 filled * velocity[node[2 + i]].value[vertical];
+        sum += g.width * ((g.left / 2. + g.width / 6.) * v[0] +
+                          (g.left / 2. + g.width / 3.) * v[1]);
+      }
+    plug_rate = scene.grid.circumference() *
+                dealii::Utilities::MPI::sum(sum, scene.grid.communicator());
   }
 
   void

@@ -31,6 +31,7 @@ namespace CaissonMPM
   {
     RunTotals &totals = scene.totals;
     suction_.register_totals(totals);
+    sealed.register_totals(totals);
     totals.keep("time_of_suction", time_of_suction);
     recent_heave.register_totals(totals, "recent_heave");
     plug_balance.register_totals(totals);
@@ -73,7 +74,12 @@ namespace CaissonMPM
   void
   LidCompartment::initialize()
   {
-    suction_.initialize(scene.soil.unit_weight_of_water());
+    const double unit_weight = scene.soil.unit_weight_of_water();
+    suction_.initialize(unit_weight);
+    sealed.set_properties({settings().leak,
+                           settings().bulk_modulus,
+                           settings().gas,
+                           scene.settings.sea.ambient_pressure(unit_weight)});
   }
 
   void
@@ -126,6 +132,8 @@ namespace CaissonMPM
     else
       time_of_suction = time;
     recent_heave.add(dt, time_of_heave, heave(mudline));
+    if (is_sealed())
+      advance_sealed(dt, mudline, flow);
     suction_.advance(time_of_suction,
                      dt,
                      {-force_on_body + flow.tip_resistance,
@@ -133,6 +141,24 @@ namespace CaissonMPM
                       area() + flow.tip_area,
                       seepage_volume +
                         area() * (motion.travel() + recent_heave.value())});
+  }
+
+  void
+  LidCompartment::advance_sealed(const double     dt,
+                                 const Mudline   &mudline,
+                                 const WaterFlow &flow)
+  {
+    const double displaced = area() * scene.body.motion().travel();
+    if (!sealed.has_started())
+      sealed.start(suction(),
+                   area() * (height_of_lid() -
+                             mudline.mean_height(Mudline::Side::plug)),
+                   displaced);
+    sealed.advance(dt,
+                   displaced,
+                   {flow.plug_rate, flow.scale * flow.out, flow.response},
+                   suction_.cavitation(height_of_lid()));
+    suction_.set(sealed.suction());
   }
 
   double
@@ -191,6 +217,11 @@ namespace CaissonMPM
       {"flow_iterations", 1. * flow.n_iterations}};
     const NamedNumbers of_plug = plug_balance.columns(area() * rise);
     result.insert(result.end(), of_plug.begin(), of_plug.end());
+    if (is_sealed())
+      {
+        const NamedNumbers of_water = sealed.columns();
+        result.insert(result.end(), of_water.begin(), of_water.end());
+      }
     return result;
   }
 
@@ -224,6 +255,12 @@ namespace CaissonMPM
         bound + where +
         ": the flow carries nearly all of the soil. Piping may begin, which "
         "the program does not follow");
+    if (holds_first(has_warned_of_cavity, sealed.cavity() > 0.))
+      warnings.push_back(
+        "water boils beneath the sealed lid" + where + ", at a suction of " +
+        to_text(1e-3 * suction(), 4) +
+        " kPa: the suction grows no more, and a cavity takes the place of the "
+        "water");
     if (holds_first(has_warned_of_lift,
                     heave(mudline) >
                       heave_by_wall() + .02 * scene.body.shape().right()))
@@ -242,6 +279,8 @@ namespace CaissonMPM
     if (scene.body.penetration() <= 0.)
       return "the caisson has left the soil, and water flows in below its "
              "skirt";
+    if (is_sealed()) // soil may rest on the lid, and leave it again
+      return "";
     if (touched >= full_lid)
       return "the plug fills the caisson: soil bears on " +
              percent(full_lid, 2) + " of the lid (refusal)";

@@ -270,7 +270,7 @@ namespace CaissonMPM
     inertia.resize(faces.size());
     auto &conductances = solver_.conductances();
     conductances.resize(faces.size());
-    double largest = 0., open = 0.;
+    double largest = 0.;
     for (std::size_t f = 0; f < faces.size(); ++f)
       {
         seepage[f] = faces[f].is_open ?
@@ -280,15 +280,34 @@ namespace CaissonMPM
                      through(faces[f], inverse_density);
         conductances[f] = seepage[f] + long_step * inertia[f];
         largest         = std::max(largest, conductances[f]);
-        if (faces[f].beyond != Beyond::cell)
-          open += conductances[f];
       }
     // 3. The solver gets F + dt I over the largest of them.
     find_faces_below();
-    scale            = Utilities::MPI::max(largest, grid->communicator());
-    open_conductance = Utilities::MPI::sum(open, grid->communicator());
+    scale = Utilities::MPI::max(largest, grid->communicator());
+    sum_open_conductances();
     for (double &g : conductances)
       g /= scale;
+  }
+
+  void
+  PressureProjection::sum_open_conductances()
+  {
+    double      open = 0., of_plug = 0.;
+    const auto &faces = solver_.faces();
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      {
+        const double conductance = seepage[f] + long_step * inertia[f];
+        if (faces[f].beyond != Beyond::cell)
+          open += conductance;
+        // The cell below takes part where soil hardly fills that at the
+        // surface.
+        const double half = .5 * height_of(grid->geometry(faces[f].cell));
+        if (faces[f].beyond == Beyond::plug)
+          of_plug += conductance * std::min(1., faces[f].distance / half);
+      }
+    open_conductance = Utilities::MPI::sum(open, grid->communicator());
+    plug_conductance = grid->circumference() *
+                       Utilities::MPI::sum(of_plug, grid->communicator());
   }
 
   void

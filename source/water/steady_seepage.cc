@@ -149,6 +149,8 @@ namespace CaissonMPM
     result.tip_force       = -suction() * tip.value();
     result.tip_area        = tip.value();
     result.pressure_factor = tip.value() / tip.area();
+    result.plug_rate       = plug_rate;
+    result.response        = flow_out / scene.soil.unit_weight_of_water();
     result.n_iterations    = seepage.solver().n_iterations();
     return result;
   }

@@ -55,11 +55,13 @@ namespace CaissonMPM
                control,
                {{"required", Control::required},
                 {"table", Control::table},
-                {"flow", Control::flow}},
+                {"flow", Control::flow},
+                {"sealed", Control::sealed}},
                "The suction is the one that the body requires to move as "
-               "prescribed (required), that of Suction table (table), or the "
+               "prescribed (required), that of Suction table (table), the "
                "one at which the pump takes the flow of Pumped flow table "
-               "(flow). Units: none.");
+               "(flow), or the one of water that no pump takes and that only "
+               "the plug and a leak let in or out (sealed). Units: none.");
     add_parameter("Suction table",
                   table_text,
                   "Pairs time : suction, separated by commas; linear in "
@@ -98,6 +100,13 @@ namespace CaissonMPM
                        "The run ends where the required suction exceeds that "
                        "of the pump. Units: Pa.",
                        Patterns::Double(0.));
+    add_entries_of_water_beneath_lid();
+    parse_parameters_call_back.connect([this]() { fill_tables(); });
+  }
+
+  void
+  SuctionSettings::add_entries_of_water_beneath_lid()
+  {
     add_parameter("Trapped gas",
                   gas,
                   "The volume of gas beneath the lid at the pressure of the "
@@ -105,7 +114,19 @@ namespace CaissonMPM
                   "constant temperature; the pump takes it, too. Units: m3.",
                   prm,
                   Patterns::Double(0.));
-    parse_parameters_call_back.connect([this]() { fill_tables(); });
+    add_parameter("Lid water modulus",
+                  bulk_modulus,
+                  "The bulk modulus of the water beneath a sealed lid, which "
+                  "may contain how far the lid gives way. Units: Pa.",
+                  prm,
+                  Patterns::Double(1e3));
+    add_parameter("Lid leak",
+                  leak,
+                  "The flow of water through a valve that is not tight into "
+                  "the space beneath a sealed lid, over the suction. Units: "
+                  "m3/(s Pa).",
+                  prm,
+                  Patterns::Double(0.));
   }
 
   void
@@ -137,15 +158,20 @@ namespace CaissonMPM
     const std::vector<std::pair<Control, std::vector<std::string>>> entries = {
       {Control::required, {"Water/Suction delay"}},
       {Control::table, {"Water/Suction table"}},
-      {Control::flow, {"Water/Pumped flow table", "Water/Pump delay"}}};
+      {Control::flow, {"Water/Pumped flow table", "Water/Pump delay"}},
+      {Control::sealed, {"Water/Lid water modulus", "Water/Lid leak"}}};
     const std::string why[] = {"required: the suction is a result",
                                "table",
-                               "flow"};
+                               "flow",
+                               "sealed"};
     for (const auto &[other, names] : entries)
       if (other != control)
         origins.add_unused(names,
                            "Water/Suction control is " +
                              why[static_cast<int>(control)]);
+    if (control == Control::sealed)
+      origins.add_unused({"Water/Largest suction"},
+                         "Water/Suction control is sealed: there is no pump");
   }
 
   double
@@ -174,6 +200,8 @@ namespace CaissonMPM
         suction = std::max(suction, 0.);
         return;
       }
+    if (settings.control == Control::sealed)
+      return;
     if (time > 0.) // until then, a body that its loads move comes to rest
       {
         if (settings.control == Control::flow)

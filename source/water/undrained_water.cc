@@ -124,7 +124,9 @@ namespace CaissonMPM
   {
     std::vector<std::string> warnings;
     warn_of_open_lid(0.,
-                     "Water/Level = undrained has no suction beneath it",
+                     "Water/Level = undrained has no suction beneath it: take "
+                     "Level = coupled with a Permeability of 1e-9 m/s, and "
+                     "Suction control = sealed",
                      warnings);
     extremes.warn(time, place_in_words(), warnings);
     return warnings;

@@ -87,7 +87,7 @@ class UserScenes(ProgramTest):
         short: Entries = {"Time/End penetration": "never", "Time/End time": 0.02}
         words = ("--output-directory", before)
         self.run_program(SUCCESS, user_scene("jack"), *words, entries=short)
-        entries = {**short, "Installation/Directory": before}
+        entries = {**short, "Installation/Directory": before, "Time/End time": 0.2}
         words = ("--output-directory", after)
         text = self.run_program(
             SUCCESS, user_scene("pull_out_after"), *words, entries=entries

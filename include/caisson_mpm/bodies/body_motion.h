@@ -93,6 +93,20 @@ namespace CaissonMPM
       return 0.;
     }
 
+    /** Return the largest velocity that the motion allows itself, over that of
+     * compression waves in the soil; no value where it is free. */
+    virtual std::optional<double>
+    largest_mach_number() const
+    {
+      return {};
+    }
+
+    /** Let the whole motion take place this many times more slowly; before the
+     * future is asked for, and before start(). */
+    virtual void
+    slow_down(const double /*factor*/)
+    {}
+
     /** Set the mass of the body. Units: kg. */
     void
     set_mass(const double mass)

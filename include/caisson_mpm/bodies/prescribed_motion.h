@@ -12,7 +12,9 @@
 namespace CaissonMPM
 {
   /** The velocity is piecewise linear in time; the travel is its exact
-   * integral. Any force is ignored. */
+   * integral. Any force is ignored. Where the motion is slowed down, the times
+   * of the table grow by the factor by which its velocities fall, so that the
+   * body passes the same places. */
   class PrescribedMotion : public BodyMotion
   {
   public:
@@ -30,8 +32,18 @@ namespace CaissonMPM
       return "the velocity is a given function of time";
     }
 
+    /** Return the velocity of the entries, before it is slowed down. */
     double
     usual_velocity() const override;
+
+    std::optional<double>
+    largest_mach_number() const override
+    {
+      return mach_number;
+    }
+
+    void
+    slow_down(const double factor) override;
 
     void
     check_parameters() const override;
@@ -70,9 +82,11 @@ namespace CaissonMPM
     std::vector<double>
     turning_times(const double end) const;
 
-    double      constant_velocity = 0.1;
-    double      ramp_time         = 0.;
-    std::string table_text;
+    double                constant_velocity = 0.1;
+    double                ramp_time         = 0.;
+    std::string           table_text;
+    std::optional<double> mach_number;
+    double                slowness = 1.; // by which the table is slowed down
 
     /** (t, v), linear in between, constant at both ends. */
     std::vector<std::pair<double, double>> velocity_table = {{0., 0.1}};

@@ -4,6 +4,7 @@
 #ifndef caisson_mpm_bodies_rigid_body_h
 #define caisson_mpm_bodies_rigid_body_h
 
+#include <caisson_mpm/base/time_table.h>
 #include <caisson_mpm/bodies/body_motion.h>
 #include <caisson_mpm/bodies/body_shape.h>
 #include <caisson_mpm/bodies/body_surface.h>
@@ -94,6 +95,11 @@ namespace CaissonMPM
       return submerged_weight_;
     }
 
+    /** Return the force of Force table, positive downward, which acts besides.
+     * Units: s, N. */
+    double
+    applied_force(const double time) const;
+
     /** The density of the body's material. Units: kg/m3. */
     double density = 7850.;
 
@@ -104,6 +110,8 @@ namespace CaissonMPM
     std::vector<std::unique_ptr<BodyMotion>> motions;
     BodySurface                              surface_;
     std::optional<double>                    weight; // or that of its cells
+    std::string                              force_text;
+    TimeTable                                force_table; // s, N
     double                                   submerged_weight_ = 0.;
     std::size_t chosen_shape = 0, chosen_motion = 1;
   };

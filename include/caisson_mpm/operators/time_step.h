@@ -123,6 +123,11 @@ namespace CaissonMPM
       return fixed_step.value_or(courant * limit);
     }
 
+    /** Return the scaling of the smallest cells with this stress over the
+     * inertia at the tip. There must be a tolerance. */
+    double
+    inertia_for(const double stress_over_inertia) const;
+
     /** How much longer the step is once this is the stress over the inertia at
      * the tip, with a tolerance and all else the same. */
     double
@@ -156,9 +161,6 @@ namespace CaissonMPM
                   MaterialPoints                 &points,
                   const Soil                     &soil,
                   std::vector<Kernels::Material> &materials);
-    /** The scaling of the smallest cells. */
-    double
-    inertia_for(const double stress_over_inertia) const;
     /** Find the scaling from the tolerance, and set the factors of all cells.
      * @p squares: of the wave speed of each material (m2/s2). Collective. */
     void

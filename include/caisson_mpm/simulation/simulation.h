@@ -125,6 +125,9 @@ namespace CaissonMPM
     mass_of_body() const;
     void
     make_mesh();
+    /** Slow a prescribed motion down to its largest Mach number. */
+    void
+    slow_body_down();
     /** Throw BadInput where soil begins faster than its waves. Collective. */
     void
     check_initial_speed() const;

@@ -33,6 +33,7 @@ namespace CaissonMPM
     volume_rates(const Kernels::NodalVector             *velocity,
                  const std::vector<Kernels::CornerView> &corners) override
     {
+      find_plug_rate(velocity);
       return projection.find_volume_rates(velocity, corners).data();
     }
     std::vector<std::string>

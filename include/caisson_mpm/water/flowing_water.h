@@ -108,6 +108,11 @@ namespace CaissonMPM
     void
     find_mudline();
 
+    /** Find the rate at which the surface of the plug rises with the new
+     * nodal velocities, for a lid that is sealed. Collective. */
+    void
+    find_plug_rate(const Kernels::NodalVector *velocity);
+
     /** Register the flow that has been computed, also as the first one. */
     void
     finish_flow();
@@ -120,6 +125,7 @@ namespace CaissonMPM
     bool                            has_started      = false;
     unsigned int                    steps_since_look = 0;
     double                          time = 0., last_force_on_body = 0.; // s, N
+    double                          plug_rate = 0.;                     // m3/s
 
   private:
     boost::signals2::scoped_connection before_change, after_change;

@@ -9,6 +9,7 @@
 #include <caisson_mpm/water/plug_balance.h>
 #include <caisson_mpm/water/plug_strength.h>
 #include <caisson_mpm/water/pore_water.h>
+#include <caisson_mpm/water/sealed_lid.h>
 #include <caisson_mpm/water/seepage.h>
 
 #include <string>
@@ -19,13 +20,16 @@ namespace CaissonMPM
   /** The flow of the water as the compartment sees it. */
   struct WaterFlow
   {
-    double       scale = 1.;           // of both flows
-    double       out = 0., in = 0.;    // of the plug, into the rest; m3/s
-    double       tip_force       = 0.; // on the tip, upward; N
-    double       tip_resistance  = 0.; // of it, what the suction must bear
-    double       tip_area        = 0.; // that the suction reaches, m2
-    double       pressure_factor = 0.; // at the tip, over the suction
-    unsigned int n_iterations    = 0;  // of the solver
+    double scale = 1.;             // of both flows
+    double out = 0., in = 0.;      // of the plug, into the rest; m3/s
+    double tip_force       = 0.;   // on the tip, upward; N
+    double tip_resistance  = 0.;   // of it, what the suction must bear
+    double tip_area        = 0.;   // that the suction reaches, m2
+    double pressure_factor = 0.;   // at the tip, over the suction
+    double plug_rate       = 0.;   // at which the plug's surface rises, m3/s
+    double response        = 0.;   // of plug_rate and out to the suction in a
+                                   // step, m3/(s Pa)
+    unsigned int n_iterations = 0; // of the solver
   };
 
   /**
@@ -75,6 +79,12 @@ namespace CaissonMPM
     suction() const
     {
       return suction_.value();
+    }
+
+    bool
+    is_sealed() const
+    {
+      return settings().control == SuctionSettings::Control::sealed;
     }
 
     /** The load of the suction on the lid. Units: N. */
@@ -135,12 +145,18 @@ namespace CaissonMPM
     heave(const Mudline &mudline) const;
     double
     heave_by_wall() const;
+    /** Continue the water beneath a sealed lid by a step. */
+    void
+    advance_sealed(const double     dt,
+                   const Mudline   &mudline,
+                   const WaterFlow &flow);
     /** Whether the flow out of the plug nearly lifts its soil. */
     bool
     carries_soil(const WaterFlow &flow) const;
 
     const WaterScene    scene;
     Suction             suction_;
+    SealedLid           sealed;
     PlugBalance         plug_balance;
     PlugStrength        plug_strength;
     std::vector<double> filled;               // [n_cells], at the last look
@@ -154,7 +170,8 @@ namespace CaissonMPM
     double     volume_at_start = 0.;
     RecentMean recent_heave; // of the plug, m
     bool       has_started          = false;
-    bool       has_warned_of_piping = false, has_warned_of_lift = false;
+    bool       has_warned_of_piping = false, has_warned_of_lift = false,
+         has_warned_of_cavity = false;
   };
 } // namespace CaissonMPM
 

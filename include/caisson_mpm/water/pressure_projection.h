@@ -161,6 +161,14 @@ namespace CaissonMPM
       return flow_;
     }
 
+    /** By how much more volume would leave the plug in the next step, over the
+     * suction: by seepage and by acceleration. Units: m3/(s Pa). */
+    double
+    conductance_of_plug() const
+    {
+      return plug_conductance;
+    }
+
     const CellPressureSolver &
     solver() const
     {
@@ -184,6 +192,9 @@ namespace CaissonMPM
     find_integrals(const unsigned int cell);
     void
     find_conductances(const std::vector<WaterProperties> &properties);
+    /** Sum those of the open faces. Collective. */
+    void
+    sum_open_conductances();
     /** Begin with the pressure of the free water in cells that soil enters. */
     void
     begin_in_new_cells();
@@ -231,7 +242,7 @@ namespace CaissonMPM
     // [n_faces]
     std::vector<double>             seepage, inertia;
     std::vector<std::array<int, 2>> faces_below; // -1: none, as at most faces
-    double                          open_conductance = 0.;
+    double   open_conductance = 0., plug_conductance = 0.;
     CellData pressure_, remainder_, wet_, source, mobility[2], inverse_density;
     AtNodes  at_nodes;
   };

@@ -25,6 +25,13 @@ namespace CaissonMPM
     begin_step(const double              dt,
                const BoundaryConditions &conditions,
                Contact                  &contact) override;
+    const double *
+    volume_rates(const Kernels::NodalVector *velocity,
+                 const std::vector<Kernels::CornerView> &) override
+    {
+      find_plug_rate(velocity);
+      return nullptr;
+    }
     std::vector<GridField>
     fields() override;
     void

@@ -51,7 +51,8 @@ namespace CaissonMPM
     {
       required,
       table,
-      flow
+      flow,
+      sealed
     };
 
     SuctionSettings();
@@ -75,8 +76,12 @@ namespace CaissonMPM
     double                                 gas = 0.;   // at p_0, m3
     std::vector<std::pair<double, double>> table;      // s, Pa
     std::vector<std::pair<double, double>> flow_table; // s, m3/s
+    double bulk_modulus = 2.2e9; // of the water beneath a sealed lid, Pa
+    double leak         = 0.;    // of a sealed lid, m3/(s Pa)
 
   private:
+    void
+    add_entries_of_water_beneath_lid();
     void
     fill_tables();
 
@@ -100,6 +105,8 @@ namespace CaissonMPM
    * Gas beneath the lid, V_0 at the ambient pressure p_0, expands to
    * V_0 p_0/(p_0 - s). The pump takes its expansion, too, and where gas gives
    * way more than the above, it alone says what the suction is.
+   *
+   * Or the lid is sealed: then SealedLid finds the suction.
    * Not collective; the same on all ranks.
    */
   class Suction
@@ -127,6 +134,13 @@ namespace CaissonMPM
      * before, a given suction or flow waits. Units: s. */
     void
     advance(const double time, const double dt, const SuctionLoad &load);
+
+    /** Set the suction beneath a sealed lid. Units: Pa. */
+    void
+    set(const double of_sealed_lid)
+    {
+      suction = of_sealed_lid;
+    }
 
     /** Units: Pa. */
     double

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The water beneath a lid that is sealed: its volume follows body and plug, and
+// its pressure follows from its volume.
+#ifndef caisson_mpm_water_sealed_lid_h
+#define caisson_mpm_water_sealed_lid_h
+
+#include <caisson_mpm/base/named_numbers.h>
+#include <caisson_mpm/base/run_totals.h>
+
+namespace CaissonMPM
+{
+  /**
+   * Between lid and plug there is water of the volume V_0 at the start, and gas
+   * of the volume V_g at the ambient pressure p_0. With the suction s, both
+   * have expanded by
+   *
+   *   E(s) = C s + V_g s / (p_0 - s),   C = V_0 / K,
+   *
+   * with the bulk modulus K of the water. The compartment grows as the body
+   * rises, and shrinks as the surface of the plug rises; water flows in through
+   * the plug and through the leak. So, with the area A of the lid, the velocity
+   * v of the body upward, the rates Q_p of the plug and Q_s of the seepage, and
+   * the conductance L of the leak,
+   *
+   *   dE/dt = A v - Q_p - Q_s - L s.
+   *
+   * At the suction at which water boils, it grows no more: what E exceeds that
+   * of this suction is a cavity of vapor, which closes before the suction
+   * falls.
+   *
+   * The rates are those of the step before. That is stable while the
+   * compartment gives way by more than soil and seepage do in a step; C is
+   * raised to this where V_0 is small. Not collective; the same on all ranks.
+   */
+  class SealedLid
+  {
+  public:
+    /** What does not change. Units: m3/(s Pa), Pa, m3. */
+    struct Properties
+    {
+      double leak = 0., bulk_modulus = 2.2e9;
+      double gas = 0., ambient = 1.; // gas, and its pressure
+    };
+
+    /** Rates of volume, in m3/s, and by how much the flow of plug and seepage
+     * changes in a step with the suction, in m3/(s Pa). */
+    struct Rates
+    {
+      double plug = 0., seepage = 0., response = 0.;
+    };
+
+    void
+    set_properties(const Properties &properties)
+    {
+      own = properties;
+    }
+
+    /** Begin with this suction and volume of water, while the body displaces
+     * the volume @p displaced, A times its travel downward. Units: Pa, m3. */
+    void
+    start(const double suction, const double volume, const double displaced);
+
+    /** Whether start() has been called, in this run. */
+    bool
+    has_started() const
+    {
+      return started;
+    }
+
+    /** Advance by a step, after which the body displaces the volume @p
+     * displaced and water boils at the suction @p boiling. */
+    void
+    advance(const double dt,
+            const double displaced,
+            const Rates &rates,
+            const double boiling);
+
+    /** Units: Pa. */
+    double
+    suction() const
+    {
+      return suction_;
+    }
+
+    /** The volume of vapor. Units: m3. */
+    double
+    cavity() const
+    {
+      return cavity_;
+    }
+
+    /** The volume by which the surface of the plug has risen. Units: m3. */
+    double
+    risen() const
+    {
+      return risen_;
+    }
+
+    /** By how much the compartment has grown. Units: m3. */
+    double
+    growth() const
+    {
+      return displaced_at_start - displaced_;
+    }
+
+    /** Return the numbers of a record. */
+    NamedNumbers
+    columns() const;
+
+    void
+    register_totals(RunTotals &totals);
+
+  private:
+    /** E(s), and dE/ds. */
+    double
+    expansion(const double suction) const;
+    double
+    compliance(const double suction) const;
+    /** Return the suction at which water and gas have expanded by this. */
+    double
+    suction_of(const double expansion) const;
+
+    Properties own;
+    bool       started  = false;
+    double     C        = 0.;               // m3/Pa
+    double     suction_ = 0., cavity_ = 0.; // Pa, m3
+    // E at the start, and what has passed since then, m3
+    double expansion_at_start = 0., displaced_ = 0., displaced_at_start = 0.,
+           risen_ = 0., seepage = 0., leaked = 0., raised = 0.;
+    double passed = 0.; // the sum of all magnitudes, m3
+  };
+} // namespace CaissonMPM
+
+#endif

@@ -1,0 +1,272 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Caissons that are pulled: drained, and with water beneath a sealed lid."""
+import math
+import unittest
+from pathlib import Path
+
+import numpy as np
+from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, Rows, history
+
+LIMIT = "Rigid body/Largest Mach number"
+MASS = "Time/Mass scaling"
+END = "Time/End penetration"
+STRENGTH = 2e4  # Pa, of the clay
+RADIUS = 1.5  # m, of the body in it
+PULL: Entries = {
+    "Rigid body/Velocity": -0.2,
+    "Rigid body/Ramp time": 0,
+    LIMIT: 1e-3,
+    "Method/Local damping": 0.4,
+}
+SEALED: Entries = {
+    "Water/Level": "coupled",
+    "Water/Suction control": "sealed",
+    "Soil/Layer 1/Permeability": 1e-4,
+    "Rigid body/Initial penetration": 1,
+    "Rigid body/Velocity": -0.01,
+    "Output/Record interval": 0.05,
+}
+CLAY: Entries = {
+    "Rigid body/Outer diameter": 2 * RADIUS,
+    "Rigid body/Skirt length": 2.5,
+    "Rigid body/Friction angle of the outer wall": 0,
+    "Rigid body/Adhesion of the outer wall": STRENGTH,
+    "Soil/Layer 1/Youngs modulus": 4e6,
+    "Soil/Layer 1/Friction angle": 0,
+    "Soil/Layer 1/Cohesion": STRENGTH,
+    "Grid/Outer radius": 8,
+    "Grid/Bottom": -8,
+    "Grid/Top": 3,
+    "Grid/Cell width": 0.5,
+    "Grid/Cell height": 0.4,
+    "Grid/Fine width": 0.15,
+    "Grid/Fine height": 0.15,
+    END: 1.35,
+    "Output/Record interval": 0.05,
+}
+
+
+def largest_tension(path: Path) -> float:
+    """Return the largest pull of a drained run (N)."""
+    return -min(row["total_force_N"] for row in history(path))
+
+
+def pull(row: dict[str, float]) -> float:
+    """Return the pull of a caisson with a sealed lid (N), besides its weight."""
+    return row["suction_force_N"] - row["total_force_N"] - row["tip_water_force_N"]
+
+
+class Drained(ProgramTest):
+    """The drained pull is that of a slow one."""
+
+    def test_after_an_installation(self) -> None:
+        """The velocity does not matter, and without the limit inertia would."""
+        before = self.directory("before")
+        self.run_scene("jack", before, entries={END: 0.75})
+        tension = {}
+        runs: dict[str, Entries] = {
+            "fast": {},
+            "slow": {"Rigid body/Velocity": -0.05},
+            "unlimited": {LIMIT: "unlimited"},
+        }
+        for name, entries in runs.items():
+            path = self.directory(name)
+            more: Entries = {
+                **PULL,
+                END: 0.69,
+                "Installation/Directory": before,
+                "Output/Record interval": 0.01 if name == "unlimited" else 0.1,
+            }
+            self.run_scene("jack", path, entries={**more, **entries})
+            tension[name] = largest_tension(path)
+        self.assertAlmostEqual(tension["fast"] / tension["slow"], 1, 6)
+        self.assertGreater(tension["unlimited"], 1.4 * tension["fast"])
+
+    def test_mass_scaling(self) -> None:
+        """From the same state, soil of any inertia gives the same."""
+        tension = []
+        for scaling in (4, 100):
+            path = self.directory(f"{scaling}")
+            entries: Entries = {
+                **PULL,
+                MASS: scaling,
+                END: 0.99,
+                "Rigid body/Initial penetration": 1,
+                "Output/Record interval": 0.02 * math.sqrt(scaling),
+            }
+            self.run_scene("jack", path, entries=entries)
+            tension.append(largest_tension(path))
+        self.assertAlmostEqual(tension[0] / tension[1], 1, delta=0.03)
+
+    def test_water_takes_its_time(self) -> None:
+        text = self.run_scene(
+            "jack",
+            self.directory(),
+            BAD_INPUT,
+            entries={**PULL, "Water/Level": "coupled"},
+        )
+        self.assert_words([LIMIT, "unlimited"], text)
+
+
+class SealedLid(ProgramTest):
+    """Water beneath a sealed lid, whose pressure follows from its volume."""
+
+    def assert_balanced(self, rows: Rows) -> None:
+        """The books of the water and of the energy, and the plug by its points."""
+        for row in rows:
+            self.assertLess(abs(row["lid_water_balance"]), 1e-8)
+            self.assertLess(abs(row["water_balance"]), 1e-8)
+        self.assertLess(abs(rows[-1]["energy_residual"]), 0.01)
+        rise = max(abs(row["plug_rise_m3"]) for row in rows)
+        for row in rows:
+            by_points = row["plug_heave_volume_m3"]
+            self.assertAlmostEqual(row["plug_rise_m3"], by_points, delta=0.02 * rise)
+
+    def test_drained_limit(self) -> None:
+        """Soil that conducts well bears the pull by friction, as with an open lid."""
+        drained, sealed = self.directory("drained"), self.directory("sealed")
+        entries: Entries = {
+            **SEALED,
+            "Soil/Layer 1/Permeability": 10,
+            END: 0.99,
+            "Output/Terminal": "full",
+        }
+        text = self.run_scene("jack", sealed, entries=entries)
+        self.assert_words(["largest pull", "drained: friction on both walls"], text)
+        self.run_scene("jack", drained, entries={**entries, "Water/Level": "drained"})
+        rows = history(sealed)
+        self.assert_balanced(rows)
+        most = max(map(pull, rows))
+        self.assertAlmostEqual(most / largest_tension(drained), 1, delta=0.05)
+        self.assertLess(rows[-1]["suction_force_N"], 0.05 * most)
+
+    def test_undrained_limit(self) -> None:
+        """In clay, the plug rises with the caisson, and what bears both at the tip is
+        the strength of a pile that is pushed as far, to the same depth: less the
+        stress of rest, the same with the other sign."""
+        path, pile = self.directory("caisson"), self.directory("pile")
+        entries: Entries = {
+            **SEALED,
+            **CLAY,
+            "Soil/Layer 1/Permeability": 1e-9,
+            "Rigid body/Initial penetration": 1.5,
+            "Rigid body/Wall thickness": 0.1,
+            "Rigid body/Friction angle of the inner wall": 0,
+            "Rigid body/Adhesion of the inner wall": STRENGTH,
+            "Rigid body/Velocity": -0.02,
+        }
+        entries["Output/Terminal"] = "full"
+        text = self.run_scene("jack", path, entries=entries)
+        self.assert_words(["largest pull", "reverse bearing"], text)
+        self.run_program(
+            SUCCESS,
+            self.pile_scene(),
+            "--output-directory",
+            pile,
+            entries={**CLAY, "Rigid body/Velocity": 0.02},
+        )
+        rows = history(path)
+        self.assert_balanced(rows)
+        last = rows[-1]
+        self.assertAlmostEqual(last["plug_rise_m3"] / last["lid_growth_m3"], 1, 2)
+
+        at_tip = [pull(row) + row["outer_friction_N"] for row in rows]
+        unit_weight = 8829.0 * math.pi * RADIUS**2
+        of_pile = [
+            row["tip_force_N"]
+            + row["tip_water_force_N"]
+            - unit_weight * row["penetration_m"]
+            for row in history(pile)
+        ]
+        n = len(rows) // 5  # the last fifth of the way
+        factor = math.pi * RADIUS**2 * STRENGTH
+        found, expected = (float(np.mean(x[-n:])) for x in (at_tip, of_pile))
+        self.assertGreater(found / factor, 6)
+        self.assertAlmostEqual(found / expected, 1, delta=0.05)
+
+    def pile_scene(self) -> Path:
+        """Write the scene of a pile that is 1.2 m deep in the clay."""
+        path = self.made_directory() / "pile.prm"
+        path.write_text(
+            "subsection Rigid body\n"
+            "set Kind = pile\n"
+            "set Cells across the wall = 10\n"
+            "set Initial penetration = 1.2\n"
+            "set Friction angle of the tip = 0\n"
+            f"set Adhesion of the tip = {STRENGTH}\n"
+            "set Ramp time = 0.5\n"
+            "end\n"
+            "subsection Soil\nsubsection Layer 1\n"
+            "set Poisson ratio = 0.3\nset Porosity = 0.4\nset Solid density = 2500\n"
+            "end\nend\n"
+            "subsection Grid\nset Growth ratio = 1.3\n"
+            "set Moving zone below tip = 1\nend\n"
+            "subsection Time\nset Mass scaling = 25\nend\n"
+            "subsection Water\nset Level = undrained\nset Bulk modulus = 2e8\nend\n"
+            "subsection Output\nset Terminal = plain\n"
+            "set Frame interval = never\nend\n",
+            encoding="utf-8",
+        )
+        return path
+
+    def test_cycles(self) -> None:
+        """Twenty cycles of tension and compression leave the books in order, and the
+        lid is held: after them it has moved by less than in each."""
+        path = self.directory()
+        table = ["0:0", "0.5:0"]
+        for cycle in range(20):
+            start = 0.5 + 0.25 * cycle
+            table += [f"{start + 0.0625}:-3e5", f"{start + 0.1875}:1e5"]
+        entries: Entries = {
+            **SEALED,
+            "Rigid body/Motion": "dropped",
+            "Rigid body/Submerged weight": 2e5,
+            "Rigid body/Release time": 0.3,
+            "Rigid body/Force table": ", ".join([*table, "5.5:0"]),
+            END: 1.2,
+            "Time/End time": 6,
+            "Output/Record interval": 0.0125,
+        }
+        self.run_scene("jack", path, entries=entries)
+        rows = history(path)
+        self.assert_balanced(rows)
+        suction = [row["suction_Pa"] for row in rows if 0.5 < row["time_s"] < 5.5]
+        self.assertGreater(max(suction) - min(suction), 4e5 / 24.6 / 2)
+        for row in rows:
+            self.assertLess(abs(row["energy_residual"]), 0.01)
+
+    def test_cavity(self) -> None:
+        """In shallow water, the water boils, and the pull ends in a cavity."""
+        path = self.directory()
+        entries: Entries = {
+            **SEALED,
+            "Rigid body/Velocity": -0.05,
+            "Water/Water depth": 0,
+            "Soil/Layer 1/Cohesion": 1e5,
+            "Soil/Layer 1/Permeability": 1e-6,
+            END: 0.95,
+        }
+        text = self.run_scene("jack", path, entries=entries)
+        self.assert_words(["boils beneath the sealed lid"], text)
+        rows = history(path)
+        last = rows[-1]
+        self.assertAlmostEqual(last["suction_Pa"] / last["cavitation_suction_Pa"], 1, 9)
+        self.assertGreater(last["lid_cavity_m3"], 0)
+        self.assert_balanced(rows)
+
+    def test_restart_and_ranks(self) -> None:
+        """A run that is resumed on two ranks ends as one that was not stopped."""
+        whole, part = self.directory("whole"), self.directory("part")
+        entries: Entries = {**SEALED, "Water/Lid leak": 1e-6, END: 0.995}
+        self.run_scene("jack", whole, entries=entries)
+        self.run_scene("jack", part, entries={**entries, "Time/End time": 0.45})
+        self.run_scene("jack", part, SUCCESS, "--restart", entries=entries, ranks=2)
+        one, two = history(whole)[-1], history(part)[-1]
+        for key in ("suction_Pa", "plug_rise_m3", "lid_leak_m3", "total_force_N"):
+            self.assertAlmostEqual(one[key] / two[key], 1, 3, key)
+        self.assertLess(abs(two["lid_water_balance"]), 1e-8)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The water beneath a sealed lid over rigid soil that conducts water: its
+// suction in closed form, its balance, gas, and the cavity at which water
+// boils.
+#include <caisson_mpm/water/sealed_lid.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../shared/verdict.h"
+
+using namespace CaissonMPM;
+
+constexpr double area = 28., volume = 40.;    // m2, m3
+constexpr double seepage = 2e-6, leak = 1e-6; // m3/(s Pa)
+constexpr double modulus = 2e8, boiling = 4e5;
+constexpr double dt = 2e-3; // s
+
+double
+balance_of(const SealedLid &lid)
+{
+  return std::abs(*number_named("lid_water_balance", lid.columns()));
+}
+
+/** Pull at a velocity (m/s, upward) for a time, from a place (m). */
+void
+pull(SealedLid   &lid,
+     const double velocity,
+     const double time,
+     double      &place,
+     const double conductance)
+{
+  const unsigned int n = std::lround(time / dt);
+  for (unsigned int i = 0; i < n; ++i)
+    {
+      place += velocity * dt;
+      const double in = conductance * lid.suction();
+      lid.advance(dt, -area * place, {0., in, conductance}, boiling);
+    }
+}
+
+void
+check_pull_at_a_rate()
+{
+  heading("a pull at 10 mm/s: s = A v / L (1 - exp(- L t / C))");
+  constexpr double velocity = .01, L = seepage + leak, C = volume / modulus;
+  SealedLid        lid;
+  lid.set_properties({leak, modulus, 0., 1e6});
+  lid.start(0., volume, 0.);
+  double error = 0., place = 0.;
+  for (unsigned int i = 1; i <= 10; ++i)
+    {
+      constexpr double part = .02;
+      pull(lid, velocity, part, place, seepage);
+      const double exact =
+        area * velocity / L * (1. - std::exp(-L * i * part / C));
+      error = std::max(error, std::abs(lid.suction() - exact));
+    }
+  verdict("  largest error over A v / L", error * L / (area * velocity), .006);
+  pull(lid, velocity, 2., place, seepage);
+  verdict("  suction at last, error over A v / L",
+          std::abs(lid.suction() * L / (area * velocity) - 1.),
+          1e-8);
+  pull(lid, 0., 2., place, seepage);
+  verdict("  held, suction over that before",
+          std::abs(lid.suction()) * L / (area * velocity),
+          1e-8);
+  verdict("  balance", balance_of(lid), 1e-12);
+}
+
+void
+check_cycles()
+{
+  heading("a hundred cycles");
+  SealedLid lid;
+  lid.set_properties({leak, modulus, .5, 4e5});
+  lid.start(2e3, volume, 0.);
+  double place = 0., largest = 0.;
+  for (unsigned int i = 0; i < 100; ++i)
+    for (const double velocity : {.01, -.01})
+      {
+        pull(lid, velocity, .1, place, seepage);
+        largest = std::max(largest, balance_of(lid));
+      }
+  verdict("  balance", largest, 1e-12);
+}
+
+void
+check_gas()
+{
+  heading(
+    "tight soil, 1 m3 of gas at p_0: pulled by V, s = p_0 V / (1 m3 + V)");
+  constexpr double ambient = 4e5, gas = 1., lifted = .02;
+  SealedLid        lid;
+  lid.set_properties({0., 1e30, gas, ambient});
+  lid.start(0., volume, 0.);
+  double place = 0.;
+  pull(lid, lifted / 1., 1., place, 0.);
+  const double V = area * lifted;
+  verdict("  error over p_0",
+          std::abs(lid.suction() / ambient - V / (gas + V)),
+          1e-12);
+}
+
+void
+check_cavity()
+{
+  heading("tight soil, pulled until water boils, and back");
+  SealedLid lid;
+  lid.set_properties({0., modulus, 0., 1e6});
+  lid.start(0., volume, 0.);
+  double place = 0.;
+  pull(lid, .01, 1., place, 0.);
+  const double expected = area * .01 - volume / modulus * boiling;
+  verdict("  suction less that at which it boils",
+          std::abs(lid.suction() - boiling),
+          0.);
+  verdict("  volume of the cavity, error",
+          std::abs(lid.cavity() - expected),
+          1e-12);
+  pull(lid, -.01, 1., place, 0.);
+  verdict("  back: suction, Pa", std::abs(lid.suction()), 1e-4);
+  verdict("  back: cavity", lid.cavity(), 0.);
+  verdict("  balance", balance_of(lid), 1e-12);
+}
+
+void
+check_least_compliance()
+{
+  heading("no water at the start: stable by what the soil gives way in a step");
+  SealedLid lid;
+  lid.set_properties({0., modulus, 0., 1e6});
+  lid.start(0., 0., 0.);
+  double place = 0., largest = 0.;
+  for (unsigned int i = 0; i < 100; ++i)
+    {
+      pull(lid, .01, dt, place, seepage);
+      largest = std::max(largest, lid.suction());
+    }
+  verdict("  error over A v / G",
+          std::abs(lid.suction() * seepage / (area * .01) - 1.),
+          1e-12);
+  verdict("  largest over A v / G",
+          largest * seepage / (area * .01),
+          1. + 1e-12);
+  verdict("  balance", balance_of(lid), 1e-12);
+}
+
+int
+main()
+{
+  check_pull_at_a_rate();
+  check_cycles();
+  check_gas();
+  check_cavity();
+  check_least_compliance();
+}
