@@ -111,6 +111,14 @@ def means_to_the_ends(
     return np.where(room < -EDGE, np.nan, means)
 
 
+def with_water(history: dict[str, np.ndarray]) -> np.ndarray | None:
+    """Return the total force with the excess pressure of the water on the tip [n_rows]
+    (N), which the body feels in undrained and coupled runs; None in others."""
+    if "total_force_with_water_N" not in history:
+        return None
+    return history["total_force_N"] + history["tip_water_force_N"]
+
+
 def way_down(position: np.ndarray) -> np.ndarray:
     """Return the numbers of the rows that are deeper than all before them."""
     before = np.maximum.accumulate(position)[:-1]

@@ -10,6 +10,8 @@ from caisson import curves
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import (
     COLORS,
+    WATER_COLOR,
+    WITH_WATER,
     column_of,
     error_band,
     penetration,
@@ -110,6 +112,9 @@ def force_curves(run: Results) -> list[Curve]:
         if column_of(name) in history:
             force = smooth(depth, history[column_of(name)])
             found.append(line(name, color, force, depth, thick=True))
+    if (total := curves.with_water(history)) is not None:
+        mean = smooth(depth, total)
+        found.append(line(WITH_WATER, WATER_COLOR, mean, depth, thick=True))
     return found
 
 

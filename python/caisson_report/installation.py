@@ -77,6 +77,8 @@ class Installation:
     flow: np.ndarray = field(default_factory=lambda: np.empty(0))  # m3/h
     seepage: np.ndarray = field(default_factory=lambda: np.empty(0))  # m3/h, of it
     rest: float | None = None  # m
+    # kN, of the whole body, where water presses on its tip, too
+    with_water: np.ndarray = field(default_factory=lambda: np.empty(0))
 
     @property
     def has_suction(self) -> bool:
@@ -196,6 +198,10 @@ def installation_of(run: Results, rate: Rate) -> Installation | None:
     bars = bounds_at(run, "total_force", "N", at, total)
     if bars:
         found.force_bounds = bars.scaled(1e-3)
+    force = curves.with_water(history)
+    if force is not None:
+        depth = history["penetration_m"][rows]
+        found.with_water = curves.smoothed_at(depth, force[rows], at) / 1e3
     if design.SUCTION in history:
         add_suction(found, run, rate)
     return found
@@ -308,6 +314,8 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
     for name in design.FORCES[:3]:
         words = name.removesuffix("_N").removesuffix("_force").replace("_", " ")
         takes[f"{words} (kN)"] = texts_of(found.forces[name])
+    if len(found.with_water):
+        takes["with water on the tip (kN)"] = texts_of(found.with_water)
     if found.has_suction:
         takes["required suction (kPa)"] = [
             in_range(found, found.required[i], found.required_bounds, i) for i in n
@@ -380,6 +388,11 @@ def force_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
         cards.append(("Largest force", words(total[most]), remark))
     tip, inner, outer = (words(found.forces[k][-1]) for k in design.FORCES[:3])
     cards.append(("Of which tip", tip, f"friction inside {inner}, outside {outer}"))
+    if len(found.with_water):
+        force = three_digits(float(found.with_water[-1]), None)
+        remark = "what the caisson feels: effective force and excess pore pressure"
+        cards.insert(0, ("With water on the tip", f"{force} kN", remark))
+        cards[1] = ("Effective " + name[0].lower() + name[1:], *cards[1][1:])
     length = run.scene.get("skirt_length_m")
     of_skirt = f"of {float(length):g} m of skirt" if length else ""
     return [*cards, ("Penetration reached", f"{depth[-1]:.2f} m", of_skirt)]

@@ -63,6 +63,9 @@ namespace CaissonMPM
                     without_noise(kN * line.inner),
                     without_noise(kN * line.outer),
                     without_noise(kN * line.total)) +
+             (line.with_water ? format(", with water %.6g kN",
+                                       without_noise(kN * *line.with_water)) :
+                                "") +
              done;
     }
 
@@ -86,6 +89,8 @@ namespace CaissonMPM
                       100. * line.gradient_ratio) +
                rest;
       const double kN = 1e-3;
+      if (line.with_water)
+        rest = format(", with water %7.1f kN", kN * *line.with_water) + rest;
       return format("pen %6.3f m | tip %7.1f inner %7.1f outer %7.1f "
                     "total %7.1f kN",
                     line.penetration,

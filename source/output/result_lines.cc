@@ -30,6 +30,9 @@ namespace CaissonMPM
     {
       std::vector<double>                depth;
       std::array<std::vector<double>, 4> force; // tip, inner, outer, total
+      // with the excess pore pressure on the tip; empty where it is not
+      // computed
+      std::vector<double> with_water;
       std::vector<double> suction; // that is required; empty without a lid
       std::vector<double> margin;  // to piping: 1 less the gradient's share
 
@@ -49,6 +52,7 @@ namespace CaissonMPM
           }
         if (depth.empty())
           return;
+        add_water(records);
         add_suction(records);
         depth.push_back(at.back()); // the last record holds up to the end
         for (auto &values : force)
@@ -56,14 +60,30 @@ namespace CaissonMPM
       }
 
     private:
+      static bool
+      has(const Records &records, const std::string &name)
+      {
+        const auto names = records.names();
+        return std::find(names.begin(), names.end(), name) != names.end();
+      }
+
+      void
+      add_water(const Records &records)
+      {
+        if (!has(records, "total_force_with_water_N"))
+          return;
+        const auto water = records.series("tip_water_force_N").value;
+        for (std::size_t i = 1; i < water.size(); ++i)
+          with_water.push_back(force.back()[i - 1] + water[i]);
+        with_water.push_back(with_water.back());
+      }
+
       /** Suction and gradients belong to the records, not to the middle between
        * them. */
       void
       add_suction(const Records &records)
       {
-        const auto names = records.names();
-        if (std::find(names.begin(), names.end(), "required_suction_Pa") ==
-            names.end())
+        if (!has(records, "required_suction_Pa"))
           return;
         const auto required = records.series("required_suction_Pa").value,
                    wall     = records.series("exit_gradient_wall").value,
@@ -182,6 +202,10 @@ namespace CaissonMPM
               "at " + to_text(at, 4) + (down ? " m" : " m, up"),
               "tip " + force(0) + ", inner " + force(1) + ", outer " +
                 force(2) + ", total " + force(3) + " kN" +
+                (curves.with_water.empty() ?
+                   "" :
+                   ", with water " +
+                     kilonewtons(place->value(curves.with_water)) + " kN") +
                 (down ? error_in_words(error_bar.of_total_force(at)) +
                           suction_in_words(curves, *place) :
                         ""));

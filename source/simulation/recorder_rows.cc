@@ -252,13 +252,16 @@ namespace CaissonMPM
       return;
     fraction_printed = done;
     RecordLine line;
-    line.time           = row.time;
-    line.has_body       = parts.body.shape().exists();
-    line.penetration    = row.penetration;
-    line.tip            = row.tip;
-    line.inner          = row.inner;
-    line.outer          = row.outer;
-    line.total          = row.total;
+    line.time        = row.time;
+    line.has_body    = parts.body.shape().exists();
+    line.penetration = row.penetration;
+    line.tip         = row.tip;
+    line.inner       = row.inner;
+    line.outer       = row.outer;
+    line.total       = row.total;
+    if (number_named("total_force_with_water_N", row.counts))
+      line.with_water =
+        row.total + number_named("tip_water_force_N", row.counts).value();
     line.kinetic_energy = row.kinetic_energy;
     line.max_speed      = row.max_speed;
     const auto column   = [&row](const std::string &name) {

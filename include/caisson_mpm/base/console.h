@@ -5,6 +5,7 @@
 #define caisson_mpm_base_console_h
 
 #include <iostream>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,9 @@ namespace CaissonMPM
     double inner       = 0.;
     double outer       = 0.;
     double total       = 0.;
+    /** With the excess pore pressure on the tip, where it follows from the
+     * motion of the soil. */
+    std::optional<double> with_water;
     /** Where there is suction: Pa, and the exit gradient over the critical one.
      */
     bool   has_suction    = false;

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from caisson import curves
 from caisson.curves import FORCE_WINDOW, path_of, running_mean
 from caisson.plot import theory
 from caisson.results import Results, Table
@@ -18,6 +19,8 @@ COLORS = {
     "inner friction": "#2166ac",
     "outer friction": "#2e8b57",
 }
+WITH_WATER = "total with water on the tip"
+WATER_COLOR = "#7b3294"
 FRICTION = ("inner friction", "outer friction")
 # where the penetration of a body is measured
 LOWEST = {"caisson": "skirt tip", "pile": "pile base", "box": "base"}
@@ -52,7 +55,7 @@ def window_of(depth: np.ndarray) -> float:
 
 def draw_curve(axes: Axes, depth: np.ndarray, force: np.ndarray, name: str) -> None:
     """Draw a thin raw line and its running mean, in kN."""
-    color = COLORS[name]
+    color = COLORS.get(name, WATER_COLOR)
     axes.plot(force / 1e3, depth, color=color, linewidth=0.5, alpha=0.35)
     axes.plot(smooth(depth, force), depth, color=color, linewidth=MEAN, label=name)
 
@@ -174,6 +177,8 @@ def draw_panel(
         if column_of(name) in history and has_wall:
             draw_curve(axes, depth, history[column_of(name)], name)
     friction_only = names == FRICTION
+    if not friction_only and (force := curves.with_water(history)) is not None:
+        draw_curve(axes, depth, force, WITH_WATER)
     draw_bands(
         axes, answer, names if friction_only else ("total", "tip"), remark_on(history)
     )
