@@ -17,7 +17,9 @@ class WithWater(unittest.TestCase):
         }
         self.assertIsNone(curves.with_water(history))
         history["total_force_with_water_N"] = np.array([0, 300.0])  # of the last step
-        np.testing.assert_allclose(curves.with_water(history), [0, 304])
+        found = curves.with_water(history)
+        assert found is not None
+        np.testing.assert_allclose(found, [0, 304])
 
 
 if __name__ == "__main__":

@@ -102,7 +102,7 @@ class Walls(ProgramTest):
     def test_refusals(self) -> None:
         factor = {f"{LAYER}/Adhesion factor of the walls": 0.5}
         self.refused(
-            ["linear elastic has no Cohesion", "of the body"],
+            ["linear elastic has no undrained strength", "of the body"],
             entries={**factor, f"{LAYER}/Law": "linear elastic"},
         )
         self.refused(
