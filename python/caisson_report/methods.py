@@ -151,7 +151,7 @@ def resistance_beside(
 ) -> dict[str, Any]:
     """Return the table of the resistance (kN) under the suction of the run, by the run
     and by the methods for suction, each with what this suction leaves."""
-    total = design.forces_at(run.history, at)[design.FORCES[-1]] / 1e3
+    total = design.compared_at(run.history, at)[design.FORCES[-1]] / 1e3
     suction = np.maximum(required_at(run, at), 0)
     columns: dict[str, Any] = {
         "depth (m)": at,
@@ -253,7 +253,7 @@ def compared(run: Results, h: float) -> Compared | None:
     """Return the run beside Houlsby & Byrne at a depth, None where the method has no
     answer there or the run lacks a force."""
     site, at = theory.site_of(run), np.array([h])
-    known = design.forces_at(run.history, at)
+    known = design.compared_at(run.history, at)
     try:
         byrne = theory.houlsby_byrne_of(site, h)
     except theory.NotApplicable:
@@ -296,7 +296,7 @@ def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]
     sentence for each that is not, at a depth; answers: of jacking, at this depth. With
     suction only methods for suction are compared."""
     at, history = np.array([h]), run.history
-    known = design.forces_at(history, at)
+    known = design.compared_at(history, at)
     if set(known) != set(design.FORCES):
         return []
     computed = Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
@@ -400,7 +400,7 @@ def methods_of(run: Results) -> dict[str, Any]:
     with_suction, total = needs_suction(history), design.FORCES[-1]
     computed = None
     if total in history and not with_suction:
-        computed = design.forces_at(history, at)[total] / 1e3
+        computed = design.compared_at(history, at)[total] / 1e3
     tables, meaning = [forces_beside(computed, at, answers)], ""
     if with_suction:
         columns, meaning = relief.table_of(run, at)

@@ -42,6 +42,17 @@ def forces_at(history: Table, depth: np.ndarray) -> Table:
     }
 
 
+def compared_at(history: Table, depth: np.ndarray) -> Table:
+    """Return the forces at depths [n] that design methods speak of: in undrained and
+    coupled runs, tip and total contain the excess pressure of the water on the tip."""
+    total = curves.with_water(history)
+    if total is None:
+        return forces_at(history, depth)
+    tip = history["tip_force_N"] + history["tip_water_force_N"]
+    more = {"tip_force_N": tip, "total_force_N": total}
+    return forces_at(history | more, depth)
+
+
 def suction_at(history: Table, depth: np.ndarray) -> np.ndarray:
     """Return the required suction of a run, linear between its records, [n]."""
     rows = curves.way_down(history["penetration_m"])
