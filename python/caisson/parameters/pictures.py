@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The pictures of a study of parameters: fan.png and tornado.png."""
-import textwrap
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -156,7 +155,9 @@ def caption(outcomes: Outcomes, text: str) -> str:
             last = outcomes.grid[whole].max()
             words.append(f"quantiles as far as all runs reach, {last:.4g} m")
     if doubtful := [run.name for run in outcomes.all if run.warnings]:
-        names = textwrap.shorten("; ".join(doubtful), 90, placeholder=" ...")
+        names = "; ".join(doubtful)
+        if len(names) > 60:
+            names = f"{len(doubtful)} of {n} runs"
         words.append(f"with a warning about the result, see table.csv: {names}")
     return "\n".join([*words, text])
 

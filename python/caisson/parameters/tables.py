@@ -13,6 +13,7 @@ from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import DEPTH, Outcome, Outcomes, title_of, unit_of
 from caisson.parameters.sampling import LATIN, ONE
 
+MOST_WARNINGS = 6  # that are printed
 RANKS = (
     "Runs of one scene on different numbers of ranks differ by about 1 %, beside a thin"
     " wall by more (doc/limitations.md)."
@@ -109,8 +110,10 @@ def lines(outcomes: Outcomes, depth: float | None) -> Iterator[str]:
     for outcome in outcomes.all:
         if not outcome.is_complete:
             yield f"{outcome.name}: {outcome.status}, {outcome.why}".rstrip(", ")
-        for warning in outcome.warnings:
-            yield f"{outcome.name}: warning: {warning}"
+    warnings = [f"{o.name}: warning: {w}" for o in outcomes.all for w in o.warnings]
+    yield from warnings[:MOST_WARNINGS]
+    if len(warnings) > MOST_WARNINGS:
+        yield f"{len(warnings) - MOST_WARNINGS} more warnings: see table.csv"
     yield RANKS
 
 
