@@ -143,6 +143,46 @@ namespace CaissonMPM
     {
       return std::max({ddsdde[0], ddsdde[5], ddsdde[10], ddsdde[15]});
     }
+
+    /** What the answers to small strains say. Units: Pa. */
+    struct StiffnessByStress
+    {
+      double largest, trace; // the latter of strains of both signs
+    };
+
+    /** Throw BadInput where DDSDDE, of which @p bound and @p diagonal are the
+     * largest, cannot be true. */
+    void
+    check_stiffness(const std::string       &entry,
+                    const double             bound,
+                    const double             diagonal,
+                    const StiffnessByStress &by_stress,
+                    const Stress            &at)
+    {
+      if (by_stress.trace <= 0.)
+        throw BadInput(entry +
+                       ": the STRESS of the UMAT falls as the strain grows. "
+                       "Stress and strain are positive in tension here.");
+      if (bound > 100. * by_stress.largest)
+        throw BadInput(
+          entry + ": the UMAT's DDSDDE has " + to_text(bound, 4) +
+          " Pa, but its STRESS answers small strains with no more than " +
+          to_text(by_stress.largest, 4) +
+          " Pa. The time step follows from DDSDDE: correct it.");
+      if (diagonal <= 0. || by_stress.largest > 1.5 * bound)
+        throw BadInput(
+          entry + ": the UMAT's DDSDDE gives waves a stiffness of at most " +
+          to_text(bound, 4) +
+          " Pa, but its STRESS answers small strains with " +
+          to_text(by_stress.largest, 4) +
+          " Pa. The time step follows from DDSDDE: return at least the elastic "
+          "stiffness, in Pa, with the components 11, 22, 33, 12.");
+      if (bound < std::abs(at[0]) + std::abs(at[1]))
+        throw BadInput(entry + ": the stiffness of the UMAT, " +
+                       to_text(bound, 4) +
+                       " Pa, is less than the stress at the start. Give "
+                       "Properties such that it computes in Pa.");
+    }
   } // namespace
 
   UmatLaw::UmatLaw(const UmatSettings &settings,
@@ -157,6 +197,8 @@ namespace CaissonMPM
     , given_statev(with_guards(settings.variables, settings.n_variables))
     , statev(given_statev)
   {
+    behind_ddsdde.fill(guard);
+    behind_stress.fill(guard);
     given.npt = given.layer = given.kspt = given.jstep[0] = 1;
     given.ndi                                             = 3;
     given.nshr                                            = 1;
@@ -314,10 +356,22 @@ namespace CaissonMPM
            same(statev, given_statev, settings.n_variables);
   }
 
+  bool
+  UmatLaw::keeps_to_its_components() const
+  {
+    const auto same = [](const auto &list) {
+      return std::all_of(list.begin(), list.end(), [](const double x) {
+        return std::memcmp(&x, &guard, sizeof(double)) == 0;
+      });
+    };
+    return same(behind_stress) && same(behind_ddsdde);
+  }
+
   std::string
   UmatLaw::find_fault(const EndOfCall end) const
   {
-    if (end == EndOfCall::returned && keeps_input() && is_finite(stress, 4) &&
+    if (end == EndOfCall::returned && keeps_input() &&
+        keeps_to_its_components() && is_finite(stress, 4) &&
         is_finite(statev, settings.n_variables) && is_finite(ddsdde, 16) &&
         pnewdt >= 1.)
       return "";
@@ -326,6 +380,10 @@ namespace CaissonMPM
     if (end != EndOfCall::returned)
       return "has crashed with " + name_of_signal(end) +
              ". Compile it with -g -fcheck=all to find out where";
+    if (!keeps_to_its_components())
+      return "has written beyond the 4 components of STRESS or the 4 x 4 of "
+             "DDSDDE. NTENS is 4 here (11, 22, 33, 12): a UMAT for NTENS = 6 "
+             "needs its arrays by NTENS";
     if (!keeps_input())
       return changed_input();
     const std::string reads =
@@ -472,7 +530,7 @@ namespace CaissonMPM
     // 1. DDSDDE of small strains, and what the stress says
     const Answer none  = ask(at, {{0., 0., 0., 0.}});
     double       bound = acoustic_bound(none.ddsdde),
-           diagonal = largest_diagonal(none.ddsdde), measured = 0.;
+           diagonal = largest_diagonal(none.ddsdde), measured = 0., trace = 0.;
     for (const double sign : {1., -1.})
       {
         std::array<double, 16> found;
@@ -488,14 +546,9 @@ namespace CaissonMPM
                 (answer.stress[i] - none.stress[i]) / (sign * strain);
           }
         measured = std::max(measured, acoustic_bound(found));
+        trace += found[0] + found[5] + found[10] + found[15];
       }
-    if (diagonal <= 0. || measured > 1.5 * bound)
-      throw BadInput(
-        entry + ": the UMAT's DDSDDE gives waves a stiffness of at most " +
-        to_text(bound, 4) + " Pa, but its STRESS answers small strains with " +
-        to_text(measured, 4) +
-        " Pa. The time step follows from DDSDDE: return at least the elastic "
-        "stiffness, in Pa, with the components 11, 22, 33, 12.");
+    check_stiffness(entry, bound, diagonal, {measured, trace}, at);
     // 2. whether it changes with the stress
     Stress twice = at;
     for (double &component : twice)

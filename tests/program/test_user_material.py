@@ -306,6 +306,8 @@ FAULTS = {
     "((double *)props)[1] = .2;": ["changed PROPS"],
     "((int *)ntens)[0] = 6;": ["changed NTENS"],
     "statev[0] = 1.;": ["beyond its 0 State variables"],
+    "stress[5] = 1.;": ["beyond the 4 components", "NTENS is 4"],
+    "ddsdde[35] = 1.;": ["beyond the 4 components"],
     "*(volatile int *)0 = 1;": ["crashed with SIGSEGV"],
     "__builtin_trap();": ["crashed with SIGILL"],
     "__builtin_abort();": ["crashed with SIGABRT"],
@@ -344,6 +346,21 @@ class Faults(UserMaterialTest):
                 later = f"  if (*kinc == 4 && coords[0] < 1.) {{ {more} }}"
                 text = self.run_fault(FAILURE, "elastic.c", later)
                 self.assert_words([*words, "in step 3 at t = ", "at r = 0."], text)
+
+    def test_stiffness_that_stress_contradicts(self) -> None:
+        """A wrong sign, and a DDSDDE or units that are far off."""
+        for factors, words in (
+            ((-1, 1), ["falls as the strain grows"]),
+            ((1, 1e8), ["no more than", "correct it"]),
+            ((1e-6, 1e-6), ["less than the stress at the start", "in Pa"]),
+        ):
+            with self.subTest(factors):
+                more = "  for (int i = 0; i < 4; ++i) for (int j = 0; j < 4; ++j) {"
+                more += f" stress[i] += {factors[0] - 1} * ddsdde[i + 4 * j]"
+                more += " * dstran[j]; }\n"
+                more += f"  for (int i = 0; i < 16; ++i) ddsdde[i] *= {factors[1]};"
+                text = self.run_fault(BAD_INPUT, "elastic.c", more)
+                self.assert_words(words, text)
 
     def test_message_of_abaqus(self) -> None:
         """STDB_ABQERR prints, and ends the run where it is an error."""

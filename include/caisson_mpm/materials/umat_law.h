@@ -123,6 +123,9 @@ namespace CaissonMPM
     prepare(const Kernels::UserPoint &point);
     bool
     keeps_input() const;
+    /** Whether nothing was written behind STRESS and DDSDDE. */
+    bool
+    keeps_to_its_components() const;
     /** Say what is wrong with the answer; empty if nothing. */
     std::string
     find_fault(const EndOfCall end) const;
@@ -163,7 +166,9 @@ namespace CaissonMPM
     UmatInput                 given = {}, input = {};
     std::vector<double>       given_props, props, given_statev, statev;
     std::array<double, 16>    ddsdde;
+    std::array<double, 48>    behind_ddsdde; // guards: a UMAT for 6 components
     std::array<double, 4>     stress;
+    std::array<double, 32>    behind_stress;
     double                    pnewdt = 1.;
     // modulus over the largest entry on the diagonal of DDSDDE
     double modulus_ratio = 1.;
