@@ -112,11 +112,15 @@ def means_to_the_ends(
 
 
 def with_water(history: dict[str, np.ndarray]) -> np.ndarray | None:
-    """Return the total force with the excess pressure of the water on the tip [n_rows]
-    (N), which the body feels in undrained and coupled runs; None in others."""
+    """Return the total force with the excess pressure of the water on the tip, and with
+    that beneath a sealed lid [n_rows] (N), which the body feels in undrained and
+    coupled runs; None in others."""
     if "total_force_with_water_N" not in history:
         return None
-    return history["total_force_N"] + history["tip_water_force_N"]
+    force = history["total_force_N"] + history["tip_water_force_N"]
+    if "lid_water_balance" in history:
+        force = force - history["suction_force_N"]
+    return force
 
 
 def way_down(position: np.ndarray) -> np.ndarray:
@@ -179,7 +183,7 @@ def roughness(position: np.ndarray, force: np.ndarray) -> float:
 def largest_energy_ratio(history: Table) -> float:
     """Return the largest kinetic energy over external work, from FROM on (a
     share of 1)."""
-    deep = history["penetration_m"] >= FROM
+    deep = (history["penetration_m"] >= FROM) & (history["external_work_J"] != 0)
     if not deep.any():
         return float("nan")
     ratio = history["kinetic_energy_J"][deep] / history["external_work_J"][deep]

@@ -20,6 +20,7 @@ SAME = 1e-9  # m, of penetrations
 SAME_ROW = 1e-6  # m, of heights on the wall
 TINY = 1e-12  # m
 WALLS = ("inner", "outer")
+WATER = ("suction_force_N", "tip_water_force_N")
 SEGMENTS = 8  # of each wall
 # of the diameter, at which the stiffness is stated
 SMALL = (1e-4, 1e-3, 1e-2)
@@ -167,6 +168,11 @@ def springs_of(run: LoadedRun, weight: float) -> Springs:
     history, scene = run.results.history, run.results.scene
     if "diameter_m" not in scene:
         raise ResultsError(f"{run.directory} is not a finished run of a caisson")
+    if any(history[name].any() for name in WATER if name in history):
+        raise ResultsError(
+            f"in {run.directory} water presses on the caisson: springs of its walls and"
+            " tip are a part of the force only. Take a drained run"
+        )
     depth = history["penetration_m"]
     first, direction = last_motion(depth)
     if len(depth) < first + 5:

@@ -241,6 +241,14 @@ class Files(MadeUp):
         with self.assertRaisesRegex(ResultsError, "does not move"):
             last_motion(np.zeros(4))
 
+    def test_water(self) -> None:
+        """A part of the force is no answer."""
+        path = self.write("pull", -1)
+        text = (path / "history.csv").read_text(encoding="utf-8").splitlines()
+        text = [f"{text[0]},suction_force_N", *(f"{row},5e4" for row in text[1:])]
+        (path / "history.csv").write_text("\n".join(text), encoding="utf-8")
+        self.assertIn("Take a drained run", self.export(path, "--to", "tz")[1])
+
     def test_a_load_that_is_missing(self) -> None:
         """The run begins where the soil bears less than the weight."""
         status, text = self.export(

@@ -7,6 +7,13 @@ import numpy as np
 from caisson import curves
 from caisson.plot import design
 
+NAMES = [
+    "total_force_N",
+    "tip_water_force_N",
+    "total_force_with_water_N",
+    "lid_water_balance",
+]
+
 
 class WithWater(unittest.TestCase):
     """Undrained and coupled runs have it, others do not."""
@@ -21,6 +28,14 @@ class WithWater(unittest.TestCase):
         found = curves.with_water(history)
         assert found is not None
         np.testing.assert_allclose(found, [0, 304])
+
+    def test_sealed_lid(self) -> None:
+        """A pressure beneath it is borne by the caisson, too."""
+        history = {name: np.ones(2) for name in NAMES}
+        history["suction_force_N"] = np.array([0, -1500.0])
+        found = curves.with_water(history)
+        assert found is not None
+        np.testing.assert_allclose(found, [2, 1502])
 
     def test_compared_with_methods(self) -> None:
         """Methods of undrained clay know no effective stress."""

@@ -72,7 +72,14 @@ namespace CaissonMPM
       {
         if (!has(records, "total_force_with_water_N"))
           return;
-        const auto water = records.series("tip_water_force_N").value;
+        auto water = records.series("tip_water_force_N").value;
+        if (has(records,
+                "lid_water_balance")) // sealed: not the suction of a pump
+          {
+            const auto suction = records.series("suction_force_N").value;
+            for (std::size_t i = 0; i < water.size(); ++i)
+              water[i] -= suction[i];
+          }
         for (std::size_t i = 1; i < water.size(); ++i)
           with_water.push_back(force.back()[i - 1] + water[i]);
         with_water.push_back(with_water.back());

@@ -261,7 +261,10 @@ namespace CaissonMPM
     line.total       = row.total;
     if (number_named("total_force_with_water_N", row.counts))
       line.with_water =
-        row.total + number_named("tip_water_force_N", row.counts).value();
+        row.total + number_named("tip_water_force_N", row.counts).value() -
+        (number_named("lid_water_balance", row.counts) ? // sealed: no pump's
+           number_named("suction_force_N", row.counts).value() :
+           0.);
     line.kinetic_energy = row.kinetic_energy;
     line.max_speed      = row.max_speed;
     const auto column   = [&row](const std::string &name) {
