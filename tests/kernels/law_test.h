@@ -32,6 +32,41 @@ raise(double &largest, const double value)
     largest = value;
 }
 
+/** Strain soil along a straight @p path (rr, zz, tt, rz) to @p size times it, in
+ * @p n steps, and an independent reference, with @p finer as many. Return the
+ * largest difference of their stresses over scale(). */
+template <typename Soil, typename Reference, typename Scale>
+double
+largest_difference(Soil      &soil,
+                   Reference &exact,
+                   const double (&path)[4],
+                   const double size,
+                   const int    n,
+                   const int    finer,
+                   const Scale &scale)
+{
+  double worst = 0.;
+  for (int i = 0; i < n; ++i)
+    {
+      double de[4];
+      for (int k = 0; k < 4; ++k)
+        de[k] = path[k] * size / n / finer;
+      for (int k = 0; k < finer; ++k)
+        exact.strain(de);
+      soil.strain(StrainIncrement<Scalar>{path[0] * size / n,
+                                          path[1] * size / n,
+                                          path[2] * size / n,
+                                          path[3] * size / n});
+      const double own[4] = {soil.sigma.rr[0],
+                             soil.sigma.zz[0],
+                             soil.sigma.tt[0],
+                             soil.sigma.rz[0]};
+      for (int k = 0; k < 4; ++k)
+        raise(worst, std::fabs(own[k] - exact.s[k]) / scale());
+    }
+  return worst;
+}
+
 /** One point under strain, and the means to hold its lateral stress. */
 template <typename Law>
 class Sample
