@@ -24,6 +24,8 @@ from caisson.results import Table
 
 EDGE = 1e-9  # m
 FORCE_WINDOW = 0.2  # m, of the forces of a caisson
+# with excess pressure on the tip and beneath a sealed lid, where a run has such
+WITH_WATER = "total_force_with_water_N"
 FROM = 1.0  # m, of roughness and energy ratio: the start is left out
 
 
@@ -109,18 +111,6 @@ def means_to_the_ends(
     wide = half > EDGE
     means = np.where(wide, (high - low) / np.where(wide, 2 * half, 1.0), exact)
     return np.where(room < -EDGE, np.nan, means)
-
-
-def with_water(history: dict[str, np.ndarray]) -> np.ndarray | None:
-    """Return the total force with the excess pressure of the water on the tip, and with
-    that beneath a sealed lid [n_rows] (N), which the body feels in undrained and
-    coupled runs; None in others."""
-    if "total_force_with_water_N" not in history:
-        return None
-    force = history["total_force_N"] + history["tip_water_force_N"]
-    if "lid_water_balance" in history:
-        force = force - history["suction_force_N"]
-    return force
 
 
 def way_down(position: np.ndarray) -> np.ndarray:

@@ -112,7 +112,7 @@ def force_curves(run: Results) -> list[Curve]:
         if column_of(name) in history:
             force = smooth(depth, history[column_of(name)])
             found.append(line(name, color, force, depth, thick=True))
-    if (total := curves.with_water(history)) is not None:
+    if (total := history.get(curves.WITH_WATER)) is not None:
         mean = smooth(depth, total)
         found.append(line(WITH_WATER, WATER_COLOR, mean, depth, thick=True))
     return found

@@ -198,7 +198,7 @@ def installation_of(run: Results, rate: Rate) -> Installation | None:
     bars = bounds_at(run, "total_force", "N", at, total)
     if bars:
         found.force_bounds = bars.scaled(1e-3)
-    force = curves.with_water(history)
+    force = history.get(curves.WITH_WATER)
     if force is not None:
         depth = history["penetration_m"][rows]
         found.with_water = curves.smoothed_at(depth, force[rows], at) / 1e3

@@ -24,6 +24,7 @@ namespace CaissonMPM
       constexpr auto caisson    = &SceneParts::caisson;
       constexpr auto expanding  = &SceneParts::expanding_body;
       constexpr auto prescribed = &SceneParts::prescribed_soil;
+      constexpr auto water      = &SceneParts::water_on_body;
       static const std::vector<HistoryColumn> columns = [=] {
         std::vector<HistoryColumn> all = {
           {"time_s", [](Row row) { return row.time; }},
@@ -32,6 +33,9 @@ namespace CaissonMPM
           {"inner_friction_N", [](Row row) { return row.inner; }, body},
           {"outer_friction_N", [](Row row) { return row.outer; }, body},
           {"total_force_N", [](Row row) { return row.total; }, body},
+          {"total_force_with_water_N",
+           [](Row row) { return row.with_water; },
+           water},
           {"top_force_N", [](Row row) { return row.top; }, body},
           {"kinetic_energy_J", [](Row row) { return row.kinetic_energy; }},
           {"external_work_J", [](Row row) { return row.external_work; }},

@@ -30,11 +30,9 @@ namespace CaissonMPM
     {
       std::vector<double>                depth;
       std::array<std::vector<double>, 4> force; // tip, inner, outer, total
-      // with the excess pore pressure on the tip; empty where it is not
-      // computed
-      std::vector<double> with_water;
-      std::vector<double> suction; // that is required; empty without a lid
-      std::vector<double> margin;  // to piping: 1 less the gradient's share
+      std::vector<double> with_water; // empty where water bears nothing
+      std::vector<double> suction;    // that is required; empty without a lid
+      std::vector<double> margin;     // to piping: 1 less the gradient's share
 
       explicit Curves(const Records &records)
       {
@@ -72,17 +70,9 @@ namespace CaissonMPM
       {
         if (!has(records, "total_force_with_water_N"))
           return;
-        auto water = records.series("tip_water_force_N").value;
-        if (has(records,
-                "lid_water_balance")) // sealed: not the suction of a pump
-          {
-            const auto suction = records.series("suction_force_N").value;
-            for (std::size_t i = 0; i < water.size(); ++i)
-              water[i] -= suction[i];
-          }
-        for (std::size_t i = 1; i < water.size(); ++i)
-          with_water.push_back(force.back()[i - 1] + water[i]);
-        with_water.push_back(with_water.back());
+        const auto values = records.series("total_force_with_water_N").value;
+        with_water.assign(values.begin() + 1, values.end());
+        with_water.push_back(values.back());
       }
 
       /** Suction and gradients belong to the records, not to the middle between
@@ -226,19 +216,19 @@ namespace CaissonMPM
     /** Return how a pulled caisson with a sealed lid fails, by what bears it
      * and by how far the plug has followed. */
     std::string
-    mechanism(const double share_of_suction,
+    mechanism(const double share_of_water,
               const double share_that_plug_follows,
               const bool   boils)
     {
       constexpr double little = .1, half = .5;
       if (boils)
         return "cavitation beneath the lid";
-      if (share_of_suction < little)
+      if (share_of_water < little)
         return "drained: friction on both walls";
       if (share_that_plug_follows < half)
         return "partly drained: passive suction, and water flows in through the "
                "plug";
-      return "undrained: the plug rises with the caisson (reverse bearing)";
+      return "reverse bearing: the plug rises with the caisson";
     }
 
     /** The record in which the median of the pull over this and two records on
@@ -265,40 +255,101 @@ namespace CaissonMPM
       return best;
     }
 
+    /** The records over which a caisson rises, of which one has the largest
+     * pull. */
+    struct WayUp
+    {
+      std::size_t begin, most, end; // the last one, too
+
+      WayUp(const std::vector<double> &depth, const std::size_t most)
+        : begin(most)
+        , most(most)
+        , end(most)
+      {
+        while (begin > 0 && depth[begin - 1] >= depth[begin])
+          --begin;
+        while (end + 1 < depth.size() && depth[end + 1] <= depth[end])
+          ++end;
+      }
+
+      /** By how much a column has grown up to the largest pull. */
+      double
+      growth(const std::vector<double> &values) const
+      {
+        return values[most] - values[begin];
+      }
+    };
+
+    /** Whether the largest pull is a capacity: the pull falls later on the same
+     * way up, or is nearly constant over the last fifth of a rise that
+     * mobilizes friction. */
+    bool
+    is_capacity(const WayUp               &way,
+                const std::vector<double> &pull,
+                const std::vector<double> &depth,
+                const double               area)
+    {
+      constexpr double fallen = .98, last_fifth = .8, constant = .95;
+      constexpr double rise_of_friction = 5e-3; // m, that mobilizes it
+      constexpr double share            = .002; // of the diameter, of a model
+      const double     most             = pull[way.most];
+      if (*std::min_element(pull.begin() + way.most,
+                            pull.begin() + way.end + 1) < fallen * most)
+        return true;
+      const double rise     = -way.growth(depth),
+                   diameter = 2. * std::sqrt(area / pi);
+      if (rise < std::min(rise_of_friction, share * diameter))
+        return false;
+      std::size_t i = way.begin;
+      while (depth[way.begin] - depth[i] < last_fifth * rise)
+        ++i;
+      return pull[i] > constant * most;
+    }
+
+    bool
+    has_sealed_lid(const Records &records)
+    {
+      const auto names = records.names();
+      return std::find(names.begin(), names.end(), "lid_growth_m3") !=
+             names.end();
+    }
+
     /** What bears the largest pull of a caisson with a sealed lid. */
     Console::Lines
     lines_of_pull(const Records &records)
     {
-      const auto names = records.names();
-      if (std::find(names.begin(), names.end(), "lid_growth_m3") == names.end())
-        return {};
-      std::vector<double> pull = records.series("suction_force_N").value;
-      for (const char *const name : {"total_force_N", "tip_water_force_N"})
-        {
-          const auto force = records.series(name).value;
-          for (std::size_t i = 0; i < pull.size(); ++i)
-            pull[i] -= force[i];
-        }
+      std::vector<double> pull =
+        records.series("total_force_with_water_N").value;
+      for (double &value : pull)
+        value = -value;
       const auto most = record_of_largest(pull);
       if (!most)
         return {};
-      const auto value = [&](const char *const name) {
-        return records.series(name).value[*most];
+      const auto column = [&](const char *const name) {
+        return records.series(name).value;
       };
-      const double growth  = value("lid_growth_m3"),
-                   suction = value("suction_force_N");
+      const auto part = [&](const char *const name) {
+        return kilonewtons(-column(name)[*most]);
+      };
+      const auto   depth = column("penetration_m");
+      const WayUp  way(depth, *most);
+      const double water  = pull[*most] + column("total_force_N")[*most],
+                   rise   = -way.growth(depth),
+                   growth = way.growth(column("lid_growth_m3"));
+      const bool is_one =
+        rise > 0. && is_capacity(way, pull, depth, growth / rise);
       return {
         {"largest pull",
          kilonewtons(pull[*most]) + " kN at a penetration of " +
-           to_text(value("penetration_m"), 5) + " m: suction " +
-           kilonewtons(suction) + ", outer friction " +
-           kilonewtons(-value("outer_friction_N")) + ", inner friction " +
-           kilonewtons(-value("inner_friction_N")) + ", tip " +
-           kilonewtons(-value("tip_force_N") - value("tip_water_force_N")) +
-           " kN; " +
-           mechanism(suction / pull[*most],
-                     growth > 0. ? value("plug_rise_m3") / growth : 0.,
-                     value("lid_cavity_m3") > 0.)}};
+           to_text(depth[*most], 5) + " m: water beneath lid and tip " +
+           kilonewtons(water) + ", outer friction " + part("outer_friction_N") +
+           ", inner friction " + part("inner_friction_N") + ", tip " +
+           part("tip_force_N") + " kN; " +
+           (is_one ? mechanism(water / pull[*most],
+                               way.growth(column("plug_rise_m3")) / growth,
+                               column("lid_cavity_m3")[*most] > 0.) :
+                     "not the capacity: the pull neither fell nor levelled "
+                     "off")}};
     }
   } // namespace
 
@@ -308,20 +359,24 @@ namespace CaissonMPM
     const Curves curves(records);
     if (curves.depth.empty())
       return {};
-    const auto &total = curves.force.back();
+    const bool  has_water = !curves.with_water.empty();
+    const auto &total     = has_water ? curves.with_water : curves.force.back();
     const auto [least, largest] =
       std::minmax_element(total.begin(), total.end());
     const auto where = [&](const auto &force) {
-      return kilonewtons(*force) + " kN at a penetration of " +
+      return kilonewtons(*force) + (has_water ? " kN, with water," : " kN") +
+             " at a penetration of " +
              to_text(curves.depth[force - total.begin()], 5) + " m";
     };
+    const bool     is_sealed = has_sealed_lid(records);
     Console::Lines lines;
     if (*largest > 0.)
       lines.emplace_back("largest force", where(largest));
-    if (*least < 0.)
+    if (*least < 0. && !is_sealed)
       lines.emplace_back("largest tension", where(least));
-    for (const auto &line : lines_of_pull(records))
-      lines.push_back(line);
+    if (is_sealed)
+      for (const auto &line : lines_of_pull(records))
+        lines.push_back(line);
     if (const auto depth = self_weight_penetration(records))
       lines.emplace_back("rests by weight", "at " + to_text(*depth, 4) + " m");
     for (const bool down : {true, false})

@@ -144,6 +144,7 @@ namespace CaissonMPM
                                      "inner_friction_N",
                                      "outer_friction_N",
                                      "total_force_N",
+                                     "total_force_with_water_N",
                                      "suction_Pa",
                                      "required_suction_Pa",
                                      "cavitation_suction_Pa",
@@ -235,7 +236,8 @@ namespace CaissonMPM
   self_weight_penetration(const Records &records)
   {
     const auto names = records.names();
-    if (std::find(names.begin(), names.end(), "suction_Pa") == names.end())
+    if (std::find(names.begin(), names.end(), "required_suction_Pa") ==
+        names.end())
       return {};
     const auto suction = records.series("suction_Pa").value,
                depth   = records.series("penetration_m").value;
@@ -259,10 +261,12 @@ namespace CaissonMPM
     for (const double depth : way.round_depths())
       rows += (rows.empty() ? "\n      " : ",\n      ") +
               Json::flat_object(at_depth(way, columns, error_bar, depth));
-    const auto    total  = way.column("total_force_N");
+    const std::string total = way.has("total_force_with_water_N") ?
+                                "total_force_with_water_N" :
+                                "total_force_N";
     Json::Members result = {{"penetration_m", Json::number(way.depth.back())},
                             {"largest_force",
-                             largest(way, "total_force_N", total)}};
+                             largest(way, total, way.column(total))}};
     if (way.has("required_suction_Pa"))
       {
         if (const auto depth = self_weight_penetration(records))

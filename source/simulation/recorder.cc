@@ -63,6 +63,8 @@ namespace CaissonMPM
                    impulse_on_body[s][vertical]);
         totals.carry("recorded_force_on_" + surface, recorded_forces[s]);
       }
+    totals.keep("impulse_of_water", impulse_of_water);
+    totals.carry("recorded_force_of_water", recorded_force_of_water);
     totals.sum("impulse_on_soil_r", impulse_on_soil[radial]);
     totals.sum("impulse_on_soil_z", impulse_on_soil[vertical]);
     totals.keep("last_record", last_record);
@@ -95,7 +97,9 @@ namespace CaissonMPM
             number_named("skirt_length_m", shape.dimensions()).has_value(),
             shape.exists() && shape.expands(),
             parts.boundary_conditions.prescribe_a_region(),
-            parts.generator.splits_and_merges()};
+            parts.generator.splits_and_merges(),
+            shape.exists() && !shape.expands() &&
+              parts.water->traits().resists_body};
   }
 
   ResultLimits

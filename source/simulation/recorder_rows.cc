@@ -21,6 +21,8 @@ namespace CaissonMPM
   {
     for (unsigned int s = 0; s < n_surfaces; ++s)
       impulse_on_body[s] += on_body[s];
+    impulse_of_water +=
+      parts.clock.step_size * parts.water->resistance_to_body();
     impulse_on_soil += on_prescribed_soil;
     if (has_walls())
       walls.add_step(parts.contact);
@@ -122,12 +124,16 @@ namespace CaissonMPM
         row.total += *forces[s];
       }
     if (interval > 0.)
+      recorded_force_of_water = impulse_of_water / interval;
+    row.with_water = row.total + recorded_force_of_water;
+    if (interval > 0.)
       {
         row.cavity       = cavity_pressure(interval);
         row.prescribed_r = impulse_on_soil[radial] / interval;
         row.prescribed_z = impulse_on_soil[vertical] / interval;
       }
     impulse_on_body  = {};
+    impulse_of_water = 0.;
     impulse_on_soil  = Vector2();
     last_record      = parts.clock.time;
     travel_at_record = parts.body.motion().travel();
@@ -259,12 +265,8 @@ namespace CaissonMPM
     line.inner       = row.inner;
     line.outer       = row.outer;
     line.total       = row.total;
-    if (number_named("total_force_with_water_N", row.counts))
-      line.with_water =
-        row.total + number_named("tip_water_force_N", row.counts).value() -
-        (number_named("lid_water_balance", row.counts) ? // sealed: no pump's
-           number_named("suction_force_N", row.counts).value() :
-           0.);
+    if (scene_parts().water_on_body)
+      line.with_water = row.with_water;
     line.kinetic_energy = row.kinetic_energy;
     line.max_speed      = row.max_speed;
     const auto column   = [&row](const std::string &name) {

@@ -276,9 +276,6 @@ namespace CaissonMPM
                                                 0.);
     const NamedNumbers of_flow = FlowingWater::columns_with(mudline);
     result.insert(result.end(), of_flow.begin(), of_flow.end());
-    if (lid)
-      result.emplace_back("total_force_with_water_N",
-                          -last_force_on_body + tip.value());
     return result;
   }
 

@@ -17,6 +17,7 @@ namespace CaissonMPM
       lid = std::make_unique<LidCompartment>(scene);
     traits_.has_excess_pressure = true;
     traits_.uses_permeability   = true;
+    traits_.resists_body        = true;
     traits_.lid                 = lid.get();
     before_change = scene.grid.signals.before_change.connect([this]() {
       if (has_started)
@@ -29,7 +30,6 @@ namespace CaissonMPM
     });
     scene.totals.carry("water_has_started", has_started);
     scene.totals.keep("water_time", time);
-    scene.totals.carry("water_force_on_body", last_force_on_body);
   }
 
   void
@@ -116,8 +116,7 @@ namespace CaissonMPM
                          const double force_on_body,
                          const double)
   {
-    last_force_on_body = force_on_body;
-    this->time         = time + dt;
+    this->time = time + dt;
     if (lid)
       lid->end_step(this->time, dt, force_on_body, mudline, flow());
     return 0.;
@@ -177,7 +176,6 @@ namespace CaissonMPM
     if (lid)
       return lid->columns(mudline, now);
     return {{"tip_water_force_N", now.tip_force},
-            {"total_force_with_water_N", -last_force_on_body + now.tip_force},
             {"net_outflow_m3_s", -now.scale * now.in},
             {"flow_iterations", 1. * now.n_iterations}};
   }

@@ -193,11 +193,9 @@ namespace CaissonMPM
     const auto at_wall = [&](const Mudline::Side side) {
       return mudline.is_found() ? mudline.height_at_wall(side) : 0.;
     };
-    const double rise = heave(mudline), gas = suction_.gas_expansion(),
-                 travel = scene.body.motion().travel();
+    const double rise   = heave(mudline);
     NamedNumbers result = {
       {"suction_Pa", suction()},
-      {"required_suction_Pa", suction_.required()},
       {"cavitation_suction_Pa", suction_.cavitation(height_of_lid())},
       {"suction_force_N", load()},
       {"tip_water_force_N", flow.tip_force},
@@ -208,21 +206,26 @@ namespace CaissonMPM
       {"seepage_flow_m3_s", flow.scale * flow.out},
       {"seepage_inflow_m3_s", flow.scale * flow.in},
       {"seepage_volume_m3", seepage_volume},
-      {"pumped_volume_m3",
-       seepage_volume + area() * (travel + rise) + gas - volume_at_start},
-      {"gas_expansion_m3", gas},
       {"plug_heave_m", rise},
       {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
       {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
       {"flow_iterations", 1. * flow.n_iterations}};
     const NamedNumbers of_plug = plug_balance.columns(area() * rise);
     result.insert(result.end(), of_plug.begin(), of_plug.end());
-    if (is_sealed())
-      {
-        const NamedNumbers of_water = sealed.columns();
-        result.insert(result.end(), of_water.begin(), of_water.end());
-      }
+    const NamedNumbers more = is_sealed() ? sealed.columns() : of_pump(rise);
+    result.insert(result.end(), more.begin(), more.end());
     return result;
+  }
+
+  NamedNumbers
+  LidCompartment::of_pump(const double rise) const
+  {
+    const double travel = scene.body.motion().travel(),
+                 gas    = suction_.gas_expansion();
+    return {{"required_suction_Pa", suction_.required()},
+            {"pumped_volume_m3",
+             seepage_volume + area() * (travel + rise) + gas - volume_at_start},
+            {"gas_expansion_m3", gas}};
   }
 
   bool

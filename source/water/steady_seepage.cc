@@ -51,6 +51,7 @@ namespace CaissonMPM
   SteadySeepage::SteadySeepage(const WaterScene &scene)
     : FlowingWater(scene)
   {
+    traits_.resists_body = lid && lid->is_sealed();
     scene.forces.add(std::make_unique<SeepageForce>(*this));
   }
 

@@ -26,9 +26,9 @@ namespace CaissonMPM
         scene.grid.signals.after_change.connect([this]() { reinit(); }))
   {
     traits_.has_excess_pressure = true;
+    traits_.resists_body        = true;
     traits_.bulk_modulus        = scene.settings.undrained.bulk_modulus;
     scene.totals.keep("water_time", time);
-    scene.totals.carry("water_force_on_body", last_force_on_body);
   }
 
   void
@@ -77,11 +77,10 @@ namespace CaissonMPM
   double
   UndrainedWater::end_step(const double time,
                            const double dt,
-                           const double force_on_body,
+                           const double,
                            const double travel)
   {
-    this->time         = time + dt;
-    last_force_on_body = force_on_body;
+    this->time = time + dt;
     return tip.value() * travel;
   }
 
@@ -100,8 +99,6 @@ namespace CaissonMPM
   {
     NamedNumbers result = extremes.columns();
     result.emplace_back("tip_water_force_N", tip.value());
-    result.emplace_back("total_force_with_water_N",
-                        -last_force_on_body + tip.value());
     return result;
   }
 

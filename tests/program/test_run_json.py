@@ -99,6 +99,38 @@ class Schema(ProgramTest):
         ranks = {w["rank"]: w["text"] for w in results["warnings"]}
         self.assertIn("the body does not come to 3 m", ranks["cosmetic"])
 
+    def test_sealed_lid(self) -> None:
+        """It has no pump, and the force is the one that the caisson feels."""
+        path = self.directory()
+        entries: Entries = {
+            "Water/Level": "coupled",
+            "Water/Suction control": "sealed",
+            "Water/Lid leak": 1e-6,
+            "Soil/Layer 1/Permeability": 1e-5,
+            "Rigid body/Initial penetration": 1,
+            "Rigid body/Velocity table": "0:0, 0.2:5e-3, 0.6:5e-3, 1:-5e-3, 3:-5e-3",
+            "Time/End penetration": 1.1,
+            "Time/End time": 2,
+            "Method/Local damping": 0.4,
+            "Output/Record interval": 0.02,
+            "Output/Terminal": "full",
+        }
+        said = self.run_scene("jack", path, entries=entries)
+        found, rows = summary(path), history(path)
+        self.assertEqual(errors_of(found), [])
+        pump = {"required_suction_Pa", "pumped_volume_m3", "gas_expansion_m3"}
+        self.assertFalse(pump & set(rows[0]))
+        results = found["results"]
+        self.assertFalse({"largest_suction", "margins"} & set(results))
+        name = "total_force_with_water_N"
+        largest = max(rows, key=lambda row: row[name])
+        ratio = results["largest_force"][name] / largest[name]
+        self.assertAlmostEqual(ratio, 1, 9)
+        self.assertGreater(largest[name], 3 * largest["total_force_N"])
+        self.assertRegex(said, r"(?m)^largest force +[\d.]+ kN, with water, at")
+        self.assertNotIn("largest tension", said)
+        self.assertRegex(said, r"(?m)^largest pull .*not the capacity")
+
     def test_without_a_body(self) -> None:
         """It has no results but warnings, and no columns of a body."""
         path = self.directory()

@@ -3,6 +3,7 @@
 """Soil that no water leaves, with the water as a bulk modulus."""
 import shutil
 import unittest
+from itertools import pairwise
 from pathlib import Path
 
 from program import (
@@ -121,6 +122,27 @@ class Caisson(ProgramTest):
         self.assertGreater(water, 0.2 * undrained["total_force_with_water_N"])
         self.assertLess(undrained["tip_force_N"], 0.7 * drained["tip_force_N"])
         self.assertLess(abs(undrained["energy_residual"]), 0.02)
+
+    def test_force_with_water_is_a_mean(self) -> None:
+        """A row that is ten times as long has the mean of ten rows."""
+        rows = []
+        for interval in (0.005, 0.05):
+            entries: Entries = {
+                "Water/Level": "undrained",
+                "Output/Record interval": interval,
+                "Time/End penetration": 0.6,
+            }
+            rows.append(history(self.jack(f"{interval}", entries)))
+        self.assertGreater(len(rows[0]), 5 * len(rows[1]))
+        name, water = "total_force_with_water_N", "tip_water_force_N"
+        last_steps = []
+        for before, row in pairwise(rows[1]):
+            begin, end = before["time_s"] + 1e-6, row["time_s"] + 1e-6
+            inside = [x for x in rows[0] if begin < x["time_s"] < end]
+            mean = sum(x[name] for x in inside) / len(inside)
+            self.assertAlmostEqual(row[name] / mean, 1, delta=1e-3)
+            last_steps.append((row["total_force_N"] + row[water]) / mean)
+        self.assertGreater(max(abs(ratio - 1) for ratio in last_steps), 0.02)
 
     def test_open_lid_is_told(self) -> None:
         """A pull whose lid holds no water is no capacity where soil keeps its own."""

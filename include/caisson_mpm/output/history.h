@@ -26,6 +26,7 @@ namespace CaissonMPM
     double        lid            = 0.;
     double        cavity         = 0.; // mean pressure on a cylinder
     double        total          = 0.;
+    double        with_water     = 0.;
     double        kinetic_energy = 0.;
     double        external_work  = 0.;
     double        added_mass     = 0.;
@@ -45,7 +46,7 @@ namespace CaissonMPM
   struct SceneParts
   {
     bool body = true, caisson = true, expanding_body = true;
-    bool prescribed_soil = true, splitting = true;
+    bool prescribed_soil = true, splitting = true, water_on_body = true;
   };
 
   /** Return the names of the columns, the counts last. Others' scripts read

@@ -21,7 +21,7 @@ namespace CaissonMPM
   };
 
   /** Return the penetration by weight alone, from which on there is suction
-   * until the end; nothing without suction. Units: m. */
+   * until the end; nothing without a pump. Units: m. */
   std::optional<double>
   self_weight_penetration(const Records &records);
 

@@ -128,7 +128,7 @@ namespace CaissonMPM
     print_header(const ParameterOrigins &input);
 
     /** Add a step: the impulses of this rank's nodes, for the whole
-     * circumference. Units: N s. */
+     * circumference, and what the water has borne of the body. Units: N s. */
     void
     add_step(const SurfaceForces &on_body, const Vector2 &on_prescribed_soil);
 
@@ -277,6 +277,7 @@ namespace CaissonMPM
 
     // since the last record
     SurfaceForces impulse_on_body  = {};
+    double        impulse_of_water = 0.; // upward, the same on all ranks
     Vector2       impulse_on_soil  = Vector2();
     double        last_record      = 0.;
     double        last_frame       = 0.; // of all, before a stop
@@ -284,7 +285,9 @@ namespace CaissonMPM
     WallForces    walls;
     bool          wants_walls = false;
 
-    std::array<double, n_surfaces> recorded_forces = {}; // N, positive upward
+    // N, positive upward
+    std::array<double, n_surfaces> recorded_forces         = {};
+    double                         recorded_force_of_water = 0.;
 
     // since the start of this process
     double        point_steps       = 0.; // of this rank

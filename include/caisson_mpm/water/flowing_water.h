@@ -33,6 +33,11 @@ namespace CaissonMPM
       return (lid ? lid->load() : 0.) - flow().tip_force;
     }
     double
+    resistance_to_body() const override
+    {
+      return flow().tip_force - (lid && lid->is_sealed() ? lid->load() : 0.);
+    }
+    double
     end_step(const double time,
              const double dt,
              const double force_on_body,
@@ -124,8 +129,8 @@ namespace CaissonMPM
     bool                            is_solved        = false; // since reinit()
     bool                            has_started      = false;
     unsigned int                    steps_since_look = 0;
-    double                          time = 0., last_force_on_body = 0.; // s, N
-    double                          plug_rate = 0.;                     // m3/s
+    double                          time             = 0.; // s
+    double                          plug_rate        = 0.; // m3/s
 
   private:
     boost::signals2::scoped_connection before_change, after_change;

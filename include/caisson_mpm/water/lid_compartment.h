@@ -145,6 +145,11 @@ namespace CaissonMPM
     heave(const Mudline &mudline) const;
     double
     heave_by_wall() const;
+    /** Return the numbers of a record that a lid with a pump has, whose plug
+     * has risen by @p rise. Units: m. */
+    NamedNumbers
+    of_pump(const double rise) const;
+
     /** Continue the water beneath a sealed lid by a step. */
     void
     advance_sealed(const double     dt,

@@ -44,6 +44,7 @@ namespace CaissonMPM
     bool has_excess_pressure = false; // and needs the force on the body
     bool uses_permeability   = false;
     bool follows_soil        = false; // the pressure follows from its motion
+    bool resists_body        = false; // so that resistance_to_body() counts
     // in each direction in the path of the body, without Split and merge
     unsigned int least_points = 1;
     double       bulk_modulus = 0.; // that resists changes of volume, Pa
@@ -108,6 +109,16 @@ namespace CaissonMPM
      * lid, and less pressure beneath the tip. Units: N. */
     virtual double
     load_on_body() const
+    {
+      return 0.;
+    }
+
+    /** Return the upward force of the water that belongs to the resistance of
+     * the ground, as the effective force does: of the excess pressure on the
+     * tip, and of the water beneath a sealed lid. The suction of a pump is none
+     * of it. Units: N. */
+    virtual double
+    resistance_to_body() const
     {
       return 0.;
     }

@@ -39,6 +39,11 @@ namespace CaissonMPM
     {
       return -tip.value();
     }
+    double
+    resistance_to_body() const override
+    {
+      return tip.value();
+    }
     const double *
     cell_pressure() const override
     {
@@ -73,10 +78,10 @@ namespace CaissonMPM
     compute_pressure();
 
     boost::signals2::scoped_connection connection;
-    std::vector<double> pressure; // [n_cells], Pa; empty until it is computed
-    TipIntegral         tip;      // N
-    PressureExtremes    extremes; // of the last record
-    double              time = 0., last_force_on_body = 0.; // s, N
+    std::vector<double> pressure;  // [n_cells], Pa; empty until it is computed
+    TipIntegral         tip;       // N
+    PressureExtremes    extremes;  // of the last record
+    double              time = 0.; // s
   };
 } // namespace CaissonMPM
 

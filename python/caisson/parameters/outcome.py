@@ -60,7 +60,7 @@ class Outcome:
     @property
     def rest(self) -> float | None:
         """The penetration by weight alone (m), where suction follows it."""
-        if self.history is None or "suction_Pa" not in self.history:
+        if self.history is None or "required_suction_Pa" not in self.history:
             return None
         return rest_of_run(self.history)
 

@@ -45,7 +45,7 @@ def forces_at(history: Table, depth: np.ndarray) -> Table:
 def compared_at(history: Table, depth: np.ndarray) -> Table:
     """Return the forces at depths [n] that design methods speak of: in undrained and
     coupled runs, tip and total contain the excess pressure of the water on the tip."""
-    total = curves.with_water(history)
+    total = history.get(curves.WITH_WATER)
     if total is None:
         return forces_at(history, depth)
     tip = history["tip_force_N"] + history["tip_water_force_N"]

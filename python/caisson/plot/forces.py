@@ -177,7 +177,7 @@ def draw_panel(
         if column_of(name) in history and has_wall:
             draw_curve(axes, depth, history[column_of(name)], name)
     friction_only = names == FRICTION
-    if not friction_only and (force := curves.with_water(history)) is not None:
+    if not friction_only and (force := history.get(curves.WITH_WATER)) is not None:
         draw_curve(axes, depth, force, WITH_WATER)
     draw_bands(
         axes, answer, names if friction_only else ("total", "tip"), remark_on(history)

@@ -272,10 +272,10 @@ def set_depth_axis(axes: Axes, depth: np.ndarray, place: str) -> None:
 
 
 def draw(directory: Path, run: Results) -> list[Path]:
-    """Write suction.png; return its path, none without suction or without
+    """Write suction.png; return its path, none without a pump or without
     penetration."""
     history = run.history
-    if "suction_Pa" not in history:
+    if "required_suction_Pa" not in history:
         return []
     depth = penetration(history)
     if depth is None:
