@@ -21,14 +21,15 @@ from caisson.plot.forces import (
 from caisson.plot.suction import BLUE, CRITICAL, GREEN, RED, upper_end
 from caisson.plot.suction_methods import CONE_HIGH, CONE_LOW, HIGH, LOW
 from caisson.results import Results, Table
-from caisson_design.reasons import text_of
 from caisson_report.installation import (
     BOILING,
     COMPUTED,
     PUMP,
     Installation,
     depths_of,
+    texts_of,
 )
+from caisson_report.pull import PULL, is_pull, pull_parts
 
 SHOWN = ("tip", "total")  # parts of the methods in the interactive picture
 LIGHT = {  # of Houlsby & Byrne
@@ -205,11 +206,30 @@ def with_points(found: list[Curve]) -> list[Curve]:
     ]
 
 
+def pull_figure(run: Results) -> dict[str, Any]:
+    """Return the interactive figure of a pull: its parts (kN) over the rise (mm)."""
+    rise, parts = pull_parts(run)
+    shown = [
+        line(name, color, force, rise, thick=name == PULL)
+        for name, (color, force) in parts.items()
+    ]
+    return {
+        "id": "pull",
+        "title": "Pull, and what bears it, over the rise",
+        "axis": "force (kN)",
+        "upward": True,  # the other axis, which is in mm
+        "note": "What soil and water bear; the submerged weight is none of it.",
+        "curves": with_points(shown),
+    }
+
+
 def figures_of(run: Results, found: Installation | None) -> list[dict[str, Any]]:
     """Return the interactive figures: id, title, axis, note and curves that have
     points; the suction, where there is any, before the forces."""
     if penetration(run.history) is None:
         return []
+    if is_pull(run):
+        return [pull_figure(run)]
     figures = []
     if found is not None and found.has_suction:
         suctions = with_points(suction_curves(run, found))
@@ -264,7 +284,7 @@ def unit_table(run: Results) -> dict[str, Any]:
         columns[f"mean {side} friction over the embedded wall (kPa)"] = friction / (
             math.pi * width * at
         )
-    texts = [[text_of(value) for value in values] for values in columns.values()]
+    texts = [texts_of(values) for values in columns.values()]
     return {"heads": list(columns), "rows": [list(row) for row in zip(*texts)]}
 
 
@@ -294,10 +314,11 @@ def remarks_on_numbers(run: Results) -> list[str]:
         if (depth >= curves.FROM).sum() > 10:
             rough = 100 * curves.roughness(depth, history["total_force_N"])
             energy = 100 * curves.largest_energy_ratio(history)
-            found.append(
-                f"The curve scatters by {rough:.2g} % about its mean over"
-                f" {curves.FORCE_WINDOW} m."
-            )
+            if math.isfinite(rough):
+                found.append(
+                    f"The curve scatters by {rough:.2g} % about its mean over"
+                    f" {curves.FORCE_WINDOW} m."
+                )
             found.append(
                 f"Kinetic energy is at most {energy:.2g} % of the work: the run is "
                 + ("slow enough." if energy < 1 else "fast; halve the velocity to see.")

@@ -104,6 +104,7 @@
   }
 
   function options(figure, box) {
+    const turn = (value) => (figure.upward ? value : -value);
     const font = {
       size: 13,
       lineHeight: 16,
@@ -126,9 +127,10 @@
         tickFormatter: tickLabel,
       }],
       yaxes: [{
-        position: "left", axisLabel: "penetration of the skirt tip (m)", font: font,
+        position: "left", axisLabel: figure.upward ? "rise of the caisson (mm)" :
+          "penetration of the skirt tip (m)", font: font,
         autoScale: "none", min: box.top, max: box.bottom, tickColor: color("--rule"),
-        tickFormatter: tickLabel, transform: (v) => -v, inverseTransform: (v) => -v,
+        tickFormatter: tickLabel, transform: turn, inverseTransform: turn,
       }],
       zoom: { interactive: true },
       pan: { interactive: true, enableTouch: true },
@@ -200,7 +202,7 @@
     place.on("plothover", (event, position, item) => {
       value.textContent = item
         ? `${item.series.label}: ${number(item.datapoint[0])} at ` +
-          `${number(item.datapoint[1])} m`
+          `${number(item.datapoint[1])} ${figure.upward ? "mm" : "m"}`
         : "\u00a0";
     });
     section.querySelector(".buttons").onclick = (event) => {

@@ -12,7 +12,7 @@ from caisson import plot
 from caisson.lock import is_locked
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results
-from caisson_report import content, installation, methods, scene, sketch
+from caisson_report import content, installation, methods, pull, scene, sketch
 from caisson_report.installation import Installation, Rate
 
 HERE = Path(__file__).parent
@@ -144,7 +144,7 @@ def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any
     """Return sketch and tables of caisson and soil."""
     if not run.scene:
         return {"sketch": "", "caisson": [], "layers": {"rows": []}, "assumed": False}
-    depth = float(found.depth[-1]) if found is not None else 0.0
+    depth = float(np.max(run.history.get("penetration_m", np.zeros(1))))
     caisson, layers = scene.caisson_of(run), scene.layers_table(run)
     cells = [assumed for row in layers["rows"] for _, assumed in row]
     return {
@@ -207,7 +207,7 @@ def html(run: Results, rate: Rate) -> str:
     }
     summary = run.summary if run.scene or not run.is_running else {}
     title = str(summary.get("title") or run.directory.resolve().name)
-    cards = cards + methods.card_of(beside) if cards else []
+    cards = cards + methods.card_of(beside) if cards else pull.cards_of(run)
     warnings = warnings_of(summary)
     warnings["result"] += installation.piping_warning(run, found)
     return environment.get_template("page.html").render(

@@ -135,8 +135,17 @@ def use_of(run: Results) -> str:
     if not caisson_of(run) or not level:
         return ""
     has_weight = run.scene.get("submerged_weight_N") is not None
+    depth = run.history["penetration_m"]
+    if is_sealed(run) or depth[-1] < depth[0]:
+        lid = "sealed lid" if is_sealed(run) else "open lid"
+        return f"{level}, {lid}{', pulled up' if depth[-1] < depth[0] else ''}"
     how = "by weight and suction" if has_weight else "jacked, no suction"
     return f"{level}, {how}"
+
+
+def is_sealed(run: Results) -> bool:
+    """Return whether no pump takes water from beneath the lid."""
+    return "lid_water_balance" in run.history
 
 
 def is_assumed(run: Results, entry: str) -> bool:
@@ -235,9 +244,10 @@ def installation_of(run: Results) -> list[Item]:
     ):
         if path.startswith("Water/") and unit and weight is None:
             continue
+        if "pump" in name and is_sealed(run):
+            continue
         if value := entry_of(run, path):
-            is_number = value.replace(".", "").replace("e", "").isdigit()
-            text = with_unit(float(value), unit) if is_number else value
+            text = entry_with_unit(value, unit)
             found.append(Item(name, text, is_assumed(run, path)))
     return found
 

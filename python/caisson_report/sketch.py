@@ -176,7 +176,7 @@ def of_run(run: Results, depth: float, rest: float | None) -> str:
     drawing.height(drawing.x(-radius) - 14, lid, depth, f"L = {length:g} m")
     drawing.height(drawing.x(radius) + 14, 0, depth, f"h = {depth:.2f} m")
     words = f"t = {1000 * wall:g} mm"
-    drawing.text(drawing.x(radius), drawing.y(depth) + 15, words, "middle")
+    drawing.text(drawing.x(radius) + 4, drawing.y(depth) + 15, words)
     axis = WIDTH / 2
     drawing.line("axis", axis, drawing.y(lid), axis, drawing.y(bottom))
     if rest is not None and 0 < rest < depth:

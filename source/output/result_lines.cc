@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/text.h>
+#include <caisson_mpm/output/largest_pull.h>
 #include <caisson_mpm/output/result_lines.h>
 #include <caisson_mpm/output/run_results.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 namespace CaissonMPM
@@ -213,99 +213,6 @@ namespace CaissonMPM
 
   namespace
   {
-    /** Return how a pulled caisson with a sealed lid fails, by what bears it
-     * and by how far the plug has followed. */
-    std::string
-    mechanism(const double share_of_water,
-              const double share_that_plug_follows,
-              const bool   boils)
-    {
-      constexpr double little = .1, half = .5;
-      if (boils)
-        return "cavitation beneath the lid";
-      if (share_of_water < little)
-        return "drained: friction on both walls";
-      if (share_that_plug_follows < half)
-        return "partly drained: passive suction, and water flows in through the "
-               "plug";
-      return "reverse bearing: the plug rises with the caisson";
-    }
-
-    /** The record in which the median of the pull over this and two records on
-     * either side is largest, so that a single jump does not count; nothing
-     * where nothing pulls. */
-    std::optional<std::size_t>
-    record_of_largest(const std::vector<double> &pull)
-    {
-      constexpr std::size_t      beside = 2;
-      std::optional<std::size_t> best;
-      for (std::size_t i = beside; i + beside < pull.size(); ++i)
-        {
-          std::array<std::size_t, 2 * beside + 1> window;
-          std::iota(window.begin(), window.end(), i - beside);
-          std::nth_element(window.begin(),
-                           window.begin() + beside,
-                           window.end(),
-                           [&](const std::size_t a, const std::size_t b) {
-                             return pull[a] < pull[b];
-                           });
-          if (pull[window[beside]] > (best ? pull[*best] : 0.))
-            best = window[beside];
-        }
-      return best;
-    }
-
-    /** The records over which a caisson rises, of which one has the largest
-     * pull. */
-    struct WayUp
-    {
-      std::size_t begin, most, end; // the last one, too
-
-      WayUp(const std::vector<double> &depth, const std::size_t most)
-        : begin(most)
-        , most(most)
-        , end(most)
-      {
-        while (begin > 0 && depth[begin - 1] >= depth[begin])
-          --begin;
-        while (end + 1 < depth.size() && depth[end + 1] <= depth[end])
-          ++end;
-      }
-
-      /** By how much a column has grown up to the largest pull. */
-      double
-      growth(const std::vector<double> &values) const
-      {
-        return values[most] - values[begin];
-      }
-    };
-
-    /** Whether the largest pull is a capacity: the pull falls later on the same
-     * way up, or is nearly constant over the last fifth of a rise that
-     * mobilizes friction. */
-    bool
-    is_capacity(const WayUp               &way,
-                const std::vector<double> &pull,
-                const std::vector<double> &depth,
-                const double               area)
-    {
-      constexpr double fallen = .98, last_fifth = .8, constant = .95;
-      constexpr double rise_of_friction = 5e-3; // m, that mobilizes it
-      constexpr double share            = .002; // of the diameter, of a model
-      const double     most             = pull[way.most];
-      if (*std::min_element(pull.begin() + way.most,
-                            pull.begin() + way.end + 1) < fallen * most)
-        return true;
-      const double rise     = -way.growth(depth),
-                   diameter = 2. * std::sqrt(area / pi);
-      if (rise < std::min(rise_of_friction, share * diameter))
-        return false;
-      std::size_t i = way.begin;
-      while (depth[way.begin] - depth[i] < last_fifth * rise)
-        ++i;
-      return pull[i] > constant * most;
-    }
-
     bool
     has_sealed_lid(const Records &records)
     {
@@ -314,42 +221,18 @@ namespace CaissonMPM
              names.end();
     }
 
-    /** What bears the largest pull of a caisson with a sealed lid. */
-    Console::Lines
-    lines_of_pull(const Records &records)
+    std::string
+    pull_in_words(const LargestPull &most)
     {
-      std::vector<double> pull =
-        records.series("total_force_with_water_N").value;
-      for (double &value : pull)
-        value = -value;
-      const auto most = record_of_largest(pull);
-      if (!most)
-        return {};
-      const auto column = [&](const char *const name) {
-        return records.series(name).value;
-      };
-      const auto part = [&](const char *const name) {
-        return kilonewtons(-column(name)[*most]);
-      };
-      const auto   depth = column("penetration_m");
-      const WayUp  way(depth, *most);
-      const double water  = pull[*most] + column("total_force_N")[*most],
-                   rise   = -way.growth(depth),
-                   growth = way.growth(column("lid_growth_m3"));
-      const bool is_one =
-        rise > 0. && is_capacity(way, pull, depth, growth / rise);
-      return {
-        {"largest pull",
-         kilonewtons(pull[*most]) + " kN at a penetration of " +
-           to_text(depth[*most], 5) + " m: water beneath lid and tip " +
-           kilonewtons(water) + ", outer friction " + part("outer_friction_N") +
-           ", inner friction " + part("inner_friction_N") + ", tip " +
-           part("tip_force_N") + " kN; " +
-           (is_one ? mechanism(water / pull[*most],
-                               way.growth(column("plug_rise_m3")) / growth,
-                               column("lid_cavity_m3")[*most] > 0.) :
-                     "not the capacity: the pull neither fell nor levelled "
-                     "off")}};
+      return kilonewtons(most.pull) + " kN at a penetration of " +
+             to_text(most.penetration, 5) + " m: water beneath lid and tip " +
+             kilonewtons(most.water) + ", outer friction " +
+             kilonewtons(most.outer) + ", inner friction " +
+             kilonewtons(most.inner) + ", tip " + kilonewtons(most.tip) +
+             " kN; " +
+             (most.is_capacity ?
+                most.mechanism :
+                "not the capacity: the pull neither fell nor levelled off");
     }
   } // namespace
 
@@ -375,8 +258,8 @@ namespace CaissonMPM
     if (*least < 0. && !is_sealed)
       lines.emplace_back("largest tension", where(least));
     if (is_sealed)
-      for (const auto &line : lines_of_pull(records))
-        lines.push_back(line);
+      if (const auto most = largest_pull(records))
+        lines.emplace_back("largest pull", pull_in_words(*most));
     if (const auto depth = self_weight_penetration(records))
       lines.emplace_back("rests by weight", "at " + to_text(*depth, 4) + " m");
     for (const bool down : {true, false})

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/output/largest_pull.h>
 #include <caisson_mpm/output/run_results.h>
 
 #include <algorithm>
@@ -248,36 +249,53 @@ namespace CaissonMPM
     return {};
   }
 
+  namespace
+  {
+    Json::Members
+    of_way_down(const WayDown      &way,
+                const Records      &records,
+                const ErrorBar     &error_bar,
+                const ResultLimits &limits)
+    {
+      const Columns columns = columns_of(way, limits);
+      std::string   rows;
+      for (const double depth : way.round_depths())
+        rows += (rows.empty() ? "\n      " : ",\n      ") +
+                Json::flat_object(at_depth(way, columns, error_bar, depth));
+      const std::string total = way.has("total_force_with_water_N") ?
+                                  "total_force_with_water_N" :
+                                  "total_force_N";
+      Json::Members result = {{"penetration_m", Json::number(way.depth.back())},
+                              {"largest_force",
+                               largest(way, total, way.column(total))}};
+      if (way.has("required_suction_Pa"))
+        {
+          if (const auto depth = self_weight_penetration(records))
+            result.emplace_back("rest_penetration_m", Json::number(*depth));
+          result.emplace_back("largest_suction",
+                              largest(way,
+                                      "required_suction_Pa",
+                                      way.column("required_suction_Pa")));
+          result.emplace_back("margins", Json::object(margins(way, limits), 4));
+        }
+      result.emplace_back("at_depths", "[" + rows + "\n    ]");
+      return result;
+    }
+  } // namespace
+
   Json::Members
   run_results(const Records      &records,
               const ErrorBar     &error_bar,
               const ResultLimits &limits)
   {
     const WayDown way(records);
-    if (way.depth.size() < 2 || !way.has("total_force_N"))
-      return {};
-    const Columns columns = columns_of(way, limits);
-    std::string   rows;
-    for (const double depth : way.round_depths())
-      rows += (rows.empty() ? "\n      " : ",\n      ") +
-              Json::flat_object(at_depth(way, columns, error_bar, depth));
-    const std::string total = way.has("total_force_with_water_N") ?
-                                "total_force_with_water_N" :
-                                "total_force_N";
-    Json::Members result = {{"penetration_m", Json::number(way.depth.back())},
-                            {"largest_force",
-                             largest(way, total, way.column(total))}};
-    if (way.has("required_suction_Pa"))
-      {
-        if (const auto depth = self_weight_penetration(records))
-          result.emplace_back("rest_penetration_m", Json::number(*depth));
-        result.emplace_back("largest_suction",
-                            largest(way,
-                                    "required_suction_Pa",
-                                    way.column("required_suction_Pa")));
-        result.emplace_back("margins", Json::object(margins(way, limits), 4));
-      }
-    result.emplace_back("at_depths", "[" + rows + "\n    ]");
+    Json::Members result;
+    if (!way.has("total_force_N"))
+      return result;
+    if (way.depth.size() >= 2)
+      result = of_way_down(way, records, error_bar, limits);
+    if (const auto pull = largest_pull(records))
+      result.emplace_back("largest_pull", Json::flat_object(pull->json()));
     return result;
   }
 } // namespace CaissonMPM

@@ -26,11 +26,11 @@ namespace CaissonMPM
   self_weight_penetration(const Records &records);
 
   /**
-   * Return the results of the way down: the largest force, the forces at each
+   * Return the results. Of the way down: the largest force, the forces at each
    * half meter and at the end, with their error bars where they are known, and
    * with suction the penetration by weight, the largest suction, and the
    * margins to piping, boiling of the water, pump and lid. Values at depths are
-   * means over 0.2 m. Empty for a body that does not go down.
+   * means over 0.2 m. Of a way up, the largest pull.
    */
   Json::Members
   run_results(const Records      &records,
