@@ -30,18 +30,18 @@ class Pulled(WithPage):
     def leave_pull(self, sealed: bool, **more: Any) -> Results:
         """Leave a run that rises from 2 to 1.9 m."""
         depth = np.linspace(2, 1.9, 51)
-        share = np.minimum((2 - depth) / 0.05, 1)
-        table = {"time_s": 2 - depth, "penetration_m": depth}
+        share = np.minimum((2 - depth) / 0.05, 1.0)
+        table: dict[str, np.ndarray] = {"time_s": 2 - depth, "penetration_m": depth}
         parts = {"outer_friction": 2e5, "inner_friction": 1e5, "tip_force": 0.0}
         for name, most in {**parts, "total_force": 3e5}.items():
             table[f"{name}_N"] = -most * share
         if sealed:
             table["total_force_with_water_N"] = -9e5 * share
-            table["tip_water_force_N"] = table["lid_water_balance"] = 0 * share
+            table["tip_water_force_N"] = table["lid_water_balance"] = 0.0 * share
         table["external_work_J"] = 1e5 * share + 1
-        table["kinetic_energy_J"] = 0 * share
+        table["kinetic_energy_J"] = 0.0 * share
         found = {**PULL, **more}
-        summary = {**SUMMARY, "results": {"largest_pull": found}}
+        summary: dict[str, Any] = {**SUMMARY, "results": {"largest_pull": found}}
         summary["entries"] = {"Water/Level": "coupled" if sealed else "drained"}
         write_run(self.path, table, summary)
         return Results(self.path)
