@@ -316,10 +316,10 @@ class SealedLid(ProgramTest):
             self.run_scene("jack", path, entries=entries)
             rows = [row for row in history(path) if row["penetration_m"] < 0.985]
             flow = [row["seepage_flow_m3_s"] / (AREA * 0.01) for row in rows]
-            self.assertAlmostEqual(np.mean(flow), 1, delta=0.02)
+            self.assertAlmostEqual(float(np.mean(flow)), 1, delta=0.02)
             for row in rows:
                 self.assertLess(abs(row["lid_water_balance"]), 1e-8)
-            suction.append(np.mean([row["suction_Pa"] for row in rows]))
+            suction.append(float(np.mean([row["suction_Pa"] for row in rows])))
         self.assertAlmostEqual(suction[1] / suction[0], 10, delta=0.3)
 
     def test_restart_and_ranks(self) -> None:

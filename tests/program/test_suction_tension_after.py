@@ -192,7 +192,7 @@ class AfterInstallation(ProgramTest):
             (last[key] - first[key]) / time
             for key in ("seepage_volume_m3", "lid_growth_m3", "plug_rise_m3")
         )
-        suction = np.mean([row["suction_Pa"] for row in late])
+        suction = float(np.mean([row["suction_Pa"] for row in late]))
         self.assertAlmostEqual(seeps / (conductance * suction), 1, delta=0.1)
         self.assertAlmostEqual((seeps + rises) / grows, 1, delta=0.01)
         self.assertAlmostEqual(
