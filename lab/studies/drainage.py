@@ -21,10 +21,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from caisson import table
-from caisson.paths import short
 from caisson.results import ResultsError
 from caisson.study import Options, Study, StudyError, StudyRun
+from lab import outcome
 
 NAME = "drainage"
 STUDY_KEYS = set("width velocity depths at_rest".split())
@@ -126,12 +125,5 @@ def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
             rows.append([study.id, "coupled", *numbers])
     all_axes[0].set_ylabel("resistance over the drained one")
     all_axes[0].legend(fontsize=8, loc="lower left")
-    figure.tight_layout()
-    path = options.results / "drainage.png"
-    figure.savefig(path, dpi=130)
-    print(f"drainage: {short(path)}")
-    table.write_csv(options.results / "table.csv", COLUMNS, rows)
-    text = table.markdown(COLUMNS, rows)
-    (options.results / "table.md").write_text(text + "\n", encoding="utf-8")
-    print(text)
+    outcome.write(NAME, options.results, figure, COLUMNS, rows)
     return 0

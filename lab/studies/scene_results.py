@@ -35,8 +35,31 @@ QUANTITIES = {
     "tip_force_N": "tip",
     "required_suction_Pa": "suction",
 }
-# an installation that comes first, and how far it goes (m)
-AFTER = {"pull_out_after": ("jack", 2.0)}
+# what comes before a scene: runs of other scenes, each after the one before it
+AFTER: dict[str, list[tuple[str, Entries]]] = {
+    "pull_out_after": [("jack", {"Time/End penetration": 2.0})],
+    "springs": [("jack", {"Time/End penetration": 2.0})],
+    "tension_after": [
+        (
+            "suction_coupled",
+            {
+                "Time/End penetration": 2.0,
+                "Time/Inertia tolerance": "none",
+                "Time/Mass scaling": 100,
+            },
+        ),
+        (
+            "tension_after",
+            {
+                "Rigid body/Velocity": 0,
+                "Rigid body/Ramp time": 0,
+                "Water/Time compression": 1000,
+                "Time/End penetration": "never",
+                "Time/End time": 5,
+            },
+        ),
+    ],
+}
 
 
 @dataclass
@@ -117,11 +140,16 @@ def run_of(scene: str, way: str, results: Path, program: Path) -> Run | None:
     }
     file = SCENES / f"{scene}.prm"
     if scene in AFTER and way == WHOLE:
-        first, depth = AFTER[scene]
-        before = results / way / f"{first}_first"
-        end = {"Time/End penetration": depth}
-        Run(SCENES / f"{first}.prm", end, before, program=program).execute()
-        entries["Installation/Directory"] = str(before)
+        start: dict[str, object] = {}
+        for name, changes in AFTER[scene]:
+            before = results / way / f"{name}_before_{scene}"
+            run = Run(
+                SCENES / f"{name}.prm", {**changes, **start}, before, program=program
+            )
+            if not run.is_complete():
+                run.execute()
+            start = {"Installation/Directory": str(before)}
+        entries.update(start)
     if way == SHORT:
         short = short_way(Run(file, entries, results, program=program))
         if short is None:

@@ -14,10 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from caisson import table
-from caisson.paths import short
 from caisson.results import ResultsError
 from caisson.study import Options, Study, StudyError, StudyRun
+from lab import outcome
 
 from .drainage import group_of
 
@@ -111,12 +110,5 @@ def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
                 ]
             )
     all_axes[0].legend(fontsize=8)
-    figure.tight_layout()
-    path = options.results / "tension.png"
-    figure.savefig(path, dpi=130)
-    print(f"tension: {short(path)}")
-    table.write_csv(options.results / "table.csv", COLUMNS, rows)
-    text = table.markdown(COLUMNS, rows)
-    (options.results / "table.md").write_text(text + "\n", encoding="utf-8")
-    print(text)
+    outcome.write(NAME, options.results, figure, COLUMNS, rows)
     return 0

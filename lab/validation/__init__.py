@@ -17,10 +17,9 @@ from typing import Any, Protocol
 
 from matplotlib.figure import Figure
 
-from caisson import table
-from caisson.paths import short
 from caisson.runner import Run
 from caisson.study import Options, Study, StudyError
+from lab import outcome
 from lab.validation.verdict import COLUMNS, Row
 
 NAME = "validation"
@@ -88,12 +87,8 @@ def evaluate(studies: Sequence[Study], options: Options, minutes: float) -> int:
         measured = measured_of(folder, study.keys)
         rows += comparison_of(study.keys).compare(study, measured, figure)
         path = options.results / f"{study.id}.png"
-        figure.savefig(path, dpi=130)
-        print(f"validation: {short(path)}")
+        outcome.write_picture(NAME, path, figure)
     texts = [row.texts() for row in rows]
-    table.write_csv(options.results / "table.csv", COLUMNS, texts)
-    text = table.markdown(COLUMNS, texts)
-    (options.results / "table.md").write_text(text + "\n", encoding="utf-8")
-    print(text)
+    outcome.write_table(options.results, COLUMNS, texts)
     print(f"validation: {len(rows)} rows, {minutes:.1f} minutes")
     return int(any(row.fails for row in rows))

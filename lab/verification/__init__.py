@@ -27,11 +27,11 @@ from typing import Any
 
 import numpy as np
 
-from caisson import table
 from caisson.results import ResultsError, read_table
 from caisson.study import Options, Study, StudyError, StudyRun
 from caisson.table import number
 from caisson_error import error_bar
+from lab import outcome
 from lab.machine import machine
 
 NAME = "verification"
@@ -167,15 +167,9 @@ def evaluate(studies: Sequence[Study], options: Options, minutes: float) -> int:
     passes or falls short no more than the file says, otherwise 1."""
     found = [table_row(study, row) for study in studies for row in study.keys["checks"]]
     rows = [[row[column] for column in COLUMNS] for row in found]
-    table.write_csv(options.results / "table.csv", COLUMNS, rows)
-    text = table.markdown(COLUMNS, rows)
-    (options.results / "table.md").write_text(
-        f"# Verification\n\n`scripts/lab verify`, {machine()}, {minutes:.0f} minutes."
-        "\n\n"
-        f"{text}\n",
-        encoding="utf-8",
-    )
-    print(text)
+    heading = f"`scripts/lab verify`, {machine()}, {minutes:.0f} minutes."
+    heading = f"# Verification\n\n{heading}\n\n"
+    outcome.write_table(options.results, COLUMNS, rows, heading)
     n_failed = sum(row["verdict"].startswith(FAIL) for row in found)
     n_known = sum(row["verdict"].startswith(KNOWN) for row in found)
     n_passed = len(rows) - n_failed - n_known

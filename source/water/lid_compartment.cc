@@ -95,6 +95,8 @@ namespace CaissonMPM
   void
   LidCompartment::continue_after(const Mudline &mudline)
   {
+    if (!is_sealed())
+      sealed = SealedLid(); // an open lid keeps no cavity
     const double travel = scene.body.motion().travel();
     volume_at_start =
       area() * (travel + heave(mudline)) + suction_.gas_expansion();
@@ -152,7 +154,8 @@ namespace CaissonMPM
     if (!sealed.has_started())
       sealed.start(suction(),
                    area() * (height_of_lid() -
-                             mudline.mean_height(Mudline::Side::plug)),
+                             mudline.mean_height(Mudline::Side::plug)) -
+                     sealed.cavity(),
                    displaced);
     sealed.advance(dt,
                    displaced,

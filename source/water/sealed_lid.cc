@@ -39,6 +39,7 @@ namespace CaissonMPM
     C                  = std::max(volume, 0.) / own.bulk_modulus;
     suction_           = suction;
     expansion_at_start = expansion(suction);
+    cavity_at_start    = cavity_; // that of the run before
     displaced_ = displaced_at_start = displaced;
   }
 
@@ -79,8 +80,8 @@ namespace CaissonMPM
   SealedLid::columns() const
   {
     const double expanded = expansion(suction_) - expansion_at_start - raised,
-                 error =
-                   expanded + cavity_ - growth() + risen_ + seepage + leaked;
+                 error    = expanded + (cavity_ - cavity_at_start) - growth() +
+                         risen_ + seepage + leaked;
     return {{"lid_growth_m3", growth()},
             {"plug_rise_m3", risen_},
             {"lid_leak_m3", leaked},
@@ -96,7 +97,8 @@ namespace CaissonMPM
     totals.keep("sealed_compliance", C);
     totals.keep("sealed_suction", suction_);
     totals.keep("sealed_expansion_at_start", expansion_at_start);
-    totals.keep("sealed_cavity", cavity_);
+    totals.carry("sealed_cavity", cavity_);
+    totals.keep("sealed_cavity_at_start", cavity_at_start);
     totals.keep("sealed_displaced", displaced_);
     totals.keep("sealed_displaced_at_start", displaced_at_start);
     totals.keep("sealed_risen", risen_);

@@ -95,6 +95,32 @@ class UserScenes(ProgramTest):
         self.assertIn("Rigid body/Velocity = -0.1, there 0.1", text)
         self.assertNotIn("warning", text)
 
+    def test_tension_after_is_valid(self) -> None:
+        """After a short piece of its installation, which rests at once."""
+        before, after = self.directory("before"), self.directory("after")
+        entries: Entries = {
+            "Time/End penetration": "never",
+            "Time/End time": 0.02,
+            "Time/Inertia tolerance": "none",
+            "Time/Mass scaling": 100,
+        }
+        words = ("--output-directory", before)
+        self.run_program(
+            SUCCESS, user_scene("suction_coupled"), *words, entries=entries
+        )
+        entries |= {
+            "Installation/Directory": before,
+            "Rigid body/Velocity": 0,
+            "Rigid body/Ramp time": 0,
+            "Water/Time compression": 1000,
+            "Time/End time": 0.1,
+        }
+        words = ("--output-directory", after)
+        text = self.run_program(
+            SUCCESS, user_scene("tension_after"), *words, entries=entries
+        )
+        self.assertIn("Water/Suction control = sealed, there required", text)
+
     def test_column(self) -> None:
         path = self.directory()
         self.run_program(SUCCESS, user_scene("column"), "--output-directory", path)

@@ -125,6 +125,96 @@ check_cavity()
   verdict("  balance", balance_of(lid), 1e-12);
 }
 
+/** A lid over tight soil that leaks, in closed form: suction and cavity. */
+struct Leaking
+{
+  double C, L; // m3/Pa, m3/(s Pa)
+  double suction = 0., cavity = 0.;
+
+  /** Grow by the rate @p q for a time. Units: m3/s, s. */
+  void
+  grow(const double q, double time)
+  {
+    if (cavity > 0.) // the leak fills it, and the lid, which comes back
+      {
+        const double rate   = q - L * boiling,
+                     closes = rate < 0. ? -cavity / rate : time;
+        if (closes >= time)
+          {
+            cavity += rate * time;
+            return;
+          }
+        cavity = 0.;
+        time -= closes;
+      }
+    const double last = q / L,
+                 end  = last + (suction - last) * std::exp(-L / C * time);
+    if (end > boiling)
+      {
+        const double opens =
+          C / L * std::log((last - suction) / (last - boiling));
+        suction = boiling;
+        cavity += (q - L * boiling) * (time - opens);
+      }
+    else
+      suction = end;
+  }
+};
+
+void
+check_cavity_in_cycles()
+{
+  heading("a leak, and cycles in which a cavity opens and closes again");
+  constexpr double velocity = .01, of_valve = 2e-7; // m/s, m3/(s Pa)
+  SealedLid        lid;
+  lid.set_properties({of_valve, modulus, 0., 1e6});
+  lid.start(0., volume, 0.);
+  Leaking exact{volume / modulus, of_valve};
+  double  place = 0., error = 0., of_cavity = 0., above = 0., open = 0.;
+  for (const double v : {velocity, -velocity, velocity, -velocity, velocity})
+    {
+      constexpr unsigned int parts = 10;
+      for (unsigned int i = 0; i < parts; ++i)
+        {
+          pull(lid, v, 1. / parts, place, 0.);
+          exact.grow(area * v, 1. / parts);
+          error = std::max(error, std::abs(lid.suction() - exact.suction));
+          of_cavity =
+            std::max(of_cavity, std::abs(lid.cavity() - exact.cavity));
+          above = std::max(above, lid.suction() - boiling);
+          open  = std::max(open, exact.cavity);
+        }
+      if (v < 0.)
+        verdict("  back: cavity", lid.cavity(), 0.);
+    }
+  verdict("  error over the suction at which it boils", error / boiling, .005);
+  verdict("  above that suction", above, 0.);
+  verdict("  cavity, error over the largest", of_cavity / open, .01);
+  verdict("  balance", balance_of(lid), 1e-12);
+}
+
+/** Another run begins with the cavity that the one before has left. */
+void
+check_cavity_goes_on()
+{
+  heading("a cavity that another run begins with");
+  SealedLid lid;
+  lid.set_properties({0., modulus, 0., 1e6});
+  lid.start(0., volume, 0.);
+  double place = 0.;
+  pull(lid, .01, 1., place, 0.);
+  const double left = lid.cavity();
+  lid.start(lid.suction(), volume, -area * place);
+  verdict("  cavity", std::abs(lid.cavity() - left), 0.);
+  const double half = left / area / 2.;
+  pull(lid, -half, 1., place, 0.);
+  verdict("  suction while half of it is left",
+          std::abs(lid.suction() - boiling),
+          0.);
+  verdict("  half of it", std::abs(lid.cavity() / left - .5), 1e-12);
+  verdict("  balance", balance_of(lid), 1e-12);
+}
+
 void
 check_least_compliance()
 {
@@ -154,5 +244,7 @@ main()
   check_cycles();
   check_gas();
   check_cavity();
+  check_cavity_in_cycles();
+  check_cavity_goes_on();
   check_least_compliance();
 }

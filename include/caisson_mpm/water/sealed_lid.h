@@ -56,8 +56,9 @@ namespace CaissonMPM
       own = properties;
     }
 
-    /** Begin with this suction and volume of water, while the body displaces
-     * the volume @p displaced, A times its travel downward. Units: Pa, m3. */
+    /** Begin with this suction and volume of water, and with the cavity that a
+     * run before has left, while the body displaces the volume @p displaced, A
+     * times its travel downward. Units: Pa, m3. */
     void
     start(const double suction, const double volume, const double displaced);
 
@@ -125,9 +126,10 @@ namespace CaissonMPM
     bool       started  = false;
     double     C        = 0.;               // m3/Pa
     double     suction_ = 0., cavity_ = 0.; // Pa, m3
-    // E at the start, and what has passed since then, m3
-    double expansion_at_start = 0., displaced_ = 0., displaced_at_start = 0.,
-           risen_ = 0., seepage = 0., leaked = 0., raised = 0.;
+    // E and cavity at the start, and what has passed since then, m3
+    double expansion_at_start = 0., cavity_at_start = 0., displaced_ = 0.,
+           displaced_at_start = 0., risen_ = 0., seepage = 0., leaked = 0.,
+           raised = 0.;
     double passed = 0.; // the sum of all magnitudes, m3
   };
 } // namespace CaissonMPM

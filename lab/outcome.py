@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a study of the laboratory leaves: a picture, and its table in two formats."""
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from caisson import table
+from caisson.paths import short
+
+
+def write_picture(kind: str, path: Path, figure: Figure) -> None:
+    """Write a picture, and say where it is."""
+    figure.savefig(path, dpi=130)
+    print(f"{kind}: {short(path)}")
+
+
+def write_table(
+    results: Path,
+    columns: Sequence[str],
+    rows: Sequence[Sequence[Any]],
+    heading: str = "",
+) -> None:
+    """Write table.csv and, below the heading, table.md; print the table."""
+    table.write_csv(results / "table.csv", columns, rows)
+    text = table.markdown(columns, rows)
+    (results / "table.md").write_text(f"{heading}{text}\n", encoding="utf-8")
+    print(text)
+
+
+def write(
+    kind: str,
+    results: Path,
+    figure: Figure,
+    columns: Sequence[str],
+    rows: Sequence[Sequence[Any]],
+) -> None:
+    """Write KIND.png, table.csv and table.md, and print the table."""
+    figure.tight_layout()
+    write_picture(kind, results / f"{kind}.png", figure)
+    write_table(results, columns, rows)
