@@ -34,14 +34,7 @@ from caisson.paths import INSTALLED
 from caisson.runner import RunError, query
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson.suggest.sizes import (
-    LEVELS,
-    Body,
-    Level,
-    frames_of,
-    mesh_of,
-    start_of,
-)
+from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
 from caisson.suggest.soil import layers_of
 from caisson_design import InputError, cone_file
 from caisson_design import interpretation
