@@ -17,6 +17,7 @@ M. F. Randolph, C. P. Wroth (1978), Analysis of deformation of vertically loaded
   J. Geotech. Eng. Div. ASCE 104, 1465-1488.
 """
 import math
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -191,6 +192,19 @@ def begin_of(force: np.ndarray) -> tuple[int, float]:
     return row, float(-force[row] / (force[row + 1] - force[row]))
 
 
+def speed_of_tolerance(run: LoadedRun) -> float:
+    """Return the speed (m/s) to which the inertia tolerance refers, the largest of the
+    velocity table, which the run need not reach."""
+    history, entries = run.results.history, run.results.summary.get("entries", {})
+    steps = np.diff(history["penetration_m"]) / np.diff(history["time_s"])
+    speeds = [*abs(steps)]
+    # which slows the table down
+    if entries.get("Rigid body/Largest Mach number", "unlimited") == "unlimited":
+        table = entries.get("Rigid body/Velocity table", "")
+        speeds += [abs(float(v)) for v in re.findall(r":\s*([^,\s]+)", table)]
+    return float(max(speeds))
+
+
 def wave_velocity(run: LoadedRun, depth: float) -> float:
     """Return the velocity of shear waves (m/s) in the softest soil above a depth of the
     tip (m), with the mass scaling or the inertia tolerance of the run; inf where a
@@ -208,9 +222,8 @@ def wave_velocity(run: LoadedRun, depth: float) -> float:
     if (tolerance := entries.get("Time/Inertia tolerance", "none")) != "none":
         tops = [*(float(layer["top_depth_m"]) for layer in layers), depth]
         stress = float(np.dot(weights, np.diff(tops)))
-        history = run.results.history
-        steps = np.diff(history["penetration_m"]) / np.diff(history["time_s"])
-        inertia = max(density, float(tolerance) * stress / abs(steps).max() ** 2)
+        speed = speed_of_tolerance(run)
+        inertia = max(density, float(tolerance) * stress / speed**2)
     return math.sqrt(shear / inertia)
 
 
