@@ -27,6 +27,11 @@ CLAY: Entries = {
     f"{BODY}/Friction angle of the tip": 0,
 }
 HYPOPLASTIC: Entries = {f"{LAYER}/Law": "hypoplastic sand", f"{LAYER}/Porosity": 0.36}
+CAM_CLAY: Entries = {
+    f"{LAYER}/Law": "modified Cam clay",
+    "Soil/Gravity": "0, 0",
+    "Soil/Initial stress": "uniform",
+}
 STIFFENING: Entries = {f"{LAYER}/Law": "Mohr-Coulomb with stiffness by stress"}
 
 # words of the warning, entries of a scene that have it, entries that do not
@@ -117,6 +122,11 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
             f"{LAYER}/Overconsolidation ratio": 4,
         },
         {},
+    ),
+    (
+        ["rest is 1 Pa", "moves at 0.1 m/s, 1", "thrown about", "of layer 1"],
+        {**CAM_CLAY, "Soil/Uniform stress": "-1, -1, -1, 0"},
+        {**CAM_CLAY, "Soil/Uniform stress": "-1e3, -1e3, -1e3, 0"},
     ),
     (
         ["Poisson ratio = 0.3", "lets undrained clay change its volume"],
@@ -215,6 +225,14 @@ REFUSED: tuple[tuple[list[str], Entries], ...] = (
         },
     ),
     (["Initial velocity is"], {"Soil/Initial velocity": "0/0; 0"}),
+    (
+        ["Passive strength ratio", "from 0.05 to 1"],
+        {f"{LAYER}/Law": "NGI-ADP", f"{LAYER}/Passive strength ratio": 1.2},
+    ),
+    (
+        ["Passive strength ratio", "1.2"],
+        {f"{LAYER}/Law": "NGI-ADP", f"{LAYER}/Passive strength ratio": "1.2+0*d"},
+    ),
     (["Initial velocity", "wave speed"], {"Soil/Initial velocity": "0; 1e200"}),
     (["stability limit", "stiffness"], {f"{LAYER}/Youngs modulus": 1.7e308}),
     (["never end", "stiffness"], {f"{LAYER}/Youngs modulus": 1e308}),
