@@ -331,7 +331,7 @@ namespace CaissonMPM
                  inertia = scene.soil.inertial_density(m) * speed * speed,
                  stress =
                    -scene.soil.initial_stress(Point<2>(0., deepest))[zz];
-    if (inertia > stress)
+    if (stress > 0. && inertia > stress)
       origins.add_warning(
         "at the end of the way of the body the vertical stress at rest is " +
         to_text(stress, 4) + " Pa, less than the inertia of soil that moves at " +

@@ -162,6 +162,13 @@ namespace CaissonMPM
           return check_strains(values, tau_0, message);
         }
 
+        /** Its plastic strain changes no volume. */
+        static bool
+        dilates(const Parameters & /*p*/)
+        {
+          return false;
+        }
+
         /** The default where it is a total stress at rest. */
         static double
         earth_pressure_at_rest(const Parameters &)
