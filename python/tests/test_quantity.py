@@ -147,7 +147,9 @@ class Layers(unittest.TestCase):
                 self.assertEqual(layer.value(name), value, name)
         with self.assertRaisesRegex(SuggestError, "no entry 'lambda'"):
             self.layer("0: phi = 33, E = 20 MPa, lambda = 0.2")
-        with self.assertRaisesRegex(SuggestError, "Active strength = '20 m': 'm' is no unit"):
+        with self.assertRaisesRegex(
+            SuggestError, "Active strength = '20 m': 'm' is no unit"
+        ):
             self.layer("0: Law = NGI-ADP, suA = 20 m")
 
     def test_assumed_of_other_laws(self) -> None:

@@ -294,7 +294,9 @@ class Files(MadeUp):
     def test_no_weight(self) -> None:
         """It is not a weight of 0 kN."""
         path = self.write("pull", -1)
-        self.assertIn("no submerged weight is given", self.export(path, "--to", "tz")[1])
+        self.assertIn(
+            "no submerged weight is given", self.export(path, "--to", "tz")[1]
+        )
         said = self.export(path, "--to", "tz", "--weight", "1kN")[1]
         self.assertIn("bears the submerged weight of 1 kN", said)
 

@@ -329,12 +329,12 @@ namespace CaissonMPM
       return;
     const double speed   = scene.body.motion().usual_velocity(),
                  inertia = scene.soil.inertial_density(m) * speed * speed,
-                 stress =
-                   -scene.soil.initial_stress(Point<2>(0., deepest))[zz];
+                 stress = -scene.soil.initial_stress(Point<2>(0., deepest))[zz];
     if (stress > 0. && inertia > stress)
       origins.add_warning(
         "at the end of the way of the body the vertical stress at rest is " +
-        to_text(stress, 4) + " Pa, less than the inertia of soil that moves at " +
+        to_text(stress, 4) +
+        " Pa, less than the inertia of soil that moves at " +
         to_text(speed, 4) + " m/s, " + to_text(inertia, 4) +
         " Pa: the soil of " + soil.section() +
         " is thrown about, because only confinement gives it strength. Check "

@@ -74,7 +74,8 @@ namespace CaissonMPM
     void
     motion_of_body();
     /** Warn of soil without cohesion whose inertia exceeds its stress at rest:
-     * beyond an inertia tolerance of 1 the forces were found to be too large. */
+     * beyond an inertia tolerance of 1 the forces were found to be too large.
+     */
     void
     confinement();
     void
