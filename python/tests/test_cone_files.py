@@ -366,8 +366,8 @@ class Command(Reading):
         self.path.write_text(self.deep(), encoding="utf-8")
         run = self.path.parent / "run"
         run.mkdir()
-        for command in ("plot", "report"):
-            words = command, "--cpt", str(self.path), str(run)
+        for name in ("plot", "report"):
+            words = name, "--cpt", str(self.path), str(run)
             self.assertIn("choose one by --location", self.say(*words)[1])
             said = self.say(*words, "--location", "CPT03")[1]
             self.assertIn("no test 'CPT03'; the tests are CPT01, CPT02", said)
@@ -377,7 +377,7 @@ class Command(Reading):
             assert kept is not None
             self.assertAlmostEqual(kept.at(4.45), 9e6 * 5.45)
             (run / cone.NAME).unlink()
-            said = self.say(command, str(run), "--location", "CPT02")[1]
+            said = self.say(name, str(run), "--location", "CPT02")[1]
             self.assertIn("--location is for a cone test, --cpt", said)
 
     def test_kept_as_a_table(self) -> None:
