@@ -144,10 +144,11 @@ def read(path: Path) -> Profile:
     return Profile(test.depth.tolist(), test.resistance.tolist())
 
 
-def adopt(path: Path, directory: Path) -> None:
+def adopt(path: Path, directory: Path, location: str = "") -> None:
     """Copy a test into the directory of a run, where pictures and report find it; AGS
-    and GEF become a table. Raises InputError where it cannot be read."""
-    test = cone_file.read(path, with_friction=False)
+    and GEF become a table. location: which one of a file of AGS. Raises InputError
+    where it cannot be read."""
+    test = cone_file.read(path, with_friction=False, location=location)
     if not directory.is_dir():
         raise InputError(f"no directory {directory}")
     target = directory / NAME

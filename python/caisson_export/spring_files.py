@@ -14,11 +14,13 @@ def about_springs(found: Springs) -> list[str]:
     """Return what run and motion it is, and what the whole body does."""
     down = found.direction > 0
     largest = int(np.argmax(found.force))
+    bears = f"bears the submerged weight of {found.weight / 1e3:.5g} kN"
+    if not found.weight:
+        bears = "bears nothing, because no submerged weight is given (--weight)"
     lines = [
         f"caisson_mpm: {found.title}",
         f"{'Pushed' if down else 'Pulled'} by {1e3 * found.displacement[-1]:.4g} mm"
-        f" from {found.depth:.5g} m, where the soil bears the submerged weight of"
-        f" {found.weight / 1e3:.5g} kN.",
+        f" from {found.depth:.5g} m, where the soil {bears}.",
         f"Largest resistance {found.force[largest] / 1e3:.4g} kN at"
         f" {1e3 * found.displacement[largest]:.3g} mm.",
     ]
@@ -35,7 +37,27 @@ def about_springs(found: Springs) -> list[str]:
             f" this part. Let the run {'un' if down else ''}load the caisson to its"
             " weight first, or give its --weight."
         )
-    return lines
+    return lines + about_waves(found)
+
+
+def about_waves(found: Springs) -> list[str]:
+    """Return a warning where the waves have not gone far at the smallest displacement
+    whose stiffness is stated."""
+    reach, needed = found.reach_at_first, found.needed_reach
+    first = 1e3 * SMALL[0] * found.diameter
+    if reach >= needed or first > 1e3 * found.displacement[-1]:
+        return []
+    far = found.reach >= needed
+    curve = "the whole curve contains"
+    if far.any():
+        end = 1e3 * found.displacement[np.argmax(far)]
+        curve = f"the curve below {end:.2g} mm contains"
+    return [
+        f"WARNING: when the caisson has moved by {first:.3g} mm, a shear wave has gone"
+        f" {reach:.2g} m from the wall, and the soil within {needed:.2g} m must take"
+        f" part: {curve} its inertia. Multiply Time/Inertia tolerance or Time/Mass"
+        f" scaling by {(reach / needed) ** 2:.1g}, or move the caisson more slowly."
+    ]
 
 
 def about_both(found: Springs, other: Springs | None) -> list[str]:

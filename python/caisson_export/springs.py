@@ -7,7 +7,17 @@ that what the run does before, such as unloading, does not count. The resistance
 spring is the change of its stress since then, against the motion: springs of a
 structural program begin without a load, too. The soil is in the curves as a whole: its
 slip at the wall and its deformation farther away.
+
+Soil beyond the waves of the motion is at rest, and what the waves have reached is too
+stiff. Around a skirt, the shear strain falls with 1 / r to the radius of influence of
+Randolph & Wroth (1978), so that the stiffness goes with 1 / ln(1 + reach / radius),
+where the reach is the way of a shear wave from the wall.
+
+M. F. Randolph, C. P. Wroth (1978), Analysis of deformation of vertically loaded piles.
+  J. Geotech. Eng. Div. ASCE 104, 1465-1488.
 """
+import math
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +34,9 @@ WATER = ("suction_force_N", "tip_water_force_N")
 SEGMENTS = 8  # of each wall
 # of the diameter, at which the stiffness is stated
 SMALL = (1e-4, 1e-3, 1e-2)
+TOO_STIFF = 0.1  # by which waves that have not gone far may raise a stiffness
+POISSON = 0.3  # of the soil through which the waves go
+GRAVITY, WATER_DENSITY = 9.81, 1000.0  # m/s2, kg/m3
 # the wall, its mean depth (m), its area (m2) and its stress over time [n] (Pa)
 Segment = tuple[str, float, float, np.ndarray]
 
@@ -62,6 +75,8 @@ class Springs:
     direction: 1 of a push, -1 of a pull. depth: of the tip where the displacement
     begins (m). displacement: [n], from 0 (m). force: resistance of the whole body [n]
     (N). missing: the force by which the body is out of balance at the beginning (N).
+    reach: how far a shear wave has gone since the motion began [n] (m), inf where the
+    soil is not known.
     """
 
     title: str
@@ -73,6 +88,21 @@ class Springs:
     force: np.ndarray
     springs: list[Spring]
     missing: float
+    reach: np.ndarray
+
+    @property
+    def needed_reach(self) -> float:
+        """The way of a wave (m) from which on the stiffness is right but for
+        TOO_STIFF."""
+        influence = 2.5 * self.depth * (1 - POISSON)
+        radius = self.diameter / 2
+        return radius * ((1 + influence / radius) ** (1 / (1 + TOO_STIFF)) - 1)
+
+    @property
+    def reach_at_first(self) -> float:
+        """How far a wave has gone (m) at the first of SMALL."""
+        first = SMALL[0] * self.diameter
+        return float(np.interp(first, self.displacement, self.reach))
 
     @property
     def misfit(self) -> float:
@@ -162,6 +192,41 @@ def begin_of(force: np.ndarray) -> tuple[int, float]:
     return row, float(-force[row] / (force[row + 1] - force[row]))
 
 
+def speed_of_tolerance(run: LoadedRun) -> float:
+    """Return the speed (m/s) to which the inertia tolerance refers, the largest of the
+    velocity table, which the run need not reach."""
+    history, entries = run.results.history, run.results.summary.get("entries", {})
+    steps = np.diff(history["penetration_m"]) / np.diff(history["time_s"])
+    speeds = [*abs(steps)]
+    # which slows the table down
+    if entries.get("Rigid body/Largest Mach number", "unlimited") == "unlimited":
+        table = entries.get("Rigid body/Velocity table", "")
+        speeds += [abs(float(v)) for v in re.findall(r":\s*([^,\s]+)", table)]
+    return float(max(speeds))
+
+
+def wave_velocity(run: LoadedRun, depth: float) -> float:
+    """Return the velocity of shear waves (m/s) in the softest soil above a depth of the
+    tip (m), with the mass scaling or the inertia tolerance of the run; inf where a
+    layer has no Young's modulus."""
+    layers = run.results.scene.get("layers") or []
+    layers = [layer for layer in layers if layer["top_depth_m"] < depth]
+    moduli = [layer.get("youngs_modulus_Pa") for layer in layers]
+    if not moduli or None in moduli:
+        return math.inf
+    shear = min(map(float, moduli)) / (2 * (1 + POISSON))
+    weights = [float(layer["submerged_unit_weight_N_m3"]) for layer in layers]
+    density = max(weights) / GRAVITY + WATER_DENSITY
+    entries = run.results.summary.get("entries", {})
+    inertia = density * float(entries.get("Time/Mass scaling", 1))
+    if (tolerance := entries.get("Time/Inertia tolerance", "none")) != "none":
+        tops = [*(float(layer["top_depth_m"]) for layer in layers), depth]
+        stress = float(np.dot(weights, np.diff(tops)))
+        speed = speed_of_tolerance(run)
+        inertia = max(density, float(tolerance) * stress / speed**2)
+    return math.sqrt(shear / inertia)
+
+
 def springs_of(run: LoadedRun, weight: float) -> Springs:
     """Return the springs of the last motion of a run, for a submerged weight (N) of
     the caisson. Raises ResultsError where there are none."""
@@ -192,6 +257,8 @@ def springs_of(run: LoadedRun, weight: float) -> Springs:
         return before, direction * (np.append(before, values[begin + 1 :]) - before)
 
     at, displacement = curve(middle)
+    times = (history["time_s"][first:-1] + history["time_s"][first + 1 :]) / 2
+    passed = direction * curve(times)[1] + curve(times)[0] - history["time_s"][first]
     springs = [
         Spring(wall, mean_depth, area, *curve(stress))
         for wall, mean_depth, area, stress in segments_of(
@@ -214,4 +281,5 @@ def springs_of(run: LoadedRun, weight: float) -> Springs:
         curve(table["total_force_N"])[1],
         springs,
         float(max(force[begin], 0.0)),
+        wave_velocity(run, at) * passed,
     )

@@ -108,8 +108,8 @@ def main(options: argparse.Namespace) -> int:
     status = 0
     for directory in options.directories:
         try:
+            keep_cone(options, directory)
             if options.cpt is not None:
-                keep_cone(options.cpt, directory)
                 draw(directory)
             if options.jacked is not None:
                 relief.adopt(options.jacked, directory)

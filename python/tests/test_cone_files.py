@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from caisson import __main__ as program
 from caisson.cpt import command
 from caisson_design import InputError, cone, cone_file, interpretation
 
@@ -316,6 +317,14 @@ class Command(Reading):
             status = command.main(parser.parse_args(words))
         return status, said.getvalue()
 
+    @staticmethod
+    def say(*words: str) -> tuple[int, str]:
+        """Return status and words of another command of `caisson`."""
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            status = program.main(list(words))
+        return status, said.getvalue()
+
     def deep(self) -> str:
         """Return AGS of two tests with enough rows for layers."""
         rows = [
@@ -351,6 +360,25 @@ class Command(Reading):
             test = cone_file.read(self.path, location="CPT02")
             self.assertEqual(interpretation.area_ratio_of(test, None)[0], ratio)
             self.assertEqual(interpretation.area_ratio_of(test, 0.7), (0.7, ()))
+
+    def test_location_of_pictures(self) -> None:
+        """Pictures and report of a run take one of several tests, too."""
+        self.path.write_text(self.deep(), encoding="utf-8")
+        run = self.path.parent / "run"
+        run.mkdir()
+        for name in ("plot", "report"):
+            words = name, "--cpt", str(self.path), str(run)
+            self.assertIn("choose one by --location", self.say(*words)[1])
+            said = self.say(*words, "--location", "CPT03")[1]
+            self.assertIn("no test 'CPT03'; the tests are CPT01, CPT02", said)
+            self.assertFalse((run / cone.NAME).exists())
+            self.say(*words, "--location", "CPT02")  # there is nothing else to draw
+            kept = cone.of_run(run)
+            assert kept is not None
+            self.assertAlmostEqual(kept.at(4.45), 9e6 * 5.45)
+            (run / cone.NAME).unlink()
+            said = self.say(name, str(run), "--location", "CPT02")[1]
+            self.assertIn("--location is for a cone test, --cpt", said)
 
     def test_kept_as_a_table(self) -> None:
         """With a run, and read again from there."""

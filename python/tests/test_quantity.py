@@ -8,7 +8,7 @@ import unittest
 from caisson import paths
 import caisson.__main__
 from caisson.suggest.entry import Layer, SuggestError
-from caisson.suggest.soil import layer_of
+from caisson.suggest.soil import LAWS, layer_of
 from caisson_design.quantity import length, number, value_of, without_unit
 
 KNOWN = {
@@ -26,6 +26,9 @@ KNOWN = {
     "Overconsolidation ratio": "",
     "Permeability": "m/s",
     "K0": "",
+    **{name: "" for entries in LAWS.values() for name in entries},
+    "Active strength": "Pa",
+    "Youngs modulus": "Pa",
 }
 
 
@@ -110,6 +113,58 @@ class Layers(unittest.TestCase):
         }.items():
             self.assertEqual(layer.value(name), value, name)
         self.assertEqual(self.layer("0: Dr = 85%").value("Relative density"), "0.85")
+
+    def test_symbols_of_other_laws(self) -> None:
+        """The same symbol is another entry in another law, with its unit."""
+        for text, expected in (
+            (
+                "Law = modified Cam clay, lambda = 0.16, κ = 0.03, e = 1.1",
+                {"Slope of compression": "0.16", "Slope of swelling": "0.03"},
+            ),
+            (
+                "suA = 0.02 MPa, gamma_fD = 3 %, suP/suA = 0.4, law = NGI-ADP",
+                {
+                    "Active strength": "20000",
+                    "Direct shear failure strain": "0.03",
+                    "Passive strength ratio": "0.4",
+                },
+            ),
+            (
+                "Law = NorSand, E = 50 MPa, Gamma = 0.9, lambda = 0.02, H = 200,"
+                " N = 0.2, chi = 4, gamma = 9 kN/m3",
+                {
+                    "Critical void ratio at 1 kPa": "0.9",
+                    "Slope of the critical state": "0.02",
+                    "Plastic hardening": "200",
+                    "Volumetric coupling": "0.2",
+                    "State dilatancy": "4",
+                    "Porosity": "0.4440",
+                },
+            ),
+        ):
+            layer = self.layer(f"0: {text}")
+            for name, value in expected.items():
+                self.assertEqual(layer.value(name), value, name)
+        with self.assertRaisesRegex(SuggestError, "no entry 'lambda'"):
+            self.layer("0: phi = 33, E = 20 MPa, lambda = 0.2")
+        with self.assertRaisesRegex(
+            SuggestError, "Active strength = '20 m': 'm' is no unit"
+        ):
+            self.layer("0: Law = NGI-ADP, suA = 20 m")
+
+    def test_assumed_of_other_laws(self) -> None:
+        """What is not given is in the scene, and marked; what must be given is not."""
+        layer = self.layer("0: Law = modified Cam clay, kappa = 0.03, e = 1.1")
+        marks = {entry.name: entry.remark for entry in layer.entries}
+        self.assertEqual(layer.value("Slope of compression"), "0.2")
+        for name in ("Slope of compression", "Critical friction angle", "K0"):
+            self.assertIn("ASSUMED", marks[name])
+        for name in ("Slope of swelling", "Void ratio", "Law"):
+            self.assertEqual(marks[name], "")
+        self.assertNotIn("Porosity", marks)
+        for law, needed in (("NGI-ADP", "Active strength"), ("NorSand", "Youngs mod")):
+            with self.assertRaisesRegex(SuggestError, f"needs {needed}"):
+                self.layer(f"0: Law = {law}")
 
     def test_unit_weight(self) -> None:
         """In water or of the wet soil: 1 - 8.5 / (2.65 - 1) / 9.81."""

@@ -5,6 +5,7 @@ import csv
 import io
 import json
 import math
+import re
 import runpy
 import unittest
 from pathlib import Path
@@ -101,6 +102,11 @@ class MadeUp(Temporary):
         return status, out.getvalue()
 
 
+LAYER = {
+    "top_depth_m": 0,
+    "submerged_unit_weight_N_m3": 9000.0,
+    "youngs_modulus_Pa": 5e6,
+}
 HISTORY = ["time_s", "penetration_m", "tip_force_N", "inner_friction_N"]
 HISTORY += ["outer_friction_N", "lid_force_N", "total_force_N"]
 WALLS = ["time_s", "penetration_m", "depth_m", "inner_area_m2", "inner_shear_stress_Pa"]
@@ -248,6 +254,51 @@ class Files(MadeUp):
         text = [f"{text[0]},suction_force_N", *(f"{row},5e4" for row in text[1:])]
         (path / "history.csv").write_text("\n".join(text), encoding="utf-8")
         self.assertIn("Take a drained run", self.export(path, "--to", "tz")[1])
+
+    def test_waves(self) -> None:
+        """Heavy soil resists the first millimeter by its inertia. By hand: the motion
+        of (t / 8 s)2 times 40 mm is 0.4 mm at 0.8 s, and at most 9.94 mm/s fast."""
+        stiff = 5e6 / 2.6
+        influence = 2.5 * 2 * 0.7
+        needed = 2 * ((1 + influence / 2) ** (1 / 1.1) - 1)
+        for name, value, share in (
+            ("Inertia tolerance", 0.4, 0.4 * 2 * 9e3 / 0.00994**2),
+            ("Inertia tolerance", 5e-4, 5e-4 * 2 * 9e3 / 0.00994**2),
+            ("Inertia tolerance", 2e-3, 2e-3 * 2 * 9e3 / 0.03**2),
+            ("Mass scaling", 900, 900 * (9e3 / 9.81 + 1000)),
+            ("Mass scaling", 1, 9e3 / 9.81 + 1000),
+        ):
+            path = self.write(f"{name} {value}", -1, layers=[LAYER])
+            summary = json.loads((path / "run.json").read_text(encoding="utf-8"))
+            summary["entries"] = {f"Time/{name}": str(value)}
+            if value == 2e-3:  # the run ends before it reaches this speed
+                summary["entries"]["Rigid body/Velocity table"] = "0:0, 24:-0.03"
+            (path / "run.json").write_text(json.dumps(summary), encoding="utf-8")
+            reach = math.sqrt(stiff / share) * 0.8
+            found = springs_of(load(path), 0.0)
+            self.assertAlmostEqual(found.needed_reach / needed, 1, delta=0.01)
+            self.assertAlmostEqual(found.reach_at_first / reach, 1, delta=0.15)
+            said = self.export(path, "--to", "tz")[1]
+            self.assertEqual("a shear wave has gone" in said, reach < needed, said)
+            if reach < needed:
+                far = 40 * (0.8 * needed / reach / 8) ** 2
+                pattern = r"the (?:whole curve|curve below ([\d.]+) mm) contains its"
+                end = re.search(pattern, said)
+                assert end is not None, said
+                if far < 40:
+                    self.assertAlmostEqual(float(end[1]) / far, 1, delta=0.1)
+                else:
+                    self.assertIsNone(end[1])
+                self.assertIn(f" by {(reach / needed) ** 2:.1g}, or move", said)
+
+    def test_no_weight(self) -> None:
+        """It is not a weight of 0 kN."""
+        path = self.write("pull", -1)
+        self.assertIn(
+            "no submerged weight is given", self.export(path, "--to", "tz")[1]
+        )
+        said = self.export(path, "--to", "tz", "--weight", "1kN")[1]
+        self.assertIn("bears the submerged weight of 1 kN", said)
 
     def test_a_load_that_is_missing(self) -> None:
         """The run begins where the soil bears less than the weight."""

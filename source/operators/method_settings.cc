@@ -107,7 +107,8 @@ namespace CaissonMPM
       pressure_fits,
       "The mean stress of the points of a full cell is fitted by an affine "
       "function, as the deviator always is, or by its mean; auto changes to "
-      "the mean where soil with a dilatancy angle has dilated by 0.5 to 2 %. "
+      "the mean where soil that gains volume in shear has dilated by 0.5 to "
+      "2 %. "
       "Units: none.");
     add_parameter("Mean volume change",
                   mean_volume,

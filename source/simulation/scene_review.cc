@@ -74,6 +74,7 @@ namespace CaissonMPM
       {
         size_of_body();
         motion_of_body();
+        confinement();
         cells_at_tip();
         points_at_tip();
         friction();
@@ -315,6 +316,30 @@ namespace CaissonMPM
         to_text(scene.wave_speed, 4) +
         " m/s: inertia decides its forces. Check Rigid body/Velocity, which is "
         "in m/s, and Time/Mass scaling.");
+  }
+
+  void
+  SceneReview::confinement()
+  {
+    const double deepest =
+      std::min(0., scene.body.shape().bottom() - scene.lines.total_travel());
+    const unsigned int  m    = scene.soil.material_at(deepest);
+    const SoilMaterial &soil = scene.soil.material(m);
+    if (!soil.friction_angle() || soil.shear_strength().value_or(0.) > 0.)
+      return;
+    const double speed   = scene.body.motion().usual_velocity(),
+                 inertia = scene.soil.inertial_density(m) * speed * speed,
+                 stress = -scene.soil.initial_stress(Point<2>(0., deepest))[zz];
+    if (stress > 0. && inertia > stress)
+      origins.add_warning(
+        "at the end of the way of the body the vertical stress at rest is " +
+        to_text(stress, 4) +
+        " Pa, less than the inertia of soil that moves at " +
+        to_text(speed, 4) + " m/s, " + to_text(inertia, 4) +
+        " Pa: the soil of " + soil.section() +
+        " is thrown about, because only confinement gives it strength. Check "
+        "the unit of the stress of section Soil, Pa, or reduce Rigid "
+        "body/Velocity or Time/Mass scaling.");
   }
 
   void

@@ -12,6 +12,7 @@ from program import SUCCESS, HERE, ProgramTest, history, summary
 
 from caisson import density_law
 from caisson.runner import environment, read_parameters
+from caisson.suggest.soil import LAWS
 from caisson_design import cone_file
 
 EXAMPLE = HERE.parent / "prm/cpt_example.csv"
@@ -86,6 +87,27 @@ class Layers(SuggestTest):
         said = self.run_program(SUCCESS, path, "--print-parameters", "--strict")
         self.assertIn("Overconsolidation ratio = min(5, 1 + 1e5/max(s, 1))", said)
         self.assertIn("Cohesion = max(5e3, 2e3*d)", said)
+
+    def test_other_laws(self) -> None:
+        """What is marked ASSUMED is the default of the program, which takes all."""
+        defaults = read_parameters(["--set", "Soil/Number of layers=1"])
+        for law, entries in LAWS.items():
+            for name, (_, value) in entries.items():
+                if value:
+                    default = defaults[f"Soil/Layer 1/{name}"]
+                    self.assertEqual(float(value), float(default), name)
+        path = self.made_directory() / "laws.prm"
+        layers = (
+            "0: Law = modified Cam clay, lambda = 0.16, e = 1.1",
+            "2: Law = NGI-ADP, suA = 30 kPa, nu = 0.49, K0 = 0.9",
+            "5: Law = NorSand, E = 60 MPa, Γ = 0.85, e = 0.7",
+        )
+        self.suggest(path, "--wall-friction", "15", layers=layers)
+        text = path.read_text(encoding="utf-8")
+        self.assertIn("set Slope of swelling = 0.04 # ASSUMED\n", text)
+        self.assertIn("set Slope of compression = 0.16\n", text)
+        self.assertIn("set State dilatancy = 3.5 # ASSUMED\n", text)
+        self.run_program(SUCCESS, path, "--validate", "--strict")
 
     def test_study_of_the_friction_angle(self) -> None:
         """It is read, and has five runs with angles of walls that follow."""

@@ -27,6 +27,7 @@ CLAY: Entries = {
     f"{BODY}/Friction angle of the tip": 0,
 }
 HYPOPLASTIC: Entries = {f"{LAYER}/Law": "hypoplastic sand", f"{LAYER}/Porosity": 0.36}
+UNIFORM: Entries = {"Soil/Gravity": "0, 0", "Soil/Initial stress": "uniform"}
 STIFFENING: Entries = {f"{LAYER}/Law": "Mohr-Coulomb with stiffness by stress"}
 
 # words of the warning, entries of a scene that have it, entries that do not
@@ -117,6 +118,15 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
             f"{LAYER}/Overconsolidation ratio": 4,
         },
         {},
+    ),
+    (
+        ["rest is 1 Pa", "at 0.1 m/s, 19 Pa", "thrown about", "Soil/Layer 1"],
+        {
+            **UNIFORM,
+            f"{LAYER}/Law": "modified Cam clay",
+            "Soil/Uniform stress": "-1, -1, -1, 0",
+        },
+        {**UNIFORM, "Soil/Uniform stress": "-20, -20, -20, 0"},
     ),
     (
         ["Poisson ratio = 0.3", "lets undrained clay change its volume"],
@@ -215,6 +225,14 @@ REFUSED: tuple[tuple[list[str], Entries], ...] = (
         },
     ),
     (["Initial velocity is"], {"Soil/Initial velocity": "0/0; 0"}),
+    (
+        ["Passive strength ratio", "from 0.05 to 1"],
+        {f"{LAYER}/Law": "NGI-ADP", f"{LAYER}/Passive strength ratio": 1.2},
+    ),
+    (
+        ["Passive strength ratio", "1.2"],
+        {f"{LAYER}/Law": "NGI-ADP", f"{LAYER}/Passive strength ratio": "1.2+0*d"},
+    ),
     (["Initial velocity", "wave speed"], {"Soil/Initial velocity": "0; 1e200"}),
     (["stability limit", "stiffness"], {f"{LAYER}/Youngs modulus": 1.7e308}),
     (["never end", "stiffness"], {f"{LAYER}/Youngs modulus": 1e308}),

@@ -73,7 +73,7 @@ namespace CaissonMPM
                  "one, s_uP / s_uA. Units: none.",
               0.5,
               0.05,
-              2.},
+              1.},
              {"Active failure strain",
               "The shear strain at failure in active compression, 3/2 of the "
                  "axial strain. Units: none.",
@@ -159,17 +159,14 @@ namespace CaissonMPM
                 P);
               return false;
             }
-          if (values[2] > 1.)
-            {
-              __builtin_snprintf(message.text,
-                                 sizeof(message.text),
-                                 "Passive strength ratio = %g: the passive "
-                                 "strength exceeds the active one. Set at "
-                                 "most 1.",
-                                 values[2]);
-              return false;
-            }
           return check_strains(values, tau_0, message);
+        }
+
+        /** Its plastic strain changes no volume. */
+        static bool
+        dilates(const Parameters & /*p*/)
+        {
+          return false;
         }
 
         /** The default where it is a total stress at rest. */

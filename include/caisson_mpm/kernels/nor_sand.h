@@ -166,6 +166,14 @@ namespace CaissonMPM
           return context.mean_stress <= 0. || check_state(p, context, message);
         }
 
+        /** Whether the soil gains volume in plastic shear: where it is dense.
+         */
+        static bool
+        dilates(const Parameters & /*p*/)
+        {
+          return true;
+        }
+
         static const char *
         warning(const double *values)
         {

@@ -73,6 +73,11 @@ namespace CaissonMPM
     size_of_body();
     void
     motion_of_body();
+    /** Warn of soil without cohesion whose inertia exceeds its stress at rest:
+     * beyond an inertia tolerance of 1 the forces were found to be too large.
+     */
+    void
+    confinement();
     void
     cells_at_tip();
     void

@@ -73,12 +73,7 @@ def write(
     return [
         tables.write(directory / "layers.csv", found.layers),
         picture.draw(
-            directory / "cpt.png",
-            title,
-            found.ground,
-            found.layers,
-            found.names,
-            tip,
+            directory / "cpt.png", title, found.ground, found.layers, found.names, tip
         ),
     ]
 

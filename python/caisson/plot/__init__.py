@@ -45,14 +45,18 @@ def add_cone_arguments(parser: argparse.ArgumentParser) -> None:
         help="a cone test for the design methods, a table with the columns depth_m and"
         " qc_MPa; it is kept as cone.csv in the directory of the run",
     )
+    text = "one of the tests in a file of AGS"
+    parser.add_argument("--location", default="", metavar="NAME", help=text)
 
 
-def keep_cone(file: Path | None, directory: Path) -> None:
-    """Keep a cone test, if one is given, with a run. Raises ResultsError."""
-    if file is not None:
+def keep_cone(options: argparse.Namespace, directory: Path) -> None:
+    """Keep a cone test, if one is given, with a run. Raises InputError."""
+    if options.cpt is not None:
         from caisson_design import cone
 
-        cone.adopt(file, directory)
+        cone.adopt(options.cpt, directory, options.location)
+    elif options.location:
+        raise InputError("--location is for a cone test, --cpt")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -72,7 +76,7 @@ def main(options: argparse.Namespace) -> int:
     status = 0
     for directory in options.directories:
         try:
-            keep_cone(options.cpt, directory)
+            keep_cone(options, directory)
             for picture in draw(directory):
                 print(f"plot: {picture}")
         except (InputError, OSError) as error:

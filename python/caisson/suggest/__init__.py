@@ -8,7 +8,8 @@ the error that you want, and what it will cost.
 
 Numbers without a unit are in SI units, and angles in degrees; others have theirs: 40mm,
 "45 MPa", 2500kN, 85%. The entries of a layer have symbols, too: phi, c, E, nu, psi,
-gamma (unit weight), su, K0, Dr, OCR, k (permeability), e and n. With --weight the
+gamma (unit weight), su, K0, Dr, OCR, k (permeability), e and n; NorSand, NGI-ADP and
+modified Cam clay have theirs, such as chi, suA and lambda. With --weight the
 caisson sinks by its weight and is then drawn in by suction; without, it is jacked. In
 place of layers a cone test may be given,
 
@@ -34,14 +35,7 @@ from caisson.paths import INSTALLED
 from caisson.runner import RunError, query
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson.suggest.sizes import (
-    LEVELS,
-    Body,
-    Level,
-    frames_of,
-    mesh_of,
-    start_of,
-)
+from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
 from caisson.suggest.soil import layers_of
 from caisson_design import InputError, cone_file
 from caisson_design import interpretation

@@ -33,27 +33,48 @@ POISSON_OF_CLAY = "0.45"  # hardly any change of volume, as without drainage
 
 
 # how engineers write them
-SYMBOLS = {
-    "phi": "Friction angle",
-    "phi'": "Friction angle",
-    "φ": "Friction angle",
-    "phi_c": names.CRITICAL_ANGLE,
-    "psi": "Dilatancy angle",
-    "ψ": "Dilatancy angle",
-    "c": "Cohesion",
-    "c'": "Cohesion",
-    "E": "Youngs modulus",
-    "nu": "Poisson ratio",
-    "ν": "Poisson ratio",
-    "Dr": names.DENSITY,
-    "D_r": names.DENSITY,
-    "OCR": "Overconsolidation ratio",
-    "k": "Permeability",
-    "e": "Void ratio",
-    "n": "Porosity",
-    "delta": "Friction angle of the walls",
-    "alpha": "Adhesion factor of the walls",
+WRITTEN = {
+    "Friction angle": "phi phi' φ",
+    names.CRITICAL_ANGLE: "phi_c",
+    "Dilatancy angle": "psi ψ",
+    "Cohesion": "c c'",
+    "Youngs modulus": "E",
+    "Poisson ratio": "nu ν",
+    names.DENSITY: "Dr D_r",
+    "Overconsolidation ratio": "OCR",
+    "Permeability": "k",
+    "Void ratio": "e",
+    "Porosity": "n",
+    "Friction angle of the walls": "delta",
+    "Adhesion factor of the walls": "alpha",
 }
+# of other laws: how their entries are written, and what is assumed; "" is needed
+LAWS = {
+    "modified Cam clay": {
+        "Slope of compression": ("lambda λ", "0.2"),
+        "Slope of swelling": ("kappa κ", "0.04"),
+        names.CRITICAL_ANGLE: ("phi_c", "30"),
+    },
+    "NGI-ADP": {
+        "Active strength": ("suA s_uA", ""),
+        "Direct shear strength ratio": ("suD/suA", "0.7"),
+        "Passive strength ratio": ("suP/suA", "0.5"),
+        "Active failure strain": ("gamma_fA", "0.02"),
+        "Direct shear failure strain": ("gamma_fD", "0.04"),
+        "Passive failure strain": ("gamma_fP", "0.06"),
+        "Unloading shear modulus ratio": ("Gur/suA", "500"),
+    },
+    names.NOR_SAND: {
+        "Critical void ratio at 1 kPa": ("Gamma Γ", "0.816"),
+        "Slope of the critical state": ("lambda λ", "0.0135"),
+        "Volumetric coupling": ("N", "0.3"),
+        "State dilatancy": ("chi χ", "3.5"),
+        "Plastic hardening": ("H", "100"),
+        names.CRITICAL_ANGLE: ("phi_c", "30"),
+        "Youngs modulus": ("E", ""),
+    },
+}
+OF_EACH = ("Poisson ratio", "Porosity", "Solid density")  # are assumed there, too
 STRENGTH, WEIGHT = "su", "gamma"  # of undrained clay, and the unit weight
 DERIVED = {
     **dict.fromkeys((STRENGTH, "s_u", "cu", "c_u"), STRENGTH),
@@ -65,9 +86,10 @@ DOUBTFUL = 11.5, 14.0  # kN/m3; between them it may be either
 POROSITIES = (0.1, 0.9)
 
 
-def name_of(word: str, known: Collection[str]) -> str:
-    """Return the entry meant, or one of DERIVED. Raises SuggestError."""
-    symbols = SYMBOLS | DERIVED
+def name_of(word: str, known: Collection[str], law: str) -> str:
+    """Return the entry of a law meant, or one of DERIVED. Raises SuggestError."""
+    written = WRITTEN | {name: text for name, (text, _) in LAWS.get(law, {}).items()}
+    symbols = DERIVED | {s: n for n, text in written.items() for s in text.split()}
     if word in symbols:  # E and e are not the same
         return symbols[word]
     by_lower = {name.lower(): name for name in (*known, sand.SAND)}
@@ -107,6 +129,7 @@ def value_of(name: str, text: str, known: Mapping[str, str]) -> str:
 def given_in(text: str, known: Mapping[str, str]) -> dict[str, str]:
     """Return what is given of a layer, by names of entries. Raises SuggestError."""
     given: dict[str, str] = {}
+    law = re.search(r"(?:^|,)\s*law\s*=\s*([^,]+)", text, re.I)
     for part in parts_of(text):
         word, equals, value = map(str.strip, part.partition("="))
         if not equals or not value:
@@ -114,7 +137,7 @@ def given_in(text: str, known: Mapping[str, str]) -> dict[str, str]:
             raise SuggestError(
                 f"--layer: {part!r} is not of the form ENTRY = VALUE{comma}"
             )
-        name = name_of(word, known)
+        name = name_of(word, known, law[1].strip() if law else MOHR_COULOMB)
         if name in given:
             raise SuggestError(f"--layer {text!r} gives {name} twice")
         given[name] = value_of(name, value, known)
@@ -227,21 +250,23 @@ def weight_of(weight: str, given: Mapping[str, str]) -> list[Entry]:
 
 
 def entries_of(given: dict[str, str], text: str) -> list[Entry]:
-    """Return the entries given and, for Mohr-Coulomb soil, those assumed. Raises
-    SuggestError where one is missing that cannot be assumed."""
-    if not given.get("Law", MOHR_COULOMB).startswith(MOHR_COULOMB):
+    """Return the entries given and those assumed. Raises SuggestError where one is
+    missing that cannot be assumed."""
+    is_plain = (law := given.get("Law", MOHR_COULOMB)).startswith(MOHR_COULOMB)
+    if not is_plain and law not in LAWS:
         return [Entry(*pair) for pair in given.items()]
-    missing = [name for name in NEEDED if name not in given]
-    if missing:
-        raise SuggestError(
-            f"--layer {text!r} needs {' and '.join(missing)}; or, of sand,"
-            f' "{sand.SAND} = dense"'
-        )
+    usual = ASSUMED | dict.fromkeys(NEEDED, "")
+    if not is_plain:
+        usual = {name: ASSUMED[name] for name in OF_EACH}
+        usual |= {name: value for name, (_, value) in LAWS[law].items()}
     known = {*given, *(REPLACED.get(name, name) for name in given)}
-    assumed = {n: v for n, v in ASSUMED.items() if n not in known}
+    assumed = {n: v for n, v in usual.items() if n not in known}
+    if missing := [name for name, value in assumed.items() if not value]:
+        or_sand = f'; or, of sand, "{sand.SAND} = dense"' if is_plain else ""
+        raise SuggestError(f"--layer {text!r} needs {' and '.join(missing)}{or_sand}")
     if not {"K0", "Overconsolidation ratio"} & given.keys():
         assumed["K0"] = "auto"
-    remarks = {"Law": "", "K0": f"{ASSUMPTION}: 1 - sin phi"}
+    remarks = {"Law": "", "K0": f"{ASSUMPTION}: that of the law"}
     return [
         *(Entry(n, v, remarks.get(n, ASSUMPTION)) for n, v in assumed.items()),
         *(Entry(*pair) for pair in given.items()),
