@@ -276,12 +276,12 @@ namespace CaissonMPM
   }
 
   void
-  Soil::load_libraries(const std::string &directory)
+  Soil::load_libraries(const ParameterOrigins &origins)
   {
     for (unsigned int i = 0;
          i < std::min<std::size_t>(n_layers_, layers.size());
          ++i)
-      layers[i]->load_library(directory);
+      layers[i]->load_library(origins);
   }
 
   std::string
@@ -303,6 +303,34 @@ namespace CaissonMPM
       if (layer->umat() != nullptr)
         n = std::max(n, layer->umat()->n_state());
     return n;
+  }
+
+  std::vector<bool>
+  Soil::user_materials() const
+  {
+    std::vector<bool> result;
+    for (const SoilMaterial &m : materials)
+      result.push_back(m.umat != nullptr);
+    return result;
+  }
+
+  std::string
+  Soil::cause_in_user_materials() const
+  {
+    std::string sections;
+    for (const auto &layer : layers)
+      if (layer->umat() != nullptr)
+        {
+          if (!layer->umat()->failure().empty())
+            return ""; // the UMAT is the cause
+          sections +=
+            (sections.empty() ? "" : ", ") + layer->section() + "/Library";
+        }
+    return sections.empty() ? "" :
+                              "\nA user material (" + sections +
+                                ") may be the cause, too: the time step "
+                                "follows from its DDSDDE, and its STRESS was "
+                                "checked at small strains only.";
   }
 
   void

@@ -68,7 +68,7 @@ namespace CaissonMPM
         {
           dealii::ParameterAcceptor::parse_all_parameters();
           simulation.name_unused_entries(origins);
-          simulation.set_up(command_line);
+          simulation.set_up(command_line, origins);
           simulation.review(origins);
         }
       catch (const BadInput &)

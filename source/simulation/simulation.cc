@@ -136,7 +136,7 @@ namespace CaissonMPM
     timed("grid to points", [&]() { update_points(); });
     timed("relocate", [&]() {
       grid.advance();
-      points.relocate();
+      relocate_points();
     });
     timed("split and merge", [&]() { adapt_points(); });
     finish_step();
@@ -354,6 +354,19 @@ namespace CaissonMPM
   }
 
   void
+  Simulation::relocate_points()
+  {
+    try
+      {
+        points.relocate();
+      }
+    catch (const RunFailure &error)
+      {
+        throw RunFailure(error.what() + soil.cause_in_user_materials());
+      }
+  }
+
+  void
   Simulation::report_not_finite() const
   {
     std::string text = "the state is not finite in step " +
@@ -380,7 +393,8 @@ namespace CaissonMPM
       "Time/Courant number), an unstable choice in section Method (the "
       "defaults are MUSL, blend and Mass floor = true), or a parameter of "
       "the soil that is out of any range. The files written so far are "
-      "kept.");
+      "kept." +
+      soil.cause_in_user_materials());
   }
 
   // ------------------------------------------------------------ the run

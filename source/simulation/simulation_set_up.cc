@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <filesystem>
 #include <limits>
 
 namespace CaissonMPM
@@ -146,7 +145,7 @@ namespace CaissonMPM
     grid.create_mesh();
     recorder.register_walls(totals);
     grid.move_to(body.motion().travel());
-    points.keep_user_state(soil.n_user_state());
+    points.keep_user_state(soil.n_user_state(), soil.user_materials());
     nodal_forces.initialize(soil.mass_scaling());
     body.compute_weight(mass_of_body(), soil);
   }
@@ -219,8 +218,11 @@ namespace CaissonMPM
           }
         cost.seconds_per_step = n > 1 ? seconds() / (n - 1) : first;
       }
-    catch (const RunFailure &)
-      {} // run() will say why
+    catch (const RunFailure &error)
+      {
+        throw BadInput("the first steps of the run fail: " +
+                       std::string(error.what()));
+      }
     cost.n_ranks = grid.n_ranks();
     cost.peak_bytes =
       Utilities::MPI::sum(peak_memory_bytes(), grid.communicator());
@@ -276,14 +278,13 @@ namespace CaissonMPM
   }
 
   void
-  Simulation::set_up(const CommandLine &command_line)
+  Simulation::set_up(const CommandLine      &command_line,
+                     const ParameterOrigins &origins)
   {
     is_restart = command_line.restart;
     overwrites = command_line.overwrite;
     recorder.set_output_directory(command_line.output_directory);
-    soil.load_libraries(std::filesystem::path(command_line.parameter_file)
-                          .parent_path()
-                          .string());
+    soil.load_libraries(origins);
     find_beginning();
     check_parameters();
     recorder.describe(command_line.parameter_file,
@@ -340,7 +341,8 @@ namespace CaissonMPM
                      " s, and never end. The step is limited by " +
                      time_step.reason() +
                      ". Check Time/Time step, and the stiffness and density of "
-                     "the soil.");
+                     "the soil." +
+                     soil.cause_in_user_materials());
   }
 
   double
