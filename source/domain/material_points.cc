@@ -339,7 +339,7 @@ namespace CaissonMPM
     // would differ in the next one, and its parts and last digits with them.
     constexpr double of_cell = 20., of_cell_with_points = 70., of_block = 40.,
                      of_yielding_block = 25., of_moving_point = 500.,
-                     of_user_point = 60.;
+                     of_user_point = 100.;
     const double per_step = 1. / std::max(1u, n_relocations - first_relocation);
     const auto   is_of_user = [this](const Kernels::BlockHeader &block) {
       const std::size_t m = block.material;
