@@ -126,8 +126,8 @@ namespace CaissonMPM
             (fs::is_directory(status) ? "a directory" : "no file") +
             ". Name the file of the library";
       if (!reason.empty())
-        throw BadInput(entry + ": " + path + " " + reason + ": " +
-                       how_to_compile + ".");
+        throw BadInput(entry + ": " + path + " " + reason + " (" +
+                       how_to_compile + ").");
     }
 
     void *

@@ -93,21 +93,6 @@ namespace CaissonMPM
       {grid, points, soil, body, water_settings, totals, nodal_forces});
   }
 
-  void
-  Simulation::register_totals()
-  {
-    totals.keep("time", clock.time);
-    totals.keep("step", clock.step);
-    totals.carry("force_on_body", force_on_body);
-    totals.carry("since_adaptation", since_adaptation);
-    totals.count("limiter_count", n_limited);
-    totals.count("soil_into_body_m3", inflow);
-    points.register_totals(totals);
-    energy.register_totals(totals);
-    schedule.register_totals(totals);
-    recorder.register_totals(totals);
-  }
-
   // ------------------------------------------------------------ one step
 
   void

@@ -22,6 +22,21 @@ namespace CaissonMPM
   using namespace dealii;
 
   void
+  Simulation::register_totals()
+  {
+    totals.keep("time", clock.time);
+    totals.keep("step", clock.step);
+    totals.carry("force_on_body", force_on_body);
+    totals.carry("since_adaptation", since_adaptation);
+    totals.count("limiter_count", n_limited);
+    totals.count("soil_into_body_m3", inflow);
+    points.register_totals(totals);
+    energy.register_totals(totals);
+    schedule.register_totals(totals);
+    recorder.register_totals(totals);
+  }
+
+  void
   Simulation::find_beginning()
   {
     if (is_restart)
@@ -220,8 +235,11 @@ namespace CaissonMPM
       }
     catch (const RunFailure &error)
       {
-        throw BadInput("the first steps of the run fail: " +
-                       std::string(error.what()));
+        cost.failure =
+          "the first steps of the run fail: " + std::string(error.what());
+        // the library is input; no other cause than its own failure
+        if (soil.n_user_state() > 0 && soil.cause_in_user_materials().empty())
+          throw BadInput(cost.failure);
       }
     cost.n_ranks = grid.n_ranks();
     cost.peak_bytes =

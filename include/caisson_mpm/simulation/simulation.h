@@ -83,7 +83,8 @@ namespace CaissonMPM
     review(ParameterOrigins &origins) const;
 
     /** Find out how large the run is; after set_up(). Takes some steps: run()
-     * does not continue from there. Throws BadInput where they fail. */
+     * does not continue from there. Throws BadInput where a user material
+     * fails in them. */
     RunCost
     estimate_cost();
 
