@@ -380,6 +380,10 @@ class Faults(UserMaterialTest):
         text = self.run_program(BAD_INPUT, scene("jack"), "--validate", entries=law)
         self.assert_words(["first steps of the run fail", "law.so", "step 2"], text)
         self.assertNotIn("is valid", text)
+        # another failure is a warning: the entries may be as they should
+        self.compiled("elastic.c", "  if (*kinc == 1) stress[0] *= 1e30;")
+        text = self.run_program(SUCCESS, scene("jack"), "--validate", entries=law)
+        self.assert_words(["warning: the first steps", f"({LAYER}/Library)"], text)
 
     def test_cause_of_a_lost_point(self) -> None:
         """A run that breaks says that the law may be the cause."""
