@@ -31,15 +31,20 @@ namespace CaissonMPM
     void                      *argument_of_call = nullptr;
     std::string (*text_of_exit_of_call)(void *) = nullptr;
     int status_of_exit_of_call                  = 0;
+    // of the last crash
+    void *volatile address_of_last_crash = nullptr;
 
     std::array<struct sigaction, crashes.size()> handlers_before;
 
     /** Only what a handler of signals may do. */
     void
-    on_crash(const int number)
+    on_crash(const int number, siginfo_t *const information, void *)
     {
       if (is_running)
-        siglongjmp(begin_of_call, number);
+        {
+          address_of_last_crash = information->si_addr;
+          siglongjmp(begin_of_call, number);
+        }
       // not ours: the handler before finds the same again
       for (std::size_t i = 0; i < crashes.size(); ++i)
         if (crashes[i].first == number)
@@ -80,8 +85,8 @@ namespace CaissonMPM
       stack.ss_size                        = room.size();
       sigaltstack(&stack, nullptr);
       struct sigaction handler = {};
-      handler.sa_handler       = on_crash;
-      handler.sa_flags         = SA_ONSTACK | SA_NODEFER;
+      handler.sa_sigaction     = on_crash;
+      handler.sa_flags         = SA_ONSTACK | SA_NODEFER | SA_SIGINFO;
       sigemptyset(&handler.sa_mask);
       for (std::size_t i = 0; i < crashes.size(); ++i)
         sigaction(crashes[i].first, &handler, &handlers_before[i]);
@@ -116,6 +121,12 @@ namespace CaissonMPM
     if (is_running)
       siglongjmp(begin_of_call, static_cast<int>(EndOfCall::stopped));
     std::abort();
+  }
+
+  const void *
+  address_of_crash()
+  {
+    return address_of_last_crash;
   }
 
   std::string

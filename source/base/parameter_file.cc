@@ -148,6 +148,7 @@ namespace CaissonMPM
       DeclaredEntries                    entries;
       ParameterOrigins                   origins;
       std::vector<OpenFile>              files;
+      std::string                        scene; // the file that includes others
       std::map<std::string, std::string> place_of_include;
     };
 
@@ -187,6 +188,8 @@ namespace CaissonMPM
     void
     Reader::read_file(const std::string &name, const std::string &place)
     {
+      if (files.empty())
+        scene = name;
       const std::string text = read_text(name, place);
       check_new(name, place);
       files.push_back({name, place, true, false, {}, {}});
@@ -353,8 +356,10 @@ namespace CaissonMPM
     void
     Reader::read_overrides(const std::vector<std::string> &overrides)
     {
-      // An override replaces what the file says, but not another override.
+      // An override replaces what the file says, but not another override. Its
+      // paths are those of the scene.
       files.push_back({});
+      files.back().name = scene;
       for (const std::string &written : overrides)
         {
           const std::string text       = with_plain_spaces(written);
@@ -389,10 +394,12 @@ namespace CaissonMPM
       const std::string present = present_value(entry, value, place);
       set_value(entry, present, place);
       const bool is_included = files.size() > 1;
-      origins.record(entry.path,
-                     place,
-                     is_included || present == entry.default_value,
-                     is_assumed);
+      origins.record(
+        entry.path,
+        place,
+        is_included || present == entry.default_value,
+        is_assumed,
+        std::filesystem::path(files.back().name).parent_path().string());
     }
 
     const DeclaredEntry &

@@ -51,9 +51,10 @@ namespace CaissonMPM
   ParameterOrigins::record(const std::string &path,
                            const std::string &place,
                            const bool         may_be_unused,
-                           const bool         is_assumed)
+                           const bool         is_assumed,
+                           const std::string &directory)
   {
-    places[path] = {place, may_be_unused, is_assumed};
+    places[path] = {place, may_be_unused, is_assumed, directory};
   }
 
   std::vector<std::string>
@@ -130,6 +131,13 @@ namespace CaissonMPM
   ParameterOrigins::is_set(const std::string &path) const
   {
     return places.count(path) > 0;
+  }
+
+  std::string
+  ParameterOrigins::directory_of(const std::string &path) const
+  {
+    const auto place = places.find(path);
+    return place == places.end() ? "" : place->second.directory;
   }
 
   std::vector<std::string>

@@ -200,14 +200,15 @@ namespace CaissonMPM
       const PointQuantity value = point_quantity(check.name, "");
       PointSamples        samples;
       points.for_each([&](const MaterialPoint &p) {
-        if (region(p.initial_position, time) == 0.)
+        if (value.is_missing(p) || region(p.initial_position, time) == 0.)
           return;
         samples.computed.push_back(value(p));
         samples.exact.push_back(exact(p.initial_position, time));
         samples.volume.push_back(p.volume);
       });
       if (samples.computed.empty())
-        report_nothing(check, "material point in the region");
+        report_nothing(check,
+                       "material point with this quantity in the region");
       return samples;
     }
 

@@ -338,8 +338,13 @@ namespace CaissonMPM
     // Measured, in nanoseconds of a processor with AVX-512. Times of this run
     // would differ in the next one, and its parts and last digits with them.
     constexpr double of_cell = 20., of_cell_with_points = 70., of_block = 40.,
-                     of_yielding_block = 25., of_moving_point = 500.;
+                     of_yielding_block = 25., of_moving_point = 500.,
+                     of_user_point = 100.;
     const double per_step = 1. / std::max(1u, n_relocations - first_relocation);
+    const auto   is_of_user = [this](const Kernels::BlockHeader &block) {
+      const std::size_t m = block.material;
+      return m < user_materials.size() && user_materials[m];
+    };
     std::vector<unsigned int> costs(grid.n_global_cells(), 0);
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       if (grid.is_owned(cell))
@@ -349,7 +354,9 @@ namespace CaissonMPM
                         of_yielding_block * n_yielding[cell] +
                         of_moving_point * per_step * n_moved[cell];
           for (int b = first_block[cell]; b >= 0; b = headers[b].next)
-            cost += of_block;
+            cost +=
+              of_block +
+              (is_of_user(headers[b]) ? of_user_point * headers[b].count : 0.);
           costs[index_of(grid.global_number(cell))] =
             static_cast<unsigned int>(cost);
         }
@@ -531,10 +538,12 @@ namespace CaissonMPM
   }
 
   void
-  MaterialPoints::keep_user_state(const unsigned int n)
+  MaterialPoints::keep_user_state(const unsigned int       n,
+                                  const std::vector<bool> &user_materials)
   {
     AssertThrow(blocks.empty(), ExcInternalError());
-    n_user_state_ = n;
+    n_user_state_        = n;
+    this->user_materials = user_materials;
   }
 
   void

@@ -367,7 +367,7 @@ namespace CaissonMPM
             user_states.push_back(
               m.umat ? m.umat->start_of_state(m.umat_stiffness.p_wave_modulus,
                                               soil.n_user_state()) :
-                       std::vector<double>(soil.n_user_state(), 0.));
+                       std::vector<double>(soil.n_user_state(), no_state));
           }
       }
 

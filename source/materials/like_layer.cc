@@ -83,7 +83,9 @@ namespace CaissonMPM
             prm.leave_subsection();
             origins.record(own + entry.name,
                            own + like + " = " + to_text(model),
-                           true);
+                           true,
+                           false,
+                           before.directory_of(entry.path));
           }
       }
   }

@@ -275,54 +275,6 @@ namespace CaissonMPM
     return {{-horizontal, -vertical_stress, -horizontal, 0.}};
   }
 
-  void
-  Soil::load_libraries(const std::string &directory)
-  {
-    for (unsigned int i = 0;
-         i < std::min<std::size_t>(n_layers_, layers.size());
-         ++i)
-      layers[i]->load_library(directory);
-  }
-
-  std::string
-  Soil::checksums_of_libraries() const
-  {
-    std::string lines;
-    for (const auto &layer : layers)
-      if (layer->umat() != nullptr)
-        lines += layer->section() +
-                 "/Library (checksum) = " + layer->umat()->checksum() + "\n";
-    return lines;
-  }
-
-  unsigned int
-  Soil::n_user_state() const
-  {
-    unsigned int n = 0;
-    for (const auto &layer : layers)
-      if (layer->umat() != nullptr)
-        n = std::max(n, layer->umat()->n_state());
-    return n;
-  }
-
-  void
-  Soil::begin_step(const double       time,
-                   const double       step_size,
-                   const unsigned int step) const
-  {
-    for (const auto &layer : layers)
-      if (layer->umat() != nullptr)
-        layer->umat()->begin_step(time, step_size, step);
-  }
-
-  void
-  Soil::check_user_materials() const
-  {
-    for (const auto &layer : layers)
-      if (layer->umat() != nullptr && !layer->umat()->failure().empty())
-        throw RunFailure(layer->umat()->failure());
-  }
-
   double
   Soil::vertical_stress(const double depth, const double of_weight) const
   {

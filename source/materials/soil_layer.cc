@@ -126,7 +126,8 @@ namespace CaissonMPM
       "Library",
       umat_settings.library,
       "The shared library of a user material, a UMAT of Abaqus, has "
-      "this path relative to the scene's file. Units: none.");
+      "this path, relative to the file that sets this entry (with --set, to "
+      "the scene's file). Units: none.");
     add_entry(*this,
               "Properties",
               "",
@@ -159,7 +160,7 @@ namespace CaissonMPM
   }
 
   void
-  SoilLayer::load_library(const std::string &directory)
+  SoilLayer::load_library(const ParameterOrigins &origins)
   {
     if (law != Kernels::UserMaterial::name)
       return;
@@ -167,8 +168,8 @@ namespace CaissonMPM
       section() + "/Law = " + law + " needs " + section();
     if (umat_settings.library.empty())
       throw BadInput(needs + "/Library. Set it to the path of the shared "
-                             "library with the UMAT, relative to the scene's "
-                             "file.");
+                             "library with the UMAT, relative to the file "
+                             "that sets it.");
     if (properties_text.empty())
       throw BadInput(needs + "/Properties. Set it to the PROPS of the UMAT, "
                              "with commas between them, or to none.");
@@ -190,7 +191,10 @@ namespace CaissonMPM
         section() + "/State at the start has " + to_text(n) + " numbers, but " +
         section() + "/State variables = " + to_text(umat_settings.n_variables) +
         ". Raise it, or remove numbers.");
-    soil.umat = std::make_shared<UmatLaw>(umat_settings, section(), directory);
+    soil.umat =
+      std::make_shared<UmatLaw>(umat_settings,
+                                section(),
+                                origins.directory_of(section() + "/Library"));
   }
 
   void

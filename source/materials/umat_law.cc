@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <filesystem>
-#include <limits>
+#include <utility>
 
 namespace CaissonMPM
 {
@@ -16,18 +15,7 @@ namespace CaissonMPM
   {
     namespace UserState = Kernels::UserState;
 
-    // behind PROPS and STATEV: reading there makes a stress that is not finite
-    constexpr unsigned int n_guards = 16;
-    constexpr double       guard    = std::numeric_limits<double>::quiet_NaN();
-
-    /** The list with guards behind it. */
-    std::vector<double>
-    with_guards(std::vector<double> list, const std::size_t n)
-    {
-      list.resize(n, 0.);
-      list.resize(n + n_guards, guard);
-      return list;
-    }
+    constexpr std::size_t bytes = sizeof(double);
 
     std::string
     path_of(const std::string &directory, const std::string &library)
@@ -49,7 +37,6 @@ namespace CaissonMPM
     name, offsetof(UmatInput, member), sizeof(UmatInput::member) \
   }
     constexpr InputName input_names[] = {
-      CAISSON_INPUT("STRAN", stran),   CAISSON_INPUT("DSTRAN", dstran),
       CAISSON_INPUT("TIME", time),     CAISSON_INPUT("DTIME", dtime),
       CAISSON_INPUT("TEMP", temp),     CAISSON_INPUT("DTEMP", dtemp),
       CAISSON_INPUT("PREDEF", predef), CAISSON_INPUT("DPRED", dpred),
@@ -64,18 +51,16 @@ namespace CaissonMPM
       CAISSON_INPUT("CMNAME", cmname)};
 #undef CAISSON_INPUT
 
-    template <typename List>
     bool
-    is_finite(const List &list, const std::size_t n)
+    is_finite(const double *list, const std::size_t n)
     {
-      return std::all_of(list.begin(), list.begin() + n, [](const double x) {
+      return std::all_of(list, list + n, [](const double x) {
         return std::isfinite(x);
       });
     }
 
-    template <typename List>
     std::string
-    list_text(const List &list, const std::size_t n)
+    list_text(const double *list, const std::size_t n)
     {
       std::string text;
       for (std::size_t i = 0; i < n; ++i)
@@ -139,7 +124,7 @@ namespace CaissonMPM
     }
 
     double
-    largest_diagonal(const std::array<double, 16> &ddsdde)
+    largest_diagonal(const double *ddsdde)
     {
       return std::max({ddsdde[0], ddsdde[5], ddsdde[10], ddsdde[15]});
     }
@@ -192,20 +177,26 @@ namespace CaissonMPM
     , section(section)
     , entry(section + "/Library = " + settings.library)
     , library(path_of(directory, settings.library), entry)
-    , given_props(with_guards(settings.properties, settings.properties.size()))
-    , props(given_props)
-    , given_statev(with_guards(settings.variables, settings.n_variables))
-    , statev(given_statev)
+    , props(bytes * settings.properties.size(), Access::read_only)
+    , stran(bytes * 4, Access::read_only)
+    , dstran(bytes * 4, Access::read_only)
+    , input(sizeof(UmatInput), Access::read_only)
+    , stress(bytes * 4, Access::read_and_write)
+    , statev(bytes * settings.n_variables, Access::read_and_write)
+    , ddsdde(bytes * 16, Access::read_and_write)
   {
-    behind_ddsdde.fill(guard);
-    behind_stress.fill(guard);
-    given.npt = given.layer = given.kspt = given.jstep[0] = 1;
-    given.ndi                                             = 3;
-    given.nshr                                            = 1;
-    given.ntens                                           = 4;
-    given.nstatv = settings.n_variables;
-    given.nprops = settings.properties.size();
-    std::fill_n(given.cmname, sizeof(given.cmname), ' ');
+    std::copy(settings.properties.begin(),
+              settings.properties.end(),
+              props.own<double>());
+    UmatInput &in = given();
+    in.npt = in.layer = in.kspt = in.jstep[0] = 1;
+    in.ndi                                    = 3;
+    in.nshr                                   = 1;
+    in.ntens                                  = 4;
+    in.nstatv                                 = settings.n_variables;
+    in.nprops                                 = settings.properties.size();
+    in.drot[8]                                = 1.;
+    std::fill_n(in.cmname, sizeof(in.cmname), ' ');
     std::string name = section; // SOIL-LAYER-1
     std::replace_if(
       name.begin(),
@@ -213,7 +204,7 @@ namespace CaissonMPM
       [](const char c) { return c == '/' || c == ' '; },
       '-');
     for (std::size_t i = 0; i < name.size(); ++i)
-      given.cmname[i] = std::toupper(static_cast<unsigned char>(name[i]));
+      in.cmname[i] = std::toupper(static_cast<unsigned char>(name[i]));
   }
 
   // ------------------------------------------------------------ a call
@@ -223,10 +214,11 @@ namespace CaissonMPM
                       const double       step_size,
                       const unsigned int step)
   {
+    UmatInput &in = given();
     is_testing    = false;
-    given.time[0] = given.time[1] = time;
-    given.dtime                   = step_size;
-    given.kinc                    = static_cast<int>(step + 1);
+    in.time[0] = in.time[1] = time;
+    in.dtime                = step_size;
+    in.kinc                 = static_cast<int>(step + 1);
   }
 
   void
@@ -246,57 +238,56 @@ namespace CaissonMPM
                                                      ExitStatus::failure);
     const EndOfCall end =
       guarded_call(&UmatLaw::call_umat, this, &UmatLaw::text_of_exit, status);
-    const std::string fault = find_fault(end);
-    if (fault.empty())
+    if (end == EndOfCall::returned && is_good())
       accept(p);
     else
-      failure_ = describe(fault);
+      failure_ = describe(find_fault(end));
   }
 
   void
   UmatLaw::prepare(const Kernels::UserPoint &p)
   {
-    std::copy_n(p.stress, 4, stress.begin());
+    UmatInput &in = given();
+    std::copy_n(p.stress, 4, stress.own<double>());
     // the strain so far turns as the stress does
     const double *e = p.state + UserState::strain;
     const double  c = p.cosine, s = p.sine, mean = .5 * (e[0] + e[1]),
                  difference = .5 * (e[0] - e[1]), shear = .5 * e[3],
                  cos2 = c * c - s * s, sin2 = 2. * s * c,
                  turned = cos2 * difference + sin2 * shear;
-    given.stran[0]      = mean + turned;
-    given.stran[1]      = mean - turned;
-    given.stran[2]      = e[2];
-    given.stran[3]      = 2. * (cos2 * shear - sin2 * difference);
-    std::copy_n(p.strain, 4, given.dstran);
-    std::copy_n(p.place, 2, given.coords);
-    double *const turn = given.drot;
+    double *const sum   = stran.own<double>();
+    sum[0]              = mean + turned;
+    sum[1]              = mean - turned;
+    sum[2]              = e[2];
+    sum[3]              = 2. * (cos2 * shear - sin2 * difference);
+    std::copy_n(p.strain, 4, dstran.own<double>());
+    std::copy_n(p.place, 2, in.coords);
+    double *const turn = in.drot;
     turn[0] = turn[4] = c;
     turn[3]           = s;
     turn[1]           = -s;
-    turn[8]           = 1.;
     const double *f   = p.state + UserState::gradient;
-    set_gradient(f, given.dfgrd0);
-    set_gradient(next_gradient(f, p.gradient).data(), given.dfgrd1);
-    given.celent = p.cell_size;
-    given.noel   = static_cast<int>(p.id) + 1;
+    set_gradient(f, in.dfgrd0);
+    set_gradient(next_gradient(f, p.gradient).data(), in.dfgrd1);
+    in.celent = p.cell_size;
+    in.noel   = static_cast<int>(p.id) + 1;
     std::copy_n(p.state + UserState::variables,
                 settings.n_variables,
-                statev.begin());
-    ddsdde.fill(0.);
+                statev.own<double>());
+    std::fill_n(ddsdde.own<double>(), 16, 0.);
     pnewdt = 1.;
-    input  = given;
   }
 
   void
   UmatLaw::call_umat(void *law)
   {
     UmatLaw   &l   = *static_cast<UmatLaw *>(law);
-    UmatInput &in  = l.input;
+    UmatInput &in  = *l.input.lent<UmatInput>();
     double     sse = 0., spd = 0., scd = 0., rpl = 0., drpldt = 0.;
     double     ddsddt[4] = {}, drplde[4] = {};
-    l.library.umat()(l.stress.data(),
-                     l.statev.data(),
-                     l.ddsdde.data(),
+    l.library.umat()(l.stress.lent<double>(),
+                     l.statev.lent<double>(),
+                     l.ddsdde.lent<double>(),
                      &sse,
                      &spd,
                      &scd,
@@ -304,8 +295,8 @@ namespace CaissonMPM
                      ddsddt,
                      drplde,
                      &drpldt,
-                     in.stran,
-                     in.dstran,
+                     l.stran.lent<double>(),
+                     l.dstran.lent<double>(),
                      in.time,
                      &in.dtime,
                      &in.temp,
@@ -317,7 +308,7 @@ namespace CaissonMPM
                      &in.nshr,
                      &in.ntens,
                      &in.nstatv,
-                     l.props.data(),
+                     l.props.lent<double>(),
                      &in.nprops,
                      in.coords,
                      in.drot,
@@ -342,102 +333,91 @@ namespace CaissonMPM
   }
 
   bool
-  UmatLaw::keeps_input() const
+  UmatLaw::is_good() const
   {
-    const auto same = [](const std::vector<double> &a,
-                         const std::vector<double> &b,
-                         const std::size_t          first) {
-      return std::memcmp(a.data() + first,
-                         b.data() + first,
-                         (a.size() - first) * sizeof(double)) == 0;
-    };
-    return std::memcmp(&input, &given, sizeof(UmatInput)) == 0 &&
-           same(props, given_props, 0) &&
-           same(statev, given_statev, settings.n_variables);
-  }
-
-  bool
-  UmatLaw::keeps_to_its_components() const
-  {
-    const auto same = [](const auto &list) {
-      return std::all_of(list.begin(), list.end(), [](const double x) {
-        return std::memcmp(&x, &guard, sizeof(double)) == 0;
-      });
-    };
-    return same(behind_stress) && same(behind_ddsdde);
+    return is_finite(stress.own<double>(), 4) &&
+           is_finite(statev.own<double>(), settings.n_variables) &&
+           is_finite(ddsdde.own<double>(), 16) && pnewdt >= 1.;
   }
 
   std::string
   UmatLaw::find_fault(const EndOfCall end) const
   {
-    if (end == EndOfCall::returned && keeps_input() &&
-        keeps_to_its_components() && is_finite(stress, 4) &&
-        is_finite(statev, settings.n_variables) && is_finite(ddsdde, 16) &&
-        pnewdt >= 1.)
-      return "";
     if (end == EndOfCall::stopped)
       return "has called XIT, or STDB_ABQERR with an error";
     if (end != EndOfCall::returned)
-      return "has crashed with " + name_of_signal(end) +
-             ". Compile it with -g -fcheck=all to find out where";
-    if (!keeps_to_its_components())
-      return "has written beyond the 4 components of STRESS or the 4 x 4 of "
-             "DDSDDE. NTENS is 4 here (11, 22, 33, 12): a UMAT for NTENS = 6 "
-             "needs its arrays by NTENS";
-    if (!keeps_input())
-      return changed_input();
-    const std::string reads =
-      " (PROPS and STATEV are not finite beyond the " +
-      to_text(settings.properties.size()) + " Properties and the " +
-      to_text(settings.n_variables) + " State variables)";
-    if (!is_finite(stress, 4))
-      return "has returned the STRESS " + list_text(stress, 4) + reads;
-    if (!is_finite(statev, settings.n_variables))
+      {
+        const std::string what = beyond_or_read_only(address_of_crash());
+        return !what.empty() ? what :
+                               "has crashed with " + name_of_signal(end) +
+                                 ". Compile it with -g -fcheck=all to find out "
+                                 "where";
+      }
+    const unsigned int n = settings.n_variables;
+    if (!is_finite(stress.own<double>(), 4))
+      return "has returned the STRESS " + list_text(stress.own<double>(), 4);
+    if (!is_finite(statev.own<double>(), n))
       return "has returned a STATEV that is not finite: " +
-             list_text(statev, settings.n_variables) + reads;
-    if (!is_finite(ddsdde, 16))
+             list_text(statev.own<double>(), n);
+    if (!is_finite(ddsdde.own<double>(), 16))
       return "has returned a DDSDDE that is not finite: " +
-             list_text(ddsdde, 16) + reads;
+             list_text(ddsdde.own<double>(), 16);
     return "asks for a smaller step by PNEWDT = " + to_text(pnewdt, 4) +
            ", which an explicit step cannot give. Reduce Time/Courant number, "
            "or let the UMAT divide its step";
   }
 
   std::string
-  UmatLaw::changed_input() const
+  UmatLaw::beyond_or_read_only(const void *address) const
   {
-    if (std::memcmp(statev.data() + settings.n_variables,
-                    given_statev.data() + settings.n_variables,
-                    n_guards * sizeof(double)) != 0)
-      return "has written beyond its " + to_text(settings.n_variables) +
+    const std::string beyond = "has read or written beyond ";
+    for (const auto &[name, memory] : {std::make_pair("STRESS", &stress),
+                                       std::make_pair("DDSDDE", &ddsdde),
+                                       std::make_pair("STRAN", &stran),
+                                       std::make_pair("DSTRAN", &dstran)})
+      if (memory->is_behind(address))
+        return beyond + "the 4 components of " + name +
+               ". NTENS is 4 here (11, 22, 33, 12), and DDSDDE has 4 x 4 "
+               "numbers: a UMAT for NTENS = 6 needs its arrays by NTENS";
+    if (statev.is_behind(address))
+      return beyond + "its " + to_text(settings.n_variables) +
              " State variables. Raise " + section + "/State variables";
-    const std::string rule = ", which a UMAT may only read. Let it work on a "
-                             "copy";
+    if (props.is_behind(address))
+      return beyond + "its " + to_text(settings.properties.size()) +
+             " Properties. Give all of them in " + section + "/Properties";
+    std::string name = stran.is_inside(address)  ? "STRAN" :
+                       dstran.is_inside(address) ? "DSTRAN" :
+                       props.is_inside(address)  ? "PROPS" :
+                                                   "";
     for (const InputName &n : input_names)
-      if (std::memcmp(reinterpret_cast<const char *>(&input) + n.begin,
-                      reinterpret_cast<const char *>(&given) + n.begin,
-                      n.size) != 0)
-        return std::string("has changed ") + n.name + rule;
-    return "has changed PROPS" + rule;
+      if (input.is_inside(address) &&
+          input.distance_to(address) - n.begin < n.size)
+        name = n.name;
+    return name.empty() ? "" :
+                          "has written to " + name +
+                            ", which a UMAT may only read. Let it work on a "
+                            "copy";
   }
 
   void
   UmatLaw::accept(Kernels::UserPoint &p)
   {
     double *const state = p.state;
-    std::copy_n(stress.begin(), 4, p.stress);
+    std::copy_n(stress.own<double>(), 4, p.stress);
     double &modulus = state[UserState::modulus];
-    modulus = std::max(modulus, modulus_ratio * largest_diagonal(ddsdde));
+    modulus =
+      std::max(modulus, modulus_ratio * largest_diagonal(ddsdde.own<double>()));
     for (unsigned int i = 0; i < 4; ++i)
-      state[UserState::strain + i] = given.stran[i] + given.dstran[i];
-    const double *const F = given.dfgrd1;
+      state[UserState::strain + i] =
+        stran.own<double>()[i] + dstran.own<double>()[i];
+    const double *const F = given().dfgrd1;
     double *const       f = state + UserState::gradient;
     f[0]                  = F[0] - 1.;
     f[1]                  = F[3];
     f[2]                  = F[1];
     f[3]                  = F[4] - 1.;
     f[4]                  = F[8] - 1.;
-    std::copy_n(statev.begin(),
+    std::copy_n(statev.own<double>(),
                 settings.n_variables,
                 state + UserState::variables);
   }
@@ -445,18 +425,18 @@ namespace CaissonMPM
   std::string
   UmatLaw::describe(const std::string &what) const
   {
-    std::string text = entry + ": the UMAT " + what + ". This happened ";
+    const UmatInput &in   = given();
+    std::string      text = entry + ": the UMAT " + what + ". This happened ";
     if (is_testing)
       text += "in the element test before the run";
     else
-      text += "in step " + to_text(given.kinc - 1) +
-              " at t = " + to_text(given.time[1], 6) +
-              " s, at material point " + to_text(given.noel - 1) +
-              " at r = " + to_text(given.coords[0], 6) +
-              " m, z = " + to_text(given.coords[1], 6) + " m";
+      text += "in step " + to_text(in.kinc - 1) +
+              " at t = " + to_text(in.time[1], 6) + " s, at material point " +
+              to_text(in.noel - 1) + " at r = " + to_text(in.coords[0], 6) +
+              " m, z = " + to_text(in.coords[1], 6) + " m";
     return text + ", with the stress " + list_text(point->stress, 4) +
            " Pa and the strain increment " + list_text(point->strain, 4) +
-           " (rr, zz, tt, rz), DTIME = " + to_text(given.dtime, 4) + " s.";
+           " (rr, zz, tt, rz), DTIME = " + to_text(in.dtime, 4) + " s.";
   }
 
   // ------------------------------------------------------------ element test
@@ -465,11 +445,12 @@ namespace CaissonMPM
   UmatLaw::start_of_state(const double       p_wave_modulus,
                           const unsigned int n) const
   {
-    std::vector<double> result(n, 0.);
+    std::vector<double> result(n, no_state);
+    std::fill_n(result.begin(), n_state(), 0.);
     result[UserState::modulus] = p_wave_modulus;
-    std::copy_n(given_statev.begin(),
-                settings.n_variables,
-                result.begin() + UserState::variables);
+    std::copy(settings.variables.begin(),
+              settings.variables.end(),
+              result.begin() + UserState::variables);
     return result;
   }
 
@@ -493,14 +474,16 @@ namespace CaissonMPM
     p.cosine = p.cell_size = 1.;
     p.place[0]             = 1.;
     p.state                = state.data();
-    given.dtime            = std::max(total, 1e-6) / rate;
+    given().dtime          = std::max(total, 1e-6) / rate;
     update(p);
     if (!failure_.empty())
       throw BadInput(failure_);
-    return {stress,
-            ddsdde,
-            std::vector<double>(statev.begin(),
-                                statev.begin() + settings.n_variables)};
+    Answer answer;
+    std::copy_n(stress.own<double>(), 4, answer.stress.begin());
+    std::copy_n(ddsdde.own<double>(), 16, answer.ddsdde.begin());
+    answer.variables.assign(statev.own<double>(),
+                            statev.own<double>() + settings.n_variables);
+    return answer;
   }
 
   void
@@ -516,8 +499,8 @@ namespace CaissonMPM
     if (!same)
       throw BadInput(
         entry + ": the UMAT gives two answers to the same call, the STRESS " +
-        list_text(first.stress, 4) + " and, after another call, " +
-        list_text(again.stress, 4) +
+        list_text(first.stress.data(), 4) + " and, after another call, " +
+        list_text(again.stress.data(), 4) +
         " Pa. All that it remembers must be in STATEV (no SAVE, no COMMON), "
         "and it must set all variables that it uses.");
   }
@@ -530,7 +513,8 @@ namespace CaissonMPM
     // 1. DDSDDE of small strains, and what the stress says
     const Answer none  = ask(at, {{0., 0., 0., 0.}});
     double       bound = acoustic_bound(none.ddsdde),
-           diagonal = largest_diagonal(none.ddsdde), measured = 0., trace = 0.;
+           diagonal = largest_diagonal(none.ddsdde.data()), measured = 0.,
+           trace = 0.;
     for (const double sign : {1., -1.})
       {
         std::array<double, 16> found;
@@ -539,8 +523,9 @@ namespace CaissonMPM
             std::array<double, 4> e = {{0., 0., 0., 0.}};
             e[j]                    = sign * strain;
             const Answer answer     = ask(at, e);
-            bound    = std::max(bound, acoustic_bound(answer.ddsdde));
-            diagonal = std::max(diagonal, largest_diagonal(answer.ddsdde));
+            bound = std::max(bound, acoustic_bound(answer.ddsdde));
+            diagonal =
+              std::max(diagonal, largest_diagonal(answer.ddsdde.data()));
             for (unsigned int i = 0; i < 4; ++i)
               found[i + 4 * j] =
                 (answer.stress[i] - none.stress[i]) / (sign * strain);

@@ -2,9 +2,11 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/fingerprint.h>
 #include <caisson_mpm/base/guarded_call.h>
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/materials/user_library.h>
 
 #include <dlfcn.h>
+#include <link.h>
 
 #include <algorithm>
 #include <cfenv>
@@ -12,7 +14,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <sstream>
+#include <system_error>
 
 namespace CaissonMPM
 {
@@ -39,14 +43,97 @@ namespace CaissonMPM
              ": the library ends the program while it is loaded.";
     }
 
+    std::string
+    content_of(const std::string &path)
+    {
+      std::ifstream      file(path, std::ios::binary);
+      std::ostringstream content;
+      content << file.rdbuf();
+      return content.str();
+    }
+
+    const std::string how_to_compile =
+      "gfortran -shared -fPIC -O2 -o NAME.so NAME.f90";
+
+    using Header = ElfW(Ehdr);
+
+    /** The first numbers of a library or a program; in other files they mean
+     * nothing. */
+    Header
+    header_of(const std::string &content)
+    {
+      Header header = {};
+      std::memcpy(&header,
+                  content.data(),
+                  std::min(content.size(), sizeof(header)));
+      return header;
+    }
+
+    std::string
+    name_of_processor(const unsigned int number)
+    {
+      static const std::map<unsigned int, std::string> names = {
+        {EM_X86_64, "x86-64"},
+        {EM_AARCH64, "ARM of 64 bits"},
+        {EM_386, "x86 of 32 bits"},
+        {EM_ARM, "ARM of 32 bits"},
+        {EM_RISCV, "RISC-V"},
+        {EM_PPC64, "POWER"}};
+      const auto found = names.find(number);
+      return found == names.end() ? "processors of number " + to_text(number) :
+                                    found->second;
+    }
+
+    /** Say why the content of a file cannot be a library for this machine;
+     * empty where it can be one. */
+    std::string
+    reason_not_to_load(const std::string &content)
+    {
+      if (content.empty())
+        return "is empty or cannot be read. Compile the library again";
+      if (content.compare(0, SELFMAG, ELFMAG) != 0)
+        return "is no compiled library, but text or data. Name the file that "
+               "the compiler has made of it";
+      const auto its = header_of(content),
+                 own = header_of(content_of("/proc/self/exe"));
+      if (its.e_machine != own.e_machine ||
+          its.e_ident[EI_CLASS] != own.e_ident[EI_CLASS])
+        return "is a library for " + name_of_processor(its.e_machine) +
+               ", and this program runs on " +
+               name_of_processor(own.e_machine) +
+               ". Compile it on this machine";
+      if (its.e_type != ET_DYN)
+        return "is an object file or a program. Compile it as a shared library";
+      return "";
+    }
+
+    /** Throw BadInput where the file cannot be a library. */
+    void
+    check_file(const std::string &path, const std::string &entry)
+    {
+      namespace fs = std::filesystem;
+      std::error_code error;
+      const auto      status = fs::status(path, error);
+      if (!fs::exists(status))
+        throw BadInput(entry + ": there is no file " + path +
+                       ". The path is relative to the file that sets it. "
+                       "Correct it, or compile the library: " +
+                       how_to_compile + ".");
+      const std::string reason =
+        fs::is_regular_file(status) ?
+          reason_not_to_load(content_of(path)) :
+          std::string("is ") +
+            (fs::is_directory(status) ? "a directory" : "no file") +
+            ". Name the file of the library";
+      if (!reason.empty())
+        throw BadInput(entry + ": " + path + " " + reason + " (" +
+                       how_to_compile + ").");
+    }
+
     void *
     load(const std::string &path, const std::string &entry)
     {
-      if (!std::filesystem::is_regular_file(path))
-        throw BadInput(entry + ": there is no file " + path +
-                       ". The path is relative to the scene's file. Correct "
-                       "it, or compile the library: gfortran -shared -fPIC -O2 "
-                       "-o NAME.so NAME.f90.");
+      check_file(path, entry);
       Opening opening = {path, entry, nullptr};
       // a library that was compiled with -ffast-math changes how all of the
       // program computes
@@ -97,15 +184,6 @@ namespace CaissonMPM
             message << text[i];
         }
       return message.str();
-    }
-
-    std::string
-    content_of(const std::string &path)
-    {
-      std::ifstream      file(path, std::ios::binary);
-      std::ostringstream content;
-      content << file.rdbuf();
-      return content.str();
     }
   } // namespace
 

@@ -66,9 +66,10 @@ namespace CaissonMPM
       throw BadInput("the stability limit of the time step is " +
                      to_text(limit) + " s, set by " + limiting_cell +
                      ". Check the stiffness and the densities of the soil, "
-                     "and Soil/Fluid density.");
+                     "and Soil/Fluid density." +
+                     soil.cause_in_user_materials());
     if (is_too_large())
-      throw BadInput(text_of_too_large_step());
+      throw BadInput(text_of_too_large_step() + soil.cause_in_user_materials());
   }
 
   double
@@ -85,7 +86,8 @@ namespace CaissonMPM
         update_limit(grid, points, soil, materials);
       }
     if (is_too_large())
-      throw RunFailure(text_of_too_large_step());
+      throw RunFailure(text_of_too_large_step() +
+                       soil.cause_in_user_materials());
     return step_size();
   }
 

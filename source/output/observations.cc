@@ -143,7 +143,8 @@ namespace CaissonMPM
     {
       Samples samples;
       points.for_each([&](const MaterialPoint &p) {
-        if (!o.region.empty() && o.region(p.initial_position, time) == 0.)
+        if (o.quantity.is_missing(p) ||
+            (!o.region.empty() && o.region(p.initial_position, time) == 0.))
           return;
         samples.value.push_back(o.quantity(p));
         samples.volume.push_back(p.volume);
@@ -153,8 +154,8 @@ namespace CaissonMPM
       });
       if (samples.value.empty())
         throw RunFailure("Verification/Observations: " + o.name +
-                         ": no material point is in its region at the start. "
-                         "Choose another region.");
+                         ": no material point is in its region at the start, "
+                         "or none there has the quantity. Choose others.");
       return samples;
     }
 

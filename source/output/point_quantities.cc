@@ -178,6 +178,7 @@ namespace CaissonMPM
                 (meaning.empty() ? "" : meaning + "; ") +
                 (unit == "none" ? "no unit" : unit) + ")";
       }
-    return text + ", statev_1 (and so on; STATEV of a user material; no unit).";
+    return text + ", statev_1 (and so on; STATEV of the user materials that "
+                  "have so many; no unit).";
   }
 } // namespace CaissonMPM

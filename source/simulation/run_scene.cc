@@ -68,7 +68,7 @@ namespace CaissonMPM
         {
           dealii::ParameterAcceptor::parse_all_parameters();
           simulation.name_unused_entries(origins);
-          simulation.set_up(command_line);
+          simulation.set_up(command_line, origins);
           simulation.review(origins);
         }
       catch (const BadInput &)
@@ -123,11 +123,13 @@ namespace CaissonMPM
     if (!command_line.validate)
       return with_places(origins, [&]() { return simulation.run(origins); });
     // the first steps, too, may show that an entry is wrong
-    const std::string cost = with_places(origins, [&]() {
-      return describe(simulation.estimate_cost());
-    });
+    const RunCost cost =
+      with_places(origins, [&]() { return simulation.estimate_cost(); });
+    if (!cost.failure.empty())
+      origins.add_warning(cost.failure);
     print_warnings(origins, out);
-    out << command_line.parameter_file << " is valid\n" << cost << std::flush;
+    out << command_line.parameter_file << " is valid\n"
+        << describe(cost) << std::flush;
     return ExitStatus::success;
   }
 } // namespace CaissonMPM

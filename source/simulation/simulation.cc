@@ -93,21 +93,6 @@ namespace CaissonMPM
       {grid, points, soil, body, water_settings, totals, nodal_forces});
   }
 
-  void
-  Simulation::register_totals()
-  {
-    totals.keep("time", clock.time);
-    totals.keep("step", clock.step);
-    totals.carry("force_on_body", force_on_body);
-    totals.carry("since_adaptation", since_adaptation);
-    totals.count("limiter_count", n_limited);
-    totals.count("soil_into_body_m3", inflow);
-    points.register_totals(totals);
-    energy.register_totals(totals);
-    schedule.register_totals(totals);
-    recorder.register_totals(totals);
-  }
-
   // ------------------------------------------------------------ one step
 
   void
@@ -136,7 +121,7 @@ namespace CaissonMPM
     timed("grid to points", [&]() { update_points(); });
     timed("relocate", [&]() {
       grid.advance();
-      points.relocate();
+      relocate_points();
     });
     timed("split and merge", [&]() { adapt_points(); });
     finish_step();
@@ -354,6 +339,19 @@ namespace CaissonMPM
   }
 
   void
+  Simulation::relocate_points()
+  {
+    try
+      {
+        points.relocate();
+      }
+    catch (const RunFailure &error)
+      {
+        throw RunFailure(error.what() + soil.cause_in_user_materials());
+      }
+  }
+
+  void
   Simulation::report_not_finite() const
   {
     std::string text = "the state is not finite in step " +
@@ -380,7 +378,8 @@ namespace CaissonMPM
       "Time/Courant number), an unstable choice in section Method (the "
       "defaults are MUSL, blend and Mass floor = true), or a parameter of "
       "the soil that is out of any range. The files written so far are "
-      "kept.");
+      "kept." +
+      soil.cause_in_user_materials());
   }
 
   // ------------------------------------------------------------ the run

@@ -15,12 +15,26 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <filesystem>
 #include <limits>
 
 namespace CaissonMPM
 {
   using namespace dealii;
+
+  void
+  Simulation::register_totals()
+  {
+    totals.keep("time", clock.time);
+    totals.keep("step", clock.step);
+    totals.carry("force_on_body", force_on_body);
+    totals.carry("since_adaptation", since_adaptation);
+    totals.count("limiter_count", n_limited);
+    totals.count("soil_into_body_m3", inflow);
+    points.register_totals(totals);
+    energy.register_totals(totals);
+    schedule.register_totals(totals);
+    recorder.register_totals(totals);
+  }
 
   void
   Simulation::find_beginning()
@@ -146,7 +160,7 @@ namespace CaissonMPM
     grid.create_mesh();
     recorder.register_walls(totals);
     grid.move_to(body.motion().travel());
-    points.keep_user_state(soil.n_user_state());
+    points.keep_user_state(soil.n_user_state(), soil.user_materials());
     nodal_forces.initialize(soil.mass_scaling());
     body.compute_weight(mass_of_body(), soil);
   }
@@ -219,8 +233,14 @@ namespace CaissonMPM
           }
         cost.seconds_per_step = n > 1 ? seconds() / (n - 1) : first;
       }
-    catch (const RunFailure &)
-      {} // run() will say why
+    catch (const RunFailure &error)
+      {
+        cost.failure =
+          "the first steps of the run fail: " + std::string(error.what());
+        // the library is input; no other cause than its own failure
+        if (soil.n_user_state() > 0 && soil.cause_in_user_materials().empty())
+          throw BadInput(cost.failure);
+      }
     cost.n_ranks = grid.n_ranks();
     cost.peak_bytes =
       Utilities::MPI::sum(peak_memory_bytes(), grid.communicator());
@@ -276,14 +296,13 @@ namespace CaissonMPM
   }
 
   void
-  Simulation::set_up(const CommandLine &command_line)
+  Simulation::set_up(const CommandLine      &command_line,
+                     const ParameterOrigins &origins)
   {
     is_restart = command_line.restart;
     overwrites = command_line.overwrite;
     recorder.set_output_directory(command_line.output_directory);
-    soil.load_libraries(std::filesystem::path(command_line.parameter_file)
-                          .parent_path()
-                          .string());
+    soil.load_libraries(origins);
     find_beginning();
     check_parameters();
     recorder.describe(command_line.parameter_file,
@@ -340,7 +359,8 @@ namespace CaissonMPM
                      " s, and never end. The step is limited by " +
                      time_step.reason() +
                      ". Check Time/Time step, and the stiffness and density of "
-                     "the soil.");
+                     "the soil." +
+                     soil.cause_in_user_materials());
   }
 
   double

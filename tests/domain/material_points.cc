@@ -317,6 +317,38 @@ check_padding()
 
 
 
+/** A law of the user costs more, by its points: ranks share the work by that.
+ */
+void
+check_costs()
+{
+  const std::string layers   = R"(
+    subsection Soil
+      set Number of layers = 2
+      subsection Layer 2
+        set Top depth = 2
+      end
+    end)";
+  double            n_points = 0., cost[2] = {};
+  for (const bool by_user : {false, true})
+    {
+      Scene s(caisson + layers);
+      s.points.keep_user_state(0, {false, by_user});
+      s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+      for (const unsigned int of_cell : s.points.cell_costs())
+        cost[by_user] += of_cell;
+      n_points = 0.;
+      s.points.for_each([&](const MaterialPoint &p, const unsigned int) {
+        n_points += p.material == 1;
+      });
+    }
+  const double of_point = (cost[1] - cost[0]) / n_points;
+  std::printf("a point of a user's law costs some 100 ns more: %s\n",
+              of_point > 50. && of_point < 200. ? "yes" : "no");
+}
+
+
+
 int
 main(int argc, char *argv[])
 {
@@ -333,4 +365,6 @@ main(int argc, char *argv[])
   check_start_at_surface();
   heading("padding of blocks");
   check_padding();
+  heading("costs of cells");
+  check_costs();
 }

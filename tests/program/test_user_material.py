@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Laws of the user: UMATs that are compiled here, beside the laws of the program."""
+import math
 import os
 import shutil
 import subprocess
+import sys
 import unittest
 from pathlib import Path
 
@@ -302,12 +304,21 @@ class States(UserMaterialTest):
 # what goes wrong, and what the message says of it
 FAULTS = {
     "stress[0] = 0. / (stress[1] - stress[1]);": ["STRESS", "nan"],
-    "((double *)dstran)[1] = 1.;": ["changed DSTRAN"],
-    "((double *)props)[1] = .2;": ["changed PROPS"],
-    "((int *)ntens)[0] = 6;": ["changed NTENS"],
+    "((double *)dstran)[1] = 1.;": ["written to DSTRAN"],
+    "((double *)props)[1] = .2;": ["written to PROPS"],
+    "((int *)ntens)[0] = 6;": ["written to NTENS"],
+    "((double *)dfgrd1)[8] = 1.;": ["written to DFGRD1"],
     "statev[0] = 1.;": ["beyond its 0 State variables"],
-    "stress[5] = 1.;": ["beyond the 4 components", "NTENS is 4"],
-    "ddsdde[35] = 1.;": ["beyond the 4 components"],
+    "statev[100000] = 1.;": ["beyond its 0 State variables"],
+    "stress[4] = 1.;": ["beyond the 4 components of STRESS", "NTENS is 4"],
+    "ddsdde[16] = 1.;": ["beyond the 4 components of DDSDDE"],
+    # what is read decides nothing
+    "if (props[2] == 7.) ddsdde[15] *= 1.01;": ["beyond its 2 Properties"],
+    "if (statev[3] == 7.) ddsdde[15] *= 1.01;": ["beyond its 0 State variables"],
+    "if (stran[4] == 7.) ddsdde[15] *= 1.01;": ["4 components of STRAN"],
+    "if (dstran[5] == 7.) ddsdde[15] *= 1.01;": ["4 components of DSTRAN"],
+    "if (stress[4] == 7.) ddsdde[15] *= 1.01;": ["4 components of STRESS"],
+    "stress[0] += props[-1];": ["STRESS", "nan"],
     "*(volatile int *)0 = 1;": ["crashed with SIGSEGV"],
     "__builtin_trap();": ["crashed with SIGILL"],
     "__builtin_abort();": ["crashed with SIGABRT"],
@@ -361,6 +372,29 @@ class Faults(UserMaterialTest):
                 more += f"  for (int i = 0; i < 16; ++i) ddsdde[i] *= {factors[1]};"
                 text = self.run_fault(BAD_INPUT, "elastic.c", more)
                 self.assert_words(words, text)
+
+    def test_validate(self) -> None:
+        """--validate takes some steps, and a UMAT that fails in them is invalid."""
+        later = "  if (*kinc == 3) stress[0] = 0. / (*dtime - *dtime);"
+        law = self.law(self.compiled("elastic.c", later), ELASTIC)
+        text = self.run_program(BAD_INPUT, scene("jack"), "--validate", entries=law)
+        self.assert_words(["first steps of the run fail", "law.so", "step 2"], text)
+        self.assertNotIn("is valid", text)
+        # another failure is a warning: the entries may be as they should
+        self.compiled("elastic.c", "  if (*kinc == 1) stress[0] *= 1e30;")
+        text = self.run_program(SUCCESS, scene("jack"), "--validate", entries=law)
+        self.assert_words(["warning: the first steps", f"({LAYER}/Library)"], text)
+
+    def test_cause_of_a_lost_point(self) -> None:
+        """A run that breaks says that the law may be the cause."""
+        breaks = "  if (*kinc > 20) for (int i = 0; i < 4; ++i)\n"
+        breaks += "    stress[i] += 1e4 * ddsdde[5 * i] * dstran[i];"
+        law = self.law(self.compiled("elastic.c", breaks), ELASTIC)
+        cause = [f"user material ({LAYER}/Library)", "DDSDDE"]
+        text = self.run_scene("jack", self.directory(), FAILURE, entries=law)
+        self.assert_words(["material point", *cause], text)
+        law["Time/Time step"] = 1.0
+        self.refused(["exceeds the stability limit", *cause], entries=law)
 
     def test_message_of_abaqus(self) -> None:
         """STDB_ABQERR prints, and ends the run where it is an error."""
@@ -419,18 +453,29 @@ class Input(UserMaterialTest):
         """No such file, no library, no UMAT, a routine that is missing."""
         folder = self.made_directory("bad")
         (folder / "text.so").write_text("no library")
+        (folder / "empty.so").write_text("")
+        (folder / "folder.so").mkdir()
+        library = bytearray(self.compiled("elastic.f90").read_bytes())
+        library[18:20] = (243).to_bytes(2, sys.byteorder)  # e_machine of ELF
+        (folder / "foreign.so").write_bytes(library)
         (folder / "none.c").write_text("int nothing = 0;")
         (folder / "lacks.c").write_text("void f(void); void umat_(void) { f(); }")
         (folder / "crashes.c").write_text(
             "void umat_(void) {} __attribute__((constructor)) static void f(void)"
             "{ *(volatile int *)0 = 1; }"
         )
+        words = ["gcc", "-c", "-o", "object.so", "none.c"]
+        subprocess.run(words, cwd=folder, check=True)
         for name in ("none", "lacks", "crashes"):
             words = ["gcc", "-shared", "-fPIC", "-o", f"{name}.so", f"{name}.c"]
             subprocess.run(words, cwd=folder, check=True)
         for name, words in {
-            "missing": ["there is no file", "relative to the scene", "gfortran"],
-            "text": ["cannot be loaded", "gfortran -shared"],
+            "missing": ["there is no file", "relative to the file", "gfortran"],
+            "text": ["text.so is no compiled library", "gfortran -shared"],
+            "empty": ["empty.so is empty", "Compile"],
+            "folder": ["folder.so is a directory", "Name the file"],
+            "foreign": ["for RISC-V, and this program runs on", "Compile it"],
+            "object": ["object.so is an object file", "shared library"],
             "none": ["no symbol umat_"],
             "lacks": ["undefined symbol: f", "XIT"],
             "crashes": ["while it is loaded", "SIGSEGV"],
@@ -447,8 +492,8 @@ class Input(UserMaterialTest):
         for entry, value, words in (
             ("Library", "", ["needs", "Library"]),
             ("Properties", "", ["needs", "Properties", "none"]),
-            ("Properties", "none", ["not finite beyond the 0 Properties"]),
-            ("Properties", "5e6", ["not finite beyond the 1 Properties"]),
+            ("Properties", "none", ["beyond its 0 Properties"]),
+            ("Properties", "5e6", ["beyond its 1 Properties"]),
             ("Properties", "5e6, much", ["5e6, much", "list of numbers"]),
             ("State at the start", "1, 2", ["has 2 numbers", "State variables = 0"]),
             ("Internal length", 0.01, ["Internal length", "user material"]),
@@ -467,10 +512,30 @@ class Input(UserMaterialTest):
             "set Law = user material\nset Library = law.so\n"
             "set Properties = 5e6, 0.3\nend\nend\n"
         )
-        text = self.run_program(SUCCESS, file, "--validate")
-        self.assert_words(["is valid"], text)
-        relative = Path(os.path.relpath(file))
-        self.assertIn("is valid", self.run_program(SUCCESS, relative, "--validate"))
+        for name in (file, Path(os.path.relpath(file))):
+            self.assertIn("is valid", self.run_program(SUCCESS, name, "--validate"))
+
+    def test_path_in_an_included_file(self) -> None:
+        """The library lies beside the file that sets it; a layer that is like this
+        one finds it, too."""
+        library = self.compiled("elastic.f90")
+        (library.parent / "soil.prm").write_text(
+            f"include {scene('jack')}\nsubsection Soil\nsubsection Layer 1\n"
+            "set Law = user material\nset Library = law.so\n"
+            "set Properties = 5e6, 0.3\nend\nend\n"
+        )
+        file = library.parent.parent / "top.prm"
+        file.write_text(
+            f"include {library.parent.name}/soil.prm\nsubsection Soil\n"
+            "set Number of layers = 2\nsubsection Layer 2\n"
+            "set Like layer = 1\nset Top depth = 2\nend\nend\n"
+        )
+        self.run_program(SUCCESS, file, "--validate")
+        # of --set it is beside the scene
+        text = self.run_program(
+            BAD_INPUT, file, "--validate", entries={f"{LAYER}/Library": "law.so"}
+        )
+        self.assert_words(["there is no file", str(file.parent / "law.so")], text)
 
     def test_entries_of_other_laws(self) -> None:
         """A library without the law is reported."""
@@ -478,24 +543,43 @@ class Input(UserMaterialTest):
         text = self.run_scene("jack", self.directory(), entries=more)
         self.assert_words([f"{LAYER}/Library", "not used"], text)
 
-    def test_layers(self) -> None:
-        """A user material above a law of the program, stopped and resumed."""
-        entries: Entries = {
-            **self.law(
-                self.compiled("elastic.f90", COUNT), ELASTIC, State_variables=40
-            ),
+    def above_elastic(self) -> Entries:
+        """Return the entries of a user material above a law of the program."""
+        library = self.compiled("elastic.f90", COUNT)
+        return {
+            **self.law(library, ELASTIC, State_variables=40),
             "Soil/Number of layers": 2,
             "Soil/Layer 2/Top depth": 1,
             "Soil/Layer 2/Law": "linear elastic",
-            "Time/End penetration": 0.52,
         }
+
+    def test_layers(self) -> None:
+        """A user material above a law of the program, stopped and resumed."""
+        entries = {**self.above_elastic(), "Time/End penetration": 0.52}
         path = self.directory()
         self.run_scene("jack", path, entries=entries)
-        stop = {**entries, "Run control/Wall time limit": 1e-3}
         stopped = self.directory("stopped")
+        stop = {**entries, "Run control/Wall time limit": 1e-3}
         self.run_scene("jack", stopped, STOPPED, entries=stop)
         self.run_scene("jack", stopped, SUCCESS, "--restart", entries=entries)
         self.assert_same_history(history(path)[-1:], history(stopped)[-1:], 1e-5)
+
+    def test_state_of_other_layers(self) -> None:
+        """Points of a layer whose law keeps no STATEV are left out."""
+        entries = {
+            **self.above_elastic(),
+            "Time/End penetration": 0.51,
+            "Verification/Observations": "least = min statev_1; "
+            "mean = mean statev_1; deep = point statev_1 at 1 -3",
+        }
+        path = self.directory()
+        self.run_scene("jack", path, entries=entries)
+        last, steps = history(path, "observations")[-1], summary(path)["steps"]
+        self.assertEqual(last["least"], steps)
+        self.assertAlmostEqual(last["mean"], steps, places=6)
+        self.assertTrue(math.isnan(last["deep"]), last)
+        entries["Verification/Observations"] = "a = max statev_41"
+        self.refused(["none there has the quantity"], entries=entries)
 
     def test_command(self) -> None:
         """caisson run makes tables, pictures and the page of such a run."""

@@ -35,6 +35,11 @@ namespace CaissonMPM
   [[noreturn]] void
   leave_guarded_call();
 
+  /** Where the last call that ended with SIGSEGV or SIGBUS wanted to read or to
+   * write. */
+  const void *
+  address_of_crash();
+
   /** "SIGSEGV (Segmentation fault)" and the like. */
   std::string
   name_of_signal(const EndOfCall end);

@@ -33,13 +33,15 @@ namespace CaissonMPM
     /**
      * Remember that the entry "Section/Sub/Entry" was set at this place;
      * @p may_be_unused says that add_unused() passes it over, @p is_assumed
-     * that the comment behind it says ASSUMED.
+     * that the comment behind it says ASSUMED, and @p directory where the file
+     * lies that sets it.
      */
     void
     record(const std::string &path,
            const std::string &place,
            const bool         may_be_unused = false,
-           const bool         is_assumed    = false);
+           const bool         is_assumed    = false,
+           const std::string &directory     = "");
 
     /** Warn of what may be a mistake in the input. */
     void
@@ -72,6 +74,11 @@ namespace CaissonMPM
 
     bool
     is_set(const std::string &path) const;
+
+    /** Return the directory of the file that sets the entry, for a path in it;
+     * of --set, that of the scene. Empty is the working directory. */
+    std::string
+    directory_of(const std::string &path) const;
 
     /**
      * Return lines to append to a message (each after a line break) that say
@@ -110,6 +117,7 @@ namespace CaissonMPM
     {
       std::string text;
       bool        may_be_unused, is_assumed;
+      std::string directory;
     };
 
     /** Return the paths of the entries that a text names, in its order. */

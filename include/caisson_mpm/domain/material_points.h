@@ -44,9 +44,10 @@ namespace CaissonMPM
     reset(const std::vector<unsigned int> &n_in_cell);
 
     /** Let each point keep so many numbers of a user's law; before there are
-     * points. */
+     * points. @p user_materials: which materials have such a law. */
     void
-    keep_user_state(const unsigned int n);
+    keep_user_state(const unsigned int       n,
+                    const std::vector<bool> &user_materials);
 
     /** Return the number of numbers that a point keeps of a user's law. */
     unsigned int
@@ -324,6 +325,7 @@ namespace CaissonMPM
     std::vector<Kernels::PointHistory> histories; // of the blocks
     std::vector<Kernels::BlockHeader>  headers;
     unsigned int                       n_user_state_ = 0;
+    std::vector<bool>                  user_materials; // [n_materials]
     std::vector<double>                user_state; // of the lanes of the blocks
     std::vector<int>                   free_blocks;
     // [n_cells], -1: none. For a ghost cell it is only a flag and leads to no

@@ -38,10 +38,10 @@ namespace CaissonMPM
     bool
     declare_subsection(const std::string &path);
 
-    /** Load the libraries of user materials; @p directory is that of the scene's
-     * file. Throws BadInput. */
+    /** Load the libraries of user materials, whose paths are relative to the
+     * files that set them. Throws BadInput. */
     void
-    load_libraries(const std::string &directory);
+    load_libraries(const ParameterOrigins &origins);
 
     /** A line for each layer with a user material, which differs where the
      * content of its library does. */
@@ -51,6 +51,15 @@ namespace CaissonMPM
     /** The number of numbers that each point keeps for user materials. */
     unsigned int
     n_user_state() const;
+
+    /** Whether each material has a law of the user. */
+    std::vector<bool>
+    user_materials() const;
+
+    /** What to add to a message on a run that cannot go on, where laws of the
+     * user may be the cause; empty where they are not, or have failed. */
+    std::string
+    cause_in_user_materials() const;
 
     /** Tell the user materials of a step. Units: s. */
     void

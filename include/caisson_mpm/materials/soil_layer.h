@@ -28,10 +28,10 @@ namespace CaissonMPM
     /** @p index counts from 0. */
     explicit SoilLayer(const unsigned int index);
 
-    /** Load the library of a user material; @p directory is that of the scene's
-     * file. Throws BadInput. */
+    /** Load the library of a user material, whose path is relative to the file
+     * that sets it. Throws BadInput. */
     void
-    load_library(const std::string &directory);
+    load_library(const ParameterOrigins &origins);
 
     /** The law of a user material, or null. */
     UmatLaw *

@@ -17,16 +17,21 @@
 #define caisson_mpm_materials_umat_law_h
 
 #include <caisson_mpm/base/conventions.h>
+#include <caisson_mpm/base/fenced_memory.h>
 #include <caisson_mpm/base/guarded_call.h>
 #include <caisson_mpm/kernels/user_point.h>
 #include <caisson_mpm/materials/user_library.h>
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace CaissonMPM
 {
+  /** What points have in the place of state that their law does not keep. */
+  constexpr double no_state = std::numeric_limits<double>::quiet_NaN();
+
   /** What the user says of a UMAT. */
   struct UmatSettings
   {
@@ -36,11 +41,11 @@ namespace CaissonMPM
     std::vector<double> variables; // the first of them, at the start
   };
 
-  /** What a UMAT only reads: it gets a copy, which it may not change. */
+  /** What a UMAT only reads, besides STRAN, DSTRAN and PROPS. */
   struct UmatInput
   {
-    double stran[4], dstran[4], time[2], dtime, temp, dtemp, predef, dpred,
-      coords[3], drot[9], celent, dfgrd0[9], dfgrd1[9];
+    double time[2], dtime, temp, dtemp, predef, dpred, coords[3], drot[9],
+      celent, dfgrd0[9], dfgrd1[9];
     int ndi, nshr, ntens, nstatv, nprops, noel, npt, layer, kspt, jstep[4],
       kinc;
     char cmname[80];
@@ -56,7 +61,8 @@ namespace CaissonMPM
 
   /**
    * Calls a UMAT for one point after the other. Owns the memory that the UMAT
-   * works on, and keeps the first failure; after that it is not called again.
+   * works on, with a fence behind each array, and keeps the first failure;
+   * after that it is not called again.
    */
   class UmatLaw
   {
@@ -80,8 +86,8 @@ namespace CaissonMPM
     UmatStiffness
     test(const Stress &stress);
 
-    /** The numbers of a point at the start (Kernels::UserState); @p n with the
-     * zeros behind them, for laws that keep more. */
+    /** The numbers of a point at the start (Kernels::UserState), and no_state
+     * up to @p n of them, which other laws keep. */
     std::vector<double>
     start_of_state(const double p_wave_modulus, const unsigned int n) const;
 
@@ -116,21 +122,26 @@ namespace CaissonMPM
     call(void *law, Kernels::UserPoint &point);
 
   private:
+    UmatInput &
+    given() const
+    {
+      return *input.own<UmatInput>();
+    }
     void
     update(Kernels::UserPoint &point);
     /** Set the input of the call from the point. */
     void
     prepare(const Kernels::UserPoint &point);
+    /** Whether the answer is finite, and the step long enough for the UMAT. */
     bool
-    keeps_input() const;
-    /** Whether nothing was written behind STRESS and DDSDDE. */
-    bool
-    keeps_to_its_components() const;
-    /** Say what is wrong with the answer; empty if nothing. */
+    is_good() const;
+    /** Say what is wrong with the answer. */
     std::string
     find_fault(const EndOfCall end) const;
+    /** Say what lies at the address where the UMAT was stopped; empty if
+     * nothing of ours. */
     std::string
-    changed_input() const;
+    beyond_or_read_only(const void *address) const;
     /** Take the answer over. */
     void
     accept(Kernels::UserPoint &point);
@@ -160,15 +171,11 @@ namespace CaissonMPM
     const UserLibrary  library;
     std::string        failure_;
 
-    // the call in progress; what the UMAT reads is a copy
+    // the call in progress
     const Kernels::UserPoint *point      = nullptr;
     bool                      is_testing = true;
-    UmatInput                 given = {}, input = {};
-    std::vector<double>       given_props, props, given_statev, statev;
-    std::array<double, 16>    ddsdde;
-    std::array<double, 48>    behind_ddsdde; // guards: a UMAT for 6 components
-    std::array<double, 4>     stress;
-    std::array<double, 32>    behind_stress;
+    const FencedMemory        props, stran, dstran, input; // read only
+    const FencedMemory        stress, statev, ddsdde;
     double                    pnewdt = 1.;
     // modulus over the largest entry on the diagonal of DDSDDE
     double modulus_ratio = 1.;

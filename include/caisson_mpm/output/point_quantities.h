@@ -8,6 +8,7 @@
 #include <caisson_mpm/domain/point_fields.h>
 #include <caisson_mpm/kernels/user_point.h>
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <map>
@@ -52,6 +53,14 @@ namespace CaissonMPM
                function(p) :
                *reinterpret_cast<const double *>(
                  reinterpret_cast<const char *>(&p) + offset);
+    }
+
+    /** Whether the point lacks it: a state variable that its law does not keep.
+     */
+    bool
+    is_missing(const MaterialPoint &p) const
+    {
+      return in_user_state > 0 && std::isnan((*this)(p));
     }
 
   private:

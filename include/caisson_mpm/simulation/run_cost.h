@@ -25,6 +25,8 @@ namespace CaissonMPM
     /** Time of the processor, measured in the first steps; 0 where there is no
      * measurement. */
     double seconds_per_step = 0.;
+    /** Why the first steps fail; empty where they do not. */
+    std::string failure;
     /** Whether the soil grows stiffer with its stress, and the step shorter. */
     bool stiffens = false;
     /** Whether points are split where the mesh is fine. */

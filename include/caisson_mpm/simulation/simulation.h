@@ -75,7 +75,7 @@ namespace CaissonMPM
      * checkpoint with --restart. Writes no file. Throws BadInput.
      */
     void
-    set_up(const CommandLine &command_line);
+    set_up(const CommandLine &command_line, const ParameterOrigins &origins);
 
     /** Report further warnings of this scene, doubtful values and
      * known limits; after set_up(). Collective. */
@@ -83,7 +83,8 @@ namespace CaissonMPM
     review(ParameterOrigins &origins) const;
 
     /** Find out how large the run is; after set_up(). Takes some steps: run()
-     * does not continue from there. */
+     * does not continue from there. Throws BadInput where a user material
+     * fails in them. */
     RunCost
     estimate_cost();
 
@@ -211,7 +212,10 @@ namespace CaissonMPM
     /** Hand the sums of this step to those who keep them. */
     void
     finish_step();
+    /** Bring the points to their cells. */
     void
+    relocate_points();
+    [[noreturn]] void
     report_not_finite() const;
 
     void
