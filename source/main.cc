@@ -2,6 +2,7 @@
 #include <caisson_mpm/base/command_line.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/failure_report.h>
+#include <caisson_mpm/base/single_process.h>
 #include <caisson_mpm/base/version.h>
 #include <caisson_mpm/simulation/run_scene.h>
 
@@ -38,6 +39,7 @@ namespace
 int
 main(int argc, char *argv[])
 {
+  set_up_single_process();
   // PETSc, which deal.II starts, sees the program's name alone: version 3.22
   // complains on stdout of options that it does not know.
   int                                      n_names = 1;

@@ -82,8 +82,10 @@ def environment() -> dict[str, str]:
         "OMPI_MCA_orte_execute_quiet": "1",
     }
     if not set(BATCH) & set(os.environ):
-        # ranks of one host share memory; without a network Open MPI complains of TCP
-        defaults["OMPI_MCA_btl"] = "^tcp"
+        # ranks of one host share memory: without a network Open MPI complains of TCP,
+        # and its libraries for networks take longer to start than many runs
+        defaults["OMPI_MCA_btl"] = "^tcp,ofi,openib"
+        defaults["OMPI_MCA_pml"] = "ob1"
     return {**defaults, **os.environ}
 
 

@@ -27,6 +27,8 @@ SI units; h is the embedment of the tip (m), forces are N, suctions are Pa.
 from collections.abc import Callable
 from math import inf, nan, pi
 
+from scipy.optimize import brentq
+
 from caisson_design.houlsby_byrne import Caisson, Seepage
 from caisson_design.method import Forces
 from caisson_design.seepage import houlsby_byrne, pressure_factor, senders_randolph
@@ -111,14 +113,14 @@ def required_suction(
         return 0.0
     area = plug_area(caisson)
 
-    def moves(suction: float) -> bool:
+    def missing(suction: float) -> float:
         flow = seepage(caisson, suction, h, permeability_ratio)
-        return caisson.resistance(h, enhanced, flow) <= weight + suction * area
+        return caisson.resistance(h, enhanced, flow) - weight - suction * area
 
     most = piping_suction(caisson, h, permeability_ratio)
-    if h <= 0 or not moves(most):
+    if h <= 0 or not missing(most) <= 0:
         return nan
-    return bisect(moves, 0.0, most)
+    return float(brentq(missing, 0.0, most, xtol=1e-9, rtol=1e-14))
 
 
 def mean_unit_weight(caisson: Caisson, h: float) -> float:

@@ -105,7 +105,7 @@ class Sharing(WithMpirun):
         """On one host ranks do without TCP; in a job of a batch system, which may have
         several, and where the user has chosen, they do not."""
         for known, expected in (
-            ({}, "^tcp"),
+            ({}, "^tcp,ofi,openib"),
             ({"SLURM_JOB_ID": "1"}, None),
             ({"OMPI_MCA_btl": "self,vader"}, "self,vader"),
         ):

@@ -7,6 +7,7 @@
 #include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/base/parameter_file.h>
+#include <caisson_mpm/base/single_process.h>
 #include <caisson_mpm/base/stop_request.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
@@ -16,6 +17,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -247,6 +249,26 @@ test_console()
 
 
 
+/** MPI's settings are replaced in a process that is alone, and kept in one of
+ * several. */
+void
+test_single_process()
+{
+  title("single process");
+  for (const char *sign : {"PMIX_RANK", "PMI_RANK", "SLURM_PROCID", ""})
+    {
+      setenv("OMPI_MCA_btl", "tcp", 1);
+      if (*sign != 0)
+        setenv(sign, "0", 1);
+      std::cout << '"' << sign << "\" " << set_up_single_process() << ' '
+                << std::getenv("OMPI_MCA_btl") << '\n';
+      if (*sign != 0)
+        unsetenv(sign);
+    }
+}
+
+
+
 int
 main(int argc, char *argv[])
 {
@@ -257,4 +279,5 @@ main(int argc, char *argv[])
   test_stop_request();
   test_timing();
   test_console();
+  test_single_process();
 }

@@ -29,7 +29,6 @@ sys.path[:0] = [str(HERE.parent / folder) for folder in ("python", "tools", ".")
 from caisson.paths import BUILD, PROGRAM, SCENES  # noqa: E402
 from caisson.results import Results  # noqa: E402
 from caisson.runner import Status, environment, mpi_command, set_options  # noqa: E402
-from caisson_workshop.faults.process import quick_environment  # noqa: E402
 
 SUCCESS = Status.SUCCESS
 BAD_INPUT = Status.BAD_INPUT
@@ -37,8 +36,7 @@ FAILURE = Status.FAILURE
 STOPPED = Status.STOPPED
 Rows = list[dict[str, float]]
 Entries = dict[str, Any]
-SCRATCH = tempfile.TemporaryDirectory()
-ALONE = quick_environment(SCRATCH.name)  # of a program on one rank
+ALONE = environment()  # of a program on one rank
 # program_server.cc, which ctest names; of use where it is not older than the
 # program
 SERVER = os.environ.get("CAISSON_MPM_TEST_SERVER")

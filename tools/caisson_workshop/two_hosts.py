@@ -38,6 +38,7 @@ ADDRESSES = ("10.97.83.1", "10.97.83.2")
 CABLE = "cable0"
 TCP_ONLY = """--mca btl tcp,self --mca pml ^ucx,cm --mca btl_tcp_if_include cable0
     --mca oob_tcp_if_include cable0""".split()
+ONE_HOST = ("OMPI_MCA_btl", "OMPI_MCA_pml")  # of environment()
 COUNT_MESSAGES = "--mca pml_monitoring_enable 2 --mca pml_monitoring_enable_output 3"
 # a host: its name, and no memory that it shares with the other one
 HOST = 'hostname "$0"; mount -t tmpfs tmpfs /dev/shm; exec "$@"'
@@ -134,7 +135,7 @@ def run_on_two(
     start += ["--mca", "mpi_yield_when_idle", "1"]
     before = cable_counts(namespaces[0])
     # two hosts need TCP, which a run on one host does without
-    with_network = {k: v for k, v in environment().items() if k != "OMPI_MCA_btl"}
+    with_network = {k: v for k, v in environment().items() if k not in ONE_HOST}
     subprocess.run([*start, *command], check=True, env=with_network)
     after = cable_counts(namespaces[0])
     counts = [

@@ -60,19 +60,6 @@ class Outcome:
         return ""
 
 
-def quick_environment(scratch: str) -> dict[str, str]:
-    """Return the environment of a call on one rank, in which Open MPI looks for no
-    network, starts no daemon, and has its files in a directory of its own."""
-    alone = {
-        "OMPI_MCA_ess_singleton_isolated": "1",
-        "OMPI_MCA_orte_tmpdir_base": scratch,
-        "OMPI_MCA_pml": "ob1",
-        "OMPI_MCA_btl": "self",
-        "OMPI_MCA_sharedfp": "^sm",  # which would have files of one name for all
-    }
-    return {**environment(), **alone}
-
-
 def call(
     words: Sequence[object],
     directory: Path,
@@ -86,14 +73,14 @@ def call(
     wall_limit: the same for a run that hangs.
     """
     begin = time.monotonic()
-    with tempfile.TemporaryFile() as output, tempfile.TemporaryDirectory() as scratch:
+    with tempfile.TemporaryFile() as output:
         process = subprocess.Popen(
             list(map(str, words)),
             cwd=directory,
             stdin=subprocess.DEVNULL,
             stdout=output,
             stderr=output,
-            env=quick_environment(scratch),
+            env=environment(),
         )
         try:
             limits = (MEMORY_LIMIT, MEMORY_LIMIT)
