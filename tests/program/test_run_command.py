@@ -41,17 +41,11 @@ class Run(ProgramTest):
         for name in ("forces.png", "stress.png", "displacement.png"):
             self.assertTrue((path / name).is_file(), name)
 
-    def test_pictures_of_both_ways_to_name_the_directory(self) -> None:
-        for option in ("--output-directory", "--set"):
-            path = self.directory(option.strip("-"))
-            entry = path if option != "--set" else f"Output/Directory={path}"
-            self.run_scene_and_draw(SUCCESS, scene("jack"), *SHORT, option, entry)
-            self.assert_drawn(path)
-
     def test_report_has_the_warnings(self) -> None:
-        """What has no effect is reported in the terminal, run.json and the page."""
+        """What has no effect is reported in the terminal, run.json and the page. The
+        directory is that of an entry; the other tests name it by its option."""
         path = self.directory()
-        unused = ["--set", "Water/Renewal=0.125", "--output-directory", path]
+        unused = ["--set", "Water/Renewal=0.125", "--set", f"Output/Directory={path}"]
         text = self.run_scene_and_draw(SUCCESS, scene("jack"), *SHORT, *unused)
         self.assertIn("warning: ", text)
         (warning,) = summary(path)["warnings"]
@@ -62,6 +56,7 @@ class Run(ProgramTest):
         page = html.unescape((path / "report.html").read_text(encoding="utf-8"))
         for part in (warning, "<td>0.125</td>", "Status: finished"):
             self.assertTrue(part in page, part)  # the page is long
+        self.assert_drawn(path)
 
     def test_several_ranks(self) -> None:
         path = self.directory()
@@ -88,6 +83,7 @@ class Run(ProgramTest):
         path = self.directory()
         words = [scene("jack"), *SHORT, "--output-directory", path]
         self.run_scene_and_draw(SUCCESS, *words)
+        self.assert_drawn(path)
         (path / "forces.png").unlink()
         self.run_scene_and_draw(SUCCESS, *words, "--validate")
         text = self.run_scene_and_draw(BAD_INPUT, *words, "--set", "Grid/Tip=1")
