@@ -101,7 +101,7 @@ def key_numbers(history: Table) -> dict[tuple[str, float], float]:
         for x, mean in zip(meters, means):
             if np.isfinite(mean):
                 numbers[quantity, float(x)] = float(mean)
-    total = history["total_force_N"]
+    total = history.get(curves.WITH_WATER, history["total_force_N"])
     if total.min() < -0.1 * abs(total.max()):
         deepest = float(history["penetration_m"].max())
         numbers["largest_tension_N", deepest] = float(-total.min())
