@@ -2,8 +2,8 @@
 """Studies of kind "tension": the pull of a caisson with a sealed lid over its rate.
 
 The runs differ in their permeability, and so in v D / c_v. Prints the largest pull of
-each, a median over 5 mm, and what bears it, and draws them over v D / c_v. Keys of a
-study beside the usual ones:
+each and what bears it, and draws them over v D / c_v. Keys of a study beside the usual
+ones:
 
     width      the length D of v D / c_v (m)
     velocity   v of the body (m/s)
@@ -23,8 +23,12 @@ from .drainage import group_of
 NAME = "tension"
 STUDY_KEYS = set("width velocity".split())
 RUN_KEYS = set[str]()
-WINDOW = 0.005  # m, of the medians
-PARTS = ("suction", "outer friction", "inner friction", "tip")
+PARTS = {  # name: member of largest_pull in run.json
+    "water beneath lid and tip": "water_N",
+    "outer friction": "outer_friction_N",
+    "inner friction": "inner_friction_N",
+    "tip": "tip_N",
+}
 COLUMNS = [
     "study",
     "v D / c_v",
@@ -52,30 +56,18 @@ def largest_pull(study: Study, run: StudyRun) -> Pull:
     if run.status is None or run.trouble:
         raise StudyError(f"{study.id} {run.name}: {run.trouble}")
     try:
-        history = run.results.history
+        history, summary = run.results.history, run.results.summary
     except ResultsError as error:
         raise StudyError(str(error)) from error
-    parts = np.array(
-        [
-            history["suction_force_N"],
-            -history["outer_friction_N"],
-            -history["inner_friction_N"],
-            -history["tip_force_N"] - history["tip_water_force_N"],
-        ]
-    )
-    depth = history["penetration_m"]
-    total = parts.sum(axis=0)
-    n = 2 * int(WINDOW / np.abs(np.diff(depth)).max() / 2) + 1
-    windows = np.lib.stride_tricks.sliding_window_view(total, n)
-    first = int(np.median(windows, axis=1).argmax())
-    most = first + int(windows[first].argsort()[n // 2])
-    growth = history["lid_growth_m3"][most]
+    found = summary["results"].get("largest_pull")
+    if not found:
+        raise StudyError(f"{study.id} {run.name}: the caisson is not pulled")
     return Pull(
         group_of(study, run),
-        float(total[most]),
-        tuple(float(part) for part in parts[:, most]),
-        float(depth[0] - depth[most]),
-        float(history["plug_rise_m3"][most] / growth) if growth > 0 else 0.0,
+        found["pull_N"],
+        tuple(found[key] for key in PARTS.values()),
+        found["rise_m"],
+        found["plug_follows"],
         float(np.abs(history["lid_water_balance"]).max()),
     )
 

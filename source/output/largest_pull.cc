@@ -107,6 +107,8 @@ namespace CaissonMPM
                             {"inner_friction_N", Json::number(inner)},
                             {"tip_N", Json::number(tip)},
                             {"is_capacity", is_capacity ? "true" : "false"}};
+    if (plug_follows)
+      result.emplace_back("plug_follows", Json::number(*plug_follows));
     if (!mechanism.empty())
       result.emplace_back("mechanism", Json::text(mechanism));
     return result;
@@ -143,10 +145,13 @@ namespace CaissonMPM
     result.inner       = -column("inner_friction_N")[*most];
     result.tip         = -column("tip_force_N")[*most];
     result.is_capacity = CaissonMPM::is_capacity(way, pull, depth);
-    if (result.is_capacity && has("lid_growth_m3"))
+    if (!has("lid_growth_m3"))
+      return result;
+    result.plug_follows =
+      way.growth(column("plug_rise_m3")) / way.growth(column("lid_growth_m3"));
+    if (result.is_capacity)
       result.mechanism = mechanism(result.water / result.pull,
-                                   way.growth(column("plug_rise_m3")) /
-                                     way.growth(column("lid_growth_m3")),
+                                   *result.plug_follows,
                                    column("lid_cavity_m3")[*most] > 0.);
     return result;
   }

@@ -21,6 +21,8 @@ namespace CaissonMPM
     /** Whether the pull falls later on the same way up, or is nearly constant
      * over the last fifth of a rise that mobilizes friction. */
     bool is_capacity = false;
+    /** Of a sealed lid, the rise of the plug's surface over that of the lid. */
+    std::optional<double> plug_follows;
     /** How a caisson with a sealed lid fails; empty with another lid, and where
      * it does not fail. */
     std::string mechanism;
