@@ -315,7 +315,7 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
         words = name.removesuffix("_N").removesuffix("_force").replace("_", " ")
         takes[f"{words} (kN)"] = texts_of(found.forces[name])
     if len(found.with_water):
-        takes["with water on the tip (kN)"] = texts_of(found.with_water)
+        takes["with water (kN)"] = texts_of(found.with_water)
     if found.has_suction:
         takes["required suction (kPa)"] = [
             in_range(found, found.required[i], found.required_bounds, i) for i in n
@@ -391,7 +391,7 @@ def force_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
     if len(found.with_water):
         force = three_digits(float(found.with_water[-1]), None)
         remark = "what the caisson feels: effective force and excess pore pressure"
-        cards.insert(0, ("With water on the tip", f"{force} kN", remark))
+        cards.insert(0, ("Force with water", f"{force} kN", remark))
         cards[1] = ("Effective " + name[0].lower() + name[1:], *cards[1][1:])
     length = run.scene.get("skirt_length_m")
     of_skirt = f"of {float(length):g} m of skirt" if length else ""

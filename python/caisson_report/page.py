@@ -197,8 +197,9 @@ def html(run: Results, rate: Rate) -> str:
     environment = jinja2.Environment(
         loader=loader, autoescape=True, undefined=jinja2.StrictUndefined
     )
-    found = installation.installation_of(run, rate)
-    beside = methods.methods_of(run)
+    is_pull = pull.is_pull(run)
+    found = None if is_pull else installation.installation_of(run, rate)
+    beside = methods.NOTHING if is_pull else methods.methods_of(run)
     cards = [] if found is None else installation.cards_of(run, found, rate)
     data: dict[str, Any] = {
         "figures": content.figures_of(run, found),

@@ -7,19 +7,21 @@ from typing import Any
 import numpy as np
 
 from caisson import curves
-from caisson.plot import design
 from caisson.plot.forces import COLORS, WATER_COLOR, column_of
 from caisson.results import Results
 from caisson_design.reasons import text_of
+from caisson_report.scene import is_sealed
 
 NO_CAPACITY = "the pull neither fell nor levelled off: it is not the capacity"
 PULL, WATER = "pull", "water beneath lid and tip"
 
 
 def is_pull(run: Results) -> bool:
-    """Return whether the body rises, and never goes deeper than where it began."""
+    """Return whether a run is about the pull: whether the body ends higher than it
+    began, or rises with a sealed lid, as in cycles."""
     depth = run.history.get("penetration_m", np.zeros(1))
-    return not design.goes_down(run.history) and bool(depth.min() < depth[0])
+    rises = bool((np.diff(depth) < 0).any())
+    return bool(depth[-1] < depth[0]) or (is_sealed(run) and rises)
 
 
 def largest_pull(run: Results) -> Mapping[str, Any]:
@@ -61,7 +63,7 @@ def cards_of(run: Results) -> list[tuple[str, ...]]:
 
 
 def pull_parts(run: Results) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:
-    """Return the rise [n_rows] (mm), and color and values [n_rows] (kN) of the pull and
+    """Return the rise above the deepest place [n_rows] (mm), and color and values [n_rows] (kN) of the pull and
     of its parts, by their names."""
     history = run.history
     total = history["total_force_N"]
@@ -72,4 +74,8 @@ def pull_parts(run: Results) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarra
     if curves.WITH_WATER in history:
         parts[WATER] = (WATER_COLOR, (total - borne) / 1e3)
     depth = history["penetration_m"]
-    return 1e3 * (depth[0] - depth), parts
+    rise = 1e3 * (depth.max() - depth)
+    if is_sealed(run):
+        return rise, parts
+    up = int(np.argmax(depth))  # a way down before it is an installation
+    return rise[up:], {name: (color, x[up:]) for name, (color, x) in parts.items()}

@@ -28,8 +28,9 @@ class Pulled(WithPage):
     """Friction of 300 kN, and water of 600 kN beneath a sealed lid."""
 
     def leave_pull(self, sealed: bool, **more: Any) -> Results:
-        """Leave a run that rises from 2 to 1.9 m."""
+        """Leave a run that sinks a little, and rises from 2 to 1.9 m."""
         depth = np.linspace(2, 1.9, 51)
+        depth[:2] = 1.999, 2
         share = np.minimum((2 - depth) / 0.05, 1.0)
         table: dict[str, np.ndarray] = {"time_s": 2 - depth, "penetration_m": depth}
         parts = {"outer_friction": 2e5, "inner_friction": 1e5, "tip_force": 0.0}

@@ -475,12 +475,13 @@ namespace CaissonMPM
     const BodyMotion &motion = parts.body.motion();
     if (!motion.follows_loads() || motion.travel_at_rest())
       return;
-    const std::string weight = "Rigid body/Submerged weight (" +
+    const LidCompartment *const lid    = parts.water->traits().lid;
+    const std::string           weight = "Rigid body/Submerged weight (" +
                                to_text(parts.body.submerged_weight(), 3) +
                                " N)";
     console->warning(
       std::string("the body has not come to rest") +
-      (parts.water->traits().lid != nullptr ?
+      (lid != nullptr && !lid->is_sealed() ?
          ", so that the suction, which begins then, has not begun. " :
          ". ") +
       (parts.schedule.is_at_end_penetration() ?

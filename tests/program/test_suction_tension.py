@@ -6,7 +6,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, Rows, history
+from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, Rows, history, summary
 
 LIMIT = "Rigid body/Largest Mach number"
 MASS = "Time/Mass scaling"
@@ -236,6 +236,35 @@ class SealedLid(ProgramTest):
         self.assertGreater(max(suction) - min(suction), 4e5 / 24.6 / 2)
         for row in rows:
             self.assertLess(abs(row["energy_residual"]), 0.01)
+        most = summary(path)["results"]["largest_pull"]
+        self.assertFalse(most["is_capacity"])
+        self.assertGreater(most["pull_N"], 0.8e5)  # 3e5 less the weight
+
+    def test_push_and_pull_that_is_held(self) -> None:
+        """Only the way up counts, and a pull that is held is no capacity."""
+        path = self.directory()
+        times = "0:0, 0.2:0.02, 0.4:0.02, 0.8:-0.01, 1.8:-0.01, 2:0, 3:0"
+        entries: Entries = {
+            **SEALED,
+            "Rigid body/Velocity table": times,
+            "Method/Local damping": 0.4,
+            "Output/Record interval": 0.02,
+            END: 1.1,
+            "Time/End time": 3,
+        }
+        self.run_scene("jack", path, entries=entries)
+        rows = history(path)
+        most = summary(path)["results"]["largest_pull"]
+        self.assertFalse(most["is_capacity"])
+        self.assertNotIn("mechanism", most)
+        depths = [row["penetration_m"] for row in rows]
+        deepest = depths.index(max(depths))
+        rise = depths[deepest] - most["penetration_m"]
+        self.assertAlmostEqual(most["rise_m"], rise, 9)
+        name = "total_force_with_water_N"
+        pulls = [-row[name] for row in rows[deepest + 1 :] if row["time_s"] < 2]
+        self.assertGreater(most["pull_N"], 0.8 * max(pulls))
+        self.assertLess(most["pull_N"], 1.01 * max(pulls))
 
     def test_cavity(self) -> None:
         """In shallow water, the water boils, and the pull ends in a cavity. A push in

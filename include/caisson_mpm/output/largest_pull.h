@@ -18,8 +18,8 @@ namespace CaissonMPM
   {
     double pull = 0., penetration = 0., rise = 0.;       // N, m, m
     double water = 0., outer = 0., inner = 0., tip = 0.; // parts of it, N
-    /** Whether the pull falls later on the same way up, or is nearly constant
-     * over the last fifth of a rise that mobilizes friction. */
+    /** Whether friction is mobilized, and the pull has not increased much over
+     * the last part of the rise. */
     bool is_capacity = false;
     /** Of a sealed lid, the rise of the plug's surface over that of the lid. */
     std::optional<double> plug_follows;
@@ -31,8 +31,9 @@ namespace CaissonMPM
     json() const;
   };
 
-  /** Return the largest pull of a run in which the body rises, nothing of
-   * others. Of sudden jumps, a median over five records counts. */
+  /** Return the largest pull over records in which the body rises, nothing
+   * where there are none. It is where a median over five records is largest,
+   * over three where there are few. */
   std::optional<LargestPull>
   largest_pull(const Records &records);
 } // namespace CaissonMPM

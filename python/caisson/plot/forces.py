@@ -19,7 +19,7 @@ COLORS = {
     "inner friction": "#2166ac",
     "outer friction": "#2e8b57",
 }
-WITH_WATER = "total with water on the tip"
+WITH_WATER = "total with water"
 WATER_COLOR = "#7b3294"
 FRICTION = ("inner friction", "outer friction")
 # where the penetration of a body is measured
