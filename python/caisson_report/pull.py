@@ -63,8 +63,8 @@ def cards_of(run: Results) -> list[tuple[str, ...]]:
 
 
 def pull_parts(run: Results) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:
-    """Return the rise above the deepest place [n_rows] (mm), and color and values [n_rows] (kN) of the pull and
-    of its parts, by their names."""
+    """Return the rise above the deepest place [n_rows] (mm), and color and values
+    [n_rows] (kN) of the pull and of its parts, by their names."""
     history = run.history
     total = history["total_force_N"]
     borne = history.get(curves.WITH_WATER, total)
