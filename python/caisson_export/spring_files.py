@@ -59,9 +59,9 @@ def about_parts(found: Springs) -> str:
         if parts:
             depths = [spring.depth for spring in parts]
             texts.append(
-                f"{len(parts)} on {sum(spring.area for spring in parts):.4g} m2 of the"
-                f" {wall} wall, with mean depths from {min(depths):.2g} to"
-                f" {max(depths):.2g} m"
+                f"{len(parts)} on {sum(spring.area for spring in parts):.4g} of the"
+                f" {found.walls[wall]:.4g} m2 of the {wall} wall, with mean depths from"
+                f" {min(depths):.2g} to {max(depths):.2g} m"
             )
     return f"Springs: {'; '.join(texts) or 'none on the walls'}."
 

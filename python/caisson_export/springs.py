@@ -75,7 +75,8 @@ class Springs:
     """All springs of a run.
 
     direction: 1 of a push, -1 of a pull. depth: of the tip where the displacement
-    begins (m). displacement: [n], from 0 (m). force: resistance of the whole body [n]
+    begins (m). walls: the areas of the walls above the tip there (m2). displacement:
+    [n], from 0 (m). force: resistance of the whole body [n]
     (N). missing: the force by which the body is out of balance at the beginning (N).
     reach: how far a shear wave has gone since the motion began [n] (m), inf where the
     soil is not known, and nan where a law has no Young's modulus.
@@ -86,6 +87,7 @@ class Springs:
     depth: float
     diameter: float
     weight: float
+    walls: dict[str, float]
     displacement: np.ndarray
     force: np.ndarray
     springs: list[Spring]
@@ -306,6 +308,7 @@ def springs_of(run: LoadedRun, weight: float) -> Springs:
         at,
         scene["diameter_m"],
         weight,
+        {w: 2 * np.pi * r * at for w, r in zip(WALLS, (inner, outer))},
         displacement,
         curve(table["total_force_N"])[1],
         springs,

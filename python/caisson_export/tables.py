@@ -174,7 +174,8 @@ def zones_of(state: Balanced) -> list[Zone]:
     mesh, wall = state.mesh, state.state.wall
     (r, z), low = mesh.centers.T, float(mesh.nodes[:, 1].min())
     tip = low if wall is None else wall.tip
-    height = (mesh.nodes[:, 1].max() - tip) / ZONE_ROWS
+    cells = np.ptp(mesh.nodes[mesh.cells, 1], axis=1)
+    height = max((mesh.nodes[:, 1].max() - tip) / ZONE_ROWS, float(np.median(cells)))
     zones = []
     for name, inner, outer, top in rings_of(state):
         ring = (r >= inner) & (r < outer)
@@ -186,8 +187,8 @@ def zones_of(state: Balanced) -> list[Zone]:
         at = np.clip(z, low, np.nextafter(top, low))
         rows = rows_of_ring(np.unique([*below, *above]), at[ring], tip)
         for begin, end in zip(rows[:-1], rows[1:]):
-            cells = ring & (at >= begin) & (at < end)
-            zones.append(Zone(name, inner, outer, begin, end, cells))
+            row = ring & (at >= begin) & (at < end)
+            zones.append(Zone(name, inner, outer, begin, end, row))
     return zones
 
 
