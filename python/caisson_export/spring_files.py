@@ -75,9 +75,9 @@ def about_waves(found: Springs) -> list[str]:
         return []
     if np.isnan(reach):
         return [
-            "WARNING: a layer above the tip has a law without a Young's modulus, so that"
-            " nothing says whether waves have gone far enough. Compare with a run that"
-            " moves at half the speed."
+            "WARNING: a layer above the tip has a law without a Young's modulus, so"
+            " that nothing says whether waves have gone far enough. Compare with a run"
+            " that moves at half the speed."
         ]
     far = found.reach >= needed
     curve = "the whole curve contains"

@@ -13,7 +13,7 @@ from caisson_export.state import STRESS, State
 from caisson_export.text import about, about_points
 
 Columns = dict[str, np.ndarray]
-# of the soil above the tip; below it the zones are as high, and nowhere lower than a cell
+# of the soil above the tip; below it the zones are as high; none is lower than a cell
 ZONE_ROWS = 12
 
 

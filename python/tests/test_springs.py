@@ -242,7 +242,9 @@ class Files(MadeUp):
         said = self.export(self.write("one", 1), "--to", "tz")[1]
         for wall, radius in RADII.items():
             area = 2 * math.pi * radius * 2
-            words = f"4 on {area:.4g} of the {area:.4g} m2 of the {wall} wall, with mean"
+            words = (
+                f"4 on {area:.4g} of the {area:.4g} m2 of the {wall} wall, with mean"
+            )
             self.assertIn(words, said)
 
     def test_beside_another_motion(self) -> None:
