@@ -70,6 +70,18 @@ class Zones(Temporary):
         counted = np.sum([x.cells for x in zones], axis=0)
         np.testing.assert_array_equal(counted, np.ones(len(mesh.cells)))
 
+    def test_rows_without_a_cell(self) -> None:
+        """The rows beside them meet in the middle, or at the tip."""
+        edges = np.arange(6.0)
+        for tip, z, expected in (
+            (0.0, [0.5, 1.5, 4.5], [0, 1, 3, 5]),
+            (2.0, [0.5, 1.5, 4.5], [0, 1, 2, 5]),
+            (1.0, [3.5], [0, 5]),
+            (1.0, [2.5, 3.5], [0, 3, 5]),
+        ):
+            found = tables.rows_of_ring(edges, np.array(z), tip)
+            np.testing.assert_array_equal(found, expected)
+
     def test_soil_beside_a_slope_of_the_tip(self) -> None:
         """Its cells count in the zone below."""
         state = made_up(wall=WEDGE)
