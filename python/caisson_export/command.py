@@ -151,12 +151,22 @@ def export_springs(options: argparse.Namespace) -> tuple[Path, list[str]]:
     other = None
     if options.beside is not None:
         other = springs_of(load(options.beside), weight)
+        if other.direction != found.direction:
+            names = {1: "pushed", -1: "pulled"}
+            raise ResultsError(
+                f"the caisson is {names[found.direction]} in {short(options.directory)}"
+                f" and {names[other.direction]} in {short(options.beside)}: --beside"
+                " takes a run with the same direction"
+            )
     name, write = SPRINGS[options.to]
     path = options.output or options.directory / name
     write(path, found, other)
     if options.to == "tz":
         spring_picture.draw(path.with_suffix(".png"), found, other)
-    return path, spring_files.about_both(found, other)
+    lines = spring_files.about_both(found, other)
+    if options.to == "tz-opensees":
+        lines.append(spring_files.about_hyperbolas(found))
+    return path, lines
 
 
 def export_state(options: argparse.Namespace) -> tuple[Path, list[str]]:

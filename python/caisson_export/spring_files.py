@@ -5,22 +5,27 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson_export.springs import SMALL, Springs
+from caisson_export.springs import SMALL, STILL_GROWS, WALLS, Springs
 
 ROWS = 25  # of a curve in the table
+SAME_DEPTH = 0.03  # of the depth, by which two runs beside each other may differ
 
 
 def about_springs(found: Springs) -> list[str]:
     """Return what run and motion it is, and what the whole body does."""
     down = found.direction > 0
     largest = int(np.argmax(found.force))
-    bears = f"bears the submerged weight of {found.weight / 1e3:.5g} kN"
+    is_missing = found.missing > 0.02 * found.force.max()
+    begin = f"the soil bears the submerged weight of {found.weight / 1e3:.5g} kN"
     if not found.weight:
-        bears = "bears nothing, because no submerged weight is given (--weight)"
+        begin = "the soil bears nothing, as no submerged weight is given (--weight)"
+    if is_missing:
+        begin = "the motion begins"
     lines = [
         f"caisson_mpm: {found.title}",
         f"{'Pushed' if down else 'Pulled'} by {1e3 * found.displacement[-1]:.4g} mm"
-        f" from {found.depth:.5g} m, where the soil {bears}.",
+        f" from {found.depth:.5g} m, where {begin}.",
+        about_parts(found),
         f"Largest resistance {found.force[largest] / 1e3:.4g} kN at"
         f" {1e3 * found.displacement[largest]:.3g} mm.",
     ]
@@ -30,7 +35,13 @@ def about_springs(found: Springs) -> list[str]:
                 f"Secant stiffness at {1e3 * share * found.diameter:.3g} mm"
                 f" ({100 * share:g} % of the diameter): {stiffness / 1e6:.4g} MN/m."
             )
-    if found.missing > 0.02 * found.force.max():
+    if found.growth > STILL_GROWS:
+        lines.append(
+            f"WARNING: the resistance still grows at the end, by"
+            f" {100 * found.growth:.2g} % in the last tenth of the motion: the largest"
+            " one is no ultimate. Move the caisson farther."
+        )
+    if is_missing:
         lines.append(
             f"WARNING: at the beginning the soil bears {found.missing / 1e3:.4g} kN"
             f" {'more' if down else 'less'} than the weight, so that the curves lack"
@@ -40,13 +51,34 @@ def about_springs(found: Springs) -> list[str]:
     return lines + about_waves(found)
 
 
+def about_parts(found: Springs) -> str:
+    """Return how many springs the walls have, and what area and depth they cover."""
+    texts = []
+    for wall in WALLS:
+        parts = [spring for spring in found.springs if spring.place == wall]
+        if parts:
+            depths = [spring.depth for spring in parts]
+            texts.append(
+                f"{len(parts)} on {sum(spring.area for spring in parts):.4g} of the"
+                f" {found.walls[wall]:.4g} m2 of the {wall} wall, with mean depths from"
+                f" {min(depths):.2g} to {max(depths):.2g} m"
+            )
+    return f"Springs: {'; '.join(texts) or 'none on the walls'}."
+
+
 def about_waves(found: Springs) -> list[str]:
     """Return a warning where the waves have not gone far at the smallest displacement
-    whose stiffness is stated."""
+    whose stiffness is stated, or where this is not known."""
     reach, needed = found.reach_at_first, found.needed_reach
     first = 1e3 * SMALL[0] * found.diameter
     if reach >= needed or first > 1e3 * found.displacement[-1]:
         return []
+    if np.isnan(reach):
+        return [
+            "WARNING: a layer above the tip has a law without a Young's modulus, so"
+            " that nothing says whether waves have gone far enough. Compare with a run"
+            " that moves at half the speed."
+        ]
     far = found.reach >= needed
     curve = "the whole curve contains"
     if far.any():
@@ -63,7 +95,23 @@ def about_waves(found: Springs) -> list[str]:
 def about_both(found: Springs, other: Springs | None) -> list[str]:
     """Return what the run is, and the one beside it."""
     lines = about_springs(found)
-    return lines if other is None else [*lines, "Beside it:", *about_springs(other)]
+    if other is None:
+        return lines
+    lines += ["Beside it:", *about_springs(other)]
+    if abs(other.depth - found.depth) > SAME_DEPTH * found.depth:
+        lines.append(
+            f"WARNING: the tips are at {found.depth:.4g} m and {other.depth:.4g} m: a"
+            " part of these differences is that of the depths."
+        )
+    return lines
+
+
+def about_hyperbolas(found: Springs) -> str:
+    """Return how well the springs of OpenSees follow the run."""
+    return (
+        f"Hyperbolas with these numbers differ together from the run by at most"
+        f" {100 * found.misfit:.2g} % of its largest resistance."
+    )
 
 
 def rows_of(found: Springs) -> np.ndarray:
@@ -114,11 +162,7 @@ def write_opensees(path: Path, found: Springs, other: Springs | None) -> None:
     """Write the springs as materials and elements of OpenSees, in a module."""
     lines = ["# SPDX-License-Identifier: LGPL-2.1-or-later", '"""Springs of a caisson.']
     lines += ["", *about_both(found, other), *SIGNS, "", OPENSEES]
-    lines += [
-        f"Hyperbolas with these numbers differ together from the run by at most"
-        f" {100 * found.misfit:.2g} % of its largest resistance."
-    ]
-    lines += ['"""']
+    lines += [about_hyperbolas(found), '"""']
     lines += ["# place, depth (m), ultimate (N), displacement at half of it (m)"]
     lines += ["SPRINGS = ["]
     for spring in found.springs:

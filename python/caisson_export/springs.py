@@ -19,12 +19,14 @@ M. F. Randolph, C. P. Wroth (1978), Analysis of deformation of vertically loaded
 import math
 import re
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from caisson.loaded import LoadedRun
 from caisson.paths import short
 from caisson.results import ResultsError, Table
+from caisson_export.laws import POISSON, poisson_ratio, youngs_modulus
 
 SAME = 1e-9  # m, of penetrations
 SAME_ROW = 1e-6  # m, of heights on the wall
@@ -35,7 +37,7 @@ SEGMENTS = 8  # of each wall
 # of the diameter, at which the stiffness is stated
 SMALL = (1e-4, 1e-3, 1e-2)
 TOO_STIFF = 0.1  # by which waves that have not gone far may raise a stiffness
-POISSON = 0.3  # of the soil through which the waves go
+STILL_GROWS = 0.02  # of the force at the end, by which the last tenth raises it
 GRAVITY, WATER_DENSITY = 9.81, 1000.0  # m/s2, kg/m3
 # the wall, its mean depth (m), its area (m2) and its stress over time [n] (Pa)
 Segment = tuple[str, float, float, np.ndarray]
@@ -73,10 +75,11 @@ class Springs:
     """All springs of a run.
 
     direction: 1 of a push, -1 of a pull. depth: of the tip where the displacement
-    begins (m). displacement: [n], from 0 (m). force: resistance of the whole body [n]
+    begins (m). walls: the areas of the walls above the tip there (m2). displacement:
+    [n], from 0 (m). force: resistance of the whole body [n]
     (N). missing: the force by which the body is out of balance at the beginning (N).
     reach: how far a shear wave has gone since the motion began [n] (m), inf where the
-    soil is not known.
+    soil is not known, and nan where a law has no Young's modulus.
     """
 
     title: str
@@ -84,6 +87,7 @@ class Springs:
     depth: float
     diameter: float
     weight: float
+    walls: dict[str, float]
     displacement: np.ndarray
     force: np.ndarray
     springs: list[Spring]
@@ -115,6 +119,14 @@ class Springs:
                 share = z / (spring.half(z) + z + TINY)
                 together += spring.area * spring.ultimate * share
         return float(abs(together - self.force).max() / self.force.max())
+
+    @property
+    def growth(self) -> float:
+        """By what the last tenth of the motion raises the resistance, over that at the
+        end; of a hyperbola it is a tenth of what the end lacks of the ultimate."""
+        before = np.interp(0.9 * self.displacement[-1], self.displacement, self.force)
+        end = float(self.force[-1])
+        return 1 - float(before) / end if end > 0 else 0.0
 
     def stiffness(self, share: float) -> float:
         """Return force over displacement at a share of the diameter (N/m), or nan
@@ -205,16 +217,35 @@ def speed_of_tolerance(run: LoadedRun) -> float:
     return float(max(speeds))
 
 
+def shear_modulus(layers: list[dict[str, Any]], depth: float) -> float:
+    """Return the shear modulus (Pa) of the softest layer above a depth (m); nan where
+    the law of one has none. Materials of one layer, whose numbers change with depth,
+    count by their thickness, each with the stress at rest in its middle."""
+    bottoms = [*(float(layer["top_depth_m"]) for layer in layers[1:]), depth]
+    above, sums = 0.0, dict[int, tuple[float, float]]()
+    for layer, bottom in zip(layers, bottoms):
+        height = bottom - float(layer["top_depth_m"])
+        weight = float(layer["submerged_unit_weight_N_m3"])
+        mean = (1 + 2 * float(layer.get("K0", 1))) / 3
+        pressure = np.array([mean * (above + weight * height / 2)])
+        n = float(layer.get("porosity", 0))
+        modulus = youngs_modulus(layer, pressure, np.array([n / (1 - n)]))[0]
+        modulus /= 2 * (1 + poisson_ratio(layer))
+        total, part = sums.get(layer.get("layer", 1), (0.0, 0.0))
+        sums[layer.get("layer", 1)] = total + height * modulus, part + height
+        above += weight * height
+    return float(np.min([total / part for total, part in sums.values()]))
+
+
 def wave_velocity(run: LoadedRun, depth: float) -> float:
-    """Return the velocity of shear waves (m/s) in the softest soil above a depth of the
-    tip (m), with the mass scaling or the inertia tolerance of the run; inf where a
-    layer has no Young's modulus."""
+    """Return the velocity of shear waves (m/s) in the softest layer above a depth of
+    the tip (m), with the mass scaling or the inertia tolerance of the run; inf where
+    the layers are not known, and nan where a law has no Young's modulus."""
     layers = run.results.scene.get("layers") or []
     layers = [layer for layer in layers if layer["top_depth_m"] < depth]
-    moduli = [layer.get("youngs_modulus_Pa") for layer in layers]
-    if not moduli or None in moduli:
+    if not layers:
         return math.inf
-    shear = min(map(float, moduli)) / (2 * (1 + POISSON))
+    shear = shear_modulus(layers, depth)
     weights = [float(layer["submerged_unit_weight_N_m3"]) for layer in layers]
     density = max(weights) / GRAVITY + WATER_DENSITY
     entries = run.results.summary.get("entries", {})
@@ -277,6 +308,7 @@ def springs_of(run: LoadedRun, weight: float) -> Springs:
         at,
         scene["diameter_m"],
         weight,
+        {w: 2 * np.pi * r * at for w, r in zip(WALLS, (inner, outer))},
         displacement,
         curve(table["total_force_N"])[1],
         springs,

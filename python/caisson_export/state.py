@@ -8,6 +8,7 @@ import numpy as np
 from caisson.frame import Arrays, Frame
 from caisson.loaded import LoadedRun
 from caisson.results import ResultsError, Table
+from caisson_export.laws import vertical_over_yield_stress, youngs_modulus
 
 STRESS = ("rr", "zz", "tt", "rz")  # the order of the components everywhere
 # fields that other ones contain, or that are no state of the soil
@@ -195,7 +196,12 @@ def layers_of(
     void = data["void_ratio"].astype(float) if "void_ratio" in data else n / (1 - n)
     with np.errstate(invalid="ignore"):
         ratio = np.where(void > 0, (1 + n / (1 - n)) / (1 + void), 1.0)
-    given = np.array([one.get("youngs_modulus_Pa", np.nan) for one in known])[material]
+    pressure = -stress[:, :3].mean(axis=1)
+    e = np.where(np.isfinite(void), void, n / (1 - n))
+    given = np.empty(len(material))
+    for i, one in enumerate(known):
+        at = material == i
+        given[at] = youngs_modulus(one, pressure[at], e[at])
     assumed = np.isnan(given)
     modulus = np.where(assumed, STIFFNESS * np.linalg.norm(stress, axis=1), given)
     which, index = np.unique(numbers, return_inverse=True)
@@ -238,6 +244,11 @@ def read_state(run: LoadedRun, frame: Frame) -> State:
         and name not in LEFT_OUT
         and not name.startswith(("stress_", "pore_pressure"))
     }
+    if "yield_stress_Pa" in fields:
+        shares = map(vertical_over_yield_stress, run.results.scene["layers"])
+        share = np.array(list(shares))[data["material"].astype(int)]
+        if np.isfinite(share).any():
+            fields["vertical_yield_stress_Pa"] = share * fields["yield_stress_Pa"]
     return State(
         title=run.results.title,
         time=frame.time,

@@ -2,6 +2,7 @@
 """Exported states as tables and pictures: .csv of cells, points or zones, and .vtu."""
 import csv
 from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,8 @@ from caisson_export.state import STRESS, State
 from caisson_export.text import about, about_points
 
 Columns = dict[str, np.ndarray]
-ZONE_ROWS = 12  # of the soil above the tip; below it the zones are as high
+# of the soil above the tip; below it the zones are as high; none is lower than a cell
+ZONE_ROWS = 12
 
 
 def write_table(path: Path, lines: Iterable[str], columns: Columns) -> None:
@@ -108,69 +110,136 @@ def write_vtu(path: Path, state: Balanced) -> None:
         raise OSError(f"{path} cannot be written")
 
 
-def zone_edges(state: Balanced) -> tuple[list[tuple[str, float, float]], np.ndarray]:
-    """Return the rings of the zones, with names and radii, and their heights (m)."""
+@dataclass
+class Zone:
+    """A ring of soil: its name, its radii and heights (m), and its cells [n]."""
+
+    name: str
+    inner: float
+    outer: float
+    low: float
+    high: float
+    cells: np.ndarray
+
+
+def rings_of(state: Balanced) -> list[tuple[str, float, float, float]]:
+    """Return the rings of the zones: name, radii, and height of the upper end (m),
+    which is the mean of the surface of the ground, or the tip below it."""
     r, z = state.mesh.nodes.T
-    wall, outer, low, high = state.state.wall, r.max(), z.min(), max(z.max(), 0.0)
+    wall, far = state.state.wall, float(r.max())
     if wall is None:
-        return [("soil", 0.0, outer)], np.linspace(low, high, ZONE_ROWS + 1)
-    tip, near = wall.tip, min(wall.outer * 1.5, outer)
-    rings = [("outside_near", wall.outer, near), ("outside", near, outer)]
-    if wall.inner > 0:
-        rings = [("inside", 0.0, wall.inner), *rings]
-    rows = np.linspace(tip, high, ZONE_ROWS + 1)
-    n = max(1, round((tip - low) / (rows[1] - rows[0])))
-    return rings, np.unique(np.concatenate([np.linspace(low, tip, n + 1), rows]))
+        rings = [("soil", 0.0, far)]
+    else:
+        near = min(wall.outer * 1.5, far)
+        rings = [("outside_near", wall.outer, near), ("outside", near, far)]
+        if wall.inner > 0:
+            rings = [("inside", 0.0, wall.inner), *rings]
+    found = []
+    for name, inner, outer in rings:
+        on_top = state.mesh.sets["SURFACE"]
+        if wall is not None:  # not that of the other side of the wall
+            on_top = on_top[(r[on_top] > wall.middle) == (inner > 0)]
+        # the window may end at a ring, and the mesh of a file have no plug
+        if outer > inner and len(on_top):
+            on_top = on_top[np.argsort(r[on_top])]
+            at = np.linspace(inner, outer, 101)
+            top = np.interp(at, r[on_top], z[on_top]).mean()
+            found.append((name, inner, outer, float(top)))
+    if wall is not None:
+        found.append(("below_tip", wall.inner, wall.outer, wall.tip))
+    return found
+
+
+def steps_of(low: float, high: float, height: float) -> np.ndarray:
+    """Return equal steps of about a height from low to high, with both (m)."""
+    return np.linspace(low, high, max(1, round((high - low) / height)) + 1)
+
+
+def rows_of_ring(edges: np.ndarray, z: np.ndarray, tip: float) -> np.ndarray:
+    """Return the heights among the edges [n] that divide a ring into rows with centers
+    z of cells: where a row has none, those beside it meet in the middle or at the
+    tip."""
+    filled = np.flatnonzero(np.histogram(z, edges)[0])
+    rows = [edges[0]]
+    for below, above in zip(filled[:-1], filled[1:]):
+        between = edges[below + 1 : above + 1]
+        at_tip = between[between == tip]
+        rows.append(at_tip[0] if len(at_tip) else between[len(between) // 2])
+    return np.array([*rows, edges[-1]])
+
+
+def zones_of(state: Balanced) -> list[Zone]:
+    """Return zones that cover the ground without a gap, but for the soil beside the
+    slope of a tip, whose cells count in the zone below it."""
+    mesh, wall = state.mesh, state.state.wall
+    (r, z), low = mesh.centers.T, float(mesh.nodes[:, 1].min())
+    tip = low if wall is None else wall.tip
+    cells = np.ptp(mesh.nodes[mesh.cells, 1], axis=1)
+    height = max((mesh.nodes[:, 1].max() - tip) / ZONE_ROWS, float(np.median(cells)))
+    zones = []
+    for name, inner, outer, top in rings_of(state):
+        ring = (r >= inner) & (r < outer)
+        if not ring.any():  # of a mesh whose cells are wider than the wall
+            radii = mesh.nodes[mesh.cells, 0]
+            ring = (radii.min(axis=1) < outer) & (radii.max(axis=1) > inner)
+            ring &= z < top
+        below, above = steps_of(low, tip, height), steps_of(tip, top, height)
+        at = np.clip(z, low, np.nextafter(top, low))
+        rows = rows_of_ring(np.unique([*below, *above]), at[ring], tip)
+        for begin, end in zip(rows[:-1], rows[1:]):
+            row = ring & (at >= begin) & (at < end)
+            zones.append(Zone(name, inner, outer, begin, end, row))
+    return zones
+
+
+def line_of(state: Balanced, zone: Zone) -> dict[str, float | str]:
+    """Return the row of a zone: means by volume over its cells. The past vertical
+    stress is that of yielding, where it is known, or else that of the ground at rest,
+    and at least the present one."""
+    cells, fields = zone.cells, state.values.fields
+    volume = state.volume[cells]
+
+    def mean(values: np.ndarray) -> float:
+        """Return the mean of the cells whose value is known."""
+        known = np.isfinite(values[cells])
+        if not known.any():
+            return np.nan
+        return float(np.average(values[cells][known], weights=volume[known]))
+
+    unknown = np.full(len(state.stress), np.nan)
+    yielding = fields.get("vertical_yield_stress_Pa", unknown)
+    at_rest = state.state.at_rest(state.mesh.centers[:, 1])
+    past = np.where(np.isfinite(yielding), yielding, at_rest)
+    rr, zz, tt, rz = map(mean, state.stress.T)
+    before, known = max(mean(past), -zz), zz < 0
+    return {
+        "zone": zone.name,
+        "r_min_m": zone.inner,
+        "r_max_m": zone.outer,
+        "z_top_m": zone.high,
+        "z_bottom_m": zone.low,
+        "unit_weight_kN_m3": mean(state.unit_weight) / 1e3,
+        "vertical_stress_kPa": -zz / 1e3,
+        "K0_radial": rr / zz if known else np.nan,
+        "K0_hoop": tt / zz if known else np.nan,
+        "OCR": before / -zz if known else np.nan,
+        "POP_kPa": (before + zz) / 1e3,
+        "shear_stress_kPa": rz / 1e3,
+        "pore_pressure_kPa": mean(state.values.pressure) / 1e3,
+        "void_ratio": mean(fields.get("void_ratio", unknown)),
+        "yield_stress_kPa": mean(fields.get("yield_stress_Pa", unknown)) / 1e3,
+    }
 
 
 def write_plaxis(path: Path, state: Balanced) -> None:
-    """Write zones of soil, each with its weight, K0 and OCR, means by volume."""
-    rings, rows = zone_edges(state)
-    r, z = state.mesh.centers.T
-    geostatic = state.state.at_rest(z)
-    lines: list[dict[str, float | str]] = []
-    for name, inner, outer in rings:
-        for low, high in zip(rows[:-1], rows[1:]):
-            cells = (r >= inner) & (r < outer) & (z >= low) & (z < high)
-            if not cells.any():
-                continue
-            volume = state.volume[cells]
-            mean = volume @ state.stress[cells] / volume.sum()
-            before = max(float(volume @ geostatic[cells] / volume.sum()), -mean[1])
-            void = state.values.fields.get("void_ratio")
-            known = mean[1] < 0
-            lines.append(
-                {
-                    "zone": name,
-                    "r_min_m": inner,
-                    "r_max_m": outer,
-                    "z_top_m": high,
-                    "z_bottom_m": low,
-                    "unit_weight_kN_m3": volume
-                    @ state.unit_weight[cells]
-                    / 1e3
-                    / volume.sum(),
-                    "vertical_stress_kPa": -mean[1] / 1e3,
-                    "K0_radial": mean[0] / mean[1] if known else np.nan,
-                    "K0_hoop": mean[2] / mean[1] if known else np.nan,
-                    "OCR": before / -mean[1] if known else np.nan,
-                    "POP_kPa": (before + mean[1]) / 1e3,
-                    "shear_stress_kPa": mean[3] / 1e3,
-                    "pore_pressure_kPa": volume
-                    @ state.values.pressure[cells]
-                    / 1e3
-                    / volume.sum(),
-                    "void_ratio": np.nan
-                    if void is None
-                    else np.average(void[cells], weights=volume),
-                }
-            )
+    """Write zones of soil, each with its weight, K0 and OCR."""
+    lines = [line_of(state, zone) for zone in zones_of(state)]
     with path.open("w", newline="", encoding="utf-8") as file:
         file.writelines(f"# {line}\n" for line in [*about(state), *PLAXIS])
         writer = csv.DictWriter(file, lines[0])
         writer.writeheader()
         for line in lines:
-            numbers = {k: f"{v:.6g}" for k, v in line.items() if not isinstance(v, str)}
+            numbers = {k: f"{v:.8g}" for k, v in line.items() if not isinstance(v, str)}
             writer.writerow({**line, **numbers})
 
 
@@ -178,8 +247,10 @@ PLAXIS = (
     "Zones for PLAXIS: clusters in axisymmetry with x = r, y = z, submerged unit"
     " weight, K0 and OCR for the K0 procedure. Pressures of this table are positive in"
     " compression, in kPa.",
-    "OCR and POP compare the vertical stress with that of the ground at rest, the"
-    " larger of both being the past one: a lower bound.",
+    "OCR and POP compare the vertical stress with a past one. In modified Cam clay this"
+    " is the vertical stress that has p_c in normal consolidation, with K0 ="
+    " 1 - sin(phi_c). With other laws it is the larger one of the ground at rest and"
+    " now: OCR and POP are lower bounds. yield_stress_kPa is p_c, or p_i of NorSand.",
     "K0 has no shear stress: PLAXIS needs a plastic step with no load (nil step) after"
     " the K0 procedure, and loses the friction on the wall there.",
 )

@@ -17,7 +17,7 @@ from made_up_state import Temporary
 from caisson import __main__ as program
 from caisson.loaded import load
 from caisson.results import ResultsError, read_table
-from caisson_export.springs import Springs, last_motion, springs_of
+from caisson_export.springs import Springs, last_motion, springs_of, wave_velocity
 
 DIAMETER, WALL = 4.0, 0.1
 RADII = {"inner": 1.9, "outer": 2.0}
@@ -228,6 +228,64 @@ class Files(MadeUp):
             ("element", "zeroLength", 107, 107, 7, "-mat", 107, "-dir", 2), calls
         )
 
+    def test_misfit_is_printed(self) -> None:
+        """As the file has it."""
+        path = self.write("one", 1)
+        said = self.export(path, "--to", "tz-opensees")[1]
+        (line,) = [one for one in said.splitlines() if "Hyperbolas" in one]
+        self.assertRegex(line, r"at most 0\.\d+ %|at most \d\S* %")
+        text = (path / "springs_opensees.py").read_text(encoding="utf-8")
+        self.assertIn(line, text)
+
+    def test_parts(self) -> None:
+        """What the springs cover: four nodes of 0.5 m below the ground."""
+        said = self.export(self.write("one", 1), "--to", "tz")[1]
+        for wall, radius in RADII.items():
+            area = 2 * math.pi * radius * 2
+            words = (
+                f"4 on {area:.4g} of the {area:.4g} m2 of the {wall} wall, with mean"
+            )
+            self.assertIn(words, said)
+
+    def test_beside_another_motion(self) -> None:
+        """A pull is not compared with a push, and another depth is reported."""
+        pull, push = self.write("pull", -1), self.write("push", 1)
+        status, text = self.export(pull, "--to", "tz", "--beside", push)
+        self.assertEqual(status, 1)
+        self.assertRegex(text, "is pulled in .*pull and pushed in .*push: --beside")
+        deeper = self.write("deeper", -1)
+        for depth, is_reported in ((2.05, False), (2.1, True)):
+            rows = [line.split(",") for line in self.lines(deeper / "history.csv")]
+            shift = depth - float(rows[1][1])
+            for row in rows[1:]:
+                row[1] = repr(float(row[1]) + shift)
+            text = "\n".join(map(",".join, rows))
+            (deeper / "history.csv").write_text(text, encoding="utf-8")
+            text = self.export(pull, "--to", "tz", "--beside", deeper)[1]
+            self.assertEqual("the tips are at 2 m and" in text, is_reported, text)
+
+    @staticmethod
+    def lines(path: Path) -> list[str]:
+        """Return the lines of a file."""
+        return path.read_text(encoding="utf-8").splitlines()
+
+    def test_a_motion_that_is_too_short(self) -> None:
+        """The largest resistance of a hyperbola is no ultimate where it ends at twice
+        the displacement of half of it."""
+        path = self.write("one", -1)
+        said = self.export(path, "--to", "tz")[1]
+        self.assertNotIn("still grows", said)
+        rows = self.lines(path / "history.csv")
+        ends = [2.0 - float(row.split(",")[1]) for row in rows[1:]]
+        n = sum(end < 2 * HALF for end in ends)
+        (path / "history.csv").write_text("\n".join(rows[: n + 1]), encoding="utf-8")
+        found = springs_of(load(path), 0.0)
+        last = found.displacement[-1]
+        growth = 1 - mobilized(0.9 * last) / mobilized(last)
+        self.assertAlmostEqual(found.growth, growth, delta=3e-3)
+        said = self.export(path, "--to", "tz")[1]
+        self.assertIn("WARNING: the resistance still grows at the end", said)
+
     def test_refusals(self) -> None:
         """Each says what to do."""
         path = self.write("one", 1)
@@ -291,6 +349,26 @@ class Files(MadeUp):
                     self.assertIsNone(end[1])
                 self.assertIn(f" by {(reach / needed) ** 2:.1g}, or move", said)
 
+    def test_waves_of_other_laws(self) -> None:
+        """The modulus follows from the numbers of the law; without one, the check is
+        not possible. By hand: NGI-ADP has G = 100 x 20 kPa, and a user material that
+        of its p-wave modulus."""
+        clay = {key: LAYER[key] for key in list(LAYER)[:2]}
+        numbers = {"Unloading shear modulus ratio": 100, "Active strength": 2e4}
+        listed = [{"entry": name, "value": x} for name, x in numbers.items()]
+        listed.append({"entry": "Poisson ratio", "value": 0.45})
+        ngi = {**clay, "law": "NGI-ADP", "law_entries": listed}
+        user = {**clay, "law": "user material", "poisson_ratio": 0.4}
+        user["p_wave_modulus_Pa"] = 6 * 2e6  # of G = 2 MPa
+        density = 9e3 / 9.81 + 1000
+        for name, layer in (("ngi", ngi), ("user", user)):
+            path = self.write(name, -1, layers=[layer])
+            found = wave_velocity(load(path), 2.0)
+            self.assertAlmostEqual(found / math.sqrt(2e6 / density), 1, places=6)
+        path = self.write("none", -1, layers=[{**clay, "law": "hypoplastic"}])
+        said = self.export(path, "--to", "tz")[1]
+        self.assertIn("a layer above the tip has a law without a Young's modulus", said)
+
     def test_no_weight(self) -> None:
         """It is not a weight of 0 kN."""
         path = self.write("pull", -1)
@@ -307,6 +385,8 @@ class Files(MadeUp):
         )
         self.assertEqual(status, 0, text)
         self.assertIn("WARNING: at the beginning the soil bears 50", text)
+        self.assertIn("from 2 m, where the motion begins.", text)
+        self.assertNotIn("bears the submerged weight", text)
 
 
 if __name__ == "__main__":

@@ -155,6 +155,8 @@ namespace CaissonMPM
     if (internal_length > 0. && description(law).has_yield_surface &&
         law_value("Softening shape factor"))
       return "";
+    if (umat && !umat->warning().empty())
+      return section() + ": " + umat->warning();
     const char *const limit = description(law).warning(law_values.data());
     return limit == nullptr ? "" : section() + ": " + limit;
   }
@@ -223,6 +225,24 @@ namespace CaissonMPM
            Kernels::law_table.law[material.law].p_wave_modulus(material,
                                                                stress.data(),
                                                                void_ratio);
+  }
+
+  bool
+  has_yield_stress(const Kernels::Material &material)
+  {
+    return Kernels::law_table.law[material.law].yield_stress != nullptr;
+  }
+
+  double
+  yield_stress_of(const Kernels::Material &material,
+                  const Stress            &stress,
+                  const double             void_ratio,
+                  const StateVariables    &state)
+  {
+    return Kernels::law_table.law[material.law].yield_stress(material,
+                                                             stress.data(),
+                                                             void_ratio,
+                                                             state.data());
   }
 
   double

@@ -505,11 +505,58 @@ namespace CaissonMPM
         "and it must set all variables that it uses.");
   }
 
+  void
+  UmatLaw::check_no_strain(const Stress &at)
+  {
+    const auto change = [this](const Stress &stress) {
+      const Answer answer  = ask(stress, {{0., 0., 0., 0.}});
+      double       largest = 0., size = 0.;
+      for (unsigned int i = 0; i < 4; ++i)
+        {
+          largest = std::max(largest, std::abs(answer.stress[i] - stress[i]));
+          size    = std::max(size, std::abs(stress[i]));
+        }
+      return std::make_pair(largest > 1e-3 * size, answer.stress);
+    };
+    const auto [has_changed, after] = change(at);
+    if (!has_changed)
+      return;
+    const std::string found = "the UMAT changes the STRESS " +
+                              list_text(at.data(), 4) + " Pa of the start to " +
+                              list_text(after.data(), 4) +
+                              " Pa, though the strain increment is zero.";
+    // a law with a yield surface keeps the stresses within it
+    Stress       half = at, least = at;
+    const double mean = (at[0] + at[1] + at[2]) / 3.;
+    for (unsigned int i = 0; i < 4; ++i)
+      {
+        half[i] *= .5;
+        least[i] *= 1e-3;
+      }
+    const Stress isotropic       = {{mean, mean, mean, 0.}},
+                 least_isotropic = {
+                   {1e-3 * mean, 1e-3 * mean, 1e-3 * mean, 0.}};
+    for (const Stress &stress : {half, isotropic, least, least_isotropic})
+      if (!change(stress).first)
+        {
+          warning_ = found +
+                     " It keeps smaller ones, so that this one may lie outside "
+                     "of its yield surface. Correct Properties, State at the "
+                     "start or K0";
+          return;
+        }
+    throw BadInput(entry + ": " + found +
+                   " STRESS at entry is the stress at the start of the step: "
+                   "add the change to it instead of computing it from STRAN or "
+                   "DFGRD1 alone, and check State at the start.");
+  }
+
   UmatStiffness
   UmatLaw::test(const Stress &at)
   {
     constexpr double strain = 1e-6;
     check_reproducible(at);
+    check_no_strain(at);
     // 1. DDSDDE of small strains, and what the stress says
     const Answer none  = ask(at, {{0., 0., 0., 0.}});
     double       bound = acoustic_bound(none.ddsdde),

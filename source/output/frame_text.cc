@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/output/frame_text.h>
 #include <caisson_mpm/output/point_quantities.h>
 #include <caisson_mpm/output/vtu_piece.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -43,6 +45,30 @@ namespace CaissonMPM
           initial > 0. && now >= 0. &&
           p.volume <= largest_volume_ratio * p.initial_volume;
         return is_known ? void_ratio_of_soil(material, p.stress, now) : unknown;
+      }
+
+    private:
+      std::vector<Kernels::Material> materials;
+    };
+
+    /** The yield stress of points (Pa), unknown where their law has none. */
+    class YieldStress
+    {
+    public:
+      YieldStress(const std::vector<Kernels::Material> &materials)
+        : materials(materials)
+      {}
+
+      double
+      operator()(const MaterialPoint &p) const
+      {
+        const Kernels::Material &material = materials[p.material];
+        return has_yield_stress(material) ?
+                 yield_stress_of(material,
+                                 p.stress,
+                                 p.void_ratio(material.initial_void_ratio),
+                                 p.state) :
+                 unknown;
       }
 
     private:
@@ -140,6 +166,24 @@ namespace CaissonMPM
                       *const name_of_ratio =
                         "vertical_stress_over_stress_at_rest";
 
+    /** What the laws keep of a point: the yield stress, and STATEV of user
+     * materials, where there are any. */
+    std::vector<FrameField>
+    fields_of_laws(const Soil &soil)
+    {
+      std::vector<FrameField> fields;
+      const auto              materials = soil.kernel_materials();
+      if (std::any_of(materials.begin(), materials.end(), has_yield_stress))
+        fields.push_back({"yield_stress_Pa", 1, {{0, YieldStress(materials)}}});
+      const unsigned int n_state = soil.n_user_state(),
+                         first   = Kernels::UserState::variables;
+      for (unsigned int i = first; i < n_state; ++i)
+        fields.push_back({"statev_" + to_text(i - first + 1),
+                          1,
+                          {{0, PointQuantity::state_variable(i - first)}}});
+      return fields;
+    }
+
     /** The values of a point that are written, but for its number. */
     std::vector<FrameField>
     fields_of_points(const Soil  &soil,
@@ -163,6 +207,8 @@ namespace CaissonMPM
         {"layer", layer(soil)}};
       for (const auto &[name, value] : more)
         fields.push_back({name, 1, {{0, value}}});
+      const auto of_laws = fields_of_laws(soil);
+      fields.insert(fields.end(), of_laws.begin(), of_laws.end());
       return fields;
     }
 

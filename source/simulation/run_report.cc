@@ -253,7 +253,11 @@ namespace CaissonMPM
              {{"solid_density_kg_m3", Json::number(m.solid_density)},
               {"law_entries", entries_of_law(m)}});
       if (m.umat)
-        append(members, {{"library_checksum", Json::text(m.umat->checksum())}});
+        append(members,
+               {{"library_checksum", Json::text(m.umat->checksum())},
+                {"p_wave_modulus_Pa",
+                 Json::number(m.umat_stiffness.p_wave_modulus)},
+                {"poisson_ratio", Json::number(m.umat_stiffness.poisson)}});
       if (uses_permeability)
         append(members,
                {{"permeability_m_s", Json::number(m.permeability)},

@@ -253,7 +253,7 @@ class States(UserMaterialTest):
         steps = summary(path)["steps"]
         self.run_scene("jack", path, SUCCESS, "--restart", entries=entries)
         self.assert_counted(path, steps + summary(path)["steps"])
-        self.compiled("elastic.f90", COUNT + "  stress = 1.01d0 * stress\n")
+        self.compiled("elastic.f90", COUNT + "  ddsdde = 1.01d0 * ddsdde\n")
         later = {**entries, "Time/End penetration": 0.61}
         text = self.run_scene("jack", path, BAD_INPUT, "--restart", entries=later)
         self.assert_words(["Library (checksum)", "Set it back"], text)

@@ -192,6 +192,12 @@ namespace CaissonMPM
 
         /** The variables of a point at the start [n_state_variables]. */
         void (*start)(const Material &, double *variable);
+
+        /** Law::yield_stress(), or null. Units: Pa. */
+        double (*yield_stress)(const Material &,
+                               const double *stress,
+                               const double  void_ratio,
+                               const double *variable);
       };
 
       inline const char *
@@ -213,6 +219,26 @@ namespace CaissonMPM
       warning_of(long) -> decltype(&no_warning)
       {
         return &no_warning;
+      }
+
+      /** Whether the law has a yield stress; chosen for the argument 0. */
+      template <typename Law>
+      constexpr auto
+      knows_yield_stress(int)
+        -> decltype(Law::yield_stress(StressState<Lanes<1>>(),
+                                      Lanes<1>(),
+                                      Lanes<1>(),
+                                      typename Law::Parameters()),
+                    true)
+      {
+        return true;
+      }
+
+      template <typename Law>
+      constexpr bool
+      knows_yield_stress(long)
+      {
+        return false;
       }
 
       /** The functions of a description. */
@@ -284,7 +310,31 @@ namespace CaissonMPM
           if constexpr (Law::n_state > 0)
             Law::start(parameters(material), variable);
         }
+
+        static double
+        yield_stress(const Material &material,
+                     const double   *stress,
+                     const double    void_ratio,
+                     const double   *variable)
+        {
+          return Law::yield_stress(
+            StressState<Lanes<1>>{stress[0], stress[1], stress[2], stress[3]},
+            Lanes<1>(void_ratio),
+            Lanes<1>(variable[0]),
+            parameters(material))[0];
+        }
       };
+
+      /** yield_stress() of a law that has one, or null. */
+      template <int slot>
+      constexpr auto
+      yield_stress_of() -> decltype(LawDescription::yield_stress)
+      {
+        if constexpr (knows_yield_stress<typename SlotNumber<slot>::Law>(0))
+          return &LawFunctions<slot>::yield_stress;
+        else
+          return nullptr;
+      }
 
       template <int slot>
       constexpr LawDescription
@@ -306,7 +356,8 @@ namespace CaissonMPM
                     &F::earth_pressure_at_rest,
                     &F::p_wave_modulus,
                     &F::void_ratio_of_soil,
-                    &F::start};
+                    &F::start,
+                    yield_stress_of<slot>()};
           }
         else
           return {};

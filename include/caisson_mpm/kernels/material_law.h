@@ -35,6 +35,11 @@
 //   static Number p_wave_modulus(const StressState<Number> &,
 //                                Number void_ratio, const Parameters &);
 //   static void start(const Parameters &, double *variable); // if n_state > 0
+//   template <typename Number> // optional: what frames call yield_stress, with
+//                              // the first variable of the point; in Pa
+//   static Number yield_stress(const StressState<Number> &,
+//                              const Number void_ratio, const Number variable,
+//                              const Parameters &);
 //   template <typename Number>
 //   static void update(StressState<Number> &, const StrainIncrement<Number> &,
 //                      LawState<Number> &, const Parameters &);

@@ -139,6 +139,21 @@ namespace CaissonMPM
           variable[0] = 0.;
         }
 
+        /** p_c, also before the first step. */
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        yield_stress(const StressState<Number> &sigma,
+                     const Number /*void_ratio*/,
+                     const Number      variable,
+                     const Parameters &p)
+        {
+          return select(variable > Number(0.),
+                        variable,
+                        Number(p.at_start) *
+                          yield_stress_through(
+                            CriticalStateInvariants<Number>(sigma, p.slope)));
+        }
+
         template <typename Number>
         [[gnu::always_inline]] static inline void
         update(StressState<Number>           &sigma,
@@ -146,16 +161,11 @@ namespace CaissonMPM
                LawState<Number>              &state,
                const Parameters              &p)
         {
-          const Number e = max(state.void_ratio, Number(0.));
-          Number       yield_stress =
-            select(state.variable[0] > Number(0.),
-                   state.variable[0],
-                   Number(p.at_start) *
-                     yield_stress_through(
-                       CriticalStateInvariants<Number>(sigma, p.slope)));
-          const Number K = add_elastic_increment(sigma, de, e, p);
+          const Number e   = max(state.void_ratio, Number(0.));
+          const Number p_c = yield_stress(sigma, e, state.variable[0], p);
+          const Number K   = add_elastic_increment(sigma, de, e, p);
           const CriticalStateInvariants<Number> trial(sigma, p.slope);
-          Return<Number> back{trial.p, trial.q, yield_stress};
+          Return<Number>                        back{trial.p, trial.q, p_c};
           back.to_surface(trial.inverse_M2, K, e, p);
           const auto   torn = back.p < Number(0.);
           const Number share =

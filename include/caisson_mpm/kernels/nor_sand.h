@@ -203,6 +203,24 @@ namespace CaissonMPM
           variable[0] = 0.;
         }
 
+        /** p_i, also before the first step. */
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        yield_stress(const StressState<Number> &sigma,
+                     const Number               void_ratio,
+                     const Number               variable,
+                     const Parameters          &p)
+        {
+          const auto fresh = variable <= Number(0.);
+          if (!any(fresh))
+            return variable;
+          const CriticalStateInvariants<Number> at_start(sigma, p.slope);
+          return select(fresh,
+                        Number(p.at_start) *
+                          image_through(at_start, void_ratio, p),
+                        variable);
+        }
+
         template <typename Number>
         [[gnu::always_inline]] static inline void
         update(StressState<Number>           &sigma,
@@ -210,15 +228,9 @@ namespace CaissonMPM
                LawState<Number>              &state,
                const Parameters              &p)
         {
-          using Invariants   = CriticalStateInvariants<Number>;
-          const Number e     = state.void_ratio;
-          const auto   fresh = state.variable[0] <= Number(0.);
-          Number       image = state.variable[0];
-          if (any(fresh))
-            image = select(fresh,
-                           Number(p.at_start) *
-                             image_through(Invariants(sigma, p.slope), e, p),
-                           image);
+          using Invariants    = CriticalStateInvariants<Number>;
+          const Number e      = state.void_ratio;
+          const Number image  = yield_stress(sigma, e, state.variable[0], p);
           const Number factor = p.stiffness(sigma);
           add_elastic_increment(sigma,
                                 StrainIncrement<Number>{factor * de.rr,

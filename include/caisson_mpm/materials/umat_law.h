@@ -80,8 +80,9 @@ namespace CaissonMPM
     /**
      * The element test: strain soil with this stress a little in all
      * directions. Throws BadInput where the UMAT fails, gives different answers
-     * to the same call, or a DDSDDE that no time step can follow from. Returns
-     * the stiffness.
+     * to the same call, does not start from the stress that it is given, or
+     * returns a DDSDDE that no time step can follow from. Returns the
+     * stiffness.
      */
     UmatStiffness
     test(const Stress &stress);
@@ -109,6 +110,14 @@ namespace CaissonMPM
     failure() const
     {
       return failure_;
+    }
+
+    /** What the element test has found that the law may be meant to do; empty
+     * if nothing. */
+    const std::string &
+    warning() const
+    {
+      return warning_;
     }
 
     const std::string &
@@ -165,11 +174,15 @@ namespace CaissonMPM
     ask(const Stress &stress, const std::array<double, 4> &strain);
     void
     check_reproducible(const Stress &stress);
+    /** A strain increment of zero must keep a stress, but one that lies outside
+     * of a yield surface, of which warning() tells. */
+    void
+    check_no_strain(const Stress &stress);
 
     const UmatSettings settings;
     const std::string  section, entry; // entry: with its value
     const UserLibrary  library;
-    std::string        failure_;
+    std::string        failure_, warning_;
 
     // the call in progress
     const Kernels::UserPoint *point      = nullptr;
