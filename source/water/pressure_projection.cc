@@ -82,11 +82,15 @@ namespace CaissonMPM
                         &inverse_density})
       solver_.reinit(*v);
     for (NodalData *v :
-         {&at_nodes.outflow, &at_nodes.pressure, &at_nodes.conductance})
+         {&at_nodes.outflow,
+          &at_nodes.pressure,
+          &at_nodes.conductance,
+          &at_nodes.specific_volume})
       grid->reinit(*v, 1);
     shapes.assign(grid->n_cells(), {});
     divergence.assign(grid->n_cells(), {});
     force_of.assign(grid->n_cells(), {});
+    shares.assign(grid->n_cells(), {});
     volumes.assign(grid->n_cells(), 0.);
     wet_ = -1.;
     wet_.update_ghost_values();
@@ -179,6 +183,7 @@ namespace CaissonMPM
     shapes[cell] = now;
     const CellIntegrals integrals(now, grid->axisymmetric() ? 1. : 0.);
     volumes[cell]    = integrals.volume();
+    shares[cell]     = integrals.shares();
     divergence[cell] = integrals.divergence();
     force_of[cell]   = divergence[cell];
     subtract_pressure_of_body(cell, force_of[cell]);
@@ -205,6 +210,7 @@ namespace CaissonMPM
     begin_in_new_cells();
     find_conductances(properties);
     find_acting();
+    is_set_up = true;
   }
 
   void
@@ -268,9 +274,6 @@ namespace CaissonMPM
     const auto &faces = solver_.faces();
     seepage.resize(faces.size());
     inertia.resize(faces.size());
-    auto &conductances = solver_.conductances();
-    conductances.resize(faces.size());
-    double largest = 0.;
     for (std::size_t f = 0; f < faces.size(); ++f)
       {
         seepage[f] = faces[f].is_open ?
@@ -278,11 +281,70 @@ namespace CaissonMPM
                        0.;
         inertia[f] = faces[f].free_share * for_slope(faces[f]) *
                      through(faces[f], inverse_density);
+      }
+    find_faces_below();
+  }
+
+  void
+  PressureProjection::find_specific_volume(const std::vector<double> &mass)
+  {
+    NodalData &v = at_nodes.specific_volume;
+    v            = 0.;
+    v.zero_out_ghost_values();
+    // the soil of a cell that the mudline cuts is in its lower part
+    for (const unsigned int cell : solver_.cells())
+      {
+        const double x = mudline->filled()[cell];
+        for (unsigned int j = 0; j < 4; ++j)
+          v.local_element(grid->cell_nodes(cell).node[j]) +=
+            (j < 2 ? x * (2. - x) : x * x) * shares[cell][j];
+      }
+    grid->hanging_nodes().distribute(v, 1);
+    v.compress(VectorOperation::add);
+    // a node without soil does not move
+    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
+      v.local_element(node) =
+        mass[node] > 0. ? v.local_element(node) / mass[node] : 0.;
+    // that at the mudline follows from single points: see share_of_own()
+    for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
+      if (mudline->filled()[cell] > 0. && mudline->is_top(cell))
+        for (const unsigned int j : {2, 3})
+          if (const unsigned int node = grid->cell_nodes(cell).node[j];
+              node < grid->n_owned_nodes())
+            v.local_element(node) = 0.;
+    v.update_ghost_values();
+    grid->hanging_nodes().interpolate(v, 1);
+  }
+
+  void
+  PressureProjection::raise_inertia(const std::vector<double> &mass)
+  {
+    find_specific_volume(mass);
+    const auto &faces = solver_.faces();
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      {
+        const auto  &face    = faces[f];
+        const double of_node = .5 * (at_nodes.specific_volume.local_element(
+                                       face.nodes[0]) +
+                                     at_nodes.specific_volume.local_element(
+                                       face.nodes[1])),
+                     all     = face.free_share * of_node * face.area /
+                           (face.distance + face.other_distance);
+        inertia[f] = std::max(inertia[f], all - .5 * seepage[f] / long_step);
+      }
+  }
+
+  void
+  PressureProjection::scale_conductances()
+  {
+    auto &conductances = solver_.conductances();
+    conductances.resize(inertia.size());
+    double largest = 0.;
+    for (std::size_t f = 0; f < inertia.size(); ++f)
+      {
         conductances[f] = seepage[f] + long_step * inertia[f];
         largest         = std::max(largest, conductances[f]);
       }
-    // 3. The solver gets F + dt I over the largest of them.
-    find_faces_below();
     scale = Utilities::MPI::max(largest, grid->communicator());
     sum_open_conductances();
     for (double &g : conductances)
@@ -342,8 +404,15 @@ namespace CaissonMPM
   void
   PressureProjection::solve(const Kernels::NodalVector             *velocity,
                             const std::vector<Kernels::CornerView> &corners,
+                            const std::vector<double>              &mass,
                             const KnownPressures                   &known)
   {
+    if (is_set_up)
+      {
+        raise_inertia(mass);
+        scale_conductances();
+        is_set_up = false;
+      }
     // 1. div v* of the predicted velocity, which contains the old pressure p'.
     find_volume_rates(velocity, corners);
     const CellPressureSolver::Known before = known_;

@@ -70,12 +70,14 @@ namespace CaissonMPM
     /**
      * Solve for the pressure. @p velocity [n_nodes] is predicted with the
      * present one and held to all constraints, and cells at @p corners of the
-     * body see it as these say. What the solver leaves of an equation is made
-     * good in the next step. Throws RunFailure where it does not converge.
+     * body see it as these say. The pressure accelerates the @p mass of the
+     * nodes [n_nodes], kg per radian. What the solver leaves of an equation is
+     * made good in the next step. Throws RunFailure where it does not converge.
      */
     void
     solve(const Kernels::NodalVector             *velocity,
           const std::vector<Kernels::CornerView> &corners,
+          const std::vector<double>              &mass,
           const KnownPressures                   &known);
 
     /** Add the force of the pressure to @p force [n_nodes]: that of the water
@@ -183,6 +185,7 @@ namespace CaissonMPM
     {
       std::vector<Beyond> beyond; // cell: no pressure is known
       NodalData           outflow, pressure, conductance;
+      NodalData           specific_volume; // m3/kg
     };
     /** Find the nodes at open faces. */
     void
@@ -192,6 +195,16 @@ namespace CaissonMPM
     find_integrals(const unsigned int cell);
     void
     find_conductances(const std::vector<WaterProperties> &properties);
+    /** Find how much volume of the ground each node has for its mass. */
+    void
+    find_specific_volume(const std::vector<double> &mass);
+    /** Raise I of the faces whose nodes are so light that the step would be
+     * unstable, as those in a gap in the soil. Collective. */
+    void
+    raise_inertia(const std::vector<double> &mass);
+    /** Give the solver F + dt I. Collective. */
+    void
+    scale_conductances();
     /** Sum those of the open faces. Collective. */
     void
     sum_open_conductances();
@@ -234,9 +247,11 @@ namespace CaissonMPM
     double                    step = 0., long_step = 0., scale = 1.;
     Flow                      flow_;
     CellPressureSolver::Known known_ = {};
+    bool                      is_set_up = false; // but not solved since
     // [n_cells]: the shape for which there are the integrals, int div N_j, the
-    // same less the faces of the body, the volume
+    // same less the faces of the body, int N_j, the volume
     std::vector<Kernels::CellGeometry> shapes;
+    std::vector<std::array<double, 4>> shares;
     std::vector<OfCorners>             divergence, force_of;
     std::vector<double>                volumes, acting, volume_rates_;
     // [n_faces]
