@@ -85,6 +85,7 @@ namespace CaissonMPM
          {&at_nodes.outflow,
           &at_nodes.pressure,
           &at_nodes.conductance,
+          &at_nodes.volume,
           &at_nodes.specific_volume})
       grid->reinit(*v, 1);
     shapes.assign(grid->n_cells(), {});
@@ -209,8 +210,8 @@ namespace CaissonMPM
         find_integrals(cell);
     begin_in_new_cells();
     find_conductances(properties);
+    find_volume_of_nodes();
     find_acting();
-    is_set_up = true;
   }
 
   void
@@ -274,21 +275,34 @@ namespace CaissonMPM
     const auto &faces = solver_.faces();
     seepage.resize(faces.size());
     inertia.resize(faces.size());
+    steepness.resize(faces.size());
+    auto &conductances = solver_.conductances();
+    conductances.resize(faces.size());
+    double largest = 0.;
     for (std::size_t f = 0; f < faces.size(); ++f)
       {
         seepage[f] = faces[f].is_open ?
                        through(faces[f], mobility[faces[f].is_horizontal]) :
                        0.;
-        inertia[f] = faces[f].free_share * for_slope(faces[f]) *
+        steepness[f] = for_slope(faces[f]);
+        inertia[f]   = faces[f].free_share * steepness[f] *
                      through(faces[f], inverse_density);
+        conductances[f] = seepage[f] + long_step * inertia[f];
+        largest         = std::max(largest, conductances[f]);
       }
+    inertia_of_soil = inertia;
+    // 3. The solver gets F + dt I over the largest of them.
     find_faces_below();
+    scale = Utilities::MPI::max(largest, grid->communicator());
+    sum_open_conductances();
+    for (double &g : conductances)
+      g /= scale;
   }
 
   void
-  PressureProjection::find_specific_volume(const std::vector<double> &mass)
+  PressureProjection::find_volume_of_nodes()
   {
-    NodalData &v = at_nodes.specific_volume;
+    NodalData &v = at_nodes.volume;
     v            = 0.;
     v.zero_out_ghost_values();
     // the soil of a cell that the mudline cuts is in its lower part
@@ -301,54 +315,41 @@ namespace CaissonMPM
       }
     grid->hanging_nodes().distribute(v, 1);
     v.compress(VectorOperation::add);
-    // a node without soil does not move
-    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
-      v.local_element(node) =
-        mass[node] > 0. ? v.local_element(node) / mass[node] : 0.;
-    // that at the mudline follows from single points: see share_of_own()
+    // the mass of a node at the mudline is that of few points, however the
+    // soil lies there, and share_of_own() takes care of it
     for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
       if (mudline->filled()[cell] > 0. && mudline->is_top(cell))
         for (const unsigned int j : {2, 3})
           if (const unsigned int node = grid->cell_nodes(cell).node[j];
               node < grid->n_owned_nodes())
             v.local_element(node) = 0.;
-    v.update_ghost_values();
-    grid->hanging_nodes().interpolate(v, 1);
   }
 
   void
   PressureProjection::raise_inertia(const std::vector<double> &mass)
   {
-    find_specific_volume(mass);
+    // 1. volume over mass; a node without soil does not move
+    NodalData &per_mass = at_nodes.specific_volume;
+    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
+      per_mass.local_element(node) =
+        mass[node] > 0. ? at_nodes.volume.local_element(node) / mass[node] : 0.;
+    per_mass.update_ghost_values();
+    grid->hanging_nodes().interpolate(per_mass, 1);
+    // 2. with A of the nodes of a face, the step is stable for
+    //    A <= 4/3 I + 2/3 F / dt
     const auto &faces = solver_.faces();
     for (std::size_t f = 0; f < faces.size(); ++f)
-      {
-        const auto  &face    = faces[f];
-        const double of_node = .5 * (at_nodes.specific_volume.local_element(
-                                       face.nodes[0]) +
-                                     at_nodes.specific_volume.local_element(
-                                       face.nodes[1])),
-                     all     = face.free_share * of_node * face.area /
-                           (face.distance + face.other_distance);
-        inertia[f] = std::max(inertia[f], all - .5 * seepage[f] / long_step);
-      }
-  }
-
-  void
-  PressureProjection::scale_conductances()
-  {
-    auto &conductances = solver_.conductances();
-    conductances.resize(inertia.size());
-    double largest = 0.;
-    for (std::size_t f = 0; f < inertia.size(); ++f)
-      {
-        conductances[f] = seepage[f] + long_step * inertia[f];
-        largest         = std::max(largest, conductances[f]);
-      }
-    scale = Utilities::MPI::max(largest, grid->communicator());
-    sum_open_conductances();
-    for (double &g : conductances)
-      g /= scale;
+      if (const auto &face = faces[f]; face.beyond == Beyond::cell)
+        {
+          const double of_nodes =
+            .5 * (per_mass.local_element(face.nodes[0]) +
+                  per_mass.local_element(face.nodes[1])) *
+            steepness[f] * face.area / (face.distance + face.other_distance);
+          inertia[f] = std::max(inertia_of_soil[f],
+                                of_nodes - .5 * seepage[f] / long_step);
+          solver_.conductances()[f] =
+            (seepage[f] + long_step * inertia[f]) / scale;
+        }
   }
 
   void
@@ -407,12 +408,7 @@ namespace CaissonMPM
                             const std::vector<double>              &mass,
                             const KnownPressures                   &known)
   {
-    if (is_set_up)
-      {
-        raise_inertia(mass);
-        scale_conductances();
-        is_set_up = false;
-      }
+    raise_inertia(mass);
     // 1. div v* of the predicted velocity, which contains the old pressure p'.
     find_volume_rates(velocity, corners);
     const CellPressureSolver::Known before = known_;

@@ -185,6 +185,7 @@ namespace CaissonMPM
     {
       std::vector<Beyond> beyond; // cell: no pressure is known
       NodalData           outflow, pressure, conductance;
+      NodalData           volume;          // m3 per radian, 0 at the mudline
       NodalData           specific_volume; // m3/kg
     };
     /** Find the nodes at open faces. */
@@ -195,16 +196,16 @@ namespace CaissonMPM
     find_integrals(const unsigned int cell);
     void
     find_conductances(const std::vector<WaterProperties> &properties);
-    /** Find how much volume of the ground each node has for its mass. */
+    /** Find how much volume below the mudline belongs to each node.
+     * Collective. */
     void
-    find_specific_volume(const std::vector<double> &mass);
-    /** Raise I of the faces whose nodes are so light that the step would be
-     * unstable, as those in a gap in the soil. Collective. */
+    find_volume_of_nodes();
+    /** Raise I of faces whose nodes have so little @p mass, as at a gap in the
+     * soil, that the step would be unstable. Points change that mass at once
+     * where they enter an empty cell, so that each step does this.
+     * Collective. */
     void
     raise_inertia(const std::vector<double> &mass);
-    /** Give the solver F + dt I. Collective. */
-    void
-    scale_conductances();
     /** Sum those of the open faces. Collective. */
     void
     sum_open_conductances();
@@ -247,7 +248,6 @@ namespace CaissonMPM
     double                    step = 0., long_step = 0., scale = 1.;
     Flow                      flow_;
     CellPressureSolver::Known known_ = {};
-    bool                      is_set_up = false; // but not solved since
     // [n_cells]: the shape for which there are the integrals, int div N_j, the
     // same less the faces of the body, int N_j, the volume
     std::vector<Kernels::CellGeometry> shapes;
@@ -255,7 +255,7 @@ namespace CaissonMPM
     std::vector<OfCorners>             divergence, force_of;
     std::vector<double>                volumes, acting, volume_rates_;
     // [n_faces]
-    std::vector<double>             seepage, inertia;
+    std::vector<double>             seepage, inertia, inertia_of_soil, steepness;
     std::vector<std::array<int, 2>> faces_below; // -1: none, as at most faces
     double   open_conductance = 0., plug_conductance = 0.;
     CellData pressure_, remainder_, wet_, source, mobility[2], inverse_density;
