@@ -51,11 +51,12 @@ namespace CaissonMPM
 
   void
   NodalForces::solve(const Kernels::NodalVector             *velocity,
-                     const std::vector<Kernels::CornerView> &corners)
+                     const std::vector<Kernels::CornerView> &corners,
+                     const std::vector<double>              &mass)
   {
     for (const auto &force : forces)
       if (force->is_active() && force->is_implicit())
-        force->solve(velocity, corners);
+        force->solve(velocity, corners, mass);
   }
 
   void

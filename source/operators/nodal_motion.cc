@@ -98,7 +98,9 @@ namespace CaissonMPM
     momentum.predict(predicted);
     momentum.constrain(size.seconds, body_velocity, constraints, predicted);
     // 2. compute the forces that follow from it
-    forces.solve(nodal_vectors(predicted), contact.corners().views());
+    forces.solve(nodal_vectors(predicted),
+                 contact.corners().views(),
+                 momentum.raised_mass());
     // 3. correct v+ by their change
     momentum.correct({*kernels, step, soil.points, soil.grid, time}, forces);
     contact.corners().add_forces(step, forces);

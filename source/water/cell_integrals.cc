@@ -62,6 +62,16 @@ namespace CaissonMPM
     return result;
   }
 
+  std::array<double, 4>
+  CellIntegrals::shares() const
+  {
+    std::array<double, 4> result = {};
+    for (const GaussPoint &g : points)
+      for (unsigned int j = 0; j < 4; ++j)
+        result[j] += g.weight * g.shape[j];
+    return result;
+  }
+
   double
   CellIntegrals::volume() const
   {

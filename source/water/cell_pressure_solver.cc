@@ -15,6 +15,15 @@ namespace CaissonMPM
 {
   using namespace dealii;
 
+  namespace
+  {
+    // left, right, below, above
+    constexpr unsigned int corners_of_face[4][2] = {{0, 2},
+                                                    {1, 3},
+                                                    {0, 1},
+                                                    {2, 3}};
+  } // namespace
+
   void
   CellPressureSolver::initialize(const BackgroundGrid &grid_of_run)
   {
@@ -81,12 +90,18 @@ namespace CaissonMPM
     const auto distance = [&](const Kernels::CellGeometry &g, const double h) {
       return .5 * (is_horizontal ? h : g.width);
     };
+    // those of the smaller cell, which is the other one where they differ
+    const auto &smaller = grid->cell_nodes(other).node;
+    const auto &corners = corners_of_face[is_side ? face : face ^ 1u];
+    const std::array<unsigned int, 2> nodes = {
+      {smaller[corners[0]], smaller[corners[1]]}};
     faces_.push_back({beyond,
                       is_horizontal,
                       cell,
                       other,
                       places[cell],
                       places[other],
+                      nodes,
                       is_open,
                       free_share,
                       area,
@@ -99,10 +114,8 @@ namespace CaissonMPM
                                     const unsigned int face,
                                     const HeldNodes   &held) const
   {
-    // left, right, below, above
-    constexpr unsigned int corners[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
     double                 share         = 0.;
-    for (const unsigned int corner : corners[face])
+    for (const unsigned int corner : corners_of_face[face])
       if (!held[face / 2][grid->cell_nodes(cell).node[corner]])
         share += .5;
     return share;

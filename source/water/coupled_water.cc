@@ -43,9 +43,10 @@ namespace CaissonMPM
 
       void
       solve(const Kernels::NodalVector             *velocity,
-            const std::vector<Kernels::CornerView> &corners) override
+            const std::vector<Kernels::CornerView> &corners,
+            const std::vector<double>              &mass) override
       {
-        water.solve(velocity, corners);
+        water.solve(velocity, corners, mass);
       }
 
       Vector2
@@ -208,10 +209,12 @@ namespace CaissonMPM
 
   void
   CoupledWater::solve(const Kernels::NodalVector             *velocity,
-                      const std::vector<Kernels::CornerView> &corners)
+                      const std::vector<Kernels::CornerView> &corners,
+                      const std::vector<double>              &mass)
   {
     projection.solve(velocity,
                      corners,
+                     mass,
                      {-suction(), bottom_pressure.at_time(time + .5 * step)});
     integrate_over_tip();
     finish_flow();

@@ -82,11 +82,16 @@ namespace CaissonMPM
                         &inverse_density})
       solver_.reinit(*v);
     for (NodalData *v :
-         {&at_nodes.outflow, &at_nodes.pressure, &at_nodes.conductance})
+         {&at_nodes.outflow,
+          &at_nodes.pressure,
+          &at_nodes.conductance,
+          &at_nodes.volume,
+          &at_nodes.specific_volume})
       grid->reinit(*v, 1);
     shapes.assign(grid->n_cells(), {});
     divergence.assign(grid->n_cells(), {});
     force_of.assign(grid->n_cells(), {});
+    shares.assign(grid->n_cells(), {});
     volumes.assign(grid->n_cells(), 0.);
     wet_ = -1.;
     wet_.update_ghost_values();
@@ -179,6 +184,7 @@ namespace CaissonMPM
     shapes[cell] = now;
     const CellIntegrals integrals(now, grid->axisymmetric() ? 1. : 0.);
     volumes[cell]    = integrals.volume();
+    shares[cell]     = integrals.shares();
     divergence[cell] = integrals.divergence();
     force_of[cell]   = divergence[cell];
     subtract_pressure_of_body(cell, force_of[cell]);
@@ -204,6 +210,7 @@ namespace CaissonMPM
         find_integrals(cell);
     begin_in_new_cells();
     find_conductances(properties);
+    find_volume_of_nodes();
     find_acting();
   }
 
@@ -268,6 +275,7 @@ namespace CaissonMPM
     const auto &faces = solver_.faces();
     seepage.resize(faces.size());
     inertia.resize(faces.size());
+    steepness.resize(faces.size());
     auto &conductances = solver_.conductances();
     conductances.resize(faces.size());
     double largest = 0.;
@@ -276,17 +284,72 @@ namespace CaissonMPM
         seepage[f] = faces[f].is_open ?
                        through(faces[f], mobility[faces[f].is_horizontal]) :
                        0.;
-        inertia[f] = faces[f].free_share * for_slope(faces[f]) *
+        steepness[f] = for_slope(faces[f]);
+        inertia[f]   = faces[f].free_share * steepness[f] *
                      through(faces[f], inverse_density);
         conductances[f] = seepage[f] + long_step * inertia[f];
         largest         = std::max(largest, conductances[f]);
       }
+    inertia_of_soil = inertia;
     // 3. The solver gets F + dt I over the largest of them.
     find_faces_below();
     scale = Utilities::MPI::max(largest, grid->communicator());
     sum_open_conductances();
     for (double &g : conductances)
       g /= scale;
+  }
+
+  void
+  PressureProjection::find_volume_of_nodes()
+  {
+    NodalData &v = at_nodes.volume;
+    v            = 0.;
+    v.zero_out_ghost_values();
+    // the soil of a cell that the mudline cuts is in its lower part
+    for (const unsigned int cell : solver_.cells())
+      {
+        const double x = mudline->filled()[cell];
+        for (unsigned int j = 0; j < 4; ++j)
+          v.local_element(grid->cell_nodes(cell).node[j]) +=
+            (j < 2 ? x * (2. - x) : x * x) * shares[cell][j];
+      }
+    grid->hanging_nodes().distribute(v, 1);
+    v.compress(VectorOperation::add);
+    // the mass of a node at the mudline is that of few points, however the
+    // soil lies there, and share_of_own() takes care of it
+    for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
+      if (mudline->filled()[cell] > 0. && mudline->is_top(cell))
+        for (const unsigned int j : {2, 3})
+          if (const unsigned int node = grid->cell_nodes(cell).node[j];
+              node < grid->n_owned_nodes())
+            v.local_element(node) = 0.;
+  }
+
+  void
+  PressureProjection::raise_inertia(const std::vector<double> &mass)
+  {
+    // 1. volume over mass; a node without soil does not move
+    NodalData &per_mass = at_nodes.specific_volume;
+    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
+      per_mass.local_element(node) =
+        mass[node] > 0. ? at_nodes.volume.local_element(node) / mass[node] : 0.;
+    per_mass.update_ghost_values();
+    grid->hanging_nodes().interpolate(per_mass, 1);
+    // 2. with A of the nodes of a face, the step is stable for
+    //    A <= 4/3 I + 2/3 F / dt
+    const auto &faces = solver_.faces();
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      if (const auto &face = faces[f]; face.beyond == Beyond::cell)
+        {
+          const double of_nodes =
+            .5 * (per_mass.local_element(face.nodes[0]) +
+                  per_mass.local_element(face.nodes[1])) *
+            steepness[f] * face.area / (face.distance + face.other_distance);
+          inertia[f] = std::max(inertia_of_soil[f],
+                                of_nodes - .5 * seepage[f] / long_step);
+          solver_.conductances()[f] =
+            (seepage[f] + long_step * inertia[f]) / scale;
+        }
   }
 
   void
@@ -342,8 +405,10 @@ namespace CaissonMPM
   void
   PressureProjection::solve(const Kernels::NodalVector             *velocity,
                             const std::vector<Kernels::CornerView> &corners,
+                            const std::vector<double>              &mass,
                             const KnownPressures                   &known)
   {
+    raise_inertia(mass);
     // 1. div v* of the predicted velocity, which contains the old pressure p'.
     find_volume_rates(velocity, corners);
     const CellPressureSolver::Known before = known_;

@@ -86,13 +86,16 @@ namespace CaissonMPM
     }
 
     /** Compute an implicit force from the predicted @p velocity [n_nodes], which
-     * cells at @p corners of the body see as these say. Collective. */
+     * cells at @p corners of the body see as these say. The force accelerates
+     * the @p mass of the nodes [n_nodes], kg per radian. Collective. */
     virtual void
     solve(const Kernels::NodalVector             *velocity,
-          const std::vector<Kernels::CornerView> &corners)
+          const std::vector<Kernels::CornerView> &corners,
+          const std::vector<double>              &mass)
     {
       (void)velocity;
       (void)corners;
+      (void)mass;
     }
 
     /** Find an implicit force again, keep it, and add what it has changed by to

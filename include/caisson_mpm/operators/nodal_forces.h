@@ -44,10 +44,11 @@ namespace CaissonMPM
     bool
     have_implicit() const;
 
-    /** Compute the implicit forces. Collective. */
+    /** Compute the implicit forces, see NodalForce::solve(). Collective. */
     void
     solve(const Kernels::NodalVector             *velocity,
-          const std::vector<Kernels::CornerView> &corners);
+          const std::vector<Kernels::CornerView> &corners,
+          const std::vector<double>              &mass);
 
     /** Find the implicit forces again, and add their change to @p change
      * [n_nodes]. */

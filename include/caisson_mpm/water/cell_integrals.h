@@ -34,6 +34,10 @@ namespace CaissonMPM
     std::array<double, 8>
     divergence() const;
 
+    /** int N_j. */
+    std::array<double, 4>
+    shares() const;
+
     double
     volume() const;
 

@@ -50,6 +50,7 @@ namespace CaissonMPM
       bool         is_horizontal; // water passes in z
       unsigned int cell, other;   // other: the same cell at an open face
       unsigned int place, other_place;
+      std::array<unsigned int, 2> nodes;
       bool         is_open;    // water passes
       double       free_share; // of its nodes, which give way to pressure
       double       area;       // m2 per radian

@@ -50,7 +50,8 @@ namespace CaissonMPM
      * force of the last step. Collective. See PressureProjection::solve(). */
     void
     solve(const Kernels::NodalVector             *velocity,
-          const std::vector<Kernels::CornerView> &corners);
+          const std::vector<Kernels::CornerView> &corners,
+          const std::vector<double>              &mass);
 
     const PressureProjection &
     pressure_projection() const

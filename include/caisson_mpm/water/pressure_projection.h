@@ -70,12 +70,14 @@ namespace CaissonMPM
     /**
      * Solve for the pressure. @p velocity [n_nodes] is predicted with the
      * present one and held to all constraints, and cells at @p corners of the
-     * body see it as these say. What the solver leaves of an equation is made
-     * good in the next step. Throws RunFailure where it does not converge.
+     * body see it as these say. The pressure accelerates the @p mass of the
+     * nodes [n_nodes], kg per radian. What the solver leaves of an equation is
+     * made good in the next step. Throws RunFailure where it does not converge.
      */
     void
     solve(const Kernels::NodalVector             *velocity,
           const std::vector<Kernels::CornerView> &corners,
+          const std::vector<double>              &mass,
           const KnownPressures                   &known);
 
     /** Add the force of the pressure to @p force [n_nodes]: that of the water
@@ -183,6 +185,8 @@ namespace CaissonMPM
     {
       std::vector<Beyond> beyond; // cell: no pressure is known
       NodalData           outflow, pressure, conductance;
+      NodalData           volume;          // m3 per radian, 0 at the mudline
+      NodalData           specific_volume; // m3/kg
     };
     /** Find the nodes at open faces. */
     void
@@ -192,6 +196,16 @@ namespace CaissonMPM
     find_integrals(const unsigned int cell);
     void
     find_conductances(const std::vector<WaterProperties> &properties);
+    /** Find how much volume below the mudline belongs to each node.
+     * Collective. */
+    void
+    find_volume_of_nodes();
+    /** Raise I of faces whose nodes have so little @p mass, as at a gap in the
+     * soil, that the step would be unstable. Points change that mass at once
+     * where they enter an empty cell, so that each step does this.
+     * Collective. */
+    void
+    raise_inertia(const std::vector<double> &mass);
     /** Sum those of the open faces. Collective. */
     void
     sum_open_conductances();
@@ -235,12 +249,13 @@ namespace CaissonMPM
     Flow                      flow_;
     CellPressureSolver::Known known_ = {};
     // [n_cells]: the shape for which there are the integrals, int div N_j, the
-    // same less the faces of the body, the volume
+    // same less the faces of the body, int N_j, the volume
     std::vector<Kernels::CellGeometry> shapes;
+    std::vector<std::array<double, 4>> shares;
     std::vector<OfCorners>             divergence, force_of;
     std::vector<double>                volumes, acting, volume_rates_;
     // [n_faces]
-    std::vector<double>             seepage, inertia;
+    std::vector<double>             seepage, inertia, inertia_of_soil, steepness;
     std::vector<std::array<int, 2>> faces_below; // -1: none, as at most faces
     double   open_conductance = 0., plug_conductance = 0.;
     CellData pressure_, remainder_, wet_, source, mobility[2], inverse_density;
