@@ -305,7 +305,8 @@ class Review(ProgramTest):
         self.validate("jack_coarse", sand)
         self.validate("jack_coarse", {**sand, f"{LAYER}/K0": 0.1})
         sand["Soil/Uniform stress"] = "-3e4, -1e5, -5e4, 0"
-        for given in ({}, {f"{LAYER}/K0": 1}):
+        rest: tuple[Entries, ...] = ({}, {f"{LAYER}/K0": 1})
+        for given in rest:
             said = self.run_program(
                 BAD_INPUT,
                 user_scene("jack_coarse"),
