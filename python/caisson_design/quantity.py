@@ -17,6 +17,10 @@ UNITS: dict[str, Mapping[str, float]] = {
     "": {"%": 1e-2},
 }
 EVERY = {word for units in UNITS.values() for word in units}
+# a unit behind a number or a parenthesis within an expression
+WITH_UNIT = re.compile(
+    rf"(?<=[\d.)])\s*({'|'.join(map(re.escape, sorted(EVERY, key=len)))})(?![\w/])"
+)
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 
 
@@ -54,6 +58,27 @@ def has_unit(text: str) -> bool:
     return found is not None and plain(found[1]) in EVERY
 
 
+def in_parentheses(text: str, body: str, word: str) -> str:
+    """Return how an expression that ends with a unit is to be written."""
+    if {plain(unit) for unit in WITH_UNIT.findall(body)} - {plain(word)}:
+        return f"{text!r}: give all of it in one unit, as in (20 + 2*d) {word}"
+    body = WITH_UNIT.sub("", body)
+    return f"{text!r}: put what the unit belongs to in parentheses: ({body}) {word}"
+
+
+def parts_of(text: str) -> list[str]:
+    """Return the parts of a text between commas; those within parentheses, as in
+    min(5, d), divide nothing."""
+    parts, depth = [""], 0
+    for letter in text:
+        depth += (letter == "(") - (letter == ")")
+        if letter == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += letter
+    return [part.strip() for part in parts if part.strip()]
+
+
 def without_unit(text: str, unit: str) -> str:
     """Return the value of an entry, a number or an expression, in the unit of the
     entry. Raises ValueError where the text ends with another unit than one of it."""
@@ -62,16 +87,15 @@ def without_unit(text: str, unit: str) -> str:
         return text
     after_word = re.fullmatch(r"(.*[A-Za-z_])\s+(\S+)", text)
     if unit and after_word and plain(after_word[2]) in EVERY:
-        raise ValueError(
-            f"{text!r}: put what the unit belongs to in parentheses:"
-            f" ({after_word[1]}) {after_word[2]}"
-        )
+        raise ValueError(in_parentheses(text, after_word[1], after_word[2]))
     if not found:
         return text
     if re.fullmatch(NUMBER, found[1]):
         return f"{value_of(text, unit):.10g}"
     if plain(found[2]) not in EVERY:
         return text
+    if WITH_UNIT.search(found[1]):
+        raise ValueError(in_parentheses(text, found[1], found[2]))
     whole = found[1] if re.fullmatch(r"\([^()]*\)", found[1]) else f"({found[1]})"
     return f"{factor_of(text, found[2], unit):g}*{whole}"
 

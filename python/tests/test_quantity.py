@@ -3,9 +3,10 @@
 import argparse
 import contextlib
 import io
+import re
 import unittest
 
-from caisson import paths
+from caisson import paths, suggest
 import caisson.__main__
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.soil import LAWS, layer_of
@@ -85,6 +86,21 @@ class Numbers(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, r"parentheses: \(20\+2\*d\) kPa"):
             without_unit("20+2*d kPa", "Pa")
 
+    def test_units_within_an_expression(self) -> None:
+        """The advice is accepted in turn; no unit is left to the program."""
+        for text, advice in (
+            ("20 kPa + 1.5*d kPa", "(20 + 1.5*d) kPa"),
+            ("20 kN/m2 + 1.5*d kN/m2", "(20 + 1.5*d) kN/m2"),
+            ("20 kPa + 3 kPa", "(20 + 3) kPa"),
+            ("max(20 kPa, 2*d) kPa", "(max(20, 2*d)) kPa"),
+        ):
+            with self.assertRaisesRegex(ValueError, f": {re.escape(advice)}$"):
+                without_unit(text, "Pa")
+            self.assertTrue(without_unit(advice, "Pa").startswith("1000*("))
+        for text in ("20 kPa + 1.5*d MPa", "20 kPa + 3 MPa"):
+            with self.assertRaisesRegex(ValueError, "all of it in one unit"):
+                without_unit(text, "Pa")
+
 
 class Layers(unittest.TestCase):
     """Entries of a layer as engineers write them."""
@@ -162,9 +178,91 @@ class Layers(unittest.TestCase):
         for name in ("Slope of swelling", "Void ratio", "Law"):
             self.assertEqual(marks[name], "")
         self.assertNotIn("Porosity", marks)
-        for law, needed in (("NGI-ADP", "Active strength"), ("NorSand", "Youngs mod")):
-            with self.assertRaisesRegex(SuggestError, f"needs {needed}"):
-                self.layer(f"0: Law = {law}")
+        for text, needed in (
+            ("NGI-ADP", "Active strength"),
+            ("NorSand, e = 0.7", "Youngs modulus"),
+            ("NorSand, E = 50 MPa", r"Void ratio \(e\)"),
+        ):
+            with self.assertRaisesRegex(SuggestError, f"needs {needed}$"):
+                self.layer(f"0: Law = {text}")
+        for dense in ("e = 0.7", "n = 0.4", "gamma = 9 kN/m3", "Dr = 0.6"):
+            self.layer(f"0: Law = NorSand, E = 50 MPa, {dense}")
+        clay = self.layer("0: Law = NGI-ADP, suA = 20 kPa")
+        self.assertEqual(clay.value("Poisson ratio"), "0.45")
+
+    def test_yield_stress_ratio(self) -> None:
+        """It is given, or that of OCR, or 1; the last two are marked."""
+        for law in ("modified Cam clay", "NorSand, E = 50 MPa"):
+            for given, value, mark in (
+                ("R = 3, OCR = 2", "3", ""),
+                ("YSR = 3", "3", ""),
+                ("OCR = 1 + 1/(1 + d)", "1 + 1/(1 + d)", " # ASSUMED: Overconso"),
+                ("K0 = 0.6", "1", " # ASSUMED"),
+            ):
+                layer = self.layer(f"0: Law = {law}, e = 0.7, {given}")
+                (entry,) = (e for e in layer.entries if e.name == "Yield stress ratio")
+                self.assertEqual(entry.value, value)
+                self.assertTrue(entry.remark.startswith(mark), entry.remark)
+                self.assertEqual(not entry.remark, not mark)
+
+    def test_names_of_laws(self) -> None:
+        """Case, spaces and hyphens do not matter; symbols are those of the law."""
+        for word, law in (
+            ("norsand", "NorSand"),
+            ("Nor-Sand", "NorSand"),
+            ("modified cam clay", "modified Cam clay"),
+            ("NGI ADP", "NGI-ADP"),
+            ("mohr-coulomb", "Mohr-Coulomb"),
+        ):
+            given = "E = 50 MPa, phi = 30, e = 0.7"
+            if law == "NGI-ADP":
+                given = "suA = 20 kPa, sD/suA = 0.8, sP/suA = 0.6"
+            self.assertEqual(self.layer(f"0: Law = {word}, {given}").value("Law"), law)
+        hardening = self.layer("0: H = 50*(1+2*d), E = 5 MPa, e = 0.7, Law = norsand")
+        self.assertEqual(hardening.value("Plastic hardening"), "50*(1+2*d)")
+        with self.assertRaisesRegex(SuggestError, "of norsnd .*law may be NorSand"):
+            self.layer("0: Law = norsnd, E = 5 MPa, H = 50")
+
+    def test_foreign_strength(self) -> None:
+        """phi is the critical angle where a law has no other; the rest is refused."""
+        for law in ("modified Cam clay", "NorSand, E = 50 MPa"):
+            layer = self.layer(f"0: Law = {law}, e = 0.7, phi = 24")
+            self.assertEqual(layer.value("Critical friction angle"), "24")
+            self.assertEqual(layer.value("Friction angle"), "")
+            with self.assertRaisesRegex(SuggestError, "no entry 'M'; M is 6 sin phi_c"):
+                self.layer(f"0: Law = {law}, M = 1.2")
+        for text, said in (
+            ("NorSand, psi = -0.1", "NorSand takes no psi; .* e in place of psi"),
+            ("NorSand, Friction angle = 30", "takes no Friction angle; give phi_c"),
+            ("modified Cam clay, c = 2 kPa", "clay takes no c; give phi_c"),
+            ("NGI-ADP, suA = 20 kPa, su = 15 kPa", "takes no su; give suA and suD/suA"),
+            ("NGI-ADP, suA = 20 kPa, phi = 5", "takes no phi; give suA"),
+        ):
+            with self.assertRaisesRegex(SuggestError, said):
+                self.layer(f"0: Law = {text}")
+
+    def test_walls_of_other_laws(self) -> None:
+        """NGI-ADP is undrained clay; of the others the critical angle counts."""
+        clay = self.layer("0: Law = NGI-ADP, suA = 20 kPa")
+        cam = self.layer("0: Law = modified Cam clay, phi_c = 24, e = 1")
+        sand = self.layer("0: Law = NorSand, E = 50 MPa, e = 0.7, phi_c = 33")
+        self.assertEqual(suggest.wall_friction_of(None, [cam]).value, "16")
+        self.assertEqual(suggest.wall_friction_of(None, [sand]).value, "22")
+        self.assertEqual(suggest.wall_friction_of(None, [clay]).value, "0")
+        with self.assertRaisesRegex(SuggestError, "no common wall friction"):
+            suggest.wall_friction_of(None, [clay, sand])
+        with self.assertRaisesRegex(SuggestError, "layer 2 is undrained clay"):
+            suggest.refuse_clay([cam, clay])
+        adhesion = "Adhesion factor of the walls"
+        given = self.layer("0: Law = NGI-ADP, suA = 20 kPa, alpha = 0.3")
+        found = suggest.with_adhesion([clay, given, sand])
+        self.assertEqual([x.value(adhesion) for x in found], ["0.5", "0.3", ""])
+        found = suggest.with_permeability([clay, cam, sand])
+        conduct = [layer.value("Permeability") for layer in found]
+        self.assertEqual(conduct, ["1e-9", "1e-9", "1e-4"])
+        self.assertEqual(suggest.angle_after(cam, -4), 20)
+        with self.assertRaisesRegex(SuggestError, "no friction angle"):
+            suggest.angle_after(clay, 4)
 
     def test_unit_weight(self) -> None:
         """In water or of the wet soil: 1 - 8.5 / (2.65 - 1) / 9.81."""

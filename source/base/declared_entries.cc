@@ -8,6 +8,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/property_tree/ptree.hpp>
 
@@ -288,21 +289,30 @@ namespace CaissonMPM
   describe_parameters(const ParameterHandler &prm, const std::string &word)
   {
     const DeclaredEntries entries(prm);
-    for (const auto text :
-         {&DeclaredEntry::path, &DeclaredEntry::documentation})
+    const auto            meant = names_of_symbol(word, entries.entry_paths());
+    using Entry                 = DeclaredEntry;
+    for (const auto text_of :
+         {+[](const Entry &entry) { return entry.path; },
+          +[](const Entry &entry) { return entry.documentation; },
+          +[](const Entry &entry) {
+            return boost::join(choices_of(entry.pattern), ", ");
+          }})
       {
         std::set<std::string> explained;
         const std::string     found =
           describe_entries(entries, [&](const DeclaredEntry &entry) {
-            return boost::icontains(entry.*text, word) &&
+            return boost::icontains(text_of(entry), word) &&
                    (explained.insert(meaning_in_any_section(entry)).second ||
                     entry.value != entry.default_value);
           });
+        std::string others;
+        for (const std::string &path : meant)
+          if (explained.count(meaning_in_any_section(*entries.find(path))) == 0)
+            others += "# See also " + path + ".\n";
         if (!found.empty())
           return "# Entries of caisson_mpm with \"" + word +
-                 "\", and the values in effect.\n" + found;
+                 "\", and the values in effect.\n" + others + found;
       }
-    const auto meant = names_of_symbol(word, entries.entry_paths());
     throw BadInput("No entry has \"" + word + "\" in its name or meaning." +
                    did_you_mean(!meant.empty() ?
                                   meant :

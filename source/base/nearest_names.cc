@@ -134,17 +134,24 @@ namespace CaissonMPM
       {"gamma", "Solid density"},
       {"k", "Permeability"},
       {"l", "Skirt length"},
+      {"m", "Critical friction angle"},
       {"n", "Porosity"},
       {"nu", "Poisson ratio"},
       {"ocr", "Overconsolidation ratio"},
       {"phi", "Friction angle"},
       {"psi", "Dilatancy angle"},
+      {"pull", "Suction control"},
+      {"sd/sua", "Direct shear strength ratio"},
+      {"sp/sua", "Passive strength ratio"},
       {"su", "Cohesion"},
+      {"sua", "Active strength"},
       {"t", "Wall thickness"},
+      {"tension", "Suction control"},
       {"unit weight", "Solid density"},
       {"wall friction", "Friction angle of the outer wall"}};
     const auto [subsection, symbol] = split_path(lower_case(path));
-    const auto               meant  = names.find(symbol);
+    const auto whole = names.find(lower_case(path)); // may have a slash
+    const auto meant = whole != names.end() ? whole : names.find(symbol);
     std::vector<std::string> result;
     for (const std::string &known : known_names)
       {

@@ -220,7 +220,20 @@ namespace CaissonMPM
         };
         while (i + 1 < lines.size() && may_reach(lines[i + 1]))
           ++i;
-        add_material(layer, top, lines[i], stress);
+        try
+          {
+            add_material(layer, top, lines[i], stress);
+          }
+        catch (const BadInput &error)
+          {
+            const std::string what = error.what();
+            if (stress_state == InitialStress::k0 ||
+                what.find("/K0 ") == std::string::npos)
+              throw;
+            throw BadInput(what + " This K0 is the ratio of the horizontal to "
+                                  "the vertical stress that Soil/Initial "
+                                  "stress gives.");
+          }
         top = lines[i];
       }
   }
@@ -243,8 +256,11 @@ namespace CaissonMPM
   {
     const double middle = .5 * (top + bottom);
     const double below  = stress_below(layer, top, bottom, stress);
+    const auto   ratio  = given_stress_ratio(bottom);
     SoilMaterial m =
-      layer.material_at(middle, vertical_stress(middle, .5 * (stress + below)));
+      layer.material_at(middle,
+                        vertical_stress(middle, .5 * (stress + below)),
+                        given_stress_ratio(middle));
     if (submerged && m.solid_density <= fluid_density)
       throw BadInput(m.section() +
                      "/Solid density = " + to_text(m.solid_density) +
@@ -252,8 +268,11 @@ namespace CaissonMPM
                      to_text(fluid_density) +
                      " kg/m3: the soil would float. Correct one of them, "
                      "or set Soil/Submerged = false.");
-    m.check(vertical_stress(bottom, below) *
-            (1. + 2. * m.earth_pressure_at_rest) / 3.);
+    SoilMaterial at_bottom = m;
+    if (ratio)
+      at_bottom.earth_pressure_at_rest = *ratio;
+    at_bottom.check(vertical_stress(bottom, below) *
+                    (1. + 2. * at_bottom.earth_pressure_at_rest) / 3.);
     if (m.umat)
       m.umat_stiffness = m.umat->test(
         stress_of_element_test(m, bottom, vertical_stress(bottom, below)));
@@ -273,6 +292,17 @@ namespace CaissonMPM
       return initial_stress(Point<2>(0., -bottom));
     const double horizontal = m.earth_pressure_at_rest * vertical_stress;
     return {{-horizontal, -vertical_stress, -horizontal, 0.}};
+  }
+
+  std::optional<double>
+  Soil::given_stress_ratio(const double depth) const
+  {
+    if (stress_state == InitialStress::k0)
+      return {};
+    const Stress s = initial_stress(Point<2>(0., -depth));
+    if (s[zz] >= 0.)
+      return {};
+    return std::max(0., .5 * (s[rr] + s[tt]) / s[zz]);
   }
 
   double

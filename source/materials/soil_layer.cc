@@ -557,7 +557,9 @@ namespace CaissonMPM
   }
 
   SoilMaterial
-  SoilLayer::material_at(const double depth, const double vertical_stress) const
+  SoilLayer::material_at(const double                depth,
+                         const double                vertical_stress,
+                         const std::optional<double> given_ratio) const
   {
     SoilMaterial  result = weight_at(depth);
     PlaceInGround place  = {depth, vertical_stress, vertical_stress};
@@ -566,7 +568,8 @@ namespace CaissonMPM
     for (int i = 0; i < 2; ++i)
       {
         set_values(result, place);
-        result.earth_pressure_at_rest = earth_pressure_at(result, place);
+        result.earth_pressure_at_rest =
+          given_ratio ? *given_ratio : earth_pressure_at(result, place);
         place.mean_stress =
           vertical_stress * (1. + 2. * result.earth_pressure_at_rest) / 3.;
       }
@@ -583,7 +586,7 @@ namespace CaissonMPM
         throw BadInput(std::string(error.what()) +
                        " These are the values at a depth of " +
                        to_text(depth, 4) + " m" +
-                       (k0 || overconsolidation.is_constant() ?
+                       (given_ratio || k0 || overconsolidation.is_constant() ?
                           "" :
                           ", with " + overconsolidation.name()) +
                        ".");

@@ -297,7 +297,13 @@ namespace CaissonMPM
             "kg/m3)." +
               other_unit_of_density(density));
     const double top_at_end = shape.top() - scene.lines.total_travel();
-    if (!shape.expands() && top_at_end < -1e-9)
+    if (!shape.expands() && shape.top() < -1e-9)
+      origins.add_warning(
+        "the top of the body begins at z = " + meters(shape.top()) +
+        ", below the soil surface: soil would flow over it, or a lid would be "
+        "in the soil. Reduce Rigid body/Initial penetration, or increase Rigid "
+        "body/Skirt length.");
+    else if (!shape.expands() && top_at_end < -1e-9)
       origins.add_warning(
         "the travel of " + meters(scene.lines.total_travel()) +
         " brings the top of the body to z = " + meters(top_at_end) +

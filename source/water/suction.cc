@@ -111,7 +111,8 @@ namespace CaissonMPM
                   gas,
                   "The volume of gas beneath the lid at the pressure of the "
                   "open water on the mudline. It expands under suction at "
-                  "constant temperature; the pump takes it, too. Units: m3.",
+                  "constant temperature, which delays the suction; the pump "
+                  "takes it, too. Units: m3.",
                   prm,
                   Patterns::Double(0.));
     add_parameter("Lid water modulus",

@@ -446,6 +446,12 @@ test_check()
   ask("no void ratio", chi, .5, 0.);
   ask("K0 = 0.2 in dense sand", chi, .2, .65);
   ask("K0 = 0.2 in loose sand", chi, .2, .78);
+  // y = -chi psi / M in triaxial compression
+  const double limit = .45 * M / chi,
+               e_c   = Gamma - lambda * std::log(p_0 / 1e3);
+  ask("just below the limit", chi, 1., e_c + .999 * limit);
+  ask("just above the limit", chi, 1., e_c + 1.001 * limit);
+  ask("no dilatancy", 0., 1., 1.1);
   const double steep[] = {
     E_ref, nu, phi_c, Gamma, .1, N, 10., H, 1., 1e5, .5, 1e3};
   LawMessage message;

@@ -48,7 +48,21 @@ class Options(ProgramTest):
         section = self.run_program(SUCCESS, "--explain", "Layer 1")
         self.assertIn("set Friction angle", section)
         self.assertIn("No entry has", self.run_program(BAD_INPUT, "--explain", "xyz"))
-        for word, entry in (("CFL", "Courant number"), ("cavitation", "Water depth")):
+        for word, words in (
+            ("cam clay", ["set Law =", "modified Cam clay"]),
+            ("NorSand", ["set Law ="]),
+            ("tension", ["See also Water/Suction control.", "Tension cut-off ="]),
+            ("sealed", ["set Suction control ="]),
+            ("Trapped", ["delays the suction"]),
+        ):
+            self.assert_words(words, self.run_program(SUCCESS, "--explain", word))
+        for word, entry in (
+            ("CFL", "Courant number"),
+            ("cavitation", "Water depth"),
+            ("suA", "Active strength"),
+            ("sD/suA", "Direct shear strength ratio"),
+            ("pull", "Suction control"),
+        ):
             said = self.run_program(BAD_INPUT, "--explain", word)
             self.assert_words(["Did you mean", entry], said)
 

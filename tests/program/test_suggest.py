@@ -91,16 +91,17 @@ class Layers(SuggestTest):
     def test_other_laws(self) -> None:
         """What is marked ASSUMED is the default of the program, which takes all."""
         defaults = read_parameters(["--set", "Soil/Number of layers=1"])
+        undrained = {("NGI-ADP", "Poisson ratio")}  # of which the program warns
         for law, entries in LAWS.items():
             for name, (_, value) in entries.items():
-                if value:
+                if value and (law, name) not in undrained:
                     default = defaults[f"Soil/Layer 1/{name}"]
                     self.assertEqual(float(value), float(default), name)
         path = self.made_directory() / "laws.prm"
         layers = (
             "0: Law = modified Cam clay, lambda = 0.16, e = 1.1",
-            "2: Law = NGI-ADP, suA = 30 kPa, nu = 0.49, K0 = 0.9",
-            "5: Law = NorSand, E = 60 MPa, Γ = 0.85, e = 0.7",
+            "2: Law = ngi-adp, suA = 30 kPa, K0 = 0.9",
+            "5: Law = NorSand, E = 60 MPa, Γ = 0.85, e = 0.7, OCR = 2",
         )
         self.suggest(path, "--wall-friction", "15", layers=layers)
         text = path.read_text(encoding="utf-8")
@@ -108,6 +109,31 @@ class Layers(SuggestTest):
         self.assertIn("set Slope of compression = 0.16\n", text)
         self.assertIn("set State dilatancy = 3.5 # ASSUMED\n", text)
         self.run_program(SUCCESS, path, "--validate", "--strict")
+
+    def test_undrained_clay_of_another_law(self) -> None:
+        """NGI-ADP has adhesion alone, its tip too, and takes no suction."""
+        path = self.made_directory() / "own.prm"
+        layers = ("0: Law = NGI-ADP, suA = (20 + 1.5*d) kPa, alpha = 0.4",)
+        words = ["--weight", "300kN"]
+        said = self.suggest(path, *words, status=1, layers=layers)
+        self.assertIn("layer 1 is undrained clay", said)
+        self.suggest(path, layers=layers)
+        self.run_program(SUCCESS, path, "--validate", "--strict")
+        entries = read_parameters([str(path)])
+        for place in ("outer wall", "inner wall", "tip"):
+            self.assertEqual(
+                float(entries[f"Rigid body/Friction angle of the {place}"]), 0
+            )
+        self.assertEqual(entries["Soil/Layer 1/Adhesion factor of the walls"], "0.4")
+
+    def test_study_of_a_critical_angle(self) -> None:
+        """It changes the entry that the law has."""
+        path = self.made_directory()
+        words = ["--study", str(path / "s.toml")]
+        layers = ("0: Law = modified Cam clay, phi = 24, e = 1",)
+        self.suggest(path / "own.prm", *words, layers=layers)
+        text = (path / "s.toml").read_text("utf-8")
+        self.assertEqual(text.count('"Soil/Layer 1/Critical friction angle" = '), 5)
 
     def test_study_of_the_friction_angle(self) -> None:
         """It is read, and has five runs with angles of walls that follow."""

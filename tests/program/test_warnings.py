@@ -294,6 +294,42 @@ class Review(ProgramTest):
                 said = self.validate("verification/seepage_skirt", sand)
                 self.assertEqual(words in said, not given, said)
 
+    def test_stress_that_is_given(self) -> None:
+        """A law is held against it, and not against K0, which is not used."""
+        sand: Entries = {
+            **UNIFORM,
+            f"{LAYER}/Law": "NorSand",
+            f"{LAYER}/Void ratio": 0.864,
+            "Soil/Uniform stress": "-1e5, -1e5, -1e5, 0",
+        }
+        self.validate("jack_coarse", sand)
+        self.validate("jack_coarse", {**sand, f"{LAYER}/K0": 0.1})
+        sand["Soil/Uniform stress"] = "-3e4, -1e5, -5e4, 0"
+        rest: tuple[Entries, ...] = ({}, {f"{LAYER}/K0": 1})
+        for given in rest:
+            said = self.run_program(
+                BAD_INPUT,
+                user_scene("jack_coarse"),
+                "--validate",
+                entries={**sand, **given},
+            )
+            self.assert_words(
+                ["K0 = 0.4 is beyond the peak", "that Soil/Initial stress gives"], said
+            )
+
+    def test_body_begins_below_the_surface(self) -> None:
+        """Which no travel brings about."""
+        deep: Entries = {
+            f"{BODY}/Initial penetration": 7.2,
+            "Time/End penetration": "never",
+            "Time/End time": 1,
+            "Output/Frame penetrations": "",
+        }
+        said = self.validate("jack_coarse", deep)
+        words = ["the top of the body begins at z = -0.2 m", "Initial penetration"]
+        self.assert_words(words, said)
+        self.assertNotIn("the travel of", said)
+
     def test_doubts(self) -> None:
         """A warning, and none where the entry is just as it should be."""
         for words, doubtful, good in DOUBTS:

@@ -91,12 +91,12 @@ namespace CaissonMPM
                                               context.earth_pressure_at_rest);
           const char *const text =
             values[1] >= values[0] ?
-              "Slope of swelling is not below Slope of compression. Reduce it" :
+              "Slope of swelling is not below Slope of compression. Reduce it." :
             context.void_ratio <= 0. ?
-              "the void ratio at the start is 0. Set Void ratio" :
+              "the void ratio at the start is 0. Set Void ratio." :
             share >= 1. ?
               "K0 is beyond the critical state of Critical friction angle. "
-              "Correct one of them" :
+              "Correct one of them." :
               nullptr;
           if (text == nullptr)
             return true;

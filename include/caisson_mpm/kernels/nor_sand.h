@@ -373,7 +373,8 @@ namespace CaissonMPM
           const double psi = context.void_ratio - p.Gamma +
                              p.lambda * __builtin_log(context.mean_stress),
                        // of p_i = r p in triaxial compression
-            y = -p.dilatancy * psi / (1. + p.dilatancy * p.lambda),
+            slope            = p.dilatancy / (1. + p.dilatancy * p.lambda),
+                       y     = -slope * psi,
                        share = CriticalStateSlope::share_at_rest(
                          p.sine, context.earth_pressure_at_rest);
           const bool   beyond = y < least_dilatant || y > p.most_dilatant;
@@ -391,8 +392,8 @@ namespace CaissonMPM
               context.void_ratio,
               psi,
               context.mean_stress,
-              -p.most_dilatant / p.dilatancy,
-              -least_dilatant / p.dilatancy);
+              -p.most_dilatant / slope,
+              -least_dilatant / slope);
           else
             __builtin_snprintf(
               message.text,

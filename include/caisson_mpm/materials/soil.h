@@ -254,6 +254,11 @@ namespace CaissonMPM
     Stress
     stress_by_expression(const dealii::Point<2> &place) const;
 
+    /** Horizontal over vertical stress at a depth, if the stress is given and
+     * the vertical one is compressive. */
+    std::optional<double>
+    given_stress_ratio(const double depth) const;
+
     /** The vertical stress at a depth if it is given, and else that of the
      * weight. Positive in compression, Pa. */
     double

@@ -78,9 +78,13 @@ namespace CaissonMPM
      * @param depth           Below the soil surface, m.
      * @param vertical_stress The effective one at the start there, positive in
      *                        compression, Pa.
+     * @param given_ratio     Horizontal over vertical stress at the start, where
+     *                        the stress is given; without it K0.
      */
     SoilMaterial
-    material_at(const double depth, const double vertical_stress) const;
+    material_at(const double                depth,
+                const double                vertical_stress,
+                const std::optional<double> given_ratio = {}) const;
 
     /** Porosity and density of solids alone, which make the stress. */
     SoilMaterial

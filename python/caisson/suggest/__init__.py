@@ -36,9 +36,8 @@ from caisson.runner import RunError, query
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
-from caisson.suggest.soil import layers_of
-from caisson_design import InputError, cone_file
-from caisson_design import interpretation
+from caisson.suggest.soil import CAM_CLAY, NGI_ADP, layers_of
+from caisson_design import InputError, cone_file, interpretation
 from caisson_design.interpretation import Interpretation
 from caisson_design.quantity import length, number
 
@@ -165,12 +164,12 @@ def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
     if given is not None or not layers:
         return Entry("", f"{given or 0:g}")
     others = [layer for layer in layers if not is_by_density(layer)]
-    angles = [layer.value("Friction angle") for layer in others]
+    angles = [angle_of(layer) for layer in others]
     try:
         least = min(map(float, angles), default=90.0)
     except ValueError as error:
         raise SuggestError(
-            "not all layers have a friction angle: give --wall-friction"
+            "not all layers have a number as friction angle: give --wall-friction"
         ) from error
     if least == 0 and (len(others) < len(layers) or max(map(float, angles)) > 0):
         raise SuggestError(
@@ -190,9 +189,20 @@ def is_by_density(layer: Layer) -> bool:
     return layer.value("Law") in sand.LAWS.values()
 
 
+def angle_entry(layer: Layer) -> str:
+    """Return the entry with the friction angle of a layer."""
+    is_critical = layer.value("Law") in (CAM_CLAY, density_law.NOR_SAND)
+    return density_law.CRITICAL_ANGLE if is_critical else "Friction angle"
+
+
+def angle_of(layer: Layer) -> str:
+    """Return the friction angle of a layer (degrees); 0 of undrained clay."""
+    return "0" if layer.value("Law") == NGI_ADP else layer.value(angle_entry(layer))
+
+
 def is_clay(layer: Layer) -> bool:
     """Return whether a layer is undrained clay."""
-    return layer.value("Friction angle") == "0"
+    return angle_of(layer) == "0"
 
 
 def refuse_clay(layers: Sequence[Layer]) -> None:
@@ -232,7 +242,8 @@ def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
     follows = Entry(name, "true", " # ASSUMED: a loosened plug conducts more")
     found = []
     for layer in layers:
-        added = [] if all(have) else [assumed[is_clay(layer)]]
+        is_fine = is_clay(layer) or layer.value("Law") == CAM_CLAY
+        added = [] if all(have) else [assumed[is_fine]]
         if is_by_density(layer) and not layer.value(name):
             added.append(follows)
         found.append(Layer(layer.top, [*layer.entries, *added]))
@@ -306,8 +317,10 @@ def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
     for change in CHANGES_OF_DENSITY if by_density else CHANGES:
         change_of = density_after if by_density else angle_after
         numbers = [change_of(layer, change) for layer in layers]
-        quantity = density_law.DENSITY if by_density else "Friction angle"
-        entries = {f"Soil/Layer {i}/{quantity}": n for i, n in enumerate(numbers, 1)}
+        entries = {
+            f"Soil/Layer {i}/{density_law.DENSITY if by_density else angle_entry(x)}": n
+            for i, (x, n) in enumerate(zip(layers, numbers), 1)
+        }
         name = ", ".join(f"{number:g}" for number in numbers)
         if follows:
             least = min(numbers[: len(reached(options, layers))])
@@ -328,7 +341,7 @@ def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
 def angle_after(layer: Layer, change: float) -> float:
     """Return the friction angle of a layer with a change. Raises SuggestError."""
     try:
-        angle = float(layer.value("Friction angle")) + change
+        angle = float("" if is_clay(layer) else angle_of(layer)) + change
     except ValueError as error:
         raise SuggestError("--study: a layer has no friction angle") from error
     if not 0 < angle < 60:
@@ -364,6 +377,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         end=end,
         wall_friction=wall_friction_of(options.wall_friction, reached(options, layers)),
         layers=with_permeability(soil) if options.weight else soil,
+        is_clay=all(map(is_clay, reached(options, layers))),
         weight=options.weight,
         water_depth=options.water_depth,
         directory=f"results/{options.file.stem}",

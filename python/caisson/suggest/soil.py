@@ -10,6 +10,7 @@ from caisson import density_law as names
 from caisson.suggest import sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson_design import quantity
+from caisson_design.ground import porosity_of
 
 MOHR_COULOMB = "Mohr-Coulomb"
 BY_STRESS = "Mohr-Coulomb with stiffness by stress"
@@ -31,7 +32,6 @@ REPLACED = {
 }
 POISSON_OF_CLAY = "0.45"  # hardly any change of volume, as without drainage
 
-
 # how engineers write them
 WRITTEN = {
     "Friction angle": "phi phi' φ",
@@ -48,21 +48,26 @@ WRITTEN = {
     "Friction angle of the walls": "delta",
     "Adhesion factor of the walls": "alpha",
 }
+ANGLES = "phi_c phi phi' φ"  # where it is the only friction angle of a law
+YIELD_RATIO = "Yield stress ratio"
+CAM_CLAY, NGI_ADP = "modified Cam clay", "NGI-ADP"
 # of other laws: how their entries are written, and what is assumed; "" is needed
 LAWS = {
-    "modified Cam clay": {
+    CAM_CLAY: {
         "Slope of compression": ("lambda λ", "0.2"),
         "Slope of swelling": ("kappa κ", "0.04"),
-        names.CRITICAL_ANGLE: ("phi_c", "30"),
+        names.CRITICAL_ANGLE: (ANGLES, "30"),
+        YIELD_RATIO: ("R YSR", "1"),
     },
-    "NGI-ADP": {
+    NGI_ADP: {
         "Active strength": ("suA s_uA", ""),
-        "Direct shear strength ratio": ("suD/suA", "0.7"),
-        "Passive strength ratio": ("suP/suA", "0.5"),
+        "Direct shear strength ratio": ("suD/suA suDSS/suA sD/suA", "0.7"),
+        "Passive strength ratio": ("suP/suA sP/suA", "0.5"),
         "Active failure strain": ("gamma_fA", "0.02"),
         "Direct shear failure strain": ("gamma_fD", "0.04"),
         "Passive failure strain": ("gamma_fP", "0.06"),
         "Unloading shear modulus ratio": ("Gur/suA", "500"),
+        "Poisson ratio": ("nu ν", POISSON_OF_CLAY),
     },
     names.NOR_SAND: {
         "Critical void ratio at 1 kPa": ("Gamma Γ", "0.816"),
@@ -70,10 +75,14 @@ LAWS = {
         "Volumetric coupling": ("N", "0.3"),
         "State dilatancy": ("chi χ", "3.5"),
         "Plastic hardening": ("H", "100"),
-        names.CRITICAL_ANGLE: ("phi_c", "30"),
+        names.CRITICAL_ANGLE: (ANGLES, "30"),
+        YIELD_RATIO: ("R YSR", "1"),
         "Youngs modulus": ("E", ""),
+        "Porosity": ("n", ""),
     },
 }
+# their strength, in place of phi, psi, c and su
+INSTEAD = dict(zip(LAWS, ("phi_c", "suA and suD/suA", "phi_c; e in place of psi")))
 OF_EACH = ("Poisson ratio", "Porosity", "Solid density")  # are assumed there, too
 STRENGTH, WEIGHT = "su", "gamma"  # of undrained clay, and the unit weight
 DERIVED = {
@@ -84,6 +93,13 @@ UNITS_OF_DERIVED = {STRENGTH: "Pa", WEIGHT: "kN/m3"}
 LIGHTEST_WET = 13.0  # kN/m3; a smaller unit weight is that in water
 DOUBTFUL = 11.5, 14.0  # kN/m3; between them it may be either
 POROSITIES = (0.1, 0.9)
+
+
+def law_named(text: str) -> str:
+    """Return a law by its name, in which case, spaces and hyphens do not matter."""
+    every = (MOHR_COULOMB, BY_STRESS, *LAWS, *sand.LAWS.values())
+    plain = {re.sub(r"[\W_]", "", name).lower(): name for name in every}
+    return plain.get(re.sub(r"[\W_]", "", text).lower(), text)
 
 
 def name_of(word: str, known: Collection[str], law: str) -> str:
@@ -102,20 +118,11 @@ def name_of(word: str, known: Collection[str], law: str) -> str:
         if near
         else "; caisson_mpm --explain 'Layer 1' lists them"
     )
-    raise SuggestError(f"--layer: a layer has no entry {word!r}{hint}")
-
-
-def parts_of(text: str) -> list[str]:
-    """Return the parts of a text between commas; those within parentheses, as in
-    min(5, d), divide nothing."""
-    parts, depth = [""], 0
-    for letter in text:
-        depth += (letter == "(") - (letter == ")")
-        if letter == "," and depth == 0:
-            parts.append("")
-        else:
-            parts[-1] += letter
-    return [part.strip() for part in parts if part.strip()]
+    if law not in LAWS and (near := difflib.get_close_matches(law, LAWS)):
+        hint += f"; the law may be {near[0]}"
+    elif word == "M" and law in (CAM_CLAY, names.NOR_SAND):
+        hint = "; M is 6 sin phi_c / (3 - sin phi_c): give phi_c"
+    raise SuggestError(f"--layer: a layer of {law} has no entry {word!r}{hint}")
 
 
 def value_of(name: str, text: str, known: Mapping[str, str]) -> str:
@@ -129,18 +136,21 @@ def value_of(name: str, text: str, known: Mapping[str, str]) -> str:
 def given_in(text: str, known: Mapping[str, str]) -> dict[str, str]:
     """Return what is given of a layer, by names of entries. Raises SuggestError."""
     given: dict[str, str] = {}
-    law = re.search(r"(?:^|,)\s*law\s*=\s*([^,]+)", text, re.I)
-    for part in parts_of(text):
+    found = re.search(r"(?:^|,)\s*law\s*=\s*([^,]+)", text, re.I)
+    law = law_named(found[1].strip()) if found else MOHR_COULOMB
+    for part in quantity.parts_of(text):
         word, equals, value = map(str.strip, part.partition("="))
         if not equals or not value:
             comma = "; decimals have a point, as 33.5" if part.isdecimal() else ""
             raise SuggestError(
                 f"--layer: {part!r} is not of the form ENTRY = VALUE{comma}"
             )
-        name = name_of(word, known, law[1].strip() if law else MOHR_COULOMB)
+        name = name_of(word, known, law)
         if name in given:
             raise SuggestError(f"--layer {text!r} gives {name} twice")
-        given[name] = value_of(name, value, known)
+        if law in LAWS and name in (*sand.FOREIGN[:3], STRENGTH):
+            raise SuggestError(f"--layer: {law} takes no {word}; give {INSTEAD[law]}")
+        given[name] = law if name == "Law" else value_of(name, value, known)
         if name in UNITS_OF_DERIVED and not quantity.has_unit(value):
             number, unit = ("8.5", "kN/m3") if name == WEIGHT else ("20", "kPa")
             is_number = re.fullmatch(quantity.NUMBER, value)
@@ -199,14 +209,6 @@ def undrained(strength: str, given: Mapping[str, str]) -> list[Entry]:
     return [entry for entry in found if entry.name not in given]
 
 
-def porosity_of(weight: float, grains: float, is_wet: bool) -> float:
-    """Return the porosity of soil with a unit weight (kN/m3), of the wet soil or in
-    water, and grains of a density (kg/m3)."""
-    water = sand.WATER * sand.GRAVITY / 1e3
-    in_water = weight - (water if is_wet else 0.0)
-    return 1 - in_water / (grains * sand.GRAVITY / 1e3 - water)
-
-
 def doubt_of(weight: str, given: Mapping[str, str]) -> str:
     """Return a warning where a unit weight (kN/m3) may be that in water or that of the
     wet soil, else nothing."""
@@ -263,10 +265,14 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
     assumed = {n: v for n, v in usual.items() if n not in known}
     if missing := [name for name, value in assumed.items() if not value]:
         or_sand = f'; or, of sand, "{sand.SAND} = dense"' if is_plain else ""
-        raise SuggestError(f"--layer {text!r} needs {' and '.join(missing)}{or_sand}")
+        needed = " and ".join(missing).replace("Porosity", "Void ratio (e)")
+        raise SuggestError(f"--layer {text!r} needs {needed}{or_sand}")
+    remarks = {"Law": "", "K0": f"{ASSUMPTION}: that of the law"}
+    if YIELD_RATIO in assumed and (ratio := given.get("Overconsolidation ratio")):
+        assumed[YIELD_RATIO] = ratio
+        remarks[YIELD_RATIO] = f"{ASSUMPTION}: Overconsolidation ratio"
     if not {"K0", "Overconsolidation ratio"} & given.keys():
         assumed["K0"] = "auto"
-    remarks = {"Law": "", "K0": f"{ASSUMPTION}: that of the law"}
     return [
         *(Entry(n, v, remarks.get(n, ASSUMPTION)) for n, v in assumed.items()),
         *(Entry(*pair) for pair in given.items()),
