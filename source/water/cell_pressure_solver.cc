@@ -114,7 +114,7 @@ namespace CaissonMPM
                                     const unsigned int face,
                                     const HeldNodes   &held) const
   {
-    double                 share         = 0.;
+    double share = 0.;
     for (const unsigned int corner : corners_of_face[face])
       if (!held[face / 2][grid->cell_nodes(cell).node[corner]])
         share += .5;

@@ -81,12 +81,11 @@ namespace CaissonMPM
                         &mobility[1],
                         &inverse_density})
       solver_.reinit(*v);
-    for (NodalData *v :
-         {&at_nodes.outflow,
-          &at_nodes.pressure,
-          &at_nodes.conductance,
-          &at_nodes.volume,
-          &at_nodes.specific_volume})
+    for (NodalData *v : {&at_nodes.outflow,
+                         &at_nodes.pressure,
+                         &at_nodes.conductance,
+                         &at_nodes.volume,
+                         &at_nodes.specific_volume})
       grid->reinit(*v, 1);
     shapes.assign(grid->n_cells(), {});
     divergence.assign(grid->n_cells(), {});
@@ -281,9 +280,9 @@ namespace CaissonMPM
     double largest = 0.;
     for (std::size_t f = 0; f < faces.size(); ++f)
       {
-        seepage[f] = faces[f].is_open ?
-                       through(faces[f], mobility[faces[f].is_horizontal]) :
-                       0.;
+        seepage[f]   = faces[f].is_open ?
+                         through(faces[f], mobility[faces[f].is_horizontal]) :
+                         0.;
         steepness[f] = for_slope(faces[f]);
         inertia[f]   = faces[f].free_share * steepness[f] *
                      through(faces[f], inverse_density);
@@ -341,10 +340,11 @@ namespace CaissonMPM
     for (std::size_t f = 0; f < faces.size(); ++f)
       if (const auto &face = faces[f]; face.beyond == Beyond::cell)
         {
-          const double of_nodes =
-            .5 * (per_mass.local_element(face.nodes[0]) +
-                  per_mass.local_element(face.nodes[1])) *
-            steepness[f] * face.area / (face.distance + face.other_distance);
+          const double of_nodes = .5 *
+                                  (per_mass.local_element(face.nodes[0]) +
+                                   per_mass.local_element(face.nodes[1])) *
+                                  steepness[f] * face.area /
+                                  (face.distance + face.other_distance);
           inertia[f] = std::max(inertia_of_soil[f],
                                 of_nodes - .5 * seepage[f] / long_step);
           solver_.conductances()[f] =

@@ -51,10 +51,10 @@ namespace CaissonMPM
       unsigned int cell, other;   // other: the same cell at an open face
       unsigned int place, other_place;
       std::array<unsigned int, 2> nodes;
-      bool         is_open;    // water passes
-      double       free_share; // of its nodes, which give way to pressure
-      double       area;       // m2 per radian
-      double       distance, other_distance; // from the centers, m
+      bool                        is_open; // water passes
+      double free_share; // of its nodes, which give way to pressure
+      double area;       // m2 per radian
+      double distance, other_distance; // from the centers, m
     };
 
     /** The known pressures by Beyond; that of cell is not used. Pa */

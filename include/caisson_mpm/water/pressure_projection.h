@@ -255,7 +255,7 @@ namespace CaissonMPM
     std::vector<OfCorners>             divergence, force_of;
     std::vector<double>                volumes, acting, volume_rates_;
     // [n_faces]
-    std::vector<double>             seepage, inertia, inertia_of_soil, steepness;
+    std::vector<double> seepage, inertia, inertia_of_soil, steepness;
     std::vector<std::array<int, 2>> faces_below; // -1: none, as at most faces
     double   open_conductance = 0., plug_conductance = 0.;
     CellData pressure_, remainder_, wet_, source, mobility[2], inverse_density;
