@@ -132,7 +132,7 @@ class Laws(unittest.TestCase):
             Active_strength=1e4,
             Poisson_ratio=0.495,
         )
-        layer = {"law": "NGI-ADP", "law_entries": numbers}
+        layer: dict[str, Any] = {"law": "NGI-ADP", "law_entries": numbers}
         found = youngs_modulus(layer, pressure, void)
         np.testing.assert_allclose(found, 2 * 1.495 * 5e6)
         layer = {"p_wave_modulus_Pa": 13.5e6, "poisson_ratio": 0.3}

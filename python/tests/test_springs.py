@@ -353,12 +353,14 @@ class Files(MadeUp):
         """The modulus follows from the numbers of the law; without one, the check is
         not possible. By hand: NGI-ADP has G = 100 x 20 kPa, and a user material that
         of its p-wave modulus."""
-        clay = {key: LAYER[key] for key in list(LAYER)[:2]}
+        clay: dict[str, Any] = {key: LAYER[key] for key in list(LAYER)[:2]}
         numbers = {"Unloading shear modulus ratio": 100, "Active strength": 2e4}
-        listed = [{"entry": name, "value": x} for name, x in numbers.items()]
+        listed: list[dict[str, Any]] = [
+            {"entry": name, "value": x} for name, x in numbers.items()
+        ]
         listed.append({"entry": "Poisson ratio", "value": 0.45})
-        ngi = {**clay, "law": "NGI-ADP", "law_entries": listed}
-        user = {**clay, "law": "user material", "poisson_ratio": 0.4}
+        ngi: dict[str, Any] = {**clay, "law": "NGI-ADP", "law_entries": listed}
+        user: dict[str, Any] = {**clay, "law": "user material", "poisson_ratio": 0.4}
         user["p_wave_modulus_Pa"] = 6 * 2e6  # of G = 2 MPa
         density = 9e3 / 9.81 + 1000
         for name, layer in (("ngi", ngi), ("user", user)):

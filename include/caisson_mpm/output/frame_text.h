@@ -8,8 +8,8 @@
 //   deviator    = sqrt(3 J2),  J2 = s:s / 2.
 // The void ratio follows from the initial porosity n of the point's layer and
 // its change of volume J: e = (1 + e0) J - 1 with e0 = n / (1 - n).
-// yield_stress is p_c of modified Cam clay or p_i of NorSand, and statev_1 and so
-// on are STATEV of user materials, where the soil has such laws.
+// yield_stress is p_c of modified Cam clay or p_i of NorSand, and statev_1 and
+// so on are STATEV of user materials, where the soil has such laws.
 // whole_volume (m3) is the volume of a point for the whole circumference, in
 // plane strain per meter.
 //
