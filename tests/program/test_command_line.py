@@ -53,7 +53,7 @@ class Options(ProgramTest):
             ("NorSand", ["set Law ="]),
             ("tension", ["See also Water/Suction control.", "Tension cut-off ="]),
             ("sealed", ["set Suction control ="]),
-            ("Trapped", ["delays the suction"]),
+            ("Trapped", ["delays", "pump takes it"]),
         ):
             self.assert_words(words, self.run_program(SUCCESS, "--explain", word))
         for word, entry in (
