@@ -186,8 +186,9 @@ class Installation(ProgramTest):
             {"Water/Level": "coupled", "Soil/Layer 1/Permeability": 1e-5}, 1e-5
         )
         last, end = history(path)[-1], history(whole)[-1]
+        # the soil of the water is looked at in other steps
         for key in ("tip_water_force_N", "pore_pressure_smallest_Pa"):
-            self.assertAlmostEqual(last[key] / end[key], 1, 4, key)
+            self.assertAlmostEqual(last[key] / end[key], 1, delta=1e-4)
         first, end = history(path)[0], history(before)[-1]
         for key in ("tip_water_force_N", "total_force_with_water_N"):
             self.assertAlmostEqual(first[key] / end[key], 1, 6, key)
