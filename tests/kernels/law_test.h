@@ -67,6 +67,23 @@ largest_difference(Soil      &soil,
   return worst;
 }
 
+/** Where the error is zero within the tolerance, by secants from a and b. */
+template <typename Error>
+double
+root(const Error &error, double a, double b, const double tolerance)
+{
+  double f_a = error(a), f_b = error(b);
+  for (int i = 0; i < 60 && std::fabs(f_b) > tolerance && f_a != f_b; ++i)
+    {
+      const double c = b - f_b * (b - a) / (f_b - f_a);
+      a              = b;
+      f_a            = f_b;
+      b              = c;
+      f_b            = error(b);
+    }
+  return b;
+}
+
 /** One point under strain, and the means to hold its lateral stress. */
 template <typename Law>
 class Sample
@@ -114,20 +131,10 @@ public:
       copy.strain(x, d_axial);
       return copy.lateral - wanted;
     };
-    double a = -0.2 * d_axial, b = -0.6 * d_axial;
-    double f_a = error(a), f_b = error(b);
-    for (int i = 0;
-         i < 60 && std::fabs(f_b) > 1e-10 * std::fabs(wanted) && f_a != f_b;
-         ++i)
-      {
-        const double c = b - f_b * (b - a) / (f_b - f_a);
-        a              = b;
-        f_a            = f_b;
-        b              = c;
-        f_b            = error(b);
-      }
-    strain(b, d_axial);
-    return b;
+    const double d =
+      root(error, -0.2 * d_axial, -0.6 * d_axial, 1e-10 * std::fabs(wanted));
+    strain(d, d_axial);
+    return d;
   }
 };
 

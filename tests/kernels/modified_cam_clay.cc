@@ -61,16 +61,8 @@ public:
       copy.strain({x, d_axial, x, 0.});
       return copy.sigma.rr[0] - wanted;
     };
-    double a = -.2 * d_axial, b = -.5 * d_axial, f_a = error(a), f_b = error(b);
-    for (int i = 0; i < 40 && std::fabs(f_b) > 1e-9 * p_0 && f_a != f_b; ++i)
-      {
-        const double c = b - f_b * (b - a) / (f_b - f_a);
-        a              = b;
-        f_a            = f_b;
-        b              = c;
-        f_b            = error(b);
-      }
-    strain({b, d_axial, b, 0.});
+    const double d = root(error, -.2 * d_axial, -.5 * d_axial, 1e-9 * p_0);
+    strain({d, d_axial, d, 0.});
   }
 
   Clay &

@@ -73,18 +73,8 @@ public:
       copy.strain(x, -d, x, 0.);
       return copy.sigma.rr[0] - wanted;
     };
-    double a = .2 * d, b = .5 * d, f_a = error(a), f_b = error(b);
-    for (int i = 0;
-         i < 40 && std::fabs(f_b) > 1e-9 * std::fabs(wanted) && f_a != f_b;
-         ++i)
-      {
-        const double c = b - f_b * (b - a) / (f_b - f_a);
-        a              = b;
-        f_a            = f_b;
-        b              = c;
-        f_b            = error(b);
-      }
-    strain(b, -d, b, 0.);
+    const double x = root(error, .2 * d, .5 * d, 1e-9 * std::fabs(wanted));
+    strain(x, -d, x, 0.);
   }
 
   double
