@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 
 using namespace CaissonMPM::Kernels;
 using Scalar = Lanes<1>;
@@ -83,6 +84,81 @@ root(const Error &error, double a, double b, const double tolerance)
     }
   return b;
 }
+
+/** One point of soil of a law, consolidated under a pressure. */
+template <typename Law>
+class SoilPoint
+{
+public:
+  StressState<Scalar>      sigma;
+  LawState<Scalar>         state;
+  typename Law::Parameters parameters;
+
+  SoilPoint(const std::initializer_list<double> values,
+            const double                        pressure,
+            const double                        void_ratio)
+    : sigma{-pressure, -pressure, -pressure, 0.}
+    , parameters(Law::make(values.begin()))
+  {
+    state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
+    state.void_ratio                                    = Scalar(void_ratio);
+    double variable[n_state_variables]                  = {};
+    Law::start(parameters, variable);
+    for (int i = 0; i < n_state_variables; ++i)
+      state.variable[i] = Scalar(variable[i]);
+  }
+
+  void
+  strain(const StrainIncrement<Scalar> &de)
+  {
+    Law::update(sigma, de, state, parameters);
+    const double volume = (de.rr + de.zz + de.tt)[0];
+    state.void_ratio =
+      (Scalar(1.) + state.void_ratio) * Scalar(std::exp(volume)) - Scalar(1.);
+  }
+
+  /** Strain the point along z, so that its lateral stress becomes @p wanted.
+   * The search begins with lateral strains of 0.2 and @p second of the axial
+   * one. */
+  void
+  compress(const double d_axial, const double wanted, const double second)
+  {
+    const auto error = [&](const double x) {
+      SoilPoint copy = *this;
+      copy.strain({x, d_axial, x, 0.});
+      return copy.sigma.rr[0] - wanted;
+    };
+    const double d =
+      root(error, -.2 * d_axial, -second * d_axial, 1e-9 * std::fabs(wanted));
+    strain({d, d_axial, d, 0.});
+  }
+
+  /** The same; its lateral stress stays. */
+  void
+  compress(const double d_axial)
+  {
+    compress(d_axial, sigma.rr[0], .5);
+  }
+
+  double
+  p() const
+  {
+    return -(sigma.rr + sigma.zz + sigma.tt)[0] / 3.;
+  }
+
+  /** Positive in compression along z. */
+  double
+  q() const
+  {
+    return (sigma.rr - sigma.zz)[0];
+  }
+
+  double
+  specific_volume() const
+  {
+    return 1. + state.void_ratio[0];
+  }
+};
 
 /** One point under strain, and the means to hold its lateral stress. */
 template <typename Law>

@@ -19,68 +19,14 @@ const double sine = std::sin(phi_c / degrees), M = 6. * sine / (3. - sine),
              M_extension = 6. * sine / (3. + sine);
 
 /** One point of clay, consolidated under p_0. */
-class Clay
+class Clay : public SoilPoint<Law>
 {
 public:
-  StressState<Scalar>   sigma{-p_0, -p_0, -p_0, 0.};
-  LawState<Scalar>      state;
-  const Law::Parameters parameters;
-
   Clay(const double yield_stress_ratio = 1.)
-    : parameters(parameters_of(yield_stress_ratio))
-  {
-    state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
-    state.void_ratio                                    = Scalar(e_0);
-    for (Scalar &variable : state.variable)
-      variable = Scalar(0.);
-  }
-
-  static Law::Parameters
-  parameters_of(const double yield_stress_ratio)
-  {
-    const double values[] = {lambda, kappa, nu, phi_c, yield_stress_ratio, 1e2};
-    return Law::make(values);
-  }
-
-  void
-  strain(const StrainIncrement<Scalar> &de)
-  {
-    Law::update(sigma, de, state, parameters);
-    const double volume = (de.rr + de.zz + de.tt)[0];
-    state.void_ratio =
-      (Scalar(1.) + state.void_ratio) * Scalar(std::exp(volume)) - Scalar(1.);
-  }
-
-  /** Strain the point so that its lateral stress stays. */
-  void
-  compress(const double d_axial)
-  {
-    const double wanted = sigma.rr[0];
-    const auto   error  = [&](const double x) {
-      Clay copy = *this;
-      copy.strain({x, d_axial, x, 0.});
-      return copy.sigma.rr[0] - wanted;
-    };
-    const double d = root(error, -.2 * d_axial, -.5 * d_axial, 1e-9 * p_0);
-    strain({d, d_axial, d, 0.});
-  }
-
-  Clay &
-  operator=(const Clay &) = delete;
-  Clay(const Clay &)      = default;
-
-  double
-  p() const
-  {
-    return -(sigma.rr + sigma.zz + sigma.tt)[0] / 3.;
-  }
-
-  /** Positive in compression along z. */
-  double
-  q() const
-  {
-    return (sigma.rr - sigma.zz)[0];
-  }
+    : SoilPoint<Law>({lambda, kappa, nu, phi_c, yield_stress_ratio, 1e2},
+                     p_0,
+                     e_0)
+  {}
 };
 
 void

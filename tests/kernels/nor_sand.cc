@@ -27,65 +27,26 @@ critical_void_ratio(const double p)
 }
 
 /** One point of sand, consolidated under p_0. */
-class Sand
+class Sand : public SoilPoint<Law>
 {
 public:
-  StressState<Scalar> sigma{-p_0, -p_0, -p_0, 0.};
-  LawState<Scalar>    state;
-  Law::Parameters     parameters;
-
   /** @p psi: the state parameter. */
   Sand(const double psi, const double hardening = H, const double ratio = 1.)
-    : parameters(parameters_of(hardening, ratio))
-  {
-    state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
-    state.void_ratio = Scalar(critical_void_ratio(p_0) + psi);
-    for (Scalar &variable : state.variable)
-      variable = Scalar(0.);
-  }
-
-  static Law::Parameters
-  parameters_of(const double hardening, const double ratio)
-  {
-    const double values[] = {
-      E_ref, nu, phi_c, Gamma, lambda, N, chi, hardening, ratio, 1e5, .5, 1e3};
-    return Law::make(values);
-  }
-
-  void
-  strain(const StrainIncrement<Scalar> &de)
-  {
-    Law::update(sigma, de, state, parameters);
-    const double volume = (de.rr + de.zz + de.tt)[0];
-    state.void_ratio =
-      (Scalar(1.) + state.void_ratio) * Scalar(std::exp(volume)) - Scalar(1.);
-  }
-
-  /** Strain the point so that its lateral stress is that at the start. */
-  void
-  compress(const double d_axial)
-  {
-    const auto error = [&](const double x) {
-      Sand copy = *this;
-      copy.strain({x, d_axial, x, 0.});
-      return copy.sigma.rr[0] + p_0;
-    };
-    const double d = root(error, -.2 * d_axial, -.7 * d_axial, 1e-9 * p_0);
-    strain({d, d_axial, d, 0.});
-  }
-
-  double
-  p() const
-  {
-    return -(sigma.rr + sigma.zz + sigma.tt)[0] / 3.;
-  }
-
-  /** Positive in compression along z. */
-  double
-  q() const
-  {
-    return (sigma.rr - sigma.zz)[0];
-  }
+    : SoilPoint<Law>({E_ref,
+                      nu,
+                      phi_c,
+                      Gamma,
+                      lambda,
+                      N,
+                      chi,
+                      hardening,
+                      ratio,
+                      1e5,
+                      .5,
+                      1e3},
+                     p_0,
+                     critical_void_ratio(p_0) + psi)
+  {}
 
   double
   psi() const
@@ -108,7 +69,7 @@ test_drained()
       for (int i = 0; i < 60000; ++i)
         {
           const Sand before = sand;
-          sand.compress(-d);
+          sand.compress(-d, -p_0, .7);
           const double eta     = sand.q() / sand.p(),
                        plastic = (sand.state.plastic_deviatoric -
                                   before.state.plastic_deviatoric)[0];
