@@ -228,7 +228,7 @@ namespace CaissonMPM
     bool
     needs_force_on_body() const
     {
-      return body.motion().needs_force() || water->traits().has_excess_pressure;
+      return body.motion().needs_force() || water->traits().lid != nullptr;
     }
     /** Whether the caches are to be rebuilt before the next step. */
     bool

@@ -41,14 +41,15 @@ namespace CaissonMPM
   /** What other parts of the program must know of a model. */
   struct WaterTraits
   {
-    bool has_excess_pressure = false; // and needs the force on the body
+    bool has_excess_pressure = false;
     bool uses_permeability   = false;
     bool follows_soil        = false; // the pressure follows from its motion
     bool resists_body        = false; // so that resistance_to_body() counts
     // in each direction in the path of the body, without Split and merge
     unsigned int least_points = 1;
     double       bulk_modulus = 0.; // that resists changes of volume, Pa
-    // beneath which there is suction; null without one
+    // beneath which there is suction, for which the force on the body is
+    // needed; null without one
     const LidCompartment *lid = nullptr;
   };
 
