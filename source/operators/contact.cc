@@ -166,6 +166,25 @@ namespace CaissonMPM
       node.is_open = node.surface == lid && !is_touched[node.node];
   }
 
+  void
+  Contact::cover(const double *filled)
+  {
+    // Beside a cell that is filled to the height f, the integrals of the shape
+    // functions over the covered part of its face are f^2/2 at its upper node,
+    // and f - f^2/2 at its lower one. With the mean x of both cells at a node,
+    // that is 2 x^2 of the area of the node above the soil (x = f/2), and
+    // 1 - 2 (1 - x)^2 below (x = (1 + f)/2). Points fill a cell within the soil
+    // to 0.9 at least, as a rule.
+    constexpr double full = .9;
+    for (Node &node : nodes)
+      if (node.adhesion > 0.)
+        {
+          const double x     = std::min(filled[node.node] / full, 1.),
+                       empty = 1. - x;
+          node.covered       = x < .5 ? 2. * x * x : 1. - 2. * empty * empty;
+        }
+  }
+
   Contact::NodeResult
   Contact::compute_contact(const Node &node, const Vector2 &w) const
   {
@@ -239,8 +258,10 @@ namespace CaissonMPM
     const Vector2 tangent = w - into * result.normal;
     const double  speed   = tangent.norm();
     // 2. the change of the tangential velocity that friction and adhesion bear,
-    //    mu |w.n| + a A dt / m: what is slower sticks, the rest slides
-    const double bearable = -node.friction * into + node.adhesion * dt / m;
+    //    mu |w.n| + a A dt / m, A covered with soil: what is slower sticks, the
+    //    rest slides
+    const double bearable =
+      -node.friction * into + node.covered * node.adhesion * dt / m;
     if (speed <= bearable)
       result.state = State::sticking;
     Vector2 left; // of the relative velocity

@@ -490,34 +490,44 @@ namespace CaissonMPM
                                NodalVector                *to) const
   {
     const Vector2 of_body = share_of_body * velocity;
+    for (const auto &[cell, at_corner] : closed_cells(step))
+      {
+        // The plain product is M w, w being relative to the body; the cell sees
+        // Q w at each of its corners, and each takes Q^T of what it is given.
+        const auto             matrix = mass_matrix(step, cell);
+        const auto            &nodes  = step.grid.nodes[cell].node;
+        std::array<Vector2, 4> w, seen;
+        for (unsigned int j = 0; j < 4; ++j)
+          {
+            w[j]    = vector_of(from[nodes[j]].value) - of_body;
+            seen[j] = at_corner[j] ? at_corner[j]->see(w[j]) : w[j];
+          }
+        for (unsigned int i = 0; i < 4; ++i)
+          {
+            Vector2 plain, given;
+            for (unsigned int j = 0; j < 4; ++j)
+              {
+                plain += matrix[i][j] * w[j];
+                given += matrix[i][j] * seen[j];
+              }
+            if (at_corner[i])
+              given = at_corner[i]->back(given);
+            for (unsigned int d = 0; d < 2; ++d)
+              to[nodes[i]].value[d] += given[d] - plain[d];
+          }
+      }
+  }
+
+  std::map<unsigned int, std::array<const ContactCorners::Cell *, 4>>
+  ContactCorners::closed_cells(const Kernels::StepContext &step) const
+  {
+    std::map<unsigned int, std::array<const Cell *, 4>> result;
     for (const Corner &corner : corners)
       for (const Cell &cell : corner.cells)
         if (cell.is_owned && cell.closed && corner.has_soil &&
             step.points.first_block[cell.cell] >= 0)
-          {
-            // 1. the cell sees the corner with Q w, not with w: the change
-            //    (Q - 1) w times the column of the corner in its mass matrix
-            const auto         matrix = mass_matrix(step, cell.cell);
-            const auto        &nodes  = step.grid.nodes[cell.cell].node;
-            const unsigned int k      = cell.corner;
-            const Vector2      w = vector_of(from[corner.node].value) - of_body;
-            const Vector2      change = cell.see(w) - w;
-            Vector2            at_corner;
-            double             lumped = 0.;
-            for (unsigned int j = 0; j < 4; ++j)
-              {
-                at_corner += matrix[k][j] * vector_of(from[nodes[j]].value);
-                lumped += matrix[k][j];
-                for (unsigned int d = 0; d < 2; ++d)
-                  to[nodes[j]].value[d] += matrix[j][k] * change[d];
-              }
-            // 2. the corner takes Q^T of what the cell gives it, relative to
-            //    the body, in the place of all of it
-            at_corner += matrix[k][k] * change - lumped * of_body;
-            const Vector2 correction = cell.back(at_corner) - at_corner;
-            for (unsigned int d = 0; d < 2; ++d)
-              to[corner.node].value[d] += correction[d];
-          }
+          result[cell.cell][cell.corner] = &cell;
+    return result;
   }
 
   void

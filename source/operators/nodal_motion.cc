@@ -58,6 +58,7 @@ namespace CaissonMPM
   {
     enter(Stage::accelerated);
     size = step_size;
+    contact.cover(momentum.filled());
     contact.corners().collect(*kernels,
                               step,
                               settings_.keep_velocity(size),

@@ -59,7 +59,8 @@ node_at(const BackgroundGrid &grid, const double r, const double z)
 constexpr double m = 5., dt = .1;
 
 /** What became of a node with mass m and velocity (vr, vz), while the body
- * moves with (0, vb); then of another velocity held to this contact. */
+ * moves with (0, vb); then of another velocity held to this contact. The cells
+ * at the node are filled to this share. */
 void
 try_node(const std::string &parameters,
          const char        *what,
@@ -67,7 +68,8 @@ try_node(const std::string &parameters,
          const double       z,
          const double       vr,
          const double       vz,
-         const Vector2     &V)
+         const Vector2     &V,
+         const double       filled = 1.)
 {
   Scene   s(parameters + "end\n");
   Contact contact;
@@ -75,10 +77,11 @@ try_node(const std::string &parameters,
   const unsigned int                n = node_at(s.grid, r, z);
   std::vector<double>               mass(s.grid.n_nodes(), 0.);
   std::vector<Kernels::NodalVector> v(s.grid.n_nodes(), {{0., 0.}}), other = v;
-  mass[n]                    = m;
-  v[n].value[0]              = vr;
-  v[n].value[1]              = vz;
-  other[n]                   = {{.25 + V[0], -.5 + V[1]}};
+  mass[n]       = m;
+  v[n].value[0] = vr;
+  v[n].value[1] = vz;
+  other[n]      = {{.25 + V[0], -.5 + V[1]}};
+  contact.cover(std::vector<double>(s.grid.n_nodes(), filled).data());
   const ContactResult result = contact.apply(V, dt, mass, v.data());
   contact.constrain(V, other.data());
   std::printf("%s: v %.6f %.6f, held %.4f %.4f, touching %d sticking %d, "
@@ -126,6 +129,19 @@ check_flat_faces()
   try_node(box, "body is faster", 2., 0., 1., -.4, -.5);
   std::printf("adhesion 20 Pa\n");
   try_node(box + "set Adhesion of the top = 20\n", "slides", 2., 0., 1., -1.);
+  for (const double height : {1., .5})
+    {
+      // with the mean share of two cells, filled to this height and not at all
+      std::printf("adhesion above soil in the cell below, %.1f\n", height);
+      try_node(box + "set Adhesion of the top = 20\n",
+               "slides",
+               2.,
+               0.,
+               1.,
+               -1.,
+               Vector2(),
+               .9 * height / 2.);
+    }
   std::printf("other faces: 45 degrees, 0, tan(delta) = 0.5\n");
   try_node(box, "inner wall", 1., -1., .5, .75);
   try_node(box, "outer wall", 3., -1., -.5, .75);

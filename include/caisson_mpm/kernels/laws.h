@@ -107,6 +107,23 @@ namespace CaissonMPM
         return VolumeInShear::by_state;
       }
 
+      /** From Law::is_frictionless(), if the law has one: whether its strength
+       * is the same at all pressures; chosen for the argument 0. */
+      template <typename Law>
+      inline auto
+      is_frictionless(const typename Law::Parameters &p, int)
+        -> decltype(Law::is_frictionless(p))
+      {
+        return Law::is_frictionless(p);
+      }
+
+      template <typename Law>
+      inline bool
+      is_frictionless(const typename Law::Parameters &, long)
+      {
+        return false;
+      }
+
       /** Whether the law reads the void ratio with these parameters; from
        * Law::needs_void_ratio(), if the law has one, for the argument 0. */
       template <typename Law>
@@ -151,6 +168,7 @@ namespace CaissonMPM
                       "enlarge Material::parameters (material.h)");
         material.law             = law_id<Law>;
         material.volume_in_shear = volume_in_shear<Law>(parameters, 0);
+        material.is_frictionless = is_frictionless<Law>(parameters, 0);
         material.has_loosest_state =
           knows_loosest_state<Law>(0) && needs_void_ratio<Law>(parameters, 0);
         material.overstress_time = 0.;

@@ -40,6 +40,7 @@ namespace CaissonMPM
       double        water_modulus  = 0.; // of the water in undrained soil (Pa)
       double        volume_damping = 0.; // 0 to 1: see find_mean_divergence()
       VolumeInShear volume_in_shear;
+      bool          is_frictionless   = false; // no strength from pressure
       bool          has_loosest_state = false; // kernels/loosest_state.h
       StressMeasure stress_measure    = StressMeasure::cauchy;
       double        initial_void_ratio;

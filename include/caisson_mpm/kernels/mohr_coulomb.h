@@ -94,6 +94,13 @@ namespace CaissonMPM
           return p.strength.sin_psi > 0.;
         }
 
+        /** Whether the strength is the same at all pressures. */
+        static bool
+        is_frictionless(const Parameters &p)
+        {
+          return p.strength.sin_phi == 0.;
+        }
+
         /** Whether update() reads the void ratio. */
         static bool
         needs_void_ratio(const Parameters &p)

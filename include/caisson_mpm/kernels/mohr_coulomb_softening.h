@@ -152,6 +152,12 @@ namespace CaissonMPM
           return p.psi + p.psi_lost > 0.;
         }
 
+        static bool
+        is_frictionless(const Parameters &p)
+        {
+          return p.phi == 0. && p.phi_lost == 0.;
+        }
+
         /** 1 - sin phi of the peak (Jaky). */
         static double
         earth_pressure_at_rest(const Parameters &p)

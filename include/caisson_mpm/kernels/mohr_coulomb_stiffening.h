@@ -77,6 +77,12 @@ namespace CaissonMPM
         }
 
         static bool
+        is_frictionless(const Parameters &p)
+        {
+          return MohrCoulomb::is_frictionless(p.reference);
+        }
+
+        static bool
         needs_void_ratio(const Parameters &p)
         {
           return MohrCoulomb::needs_void_ratio(p.reference);

@@ -169,6 +169,12 @@ namespace CaissonMPM
           return false;
         }
 
+        static bool
+        is_frictionless(const Parameters & /*p*/)
+        {
+          return true;
+        }
+
         /** The default where it is a total stress at rest. */
         static double
         earth_pressure_at_rest(const Parameters &)

@@ -280,8 +280,9 @@ namespace CaissonMPM
                               const int          d)
       {
         const Material &material = step.materials[step.moments[cell].material];
-        if (!(step.grid.flags[cell] & at_corner_of_body) ||
-            material.volume_in_shear != VolumeInShear::kept)
+        if (material.volume_in_shear != VolumeInShear::kept ||
+            !(material.is_frictionless ||
+              step.grid.flags[cell] & at_corner_of_body))
           return unlimited;
         const CellGeometry &g = step.grid.geometry[cell];
         const double        size =

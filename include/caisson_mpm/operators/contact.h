@@ -55,6 +55,13 @@ namespace CaissonMPM
     void
     set_strength(const FaceStrengthOf &strength_at);
 
+    /** Find the share of the area of each node that soil covers, on which
+     * adhesion acts in this step, from the mean share @p filled [n_nodes] of
+     * the soil cells at the node. Adhesion above the soil would push the few
+     * points there out of the mesh. */
+    void
+    cover(const double *filled);
+
     bool
     empty() const
     {
@@ -206,6 +213,7 @@ namespace CaissonMPM
       bool                   is_open  = false; // the soil is below the lid
       double                 friction = 0.;
       double                 adhesion = 0.; // a A, N per radian
+      double                 covered  = 1.; // share of A
     };
     enum class State : unsigned char
     {

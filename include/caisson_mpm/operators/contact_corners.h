@@ -32,6 +32,7 @@
 #include <caisson_mpm/operators/nodal_forces.h>
 
 #include <array>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -216,6 +217,12 @@ namespace CaissonMPM
 
     Contribution
     contribution(const Cell &cell) const;
+
+    /** The cells of this rank that have soil and see a corner with Q, and how
+     * they see each of their nodes: null as it is. A cell beneath a tip with
+     * two cells across the wall has two corners. */
+    std::map<unsigned int, std::array<const Cell *, 4>>
+    closed_cells(const Kernels::StepContext &step) const;
 
     /** sum Q^T m Q, which is diagonal; 0 where a component acts on no cell. */
     Vector2
