@@ -122,10 +122,12 @@ def way_up(position: np.ndarray) -> np.ndarray:
 
 
 def main_way(position: np.ndarray) -> np.ndarray:
-    """Return the numbers of the rows of the way down, or of the way up where there is
-    no way down; without the row where it begins, over which there is no mean."""
-    down = way_down(position)[1:]
-    return down if len(down) else way_up(position)[1:]
+    """Return the numbers of the rows of the way down, or of the way up where that is
+    ten times as long, as of a body that is pulled; without the row where it begins,
+    over which there is no mean."""
+    down, up = (way[1:] for way in (way_down(position), way_up(position)))
+    fall, rise = position.max() - position[0], position.max() - position[-1]
+    return up if 10 * fall <= rise and rise > 0 else down
 
 
 def common_depths(positions: Sequence[np.ndarray], interval: float) -> np.ndarray:
