@@ -35,11 +35,9 @@ def suction_words(history: Table, at: np.ndarray) -> list[str]:
     if not {"required_suction_Pa", "exit_gradient_axis"} <= set(history):
         return [""] * len(at)
     rows = curves.main_way(history["penetration_m"])
-    steepest = np.maximum(history["exit_gradient_wall"], history["exit_gradient_axis"])
-    share = np.maximum(steepest, 0) / history["critical_gradient"]
     suctions, shares = (
         curves.smoothed_at(history["penetration_m"][rows], values[rows], at)
-        for values in (history["required_suction_Pa"], share)
+        for values in (history["required_suction_Pa"], curves.gradient_share(history))
     )
     return [
         f"  required suction {max(suction, 0) / 1e3:5.1f} kPa, margin to piping"
@@ -72,10 +70,8 @@ def describe(directory: Path, depths: Sequence[float]) -> Iterator[str]:
             for force in (tip, history["total_force_N"])
         ]
         energy = 100 * curves.largest_energy_ratio(history)
-        yield (
-            f"  roughness: tip {rough[0]:.2f} %, total {rough[1]:.2f} %; "
-            f" KE/W {energy:.3f} %"
-        )
+        words = "roughness: tip {:.2f} %, total {:.2f} %;  ".format(*rough)
+        yield f"  {words if np.isfinite(rough).all() else ''}KE/W {energy:.3f} %"
     yield (
         f"  points in body {largest(history, 'points_in_body')}, limiter"
         f" {largest(history, 'limiter_count')}, steps {largest(history, 'step')}"

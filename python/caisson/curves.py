@@ -189,6 +189,12 @@ def largest_energy_ratio(history: Table) -> float:
     return float((history["kinetic_energy_J"][used] / work[used]).max())
 
 
+def gradient_share(history: Table) -> np.ndarray:
+    """Return the larger exit gradient over the critical one, [n_rows]."""
+    larger = np.maximum(history["exit_gradient_wall"], history["exit_gradient_axis"])
+    return np.maximum(larger, 0) / history["critical_gradient"]
+
+
 def forces_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
     """Return the means of a column on the way down at some depths [m] (m): [m]. nan
     where the window is not whole."""

@@ -29,7 +29,6 @@ LEAST_SHARE = 0.02  # of the critical gradient, below which the gradient is nois
 COMPUTED = "exit gradient computed"
 GRADIENT = "exit_gradient_over_critical"
 PIPING, BOILING, PUMP = "piping, Houlsby & Byrne", "water boils", "pump"
-NEAR = 0.25  # m, over which error bars of a force and a suction are taken together
 NOTHING = 5e-4  # of a unit of the tables
 HELD = 0.7  # m, below the error bar, over which its last width still stands
 
@@ -131,7 +130,7 @@ def numbers_of(run: Results) -> Table:
         return {}
     more = {}
     if design.SUCTION in history:
-        more[GRADIENT] = gradient_share(history)
+        more[GRADIENT] = curves.gradient_share(history)
     at = depths_of(depth)
     means = {
         name: curves.smoothed_at(depth, values[rows], at)
@@ -166,45 +165,19 @@ def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
     return Bounds(found[0], found[1], float(depth[last]))
 
 
-def bounds_at(
-    run: Results, quantity: str, at: np.ndarray, values: np.ndarray
-) -> Bounds | None:
-    """Return the bounds of values [n] without a unit at depths [n]: the widest within
-    NEAR; nan above the error bar and further than HELD below; None without one."""
-    bounds = run.error_bounds
-    if f"{quantity}_low" not in bounds:
-        return None
-    depth, known = bounds["penetration_m"], bounds[quantity]
-    end, begin = float(depth.max()), float(depth.min())
-    inside = (at >= begin - 1e-2) & (at <= end + HELD)
-    found = []
-    for side, widest in (("low", np.nanmin), ("high", np.nanmax)):
-        change = bounds[f"{quantity}_{side}"] - known
-        near = [change[np.abs(depth - h) <= NEAR] for h in np.clip(at, begin, end)]
-        widths = np.array([widest(part) if len(part) else np.nan for part in near])
-        found.append(np.where(inside, values + widths, np.nan))
-    return Bounds(found[0], found[1], end)
-
-
 def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
     """Return the suction (kPa) at which the exit gradient of the run becomes critical,
     at depths [n], nan before there is suction. The flow is linear in the suction."""
     history = run.history
     rows = curves.way_down(history["penetration_m"])[1:]
     depth, suction = history["penetration_m"][rows], history["suction_Pa"][rows]
-    share = gradient_share(history)[rows]
+    share = curves.gradient_share(history)[rows]
     pulled = (suction > 0) & (share > LEAST_SHARE)
     if not pulled.any():
         return np.full(len(at), np.nan)
     found = suction[pulled] / share[pulled] / 1e3
     means = curves.smoothed_at(depth[pulled], found, at)
     return np.where(at >= depth[pulled][0], means, np.nan)
-
-
-def gradient_share(history: Table) -> np.ndarray:
-    """Return the larger exit gradient over the critical one, [n_rows]."""
-    larger = np.maximum(history["exit_gradient_wall"], history["exit_gradient_axis"])
-    return np.maximum(larger, 0) / history["critical_gradient"]
 
 
 def limits_of(run: Results, at: np.ndarray, boiling: np.ndarray) -> dict[str, Any]:
@@ -449,15 +422,20 @@ def largest_of(
 
 def piping_bar(run: Results, least: float, depth: float) -> Bounds | None:
     """Return the error bar of the least margin to piping at its depth (m), [1]."""
-    history, at = run.history, np.array([depth])
+    history, bounds = run.history, run.error_bounds
     names = ("exit_gradient_wall", "exit_gradient_axis")
     i = int(np.argmin(np.abs(history["penetration_m"] - depth)))
     name = max(names, key=lambda key: float(history[key][i]))
-    critical = float(history["critical_gradient"][i])
-    bar = bounds_at(run, name, at, (1 - least) * critical * np.ones(1))
-    if bar is None or not np.isfinite([*bar.low, *bar.high]).all():
+    known = bounds.get("penetration_m", np.full(1, np.inf))
+    inside = known[0] - 1e-2 <= depth <= known[-1] + HELD
+    if not inside or f"{name}_low" not in bounds:
         return None
-    return Bounds(1 - bar.high / critical, 1 - bar.low / critical, bar.end)
+    more, less = (
+        np.interp([depth], known, bounds[f"{name}_{side}"] - bounds[name])
+        / history["critical_gradient"][i]
+        for side in ("high", "low")
+    )
+    return Bounds(least - more, least - less, float(known[-1]))
 
 
 def piping_warning(run: Results, found: Installation | None) -> list[str]:

@@ -21,7 +21,6 @@ from program import (
 )
 
 from caisson import curves
-from caisson_report import installation
 
 SCHEMA = HERE.parent / "doc/how_to/run.schema.json"
 SMALL: Entries = {
@@ -84,7 +83,7 @@ class Schema(ProgramTest):
         run = Results(path)
         way = curves.way_down(run.history["penetration_m"])[1:]
         depth = run.history["penetration_m"][way]
-        share = installation.gradient_share(run.history)
+        share = curves.gradient_share(run.history)
         columns = run.history | {"exit_gradient_over_critical": share}
         for name, values in run.at_depths.items():
             if name in columns and name != "penetration_m":
