@@ -257,17 +257,17 @@ def figures_of(run: Results, found: Installation | None) -> list[dict[str, Any]]
 def unit_table(run: Results) -> dict[str, Any]:
     """Return the unit resistances at each half meter: heads and rows of text.
 
-    They are those of the way down, or of the way up where there is none. Values are
-    means over 0.2 m, or less at the ends. Friction is over the wall below the mudline
-    of the start, the tip force over the area of the flat tip.
+    They are those of the way down, or of the way up where there is none. Friction is
+    over the wall below the mudline of the start, the tip force over the area of the
+    flat tip.
     """
     history, scene = run.history, run.scene
     nothing: dict[str, Any] = {"heads": [], "rows": []}
     if penetration(history) is None or not scene.get("wall_thickness_m"):
         return nothing
-    way = curves.way_down(history["penetration_m"])
+    way = curves.main_way(history["penetration_m"])
     if len(way) < 2:
-        way = curves.way_up(history["penetration_m"])[::-1]
+        return nothing
     depth = history["penetration_m"][way]
     at = depths_of(depth)
     at = at[at > 0]
@@ -286,6 +286,14 @@ def unit_table(run: Results) -> dict[str, Any]:
         )
     texts = [texts_of(values) for values in columns.values()]
     return {"heads": list(columns), "rows": [list(row) for row in zip(*texts)]}
+
+
+def averaged(run: Results) -> str:
+    """Return over how much penetration the numbers of the tables are averaged."""
+    depth = run.history.get("penetration_m", np.zeros(1))
+    way = depth[curves.main_way(depth)]
+    window = curves.window_of(float(np.ptp(way))) if len(way) else 0.0
+    return f"Averaged over {window:.2g} m of penetration"
 
 
 def remarks_on_numbers(run: Results) -> list[str]:
@@ -319,10 +327,12 @@ def remarks_on_numbers(run: Results) -> list[str]:
                     f"The curve scatters by {rough:.2g} % about its mean over"
                     f" {curves.FORCE_WINDOW} m."
                 )
-            found.append(
-                f"Kinetic energy is at most {energy:.2g} % of the work: the run is "
-                + ("slow enough." if energy < 1 else "fast; halve the velocity to see.")
-            )
+            words = "slow enough" if energy < 1 else "fast; halve the velocity to see"
+            if math.isfinite(energy):
+                found.append(
+                    f"Kinetic energy is at most {energy:.2g} % of the work: the run is"
+                    f" {words}."
+                )
     inside = summary.get("max_points_in_body", 0)
     found.append(
         "No material point was inside the body."
@@ -340,7 +350,7 @@ def error_remark(run: Results) -> str:
             "This scene has no error bar of its own. Those of the reference scenes are"
             " in the manual; caisson error-bar computes its own."
         )
-    force = bounds["total_force_N"]
+    force = np.where(bounds["total_force_N"] == 0, np.nan, bounds["total_force_N"])
     below, above = [
         100
         * np.nanmean(np.abs(bounds[f"total_force_{side}_N"] - force) / np.abs(force))

@@ -464,6 +464,7 @@ class Files(SuggestTest):
             (["--penetration", "9"], (SAND,), "length of the skirt"),
             (["--water-depth", "9"], (SAND,), "give --weight"),
             (["--weight", "-1"], (SAND,), "must be positive"),
+            (["--wall-friction", "0.5"], (SAND,), "26.6 where this is its tangent"),
             (["--tops", "0,3"], (SAND,), "--tops is for a cone test"),
             ([], ("0: Friction angle = 33",), "needs Youngs modulus"),
             ([], ("0: Frction angel = 33",), "did you mean Friction angle"),

@@ -20,6 +20,7 @@ or, of sand, no more than its density:
     caisson suggest --diameter 4 --skirt 2.5 --wall 20mm --sand dense own.prm
 """
 import argparse
+import math
 import os
 import re
 import sys
@@ -147,6 +148,12 @@ def check(options: argparse.Namespace) -> None:
         raise SuggestError("--water-depth bounds the suction: give --weight, too")
     if options.wall_friction is not None and not 0 <= options.wall_friction < 89:
         raise SuggestError("--wall-friction must be between 0 and 89 degrees")
+    if options.wall_friction and options.wall_friction < 1:
+        degrees = math.degrees(math.atan(options.wall_friction))
+        raise SuggestError(
+            f"--wall-friction {options.wall_friction:g} is less than a degree: give the"
+            f" angle, {degrees:.3g} where this is its tangent, or 0 of a smooth wall"
+        )
     files: list[Path] = [f for f in (options.file, options.study) if f]
     for file in files:
         if not file.parent.is_dir():
