@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Cone tests in AGS 4, in GEF, and in tables of other countries: read, or refused with
-the row."""
+"""Cone tests in AGS 4, GEF, BRO-XML, workbooks and tables of other countries: read with
+a remark on what was made of them, or refused in a line with the row."""
 import argparse
 import contextlib
 import io
@@ -9,10 +9,12 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+import openpyxl
 
 from caisson import __main__ as program
 from caisson.cpt import command
-from caisson_design import InputError, cone, cone_file, interpretation
+from caisson_design import InputError, cone, cone_file, cone_grid, interpretation
+from caisson_design.cone_options import How
 
 HEADS = '"HEADING","LOCA_ID","SCPG_TESN","SCPT_DPTH","SCPT_RES","SCPT_FRES","SCPT_PWP2"'
 UNITS = '"UNIT","","","m","MN/m2","kN/m2","kPa"'
@@ -61,31 +63,33 @@ class Reading(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.path = Path(temporary.name, "mine.txt")
 
-    def read(self, text: str, location: str = "") -> cone_file.Test:
+    def read(self, text: str, location: str = "", **how: str) -> cone_file.Test:
         """Return the test of a file with this text."""
         self.path.write_text(text, encoding="utf-8")
-        return cone_file.read(self.path, location=location)
+        return cone_file.read(self.path, how=How(location, **how))
 
-    def refused(self, text: str, words: str) -> None:
-        """Expect words in the refusal of a text."""
-        with self.assertRaisesRegex(InputError, words):
-            self.read(text)
+    def refused(self, text: str, words: str, **how: str) -> None:
+        """Expect words in the refusal of a text, which is one line."""
+        with self.assertRaisesRegex(InputError, words) as caught:
+            self.read(text, **how)
+        self.assertNotIn("\n", str(caught.exception))
 
 
 class Ags(Reading):
     """AGS 4."""
 
     def test_good(self) -> None:
-        """Units of the row UNIT; a row without a value is left out, and said."""
+        """Units of the row UNIT; where only f_s is missing, it has its share of q_c."""
         test = self.read(AGS)
-        np.testing.assert_allclose(test.depth, [0.5, 1.5])
-        np.testing.assert_allclose(test.resistance, [1e6, 4e6])
+        np.testing.assert_allclose(test.depth, [0.5, 1, 1.5])
+        np.testing.assert_allclose(test.resistance, [1e6, 2.5e6, 4e6])
         assert test.friction is not None and test.pore_pressure is not None
-        np.testing.assert_allclose(test.friction, [5e3, 20e3])
-        np.testing.assert_allclose(test.pore_pressure, [10e3, 15e3])
-        self.assertIn("left out: 1, those of number 12", " ".join(test.remarks))
-        # the methods need no friction, and so have all rows
-        np.testing.assert_allclose(cone.read(self.path).depth[-3:], [0.5, 1, 1.5])
+        np.testing.assert_allclose(test.friction, [5e3, 12.5e3, 20e3])
+        np.testing.assert_allclose(test.pore_pressure, [10e3, 9.81e3, 15e3])
+        self.assertIn("the rows next to them have: 1, from 1 to 1 m", str(test.remarks))
+        void = self.read(AGS.replace('"2.50"', '""'))
+        np.testing.assert_allclose(void.depth, [0.5, 1.5])
+        self.assertIn("left out: 1, those of number 12", str(void.remarks))
 
     def test_several_tests(self) -> None:
         """Of two locations, or of two pushes at one of them."""
@@ -94,16 +98,39 @@ class Ags(Reading):
         with self.assertRaisesRegex(InputError, "no test 'CPT03'.* CPT01, CPT02"):
             self.read(AGS + OTHER, "CPT03")
         pushes = AGS + OTHER.replace('"CPT02","1"', '"CPT01","2"')
-        self.refused(pushes, "CPT01/1, CPT01/2")
+        self.refused(pushes, "CPT01/. and CPT01/. overlap from 0.5 to 1 m: choose one")
         self.assertEqual(self.read(pushes, "CPT01/2").resistance[0], 9e6)
+
+    def test_pushes_of_one_borehole(self) -> None:
+        """They are one test, in any order, with the gap named; of two boreholes one is
+        chosen; a push alone begins as in a predrilled hole."""
+        deep = '"DATA","CPT01","2","1.4","9.00","50","1"\n'
+        deep += '"DATA","CPT01","2","1.7","9","50","1"\n'
+        deep += '"DATA","CPT01","3","3.0","9","50","1"\n'
+        deep += '"DATA","CPT01","3","3.2","9","50","1"\n'
+        heads, rows = AGS.split('"DATA","CPT01"', 1)
+        turned = heads + deep + '"DATA","CPT01"' + rows
+        for text, where in (
+            (AGS + deep, ""),
+            (turned, ""),
+            (AGS + deep + OTHER, "CPT01"),
+        ):
+            test = self.read(text, where)
+            np.testing.assert_allclose(test.depth, [0.5, 1, 1.5, 1.7, 3, 3.2])
+            said = " ".join(test.remarks)
+            self.assertIn("3 pushes were joined, gaps at 1.7 to 3 m", said)
+            self.assertIn("has reached, left out: 1, those of", said)
+        self.refused(AGS + deep + OTHER, "4 tests: CPT01/1, .*--location 'CPT01'")
+        test = self.read(AGS + deep, "CPT01/3")
+        self.assertEqual((test.measured_from, test.above), (3, "ASSUMED"))
+        self.assertIn("ASSUMED: the soil above 3 m", str(test.remarks))
 
     def test_pore_pressure_stops(self) -> None:
         """The other columns count; and is hydrostatic: 9.81 kPa each meter."""
         test = self.read(AGS.replace('"20.0","15"', '"20.0",""'))
-        np.testing.assert_allclose(test.depth, [0.5, 1.5])
         assert test.pore_pressure is not None
-        np.testing.assert_allclose(test.pore_pressure, [10e3, 1.5 * 9.81e3])
-        self.assertIn("hydrostatic there: 1, the first at 1.5 m", str(test.remarks))
+        np.testing.assert_allclose(test.pore_pressure, [10e3, 9.81e3, 1.5 * 9.81e3])
+        self.assertIn("hydrostatic there: 2, the first at 1 m", str(test.remarks))
 
     def test_area_ratio(self) -> None:
         """Of the test that is read."""
@@ -114,23 +141,31 @@ class Ags(Reading):
         self.assertEqual(self.read(group + AGS).area_ratio, 0.75)
         self.assertEqual(self.read(group + AGS + OTHER, "CPT02").area_ratio, 0.6)
         self.assertIsNone(self.read(AGS).area_ratio)
+        push = AGS + OTHER.replace("CPT02", "CPT01").replace('"1","', '"2","')
+        push = push.replace('"0.50","9', '"1.60","9').replace('"1","9"', '"1.8","9"')
+        two = group + '"DATA","CPT01","2","0.8"\n' + push
+        self.assertIn("area ratios of 0.75 to 0.8", str(self.read(two).remarks))
 
     def test_blanks_and_no_rows(self) -> None:
         """Blanks behind commas; a group that is empty."""
         test = self.read(AGS.replace(",", ", "))
-        np.testing.assert_allclose(test.resistance, [1e6, 4e6])
-        self.refused('"GROUP","SCPT"\n', "the group SCPT, .*, is empty")
+        np.testing.assert_allclose(test.resistance, [1e6, 2.5e6, 4e6])
+        self.refused('"GROUP","SCPT"\n', "no group SCPT with the readings")
 
     def test_wrong_units(self) -> None:
         """One that is not known, none at all, and megapascals below kilopascals."""
-        self.refused(AGS.replace("MN/m2", "tsf"), "row 9: the unit 'tsf' of SCPT_RES")
+        self.refused(
+            AGS.replace("MN/m2", "tsf"), "row 9: the column 'SCPT_RES', .*'tsf'"
+        )
         self.refused(AGS.replace(UNITS + "\n", ""), "row 8: .* has no row UNIT")
         small = UNITS.replace("MN/m2", "Pa")
         self.refused(AGS.replace(UNITS, small), "row 11: .*both units in the row UNIT")
 
     def test_wrong_groups(self) -> None:
         self.refused(AGS.replace('"SCPT"', '"GEOL"'), "no group SCPT.* are PROJ, GEOL")
-        self.refused(AGS.replace("SCPT_RES", "SCPT_QT"), "row 8: .* heading SCPT_RES")
+        self.refused(
+            AGS.replace("SCPT_RES", "SCPT_X"), "is the cone resistance; .*SCPT_RES"
+        )
         self.refused('"**PROJ"\n"*PROJ_ID"\n"7"\n', r"row 1: '\*\*PROJ' .* of AGS 3")
 
     def test_wrong_rows(self) -> None:
@@ -156,7 +191,8 @@ class Gef(Reading):
         said = " ".join(test.remarks)
         self.assertIn("the column of pore pressure has no values", said)
         self.assertIn("left out: 1, those of number 15", said)
-        self.assertIn("not read: Sondeerlengte", said)
+        unread = self.read(GEF.replace("Sondeerlengte, 1", "Tijd, 12"))
+        self.assertIn("not read: Tijd", str(unread.remarks))
 
     def test_separators(self) -> None:
         """Blanks and lines where nothing is said, records on one line, and a length
@@ -181,7 +217,7 @@ class Gef(Reading):
         for void in ("0.999", "0,999", "0,9990, friction"):
             head, rows = table.replace("2, -9999.000", f"3, {void}").split("#EOH=")
             test = self.read(f"{head}#EOH={rows.replace('.', ',')}")
-            np.testing.assert_allclose(test.depth, [0.49, 1.47])
+            self.assertIn("without a sleeve friction", str(test.remarks))
         for void in ("-9999", "-9999,0"):
             head, rows = GEF.replace("-9999.000", void).split("#EOH=")
             rows = rows.replace("-9999;", "-9999.000;").replace(".", ",")
@@ -205,10 +241,14 @@ class Gef(Reading):
     def test_wrong_heads(self) -> None:
         for old, new, words in (
             ("#EOH=\n", "", "no line #EOH="),
-            ("Conusweerstand, 2", "Conusweerstand, 13", "quantity 2, the cone resist"),
-            ("2, MPa", "2, tsf", "row 5: the unit 'tsf' of 'Conusweerstand'"),
+            ("Conusweerstand, 2", "Conusweerstand, 99", "no column is the cone resist"),
+            ("2, MPa", "2, tsf", "row 5: the column 'Conusweerstand', .* 'tsf'"),
             ("wrijving, 3", "wrijving, x", "row 6: #COLUMNINFO must have number"),
-            ("wrijving, 3", "wrijving, 2", "row 6: a second column of the quantity 2"),
+            (
+                "wrijving, 3",
+                "wrijving, 2",
+                "row 6: two columns are the cone resistance",
+            ),
             ("= 1, m, S", "= 0, m, S", r"row 4: #COLUMNINFO must have number \(from"),
             ("2, -9999.000", "0, -9999.000", "row 9: .* a column, from 1, and"),
             ("2, -9999.000", "2", "row 9: #COLUMNVOID must have the number"),
@@ -218,7 +258,7 @@ class Gef(Reading):
             self.refused(GEF.replace(old, new), words)
 
     def test_wrong_units(self) -> None:
-        self.refused(GEF.replace("2, MPa", "2, GPa"), "row 5: the unit 'GPa'")
+        self.refused(GEF.replace("2, MPa", "2, GPa"), "row 5: the column .* 'GPa'")
         self.refused(GEF.replace("2, MPa", "2, kPa"), "row 14: .* units in #COLUMNINFO")
 
     def test_wrong_rows(self) -> None:
@@ -231,8 +271,8 @@ class Gef(Reading):
             ),
             (";1.47", ";0.2", "row 16: the depth of 0.2 m is not below"),
             ("4.00", "4.0.0", "row 16: '4.0.0' is no number"),
-            ("-9999;", "-999;", "row 15: the cone resistance is -999 MPa"),
-            (";0.49;!", ";0.49;7;!", "row 14: 6 .*, and 5 .* a line #COLUMNINFO"),
+            ("-9999;", "-998;", "row 15: the cone resistance is -998 MPa"),
+            (";0.49;!", ";0.49;7;!", "row 14: 6 cells, and 5 columns in #COLUMNINFO"),
         ):
             self.assertIn(old, GEF)
             self.refused(GEF.replace(old, new), words)
@@ -265,8 +305,7 @@ class Tables(Reading):
         self.assertEqual(self.read(both).depth[0], 0.4)
         for head in ("Diepte t.o.v. NAP (m)", "Höhe (m)"):
             self.refused(f"{head};qc_MPa\n{rows}", "is a level above a datum; subtract")
-        self.refused("depth_m;qc_MPa\n2;1\n3;4\n", "row 2: .* 2 m, .* add rows above")
-        self.refused("depth_m;qc_MPa\n0;1;2\n3;4\n", "row 2: .* needs a head in the f")
+        self.refused("depth_m;qc_MPa\n0;1;2\n3;4\n", "row 2: .* column needs a head")
         self.refused("depth_m,qc_MPa\n0,1,2\n3,4\n", "row 2: .* divide cells by semi")
 
     def test_heads(self) -> None:
@@ -296,11 +335,265 @@ class Tables(Reading):
             np.testing.assert_allclose(test.pore_pressure, [5e3, 20e3])
 
     def test_no_text(self) -> None:
-        """A spreadsheet, and the UTF-16 of Windows."""
-        for content in (b"PK\x03\x04", "depth_m,qc_MPa\n".encode("utf-16")):
+        """An archive, an old workbook, and the UTF-16 of Windows."""
+        for content, words in (
+            (b"PK\x03\x04", "no workbook that can be read .*save it as .xlsx"),
+            (b"\xd0\xcf\x11\xe0\0", "old form .*: save it as .xlsx or CSV"),
+            ("depth_m,qc_MPa\n".encode("utf-16"), "save it as CSV in UTF-8"),
+        ):
             self.path.write_bytes(content)
-            with self.assertRaisesRegex(InputError, "save it as CSV in UTF-8"):
+            with self.assertRaisesRegex(InputError, words):
                 cone_file.read(self.path)
+
+    def test_lines_above_and_below(self) -> None:
+        """What they say of the test is used or named."""
+        rows = "0.5,1,5,0\n1.5,1,5,9\n2,4,,\n2.5,,5,9\n3,4,20,9\nEnd of test,,,\n"
+        head = "Depth (m),qc (MPa),fs (kPa),u2 (kPa)\n"
+        above = (
+            "Contractor:,X,,\nAssumed GWL:,1.2,,\naratio,0.8,,\nPre-Drill:,1.2 m,,\n"
+        )
+        test = self.read(above + ",,,\n" + head + rows)
+        said = " ".join(test.remarks)
+        self.assertEqual((test.area_ratio, test.measured_from), (0.8, 1.5))
+        np.testing.assert_allclose(test.depth[-3:], [1.5, 2, 3])
+        assert test.friction is not None
+        np.testing.assert_allclose(test.friction[-3:], [5e3, 20e3, 20e3])
+        for words in (
+            "above the heads that were not read: 1",
+            "row 12, 'End of test'",
+            "above the pre-excavated depth of 1.2 m, left out: 1",
+            "water level of the file, 1.2 m, is not used",
+            "without a depth or a cone resistance, left out: 1",
+        ):
+            self.assertIn(words, said)
+        self.assertIn(
+            "two values: area ratio",
+            str(self.read("aratio,0.8\narea ratio,0.6\n" + head + rows).remarks),
+        )
+
+    def test_heads_of_others(self) -> None:
+        """Units in any bracket or below, a corrected resistance alone, any divider."""
+        for text in (
+            "Diepte[m];Maaiveld[m];Conuswaarden[MN/m²]\n0,2;-0,2;1\n1,5;-1,5;4\n",
+            "sep=;\nz [m];qc [MPa]\n0,2;1\n1,5;4\n",
+            "z [m]\tqt [MPa]\n0.2\t1\n1.5\t4\n",
+            "Depth  qc\n m  MPa\n0.2 1\n1.5 4\n",
+            "Tiefe {m u. GOK};Spitzendruck / MPa\n0,2;1\n1,5;4\n",
+            "Penetration length (m),Measured cone resistance [MPa]\n-0.2,1\n-1.5,4\n",
+            "z_mm,Tip Resistance (kN / m2),qc/pa\n200,1000,1\n1500,4000,1\n",
+        ):
+            test = self.read(text)
+            np.testing.assert_allclose(test.depth, [0.2, 1.5], err_msg=text)
+            np.testing.assert_allclose(test.resistance, [1e6, 4e6], err_msg=text)
+            self.assertEqual(test.is_corrected, "qt" in text)
+        both = "depth_m,qc_MPa,qt_MPa\n0.2,1,2\n1.5,4,5\n"
+        self.assertEqual(self.read(both).resistance[0], 1e6)
+        ratio = "depth_m,qc_MPa,Sleeve friction ratio (MPa)\n0.2,1,2\n1.5,4,5\n"
+        self.assertIsNone(self.read(ratio).friction)
+
+    def test_without_heads(self) -> None:
+        """The message says how columns are named, and that works."""
+        rows = "0\t0.5\t0\t-1.6\n0.01\t1\t1\t-70\n0.02\t2\t20\t3\n"
+        self.refused(rows, "row 1 is '0, 0.5, 0, -1.6'. Name the columns: --columns d")
+        for columns in (cone_grid.EXAMPLE, "depth,qc,fs,u2"):
+            test = self.read(rows, columns=columns)
+            assert test.friction is not None and test.pore_pressure is not None
+            np.testing.assert_allclose(test.resistance, [0.5e6, 1e6, 2e6])
+            np.testing.assert_allclose(test.friction, [0, 1e3, 20e3])
+            np.testing.assert_allclose(test.pore_pressure, [-1600, -70e3, 3e3])
+            self.assertEqual("ASSUMED" in str(test.remarks), "_" not in columns)
+        test = self.read("x\n" + rows, columns="z_m,qc_MPa,-,-")
+        np.testing.assert_allclose(test.resistance, [0.5e6, 1e6, 2e6])
+        self.refused(rows, "'rubbish' is no column", columns="depth,rubbish")
+        self.refused(GEF, "--columns is for tables; .* is GEF", columns="depth,qc")
+
+
+class Workbooks(Reading):
+    """Sheets of .xlsx."""
+
+    def test_sheets(self) -> None:
+        book = openpyxl.Workbook()
+        book.active.title = "about"
+        book.active.append(["Contractor", "X"])
+        sheet = book.create_sheet("CPT 1")
+        for row in (
+            ["Pre-Drill:", None],
+            ["z\n[m]", "qc\n[MPa]", None, "fs [kPa]"],
+            [0.1, 1, None, 10.5],
+            [0.3, 4, None, None],
+        ):
+            sheet.append(row)
+        book.save(self.path)
+        test = cone_file.read(self.path)
+        np.testing.assert_allclose(test.resistance, [1e6, 4e6])
+        assert test.friction is not None
+        np.testing.assert_allclose(test.friction, [10.5e3, 42e3])
+        with self.assertRaisesRegex(InputError, "no sheet 'x'; .* are about, CPT 1"):
+            cone_file.read(self.path, how=How(sheet="x"))
+        book.copy_worksheet(sheet)
+        book.save(self.path)
+        with self.assertRaisesRegex(InputError, "2 sheets .*, CPT 1, CPT 1 Copy; cho"):
+            cone_file.read(self.path)
+        self.assertEqual(
+            len(cone_file.read(self.path, how=How(sheet="CPT 1")).depth), 2
+        )
+        self.assertFalse(cone_file.is_plain(self.path))
+
+
+class Bro(Reading):
+    """The XML of the Dutch register."""
+
+    @staticmethod
+    def record(z: float, tip: float, friction: float, pressure: float) -> str:
+        """Return a record of 25 values."""
+        values = ["-999999"] * 25
+        values[0], values[1], values[3] = f"{z:g}", f"{z:g}", f"{tip:g}"
+        values[18], values[22] = f"{friction:g}", f"{pressure:g}"
+        return ",".join(values) + ";"
+
+    def text(self, *records: str) -> str:
+        """Return a file with a test of these records, and one of dissipation."""
+        return (
+            '<?xml version="1.0"?>\n<answer xmlns="urn:x" xmlns:c="urn:y"><CPT_O>'
+            "<c:broId>CPT7</c:broId><c:predrilledDepth>0.6</c:predrilledDepth>"
+            "<c:coneSurfaceQuotient>0.75</c:coneSurfaceQuotient>"
+            "<c:conePenetrationTest><c:cptResult><encoding><TextEncoding"
+            ' tokenSeparator="," blockSeparator=";" decimalSeparator="."/></encoding>'
+            f"<c:values>{''.join(records)}</c:values></c:cptResult>"
+            "</c:conePenetrationTest>"
+            "<c:dissipationTest><c:values>1,2;</c:values></c:dissipationTest></CPT_O>"
+            "</answer>"
+        )
+
+    def test_good(self) -> None:
+        """In any order; m and MPa; what has no value; the hole."""
+        rows = self.record(1.5, 4, 0.02, -999999), self.record(0.5, 0.1, 0.01, 0)
+        test = self.read(self.text(*rows, self.record(0.62, 1, -999999, 0.006)))
+        np.testing.assert_allclose(test.depth[-2:], [0.62, 1.5])
+        np.testing.assert_allclose(test.resistance[-2:], [1e6, 4e6])
+        assert test.friction is not None and test.pore_pressure is not None
+        np.testing.assert_allclose(test.friction[-2:], [5e3, 20e3])
+        np.testing.assert_allclose(test.pore_pressure[-2:], [6e3, 1.5 * 9.81e3])
+        self.assertEqual((test.area_ratio, test.measured_from), (0.75, 0.62))
+
+    def test_refusals(self) -> None:
+        good = self.text(self.record(0.6, 1, 0.01, 0), self.record(0.7, 1, 0.01, 0))
+        self.refused(good.replace("CPT_O", "BHR_O"), "no cone test of the Dutch reg")
+        self.refused(good[:-9], "no complete XML")
+        self.refused(good.replace("\n", "<!DOCTYPE x []>"), "definitions of its own")
+        self.refused(good.replace("cptResult", "y"), "no values within cptResult")
+        self.refused(good, "no test 'CPT8'; the tests are CPT7", location="CPT8")
+
+
+class Rules(Reading):
+    """What rows must be, in any format; here in one that is short."""
+
+    HEAD = "depth_m,qc_MPa,fs_kPa,u2_kPa\n"
+
+    @staticmethod
+    def rows(begin: float = 0.02, number: int = 200) -> list[list[float]]:
+        """Return rows each 2 cm of sand."""
+        return [[begin + i / 50, 2 + i / 100, 12, 0.2 * i] for i in range(number)]
+
+    def of(self, rows: list[list[float]], **how: str) -> cone_file.Test:
+        """Return the test of rows."""
+        text = "\n".join(",".join(f"{x:g}" for x in row) for row in rows)
+        return self.read(self.HEAD + text, **how)
+
+    def test_small_readings_below_zero(self) -> None:
+        """A drift is taken as 0, and counted; more is refused."""
+        rows = self.rows()
+        rows[7][2], rows[9][2] = -2, -11
+        test = self.of(rows)
+        assert test.friction is not None
+        self.assertEqual(list(test.friction[6:10]), [12e3, 0, 12e3, 0])
+        self.assertIn("down to -11 kPa, taken as 0: 2, those of nu", str(test.remarks))
+        rows[9][2] = -60
+        with self.assertRaisesRegex(InputError, "row 11: the sleeve .* is -0.06 MPa"):
+            self.of(rows)
+        rows[9][2:] = [12, -80]
+        self.assertIn("kept, 1, down to -80 kPa", str(self.of(rows).remarks))
+        rows[9][3] = -900
+        with self.assertRaisesRegex(InputError, "row 11: the pore pressure is -0.9"):
+            self.of(rows)
+
+    def test_rows_without_load(self) -> None:
+        """At the start, or few, they are left out; else a unit is wrong."""
+        rows = self.rows()
+        for row in rows[:30]:
+            row[1:3] = [0, 0.6]
+        rows[90][1] = -0.01
+        test = self.of(rows)
+        self.assertEqual((len(test.depth), test.measured_from), (200 - 31 + 31, 0.62))
+        self.assertIn("without load (q_c below 0 or below f_s)", str(test.remarks))
+        for row in rows:
+            row[1:3] = [0.1, 500]
+        with self.assertRaisesRegex(InputError, r"row 2: .* \(199 more rows are wrong"):
+            self.of(rows)
+
+    def test_depths(self) -> None:
+        """All of them negative; a few that repeat; a corrected one that is a level."""
+        rows = self.rows()
+        test = self.of([[-z, *rest] for z, *rest in rows])
+        np.testing.assert_allclose(test.depth, [z for z, *_ in rows])
+        self.assertIn("negative downward: taken by their amount", str(test.remarks))
+        rows[50][0] = rows[49][0]
+        self.assertIn("repeat a depth, left out: 1, tho", str(self.of(rows).remarks))
+        rows[50][0] -= 1
+        with self.assertRaisesRegex(InputError, "row 52: the depth of 0 m is not bel"):
+            self.of(rows)
+        rows = self.rows()
+        rows[3][0] = -0.5
+        self.assertIn("above the ground, left out: 1", str(self.of(rows).remarks))
+        head = "Depth (m),Penetration length (m),qc (MPa)\n"
+        for shift, depth in ((0.0, 0.4), (-4.0, 0.42)):
+            text = [f"{shift - 0.4 - i:g},{0.42 + i:g},2" for i in range(9)]
+            test = self.read(head + "\n".join(text))
+            self.assertEqual(test.depth[0], depth)
+
+    def test_soil_above(self) -> None:
+        """Of a test that begins below the mudline: ASSUMED, or as it is given."""
+        test = self.of(self.rows(1.62))
+        self.assertEqual((test.measured_from, test.above), (1.62, "ASSUMED"))
+        self.assertEqual(test.depth[0], 0)
+        first = test.resistance[test.depth < 1.62]
+        np.testing.assert_allclose(first, 2.125e6)  # the median of half a meter
+        test = self.of(self.rows(1.62), above="qc = 1 MPa, fs = 20 kPa")
+        self.assertEqual(test.above, "GIVEN")
+        assert test.friction is not None
+        self.assertEqual((test.resistance[0], test.friction[80]), (1e6, 20e3))
+        self.assertEqual(self.of(self.rows(0.4)).above, "")
+        for words, said in (
+            ("fs = 20 kPa", "qc is missing"),
+            ("qc = 1 MPa, fr = 1", "'fr' is neither qc nor fs"),
+            ("qc = 1 m", "no unit of it"),
+            ("qc = -1 MPa", "is no cone resistance"),
+        ):
+            with self.assertRaisesRegex(InputError, said):
+                self.of(self.rows(1.62), above=words)
+        with self.assertRaisesRegex(
+            InputError, "--above is for a test that begins bel"
+        ):
+            self.of(self.rows(), above="qc = 1 MPa")
+
+    def test_hole_below_the_test(self) -> None:
+        text = GEF.replace("#EOH=", "#MEASUREMENTVAR= 13, {}, x\n#EOH=")
+        text = text.replace("-9999;0", "2;0")
+        for hole, unit in (("0.9", "m (meter)"), ("900", "mm"), ("0,9", "m")):
+            test = self.read(text.format(hole).replace("x\n#EOH", f"{unit}\n#EOH"))
+            self.assertIn(
+                "pre-excavated depth of 0.9 m, left out: 1", str(test.remarks)
+            )
+        self.refused(text.format("7"), "hole above the test is 7 m .* at 1.47 m: corr")
+
+    def test_nothing_reaches_a_terminal(self) -> None:
+        """Names of a file cannot command one, in messages and in remarks."""
+        self.refused(
+            AGS + OTHER.replace("CPT02", "C\x1b[31m2"), r"CPT01, C\\x1b\[31m2;"
+        )
+        head = "depth_m,qc_MPa,\x1b]0;x\x07\u202e\n"
+        said = str(self.read(head + "0.5,1,1\n1,4,1\n").remarks)
+        self.assertIn("not read: \\\\x1b]0;x\\\\x07\\\\u202e", said)
 
 
 class Command(Reading):
@@ -357,7 +650,7 @@ class Command(Reading):
             self.assertNotIn("net area ratio", said)
         for text, ratio in (("0.6", 0.6), ("59", 0.8)):
             self.path.write_text(group.format(text) + self.deep(), encoding="utf-8")
-            test = cone_file.read(self.path, location="CPT02")
+            test = cone_file.read(self.path, how=How("CPT02"))
             self.assertEqual(interpretation.area_ratio_of(test, None)[0], ratio)
             self.assertEqual(interpretation.area_ratio_of(test, 0.7), (0.7, ()))
 
