@@ -190,7 +190,8 @@ def numbers_of(path: Path, table: Table) -> Readings:
     ]
     refuse(path, wrong)
     values = [[value_of(text) for text in cells] for cells in texts]
-    array = np.array(values) * [column.unit for column in columns]
+    with np.errstate(over="ignore"):  # what is too large is refused in a moment
+        array = np.array(values) * [column.unit for column in columns]
     number = np.array([row for row, _ in rows])
     pushes = np.zeros(len(rows), dtype=int)
     if table.pushes:
