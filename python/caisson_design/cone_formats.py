@@ -145,9 +145,10 @@ def gef_rows(path: Path, lines: Sequence[str], keys: Keys, last: int) -> Rows:
     where a column has no value. Raises InputError."""
     what = "the number of a column, from 1, and a number"
     voids = gef_lines(path, keys, "COLUMNVOID", gef_void, what)
-    separators = {key: "".join(value[:1]) or "," for _, key, value in keys}
-    divider = separators.get("COLUMNSEPARATOR")
-    end = separators.get("RECORDSEPARATOR")
+    # a value is divided at its commas: of a comma two empty parts are left
+    marks = {key: "," if value[:2] == ["", ""] else value[0] for _, key, value in keys}
+    divider = marks.get("COLUMNSEPARATOR") or None
+    end = marks.get("RECORDSEPARATOR")
     rows: Rows = []
     for row, line in enumerate(lines[last:], last + 1):
         for record in line.split(end) if end else [line]:

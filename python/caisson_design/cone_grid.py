@@ -35,11 +35,25 @@ def divided(line: str, divider: str | None) -> list[str]:
     return next(csv.reader([line], delimiter=divider, skipinitialspace=True), [])
 
 
+def joined(lines: Sequence[str]) -> list[tuple[int, str]]:
+    """Return the lines with their numbers; one with a quotation mark that is open, as
+    in a head of two lines, with those that follow to where it is closed."""
+    found, begin = list[tuple[int, str]](), 0
+    while begin < len(lines):
+        some = (lines[begin : begin + n] for n in (1, 2, 3))
+        block = next(
+            (b for b in some if "".join(b).count('"') % 2 == 0), [lines[begin]]
+        )
+        found.append((begin + 1, " ".join(block)))
+        begin += len(block)
+    return found
+
+
 def grid_of_text(lines: Sequence[str]) -> tuple[Rows, str | None]:
     """Return the rows of a table of text, and what divides its cells."""
     kept = [
         (row, line)
-        for row, line in enumerate(lines, 1)
+        for row, line in joined(lines)
         if line.strip(" \t,;") and not line.startswith("#")
     ]
     if kept and kept[0][1].lower().startswith("sep=") and len(kept[0][1]) > 4:
@@ -157,9 +171,13 @@ def facts_of(above: Rows) -> tuple[Facts, list[str]]:
     unsure = [
         f"the lines above the heads have two values: {x}" for x in said if said[x]
     ]
-    left = len(above) - len(known)
-    if left > 0:
-        unsure.append(f"lines above the heads that were not read: {left}")
+    texts = [" ".join(" ".join(c).split()) for _, c in above if fact_of(c) is None]
+    if texts:
+        words = "; ".join(text[:40] for text in texts[:4])
+        unsure.append(
+            f"lines above the heads that were not read: {len(texts)}: {words}"
+            + ("; ..." if len(texts) > 4 else "")
+        )
     return (
         Facts(known.get("area ratio"), known.get("predrilled"), known.get("water")),
         unsure,

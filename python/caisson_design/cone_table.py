@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 from caisson_design import InputError
-from caisson_design.cone_words import INSTEAD, NEEDED, QUANTITIES, unit_in
+from caisson_design.cone_words import INSTEAD, LENGTH, NEEDED, QUANTITIES, unit_in
 
 EMPTY = frozenset(("", "-", "--", "n/a", "#n/a", "na", "nan", "none", "null", "void"))
 # what programs write where nothing was measured; no cone measures it in any unit
+STRESSES = "Pa, kPa, MPa, kN/m2, MN/m2, N/mm2 and bar"
 VOIDS = frozenset((-999.0, -999.25, -9999.0, -99999.0, -999999.0, -32768.0))
 COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")  # a number with a decimal comma
 Rows = list[tuple[int, list[str]]]  # the number of a row in the file, and its cells
@@ -113,10 +114,11 @@ def unit_of(path: Path, head: Head) -> float:
     quantity = QUANTITIES[head.quantity]
     word = unit_in(head.unit)
     if word not in quantity.units:
+        known = "m, cm and mm" if quantity.units is LENGTH else STRESSES
         raise InputError(
             f"{path}, row {head.row}: the column {head.text!r}, the {quantity.name},"
-            f" has no unit that is known, but {head.unit!r}; known are"
-            f" {', '.join(quantity.units)}"
+            f" has no unit that is known, but {head.unit or 'none'!r}; known are"
+            f" {known}"
         )
     return quantity.units[word]
 
@@ -135,6 +137,8 @@ def columns_of(
         if not filled and some and other and is_filled(rows, other[0].place):
             some = other
         some = filled or some or other
+        known = [h for h in some if unit_in(h.unit) in QUANTITIES[h.quantity].units]
+        some = known or some
         if len(some) > 1:
             raise InputError(
                 f"{path}, row {some[1].row}: two columns are the"

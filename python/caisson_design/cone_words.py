@@ -43,7 +43,8 @@ QUANTITIES = {
         11,
         1,
         "m",
-        "depth z correcteddepth depthbelowmudline depthbelowseabed depthbelowseafloor"
+        "depth z testdepth soundingdepth correcteddepth"
+        " depthbelowmudline depthbelowseabed depthbelowseafloor"
         " depthbelowground depthbelowgroundlevel depthbelowsurface"
         " tiefe teufe sondiertiefe tiefeuntergok tiefeugok tiefeuntergelande"
         " tiefeuntergelandeoberkante tiefeuntermeeresboden"
@@ -114,18 +115,13 @@ QUANTITIES = {
 }
 # what lines above the heads may say of the whole test
 FACTS = {
-    "area ratio": "aratio arearatio netarearatio conearearatio coneareafactor"
-    " netarearatioofcone oppervlaktequotient",
-    "predrilled": "predrill predrilled predrilling predrilldepth predrilleddepth"
-    " preexcavated preexcavateddepth preexcavation voorgeboord voorgeboordtot"
-    " voorboring voorboordiepte voorgegraven vorbohrung vorgebohrt vorbohrtiefe"
-    " vorgebohrtbis avanttrou preforage profondeurdavanttrou",
-    "water": "gwl assumedgwl waterlevel groundwater groundwaterlevel groundwaterdepth"
-    " groundwatertable watertable depthtowater gwt grundwasser grundwasserstand"
-    " grondwater grondwaterstand waterstand nappe niveaudeau niveaudelanappe",
+    "area ratio": r"(?<!sleeve )(?<!friction )\ba(rea)?[ -]?ratio|oppervlaktequotient",
+    "predrilled": r"pre[ -]?(drill|dug|bor|excavat)|voorge(boord|graven)|voorbor"
+    r"|vor(ge)?bohr|avant[ -]?trou|preforage",
+    "water": r"\bgw[lt]\b|water ?(level|table)|ground ?water|grund ?wasser|grond ?water"
+    r"|waterstand|\bnappe\b",
 }
 BY_WORD = {word: key for key, q in QUANTITIES.items() for word in q.words.split()}
-BY_FACT = {word: fact for fact, words in FACTS.items() for word in words.split()}
 INSTEAD = {"depth": "rods", "qc": "qt"}  # where a file has no column of the first
 NEEDED = ("depth", "qc")
 # a head with one of these counts from a datum, and not from the ground
@@ -193,11 +189,10 @@ def fact_of(cells: Sequence[str]) -> tuple[str, float] | None:
     and 1.2 of "Assumed GWL:, 1.2 m"; None where it says nothing known."""
     text = " ".join(cell.strip() for cell in cells if cell.strip())
     found = re.fullmatch(r"(\D*?)[\s:=,]*([+-]?\d+(?:[.,]\d+)?)\s*(\D*)", text)
-    if not found:
-        return None
-    name = re.sub(r"[^a-z]", "", BRACKETS.sub(" ", plain(found[1])))
-    if name not in BY_FACT:
-        return None
-    units = map(unit_in, (found[3], *BRACKETS.findall(found[1])))
-    factor = next((LENGTH[unit] for unit in units if unit in LENGTH), 1.0)
-    return BY_FACT[name], float(found[2].replace(",", ".")) * factor
+    for fact, words in FACTS.items() if found else ():
+        assert found is not None
+        if re.search(words, plain(found[1])):
+            units = map(unit_in, (found[3], *BRACKETS.findall(found[1])))
+            factor = next((LENGTH[unit] for unit in units if unit in LENGTH), 1.0)
+            return fact, float(found[2].replace(",", ".")) * factor
+    return None

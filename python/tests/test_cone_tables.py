@@ -98,6 +98,9 @@ class Tables(WithFiles):
             "without a depth or a cone resistance, left out: 1",
         ):
             self.assertIn(words, said)
+        plain = above.replace("Pre-Drill:,1.2 m", "Voorgeboord tot [m] : 120 cm")
+        self.assertEqual(self.read(plain + head + rows).measured_from, 1.5)
+        self.assertIn("not read: 1: Contractor: X", said)
         self.assertIn(
             "two values: area ratio",
             str(self.read("aratio,0.8\narea ratio,0.6\n" + head + rows).remarks),
@@ -113,6 +116,7 @@ class Tables(WithFiles):
             "Tiefe {m u. GOK};Spitzendruck / MPa\n0,2;1\n1,5;4\n",
             "Penetration length (m),Measured cone resistance [MPa]\n-0.2,1\n-1.5,4\n",
             "z_mm,Tip Resistance (kN / m2),qc/pa\n200,1000,1\n1500,4000,1\n",
+            '"Test depth\n(m)",Depth (ft),"qc\n(MPa)"\n0.2,1,1\n1.5,5,4\n',
         ):
             test = self.read(text)
             np.testing.assert_allclose(test.depth, [0.2, 1.5], err_msg=text)
