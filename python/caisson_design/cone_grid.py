@@ -49,6 +49,13 @@ def joined(lines: Sequence[str]) -> list[tuple[int, str]]:
     return found
 
 
+def numeric(cells: Sequence[str]) -> float:
+    """Return the share of numbers in the cells of a row that are not empty, 0 where
+    there are fewer than two."""
+    numbers = sum(map(is_number, cells))
+    return numbers / sum(map(bool, cells)) if numbers > 1 else 0.0
+
+
 def grid_of_text(lines: Sequence[str]) -> tuple[Rows, str | None]:
     """Return the rows of a table of text, and what divides its cells."""
     kept = [
@@ -61,13 +68,7 @@ def grid_of_text(lines: Sequence[str]) -> tuple[Rows, str | None]:
         kept = kept[1:]
     else:
         sample = [line for _, line in kept[-SAMPLE:]]
-        score = {
-            mark: sum(
-                all(map(is_number, cells[:2])) and len(cells) > 1
-                for cells in (divided(line, mark) for line in sample)
-            )
-            for mark in DIVIDERS
-        }
+        score = {m: sum(numeric(divided(x, m)) for x in sample) for m in DIVIDERS}
         # of text alone, what divides the heads
         divider = max(
             DIVIDERS, key=lambda m: (score[m], any((m or " ") in x for x in sample))
@@ -214,7 +215,7 @@ def table(
             " numbers"
         )
     place = heads_in(rows)
-    first = next((i for i, (_, c) in enumerate(rows) if is_number(c[0])), len(rows))
+    first = next((i for i, (_, c) in enumerate(rows) if numeric(c)), len(rows))
     if columns:
         heads, begin, where = named(path, columns), first, "--columns"
     elif place is None:

@@ -140,6 +140,9 @@ class Tables(WithFiles):
             self.assertEqual("ASSUMED" in str(test.remarks), "_" not in columns)
         test = self.read("x\n" + rows, columns="z_m,qc_MPa,-,-")
         np.testing.assert_allclose(test.resistance, [0.5e6, 1e6, 2e6])
+        timed = "".join(f"10:20:0{i} 0,{i + 1} {i + 1},5 x\n" for i in range(9))
+        test = self.read("Test 1\n" + timed, columns="-,depth (m),qc (MPa),-")
+        np.testing.assert_allclose(test.resistance[:2], [1.5e6, 2.5e6])
         self.refused(rows, "'rubbish' is no column", columns="depth,rubbish")
         self.refused(GEF, "--columns is for tables; .* is GEF", columns="depth,qc")
 
