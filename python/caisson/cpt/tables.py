@@ -26,7 +26,7 @@ from caisson_design.correlations import (
     MODULUS,
     STRENGTH,
 )
-from caisson_design.ground import CLAY, CLAY_LIKE, DRAINED, OFFSET, SAND, SILT
+from caisson_design.ground import CLAY, CLAY_LIKE, DRAINED, OFFSET, SAND
 from caisson_design.ground import Ground, kind_of
 from caisson_design.interpretation import Interpretation
 
@@ -118,11 +118,10 @@ def signs(ground: Ground, number: int, layer: Layer) -> list[str]:
         text = " and ".join(why) or f"{of_index} is that of {own}"
         taken = f"layer {number} is taken as {layer.kind} by --soil; {text}"
         return [taken] if own != layer.kind else []
-    if own != by_index and (own, by_index) != (CLAY, SILT):  # silt is between
+    if own != by_index:
         return [
             f"layer {number} is taken as {own}, though {of_index} is that of"
-            f" {by_index}: {' and '.join(why)}; --soil {number}={by_index} overrules"
-            " this"
+            f" {by_index}: {' and '.join(why)}; --soil {number}={SAND} overrules this"
         ]
     measured = ground.pore_pressure is not None and not ground.has_offset
     if own == CLAY and measured and pressure < DRAINED / 2:
