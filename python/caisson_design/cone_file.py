@@ -135,9 +135,9 @@ def is_plain(path: Path, how: How = How()) -> bool:
 # --------------------------------------------------------------- the values
 
 
-def closing(path: Path, table: Table) -> Rows:
-    """Return the rows that are no text: lines without any number, as units or "End of
-    test", are left out. Raises InputError."""
+def rows_of_numbers(path: Path, table: Table) -> Rows:
+    """Return the rows without lines of text, as heads on a new page or "End of test",
+    which are named. Raises InputError."""
     places = [column.place for column in table.columns.values()]
 
     def is_text(cells: list[str]) -> bool:
@@ -173,13 +173,13 @@ def wrong_in(cells: list[str], has_points: bool) -> str:
         try:
             value_of(text)
         except ValueError:
-            return f"{text!r} is no number"
+            return f"{text!r} is no number; leave a cell empty that has no value"
     return ""
 
 
 def numbers_of(path: Path, table: Table) -> Readings:
     """Return the numbers of a table in m and Pa, nan for none. Raises InputError."""
-    rows = closing(path, table)
+    rows = rows_of_numbers(path, table)
     columns = table.columns.values()
     texts = [[cell_of(cells, column.place) for column in columns] for _, cells in rows]
     has_points = any("." in text for row in texts for text in row)

@@ -382,7 +382,7 @@ def bro(path: Path, lines: Sequence[str], wanted: Sequence[str], where: str) -> 
     except ElementTree.ParseError as error:
         raise InputError(f"{path} is no complete XML: {error}") from error
     tests = {}
-    for number, element in enumerate((e for e in root.iter() if tag_of(e) == "CPT_O")):
+    for number, element in enumerate(e for e in root.iter() if tag_of(e) == "CPT_O"):
         name = first_of(element, "broId")
         tests[str(number + 1) if name is None else name.text or ""] = element
     if not tests:

@@ -232,7 +232,8 @@ class Readings:
         self.refuse(
             back,
             lambda i: f"the depth of {depth[i]:g} m is not below that of the row"
-            f" before, {above[i - 1]:g} m",
+            f" before, {above[i - 1]:g} m; leave out the row that is wrong, or divide"
+            " a file of two tests",
         )
 
     def out_of_range(self, name: str, value: float) -> str:

@@ -246,6 +246,10 @@ class Bro(WithFiles):
         np.testing.assert_allclose(test.friction[-2:], [5e3, 20e3])
         np.testing.assert_allclose(test.pore_pressure[-2:], [6e3, 1.5 * 9.81e3])
         self.assertEqual((test.area_ratio, test.measured_from), (0.75, 0.62))
+        archived = self.text(*rows[:2], self.record(0.62, 1, 0.01, 0))
+        for z in ("1.5", "0.5", "0.62"):  # the length of the rods, and no depth
+            archived = archived.replace(f"{z},{z},", f"{z},-999999,")
+        np.testing.assert_allclose(self.read(archived).depth[-2:], [0.62, 1.5])
 
     def test_refusals(self) -> None:
         good = self.text(self.record(0.6, 1, 0.01, 0), self.record(0.7, 1, 0.01, 0))
