@@ -33,6 +33,7 @@ START = 0.5  # m; a first row that is deeper leaves soil of which nothing is kno
 FIRST = 0.5  # m of readings that tell of the soil above them
 DEEPEST = 200.0  # m
 FEW = 0.1  # of the rows may be left out where the cone met nothing
+ENOUGH = 0.2  # of the rows must have a friction or a pressure
 REPEATED, BACK = 0.02, 0.05  # of the rows that may go back, and how far (m)
 WIDEST_STEP = 0.1  # m between pushes; more is a gap
 GIVEN, ASSUMED = "GIVEN", "ASSUMED"  # how the soil above the first row is known
@@ -283,11 +284,15 @@ class Readings:
         self.values["fs"] = np.maximum(np.where(known, friction, share * tip), 0.0)
 
     def has_values(self, name: str) -> bool:
-        """Return whether a column has values; one without is left out, and said."""
-        if name in self.values and np.isnan(self.values[name]).all():
+        """Return whether a column has values in enough rows to tell of the others; one
+        that has not is left out, and said."""
+        if name not in self.values:
+            return False
+        number, rows = int(np.isfinite(self.values[name]).sum()), len(self.row)
+        if number < ENOUGH * rows:
             del self.values[name]
-            text = QUANTITIES[name].name
-            self.remarks.append(f"the column of {text} has no values")
+            some = f"values in only {number} of {rows} rows" if number else "no values"
+            self.remarks.append(f"the column of {QUANTITIES[name].name} has {some}")
         return name in self.values
 
     def complete_pressure(self) -> None:

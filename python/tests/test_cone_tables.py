@@ -228,6 +228,15 @@ class Rules(WithFiles):
         with self.assertRaisesRegex(InputError, r"row 2: .* \(199 more rows are wrong"):
             self.of(rows)
 
+    def test_friction_in_few_rows(self) -> None:
+        """It says nothing of the others."""
+        rows = self.rows()
+        for row in rows[20:]:
+            row[2] = -9999
+        test = self.of(rows)
+        self.assertIsNone(test.friction)
+        self.assertIn("friction has values in only 20 of 200 rows", str(test.remarks))
+
     def test_depths(self) -> None:
         """All of them negative; a few that repeat; a corrected one that is a level."""
         rows = self.rows()
