@@ -178,5 +178,6 @@ def table_of(
     """Return the table of a file. Raises InputError."""
     columns = columns_of(path, heads, rows, wanted, advice)
     places = {column.place for column in columns.values()}
-    unread = tuple(h.text for h in heads if h.place not in places and h.text)
+    unknown = [h for h in heads if h.place not in places and h.text]
+    unread = tuple(h.text for h in unknown if h.quantity in ("", *wanted))
     return Table(columns, rows, unread, units_are)

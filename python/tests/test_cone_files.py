@@ -182,8 +182,8 @@ class Command(WithFiles):
         group = '"GROUP","SCPG"\n"HEADING","LOCA_ID","SCPG_CAR"\n"DATA","CPT02","{}"\n'
         for text, words in (("0.6", "0.6, from the file"), ("59", "59, is not")):
             self.written(group.format(text) + self.deep())
-            for ratio, number in (([], 1), (["--area-ratio", "0.7"], 0)):
-                told = options("--location", "CPT02", *ratio)
+            for given, number in ((list[str](), 1), (["--area-ratio", "0.7"], 0)):
+                told = options("--location", "CPT02", *given)
                 remarks = interpretation.interpret(self.path, told).test.remarks
                 said = [r for r in remarks if "net area ratio of the cone:" in r]
                 self.assertEqual(len(said), number)
