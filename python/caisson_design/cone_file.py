@@ -135,32 +135,6 @@ def is_plain(path: Path, how: How = How()) -> bool:
 # --------------------------------------------------------------- the values
 
 
-def rows_of_numbers(path: Path, table: Table) -> Rows:
-    """Return the rows without lines of text, as heads on a new page or "End of test",
-    which are named. Raises InputError."""
-    places = [column.place for column in table.columns.values()]
-
-    def is_text(cells: list[str]) -> bool:
-        texts = [cell_of(cells, place) for place in places]
-        numbers = [text for text in texts if re.match(r"[+-]?[.,]?\d", text)]
-        return bool(any(texts)) and not numbers
-
-    words = [(row, cells) for row, cells in table.rows if is_text(cells)]
-    if words:
-        row, text = words[0][0], " ".join(words[0][1]).strip()
-        table.remarks.append(
-            f"lines of text between and below the rows, left out: {len(words)}, the"
-            f" first is row {row}, {text[:40]!r}"
-        )
-    kept = [(row, cells) for row, cells in table.rows if not is_text(cells)]
-    if len(kept) < 2:
-        raise InputError(
-            f"{path}: a cone test needs two rows with a depth and a cone resistance;"
-            f" there are {len(kept)}"
-        )
-    return kept
-
-
 def wrong_in(cells: list[str], has_points: bool) -> str:
     """Return what is wrong with the numbers of a row, "" for nothing. has_points:
     numbers of the file have a decimal point, so that a comma is none."""
@@ -175,6 +149,37 @@ def wrong_in(cells: list[str], has_points: bool) -> str:
         except ValueError:
             return f"{text!r} is no number; leave a cell empty that has no value"
     return ""
+
+
+def rows_of_numbers(path: Path, table: Table) -> Rows:
+    """Return the rows without lines of text, as heads on a new page or "End of test",
+    which are named. Raises InputError."""
+    places = [column.place for column in table.columns.values()]
+    depth = table.columns.get("depth") or table.columns["rods"]
+    depths = [cell_of(cells, depth.place) for _, cells in table.rows]
+    end = max((i for i, x in enumerate(depths) if cone_grid.is_number(x)), default=-1)
+
+    def is_text(i: int) -> bool:
+        texts = [cell_of(table.rows[i][1], place) for place in places]
+        if i > end and wrong_in(depths[i : i + 1], False):
+            return True
+        return any(texts) and not any(re.match(r"[+-]?[.,]?\d", x) for x in texts)
+
+    words = [i for i in range(len(table.rows)) if is_text(i)]
+    if words:
+        row, cells = table.rows[words[0]]
+        table.remarks.append(
+            f"lines of text between and below the rows, left out: {len(words)}, the"
+            f" first is row {row}, {' '.join(cells).strip()[:40]!r}"
+        )
+    left_out = set(words)
+    kept = [row for i, row in enumerate(table.rows) if i not in left_out]
+    if len(kept) < 2:
+        raise InputError(
+            f"{path}: a cone test needs two rows with a depth and a cone resistance;"
+            f" there are {len(kept)}"
+        )
+    return kept
 
 
 def numbers_of(path: Path, table: Table) -> Readings:

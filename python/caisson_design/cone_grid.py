@@ -204,6 +204,27 @@ def without_heads(path: Path, rows: Rows) -> InputError:
     )
 
 
+def with_meters(heads: Sequence[Head]) -> tuple[list[Head], list[str]]:
+    """Return the heads, depths without a unit in m, and in words that this is so."""
+    lengths = [h for h in heads if h.quantity in ("depth", "rods") and not h.unit]
+    found = [h._replace(unit="m") if h in lengths else h for h in heads]
+    return found, [f"ASSUMED: {head.text!r} is in m" for head in lengths]
+
+
+def refuse_wide(path: Path, rows: Rows, number: int, divider: str | None) -> None:
+    """Refuse rows with more cells than heads, as decimal commas make them. Raises
+    InputError."""
+    advice = "each column needs a head"
+    if divider == ",":
+        advice = "where numbers have commas, divide cells by semicolons"
+    wrong = [
+        (row, f"{len(cells)} cells, and {number} columns; {advice}")
+        for row, cells in rows
+        if any(cell_of(cells, i) for i in range(number, len(cells)))
+    ]
+    refuse(path, wrong)
+
+
 def table(
     path: Path, rows: Rows, divider: str | None, wanted: Sequence[str], columns: str
 ) -> Table:
@@ -226,20 +247,12 @@ def table(
         heads, begin, where = with_units(row, texts, below), place + 1, "the heads"
         units = [cell for cell in below if unit_in(cell) in EVERY_UNIT]
         begin += bool(units) and not any(map(is_number, below))
-    advice = "each column needs a head"
-    if divider == ",":
-        advice = "where numbers have commas, divide cells by semicolons"
-    refuse(
-        path,
-        [
-            (row, f"{len(cells)} cells, and {len(heads)} columns; {advice}")
-            for row, cells in rows[begin:]
-            if any(cell_of(cells, i) for i in range(len(heads), len(cells)))
-        ],
-    )
+    refuse_wide(path, rows[begin:], len(heads), divider)
     names = f"heads that are read are {EXAMPLE} and their like"
+    heads, said = with_meters(heads)
     found = table_of(path, heads, rows[begin:], wanted, where, names)
     found.facts, found.remarks = facts_of(rows[: begin if columns else place])
+    found.remarks += said
     if columns and not all(head_of(c.text)[1] for c in found.columns.values()):
         found.remarks.append(
             "ASSUMED: units of --columns that has none: m, q_c in MPa, f_s and u_2 in"

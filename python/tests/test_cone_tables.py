@@ -79,7 +79,7 @@ class Tables(WithFiles):
 
     def test_lines_above_and_below(self) -> None:
         """What they say of the test is used or named."""
-        rows = "0.5,1,5,0\n1.5,1,5,9\n2,4,,\n2.5,,5,9\n3,4,20,9\nEnd of test,,,\n"
+        rows = "0.5,1,5,0\n1.5,1,5,9\n2,4,,\n2.5,,5,9\n3,4,20,9\nEnd of test,20.3 m,,\n"
         head = "Depth (m),qc (MPa),fs (kPa),u2 (kPa)\n"
         above = (
             "Contractor:,X,,\nAssumed GWL:,1.2,,\naratio,0.8,,\nPre-Drill:,1.2 m,,\n"
@@ -92,7 +92,7 @@ class Tables(WithFiles):
         np.testing.assert_allclose(test.friction[-3:], [5e3, 20e3, 20e3])
         for words in (
             "above the heads that were not read: 1",
-            "row 12, 'End of test'",
+            "row 12, 'End of test 20.3 m'",
             "above the pre-excavated depth of 1.2 m, left out: 1",
             "water level of the file, 1.2 m, is not used",
             "without a depth or a cone resistance, left out: 1",
@@ -122,6 +122,8 @@ class Tables(WithFiles):
             np.testing.assert_allclose(test.depth, [0.2, 1.5], err_msg=text)
             np.testing.assert_allclose(test.resistance, [1e6, 4e6], err_msg=text)
             self.assertEqual(test.is_corrected, "qt" in text)
+        no_unit = self.read("Depth,qc_MPa\n0.2,1\n1.5,4\n")
+        self.assertIn("ASSUMED: 'Depth' is in m", str(no_unit.remarks))
         both = "depth_m,qc_MPa,qt_MPa\n0.2,1,2\n1.5,4,5\n"
         self.assertEqual(self.read(both).resistance[0], 1e6)
         ratio = "depth_m,qc_MPa,Sleeve friction ratio (MPa)\n0.2,1,2\n1.5,4,5\n"
