@@ -22,6 +22,7 @@ from caisson_design.quantity import parts_of
 from caisson_design.quantity import value_of as quantity_of
 
 EVERY = ("depth", "qc", "fs", "u2")
+ARCHIVE = b"PK\x03\x04"  # a workbook begins with
 
 
 class Test(NamedTuple):
@@ -56,13 +57,19 @@ class Test(NamedTuple):
 # ---------------------------------------------------------------- the table
 
 
-def lines_of(path: Path) -> list[str]:
-    """Return the printable lines of a file of text: in UTF-8, or as Western European
-    programs write it. Raises InputError."""
+def content_of(path: Path) -> bytes:
+    """Return what is in a file. Raises InputError."""
+    if path.is_char_device():
+        raise InputError(f"{path} cannot be read as a cone test: it is a device")
     try:
-        content = path.read_bytes()
+        return path.read_bytes()
     except OSError as error:
         raise InputError(f"{path} cannot be read as a cone test: {error}") from error
+
+
+def lines_of(path: Path, content: bytes) -> list[str]:
+    """Return the printable lines of a text: in UTF-8, or as Western European programs
+    write it. Raises InputError."""
     if content.startswith(b"\xd0\xcf\x11\xe0"):
         raise InputError(
             f"{path} is a workbook of an old form (.xls): save it as .xlsx or CSV"
@@ -79,15 +86,6 @@ def lines_of(path: Path) -> list[str]:
     return [printable(line) for line in text.splitlines()]
 
 
-def is_workbook(path: Path) -> bool:
-    """Return whether a file is a workbook, or another archive."""
-    try:
-        with path.open("rb") as file:
-            return file.read(4) == b"PK\x03\x04"
-    except OSError as error:
-        raise InputError(f"{path} cannot be read as a cone test: {error}") from error
-
-
 def refuse_options(path: Path, how: How, allowed: str, form: str) -> None:
     """Refuse options that do not belong to the form of a file. Raises InputError."""
     for name in ("location", "sheet", "columns"):
@@ -100,11 +98,12 @@ def refuse_options(path: Path, how: How, allowed: str, form: str) -> None:
 
 def table_of(path: Path, wanted: list[str], how: How) -> Table:
     """Return the table of a file. Raises InputError."""
-    if is_workbook(path):
+    content = content_of(path)
+    if content.startswith(ARCHIVE):
         refuse_options(path, how, "sheet columns", "a workbook")
         rows = cone_grid.grid_of_workbook(path, how.sheet, bool(how.columns))
         return cone_grid.table(path, rows, None, wanted, how.columns)
-    lines = lines_of(path)
+    lines = lines_of(path, content)
     if cone_formats.is_ags(lines):
         refuse_options(path, how, "location", "AGS 4")
         return cone_formats.ags(path, lines, wanted, how.location)
@@ -122,14 +121,14 @@ def table_of(path: Path, wanted: list[str], how: How) -> Table:
 def is_plain(path: Path, how: How = How()) -> bool:
     """Return whether a file is a table of text that begins with its heads, so that any
     command reads it without an option."""
-    if how.is_said or is_workbook(path):
+    content = content_of(path)
+    if how.is_said or content.startswith(ARCHIVE):
         return False
-    lines = lines_of(path)
-    if any(form(lines) for form in (cone_formats.is_ags, cone_formats.is_xml)):
+    lines = lines_of(path, content)
+    forms = cone_formats.is_ags, cone_formats.is_xml, cone_formats.is_gef
+    if any(form(lines) for form in forms):
         return False
-    return not cone_formats.is_gef(lines) and (
-        cone_grid.heads_in(cone_grid.grid_of_text(lines)[0]) == 0
-    )
+    return cone_grid.heads_in(cone_grid.grid_of_text(lines)[0]) == 0
 
 
 # --------------------------------------------------------------- the values

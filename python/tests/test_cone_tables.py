@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cone tests as tables of other countries, as workbooks, and the rules for any rows."""
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -76,6 +77,8 @@ class Tables(WithFiles):
             self.path.write_bytes(content)
             with self.assertRaisesRegex(InputError, words):
                 cone_file.read(self.path)
+        with self.assertRaisesRegex(InputError, "it is a device"):
+            cone_file.read(Path("/dev/zero"))
 
     def test_lines_above_and_below(self) -> None:
         """What they say of the test is used or named."""
