@@ -21,7 +21,7 @@ FILES: dict[str, str | tuple[str, ...]] = {
     "run": ".prm",
     "suggest": ".prm",
     "study": ".toml",
-    "cpt": (".csv", ".ags", ".gef"),
+    "cpt": (".csv", ".ags", ".gef", ".xml", ".xlsx", ".txt"),
 }
 Commands = Mapping[str, tuple[str, str]]
 

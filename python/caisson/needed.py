@@ -23,6 +23,8 @@ MODULES = {
 }
 # of tables in Python (caisson.load), which no command needs
 TABLES = {"pandas": "python3-pandas"}
+# of cone tests in workbooks (.xlsx), without which all else works
+WORKBOOKS = {"openpyxl": "python3-openpyxl"}
 JAVASCRIPT = Path("/usr/share/javascript")
 # of a report, which has a copy of them
 SCRIPTS = {
@@ -63,5 +65,6 @@ def complaint() -> str:
 
 
 if __name__ == "__main__":
-    for package in sorted(set(missing().values())):
+    workbooks = {m: package for m, package in WORKBOOKS.items() if not is_there(m)}
+    for package in sorted({*missing().values(), *workbooks.values()}):
         print(package)

@@ -24,6 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from caisson_design import InputError, cone_file
+from caisson_design.cone_options import How
 from caisson_design.method import Forces
 
 NAME = "cone.csv"  # of the test in the directory of a run
@@ -144,18 +145,19 @@ def read(path: Path) -> Profile:
     return Profile(test.depth.tolist(), test.resistance.tolist())
 
 
-def adopt(path: Path, directory: Path, location: str = "") -> None:
-    """Copy a test into the directory of a run, where pictures and report find it; AGS
-    and GEF become a table. location: which one of a file of AGS. Raises InputError
-    where it cannot be read."""
-    test = cone_file.read(path, with_friction=False, location=location)
+def adopt(path: Path, directory: Path, how: How = How()) -> tuple[str, ...]:
+    """Keep a test in the directory of a run, where pictures and report find it: as it
+    is, or as a table if it is none with heads. how: what options say of the file.
+    Return in words what was made of it. Raises InputError where it cannot be read."""
+    test = cone_file.read(path, with_friction=False, how=how)
     if not directory.is_dir():
         raise InputError(f"no directory {directory}")
     target = directory / NAME
-    if not cone_file.is_a_table(path):
+    if not cone_file.is_plain(path, how):
         cone_file.write(target, test)
     elif not (target.exists() and target.samefile(path)):
         shutil.copyfile(path, target)
+    return test.remarks
 
 
 def of_run(directory: Path) -> Profile | None:

@@ -45,8 +45,7 @@ HAS = {
 }
 CAN = {
     SAND: "drained, or with seepage under suction",
-    SILT: "drains in part: Water/Level = coupled, or between drained (friction angle)"
-    " and undrained (s_u as cohesion, no friction)",
+    SILT: "drains in part: --soil takes it as sand, drained, or as clay, undrained",
     CLAY: "undrained: s_u as cohesion, no friction angle",
 }
 

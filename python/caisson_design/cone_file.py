@@ -1,38 +1,36 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Files of cone penetration tests: the only reader of them.
+"""Files of cone penetration tests: the only reader of them, with one set of rules.
 
-A file is a table of text (caisson_design.cone_csv), AGS 4 (cone_ags) or GEF (cone_gef),
-which its content tells and not its name. Numbers have a decimal point, or all of them a
-decimal comma. What is wrong is reported for each row.
+A file is GEF, AGS 4 or BRO-XML (caisson_design.cone_formats), a table of text or a
+workbook (cone_grid), which its content tells and not its name. Numbers have a decimal
+point, or all of them a decimal comma. What a cone cannot have measured is left out and
+counted where it is little, and refused in a line where it is much.
 """
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from math import isfinite, nan
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from caisson_design import InputError, cone_ags, cone_csv, cone_gef
-from caisson_design.cone_table import NAMES, NEEDED, UNITS, Column, Table, refuse
+from caisson_design import InputError, cone_formats, cone_grid, printable
+from caisson_design.cone_options import How
+from caisson_design.cone_rules import RANGES, Readings
+from caisson_design.cone_table import Rows, Table, cell_of, refuse, value_of
+from caisson_design.cone_table import COMMA
+from caisson_design.cone_words import NEEDED, QUANTITIES
+from caisson_design.quantity import parts_of
+from caisson_design.quantity import value_of as quantity_of
 
-# Pa; more and less than any test has
-RANGES = {"qc": (0.0, 200e6), "fs": (0.0, 5e6), "u2": (-0.5e6, 20e6)}
-WEAKEST = 20e3  # Pa; the largest resistance of a test is more
-WEAK = 200e3  # Pa; less is doubtful
-THOUSANDS = re.compile(r"[1-9]\d{0,2}([.,])\d{3}")  # 1,424 for 1424
-WATER = 9.81e3  # N/m3, unit weight
-SMOOTHEST = 2e-4  # f_s / q_c; the median of a test is more
-HIGHEST_START = 1.0  # m, of the first row
-DEEPEST = 200.0  # m
-COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")  # a number with a decimal comma
+EVERY = ("depth", "qc", "fs", "u2")
+ARCHIVE = b"PK\x03\x04"  # a workbook begins with
 
 
 class Test(NamedTuple):
     """A test: depth (m), cone resistance, sleeve friction and pore pressure (Pa), [n]
-    each, the last two None where the file has none; what was not read, in words; and
-    the net area ratio of the cone, None where the file has none."""
+    each, the last two None where the file has none; what was not read, in words; the
+    net area ratio of the cone, None where the file has none; the depth (m) above which
+    rows were not measured, with how they are known ("ASSUMED" or "GIVEN"); and whether
+    the resistance is q_t, which has the pore pressure in it."""
 
     depth: np.ndarray
     resistance: np.ndarray
@@ -40,6 +38,9 @@ class Test(NamedTuple):
     pore_pressure: np.ndarray | None
     remarks: tuple[str, ...]
     area_ratio: float | None = None
+    measured_from: float = 0.0
+    above: str = ""
+    is_corrected: bool = False
 
     def down_to(self, deepest: float) -> "Test":
         """Return the rows down to a depth (m), at least two."""
@@ -53,273 +54,217 @@ class Test(NamedTuple):
         )
 
 
-def number_of(text: str, unit: float, has_points: bool) -> float:
-    """Return a cell in m or Pa. has_points: numbers of the file have a decimal point,
-    so that a comma is none. Raises ValueError with what is wrong."""
-    if COMMA.fullmatch(text):
-        if has_points:
-            raise ValueError(
-                f"{text!r} has a comma where other rows have a decimal point; write all"
-                " numbers with a point"
-            )
-        text = text.replace(",", ".")
+# ---------------------------------------------------------------- the table
+
+
+def content_of(path: Path) -> bytes:
+    """Return what is in a file. Raises InputError."""
+    if path.is_char_device():
+        raise InputError(f"{path} cannot be read as a cone test: it is a device")
     try:
-        value = float(text)
-    except ValueError:
-        value = nan
-    if not isfinite(value):
-        raise ValueError(f"{text!r} is no number; leave out rows without one")
-    return value * unit
-
-
-def check_depth(z: float, above: float | None) -> None:
-    """Refuse a depth that cannot be meant. above: that of the row before, None for the
-    first, nan where all before are wrong. Raises ValueError."""
-    if above is None and z < 0:
-        raise ValueError(
-            f"the test begins at a depth of {z:g} m; depth must be positive downward,"
-            " from 0 at the mudline"
-        )
-    if above is None and z > HIGHEST_START:
-        raise ValueError(
-            f"the test begins at a depth of {z:g} m, so that nothing is known of the"
-            " soil above, as after predrilling. The first row must be"
-            f" {HIGHEST_START:g} m deep or less: add rows above it with the cone"
-            " resistance to be expected there"
-        )
-    if above is not None and z <= above:
-        raise ValueError(
-            f"the depth of {z:g} m is not below that of the row before, {above:g} m"
-        )
-    if z > DEEPEST:
-        raise ValueError(f"a depth of {z:g} m is no length in meters of a cone test")
-
-
-def check_stresses(values: Mapping[str, float], units_are: str) -> None:
-    """Refuse stresses (Pa) that cannot be meant. units_are: where the units stand.
-    Raises ValueError."""
-    for quantity, (low, high) in RANGES.items():
-        value = values.get(quantity, low)
-        if not low <= value <= high:
-            raise ValueError(
-                f"the {NAMES[quantity]} is {value / 1e6:g} MPa, which is not between"
-                f" {low / 1e6:g} and {high / 1e6:g} MPa; check the unit in"
-                f" {units_are}"
-            )
-    friction = values.get("fs", 0.0)
-    if friction > values["qc"]:
-        raise ValueError(
-            f"the sleeve friction of {friction / 1e3:g} kPa is more than the cone"
-            f" resistance of {values['qc'] / 1e3:g} kPa; check both units in"
-            f" {units_are}"
-        )
-
-
-def check_friction(path: Path, friction: np.ndarray, resistance: np.ndarray) -> None:
-    """Refuse a sleeve friction (Pa) [n] that is 0, or in another unit than its column
-    says. Raises InputError."""
-    ratio = float(np.median(friction / np.maximum(resistance, 1.0)))
-    if ratio < SMOOTHEST:
-        raise InputError(
-            f"{path}: the sleeve friction is {100 * ratio:.2g} % of the cone resistance"
-            " in the median, less than in any soil; check its unit, or leave the column"
-            " out and give --soil and --unit-weight"
-        )
-
-
-def row_of(
-    cells: Sequence[str], table: Table, above: float | None, has_points: bool
-) -> dict[str, float]:
-    """Return the values of a row in m and Pa. Raises ValueError."""
-    if any(cell.strip() for cell in cells[table.n_cells :]):
-        raise ValueError(
-            f"{len(cells)} cells, and {table.n_cells} columns; {table.advice}"
-        )
-    values = {
-        name: number_of(cell_of(cells, column), column.unit, has_points)
-        for name, column in table.columns.items()
-        if not (table.may_be_empty and name == "u2" and not cell_of(cells, column))
-    }
-    check_depth(values["depth"], above)
-    check_stresses(values, table.units_are)
-    return values
-
-
-def cell_of(cells: Sequence[str], column: Column) -> str:
-    """Return the text of a cell, "" for none."""
-    return cells[column.place].strip() if column.place < len(cells) else ""
-
-
-def lines_of(path: Path) -> list[str]:
-    """Return the lines of a file: in UTF-8, or as Western European programs write it.
-    Raises InputError."""
-    try:
-        content = path.read_bytes()
+        return path.read_bytes()
     except OSError as error:
         raise InputError(f"{path} cannot be read as a cone test: {error}") from error
-    if content.startswith(b"PK") or b"\0" in content:
+
+
+def lines_of(path: Path, content: bytes) -> list[str]:
+    """Return the printable lines of a text: in UTF-8, or as Western European programs
+    write it. Raises InputError."""
+    if content.startswith(b"\xd0\xcf\x11\xe0"):
+        raise InputError(
+            f"{path} is a workbook of an old form (.xls): save it as .xlsx or CSV"
+        )
+    if b"\0" in content:
         raise InputError(
             f"{path} cannot be read as a cone test: it is no text, or in UTF-16; save"
             " it as CSV in UTF-8"
         )
     try:
-        return content.decode("utf-8-sig").splitlines()
+        text = content.decode("utf-8-sig")
     except UnicodeDecodeError:
-        return content.decode("latin-1").splitlines()
+        text = content.decode("latin-1")
+    return [printable(line) for line in text.splitlines()]
 
 
-def table_of(path: Path, wanted: Sequence[str], location: str) -> Table:
-    """Return the table of a file; location: of the test, where a file has several.
-    Raises InputError."""
-    lines = lines_of(path)
-    if cone_ags.is_in(lines):
-        return cone_ags.table_of(path, lines, wanted, location)
-    if location:
-        raise InputError(f"--location is for AGS 4, which {path} is not")
-    if cone_gef.is_in(lines):
-        return cone_gef.table_of(path, lines, wanted)
-    return cone_csv.table_of(path, lines, wanted)
+def refuse_options(path: Path, how: How, allowed: str, form: str) -> None:
+    """Refuse options that do not belong to the form of a file. Raises InputError."""
+    for name in ("location", "sheet", "columns"):
+        if getattr(how, name) and name not in allowed:
+            of = {"location": "AGS 4 and BRO-XML", "sheet": "workbooks (.xlsx)"}
+            raise InputError(
+                f"--{name} is for {of.get(name, 'tables')}; {path} is {form}"
+            )
 
 
-def is_a_table(path: Path) -> bool:
-    """Return whether a file is a table of text, and not AGS or GEF."""
-    lines = lines_of(path)
-    return not (cone_ags.is_in(lines) or cone_gef.is_in(lines))
+def table_of(path: Path, wanted: list[str], how: How) -> Table:
+    """Return the table of a file. Raises InputError."""
+    content = content_of(path)
+    if content.startswith(ARCHIVE):
+        refuse_options(path, how, "sheet columns", "a workbook")
+        rows = cone_grid.grid_of_workbook(path, how.sheet, bool(how.columns))
+        return cone_grid.table(path, rows, None, wanted, how.columns)
+    lines = lines_of(path, content)
+    if cone_formats.is_ags(lines):
+        refuse_options(path, how, "location", "AGS 4")
+        return cone_formats.ags(path, lines, wanted, how.location)
+    if cone_formats.is_xml(lines):
+        refuse_options(path, how, "location", "XML")
+        return cone_formats.bro(path, lines, wanted, how.location)
+    if cone_formats.is_gef(lines):
+        refuse_options(path, how, "", "GEF")
+        return cone_formats.gef(path, lines, wanted)
+    refuse_options(path, how, "columns", "a table of text")
+    grid, divider = cone_grid.grid_of_text(lines)
+    return cone_grid.table(path, grid, divider, wanted, how.columns)
 
 
-def with_values(path: Path, table: Table) -> tuple[Table, tuple[str, ...]]:
-    """Return the rows and columns that have values, and in words those without any:
-    cells may be empty in AGS and GEF. Raises InputError."""
-    if not table.may_be_empty:
-        return table, ()
-    short = [(row, cells) for row, cells in table.rows if len(cells) < table.n_cells]
-    refuse(
-        path, [(n, f"{len(c)} cells, and {table.n_cells} columns") for n, c in short]
-    )
-    columns = {
-        name: column
-        for name, column in table.columns.items()
-        if name in NEEDED or any(cell_of(cells, column) for _, cells in table.rows)
-    }
-    full: list[tuple[int, list[str]]] = []
-    empty: list[tuple[int, list[str]]] = []
-    for row, cells in table.rows:
-        is_full = all(cell_of(cells, c) for name, c in columns.items() if name != "u2")
-        (full if is_full else empty).append((row, cells))
-    if len(full) < 2:
+def is_plain(path: Path, how: How = How()) -> bool:
+    """Return whether a file is a table of text that begins with its heads, so that any
+    command reads it without an option."""
+    content = content_of(path)
+    if how.is_said or content.startswith(ARCHIVE):
+        return False
+    lines = lines_of(path, content)
+    forms = cone_formats.is_ags, cone_formats.is_xml, cone_formats.is_gef
+    if any(form(lines) for form in forms):
+        return False
+    return cone_grid.heads_in(cone_grid.grid_of_text(lines)[0]) == 0
+
+
+# --------------------------------------------------------------- the values
+
+
+def wrong_in(cells: list[str], has_points: bool) -> str:
+    """Return what is wrong with the numbers of a row, "" for nothing. has_points:
+    numbers of the file have a decimal point, so that a comma is none."""
+    for text in cells:
+        if has_points and COMMA.fullmatch(text):
+            return (
+                f"{text!r} has a comma where other rows have a decimal point; write all"
+                " numbers with a point"
+            )
+        try:
+            value_of(text)
+        except ValueError:
+            return f"{text!r} is no number; leave a cell empty that has no value"
+    return ""
+
+
+def rows_of_numbers(path: Path, table: Table) -> Rows:
+    """Return the rows without lines of text, as heads on a new page or "End of test",
+    which are named. Raises InputError."""
+    places = [column.place for column in table.columns.values()]
+    depth = table.columns.get("depth") or table.columns["rods"]
+    depths = [cell_of(cells, depth.place) for _, cells in table.rows]
+    end = max((i for i, x in enumerate(depths) if cone_grid.is_number(x)), default=-1)
+
+    def is_text(i: int) -> bool:
+        texts = [cell_of(table.rows[i][1], place) for place in places]
+        if i > end and wrong_in(depths[i : i + 1], False):
+            return True
+        return any(texts) and not any(re.match(r"[+-]?[.,]?\d", x) for x in texts)
+
+    words = [i for i in range(len(table.rows)) if is_text(i)]
+    if words:
+        row, cells = table.rows[words[0]]
+        table.remarks.append(
+            f"lines of text between and below the rows, left out: {len(words)}, the"
+            f" first is row {row}, {' '.join(cells).strip()[:40]!r}"
+        )
+    left_out = set(words)
+    kept = [row for i, row in enumerate(table.rows) if i not in left_out]
+    if len(kept) < 2:
         raise InputError(
             f"{path}: a cone test needs two rows with a depth and a cone resistance;"
-            f" there are {len(full)}"
+            f" there are {len(kept)}"
         )
-    found = [
-        f"the column of {NAMES[name]} has no values"
-        for name in table.columns
-        if name not in columns
+    return kept
+
+
+def numbers_of(path: Path, table: Table) -> Readings:
+    """Return the numbers of a table in m and Pa, nan for none. Raises InputError."""
+    rows = rows_of_numbers(path, table)
+    columns = table.columns.values()
+    texts = [[cell_of(cells, column.place) for column in columns] for _, cells in rows]
+    has_points = any("." in text for row in texts for text in row)
+    wrong = [
+        (row, why)
+        for (row, _), cells in zip(rows, texts)
+        if (why := wrong_in(cells, has_points))
     ]
-    if empty:
-        text = ", ".join(str(row) for row, _ in empty[:5])
-        found.append(
-            f"rows without a value, which were left out: {len(empty)}, those of number"
-            f" {text}{', ...' if len(empty) > 5 else ''}"
-        )
-    return replace(table, columns=columns, rows=full), tuple(found)
-
-
-def refuse_thousands(path: Path, table: Table, largest: float) -> None:
-    """Refuse cone resistances that are thousands with separators, which would be read
-    as decimals. largest: of all (Pa), as read. Raises InputError."""
-    column = table.columns["qc"]
-    cells = [(row, cell_of(row_cells, column)) for row, row_cells in table.rows]
-    divided = [(row, text) for row, text in cells if re.search("[.,]", text)]
-    if column.unit >= 1e6 or not divided:
-        return
-    if not all(THOUSANDS.fullmatch(text) for _, text in divided):
-        return
-    has_hundreds = any(re.fullmatch(r"\d{3}", text) for _, text in cells)
-    most = max(float(text.replace(",", ".")) for _, text in divided) * column.unit
-    if most < WEAK and (largest < WEAK or has_hundreds):
-        row, text = divided[0]
-        raise InputError(
-            f"{path}, row {row}: the cone resistance {text!r} seems to have a separator"
-            f" of thousands, with which the largest one is {largest / 1e3:g} kPa: write"
-            f" {re.sub('[.,]', '', text)}; if decimals are meant, write the column in"
-            f" MPa. The unit is that in {table.units_are}"
-        )
-
-
-def with_hydrostatic(
-    depth: np.ndarray, pressure: np.ndarray
-) -> tuple[np.ndarray, tuple[str, ...]]:
-    """Return the pore pressure (Pa) [n], hydrostatic where it is nan, and in words how
-    often it is."""
-    missing = np.isnan(pressure)
-    if not missing.any():
-        return pressure, ()
-    return np.where(missing, WATER * depth, pressure), (
-        f"rows without a pore pressure, which is taken as hydrostatic there:"
-        f" {missing.sum()}, the first at {depth[missing][0]:g} m",
-    )
-
-
-def read(path: Path, with_friction: bool = True, location: str = "") -> Test:
-    """Return the test of a file; location: which one of a file of AGS. Without friction
-    only depth and q_c are read, and nothing else is looked at. Raises InputError, with
-    the rows."""
-    wanted = list(UNITS) if with_friction else list(NEEDED)
-    table, remarks = with_values(path, table_of(path, wanted, location))
-    texts = [cell_of(row, c) for _, row in table.rows for c in table.columns.values()]
-    has_points = any("." in text for text in texts)
-    found: dict[str, list[float]] = {name: [] for name in table.columns}
-    wrong = []
-    for place, (row, cells) in enumerate(table.rows):
-        above = found["depth"][-1] if found["depth"] else nan if place else None
-        try:
-            values = row_of(cells, table, above, has_points)
-        except ValueError as error:
-            wrong.append((row, str(error)))
-            continue
-        for name, of_all in found.items():
-            of_all.append(values.get(name, nan))
     refuse(path, wrong)
-    arrays = {name: np.array(values) for name, values in found.items()}
-    largest = float(arrays["qc"].max())
-    refuse_thousands(path, table, largest)
-    if largest < WEAKEST:
+    values = [[value_of(text) for text in cells] for cells in texts]
+    with np.errstate(over="ignore"):  # what is too large is refused in a moment
+        array = np.array(values) * [column.unit for column in columns]
+    number = np.array([row for row, _ in rows])
+    pushes = np.zeros(len(rows), dtype=int)
+    if table.pushes:
+        names = list(dict.fromkeys(table.pushes))
+        by_row = dict(zip((row for row, _ in table.rows), table.pushes))
+        pushes = np.array([names.index(by_row[row]) for row, _ in rows])
+    return Readings(path, table, number, dict(zip(table.columns, array.T)), pushes)
+
+
+def above_of(text: str) -> dict[str, float]:
+    """Return the values (Pa) that --above gives. Raises InputError."""
+    found: dict[str, float] = {}
+    try:
+        for part in parts_of(text):
+            name, _, value = (word.strip() for word in part.partition("="))
+            if name not in ("qc", "fs") or name in found:
+                raise ValueError(f"{name!r} is neither qc nor fs")
+            found[name] = quantity_of(value, "Pa")
+            if not 0 <= found[name] <= RANGES[name][1]:
+                raise ValueError(f"{value!r} is no {QUANTITIES[name].name}")
+        if text and "qc" not in found:
+            raise ValueError("qc is missing")
+    except ValueError as error:
         raise InputError(
-            f"{path}: the largest cone resistance is {largest:g} Pa, less than any soil"
-            f" has; check the unit in {table.units_are}"
-        )
-    if largest < WEAK:
-        remarks += (
-            f"the largest cone resistance is only {largest / 1e3:g} kPa: check the unit"
-            f" in {table.units_are}",
-        )
-    if "fs" in arrays:
-        check_friction(path, arrays["fs"], arrays["qc"])
-    if "u2" in arrays:
-        arrays["u2"], said = with_hydrostatic(arrays["depth"], arrays["u2"])
-        remarks += said
-    if table.unread:
-        remarks += (f"columns that were not read: {', '.join(table.unread)}",)
+            f'--above {text!r}: {error}; write --above "qc = 2 MPa, fs = 20 kPa"'
+        ) from error
+    return found
+
+
+def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
+    """Return the test of a file. Without friction only depth and q_c are read, and
+    nothing else is looked at. Raises InputError, with the row."""
+    table = table_of(path, list(EVERY if with_friction else NEEDED), how)
+    found = numbers_of(path, table)
+    found.check_units()
+    found.make_depths()
+    found.join_pushes()
+    found.leave_out_hole()
+    found.leave_out_no_load()
+    found.check_order()
+    found.check_ranges()
+    found.complete_friction()
+    found.complete_pressure()
+    start, above = found.reach_up(above_of(how.above))
+    found.say_rest()
+    values = found.values
     return Test(
-        arrays["depth"],
-        arrays["qc"],
-        arrays.get("fs"),
-        arrays.get("u2"),
-        remarks,
-        table.area_ratio,
+        values["depth"],
+        values["qt" if "qt" in values else "qc"],
+        values.get("fs"),
+        values.get("u2"),
+        tuple(found.remarks),
+        table.facts.area_ratio,
+        start,
+        above,
+        "qt" in values,
     )
 
 
 def write(path: Path, test: Test) -> Path:
-    """Write a test as a table of text."""
+    """Write a test as a table of text, with nothing that needs an option."""
+    head = "qt_kPa" if test.is_corrected else "qc_kPa"
     columns = {
         "depth_m": test.depth,
-        "qc_kPa": test.resistance / 1e3,
+        head: test.resistance / 1e3,
         "fs_kPa": None if test.friction is None else test.friction / 1e3,
         "u2_kPa": None if test.pore_pressure is None else test.pore_pressure / 1e3,
     }
-    there = {head: values for head, values in columns.items() if values is not None}
+    there = {name: values for name, values in columns.items() if values is not None}
     rows = [",".join(f"{x:.8g}" for x in row) for row in zip(*there.values())]
     path.write_text("\n".join([",".join(there), *rows, ""]), encoding="utf-8")
     return path

@@ -1,89 +1,183 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the files of cone penetration tests have in common: a table whose columns are
-quantities with units."""
+"""What a file of a cone penetration test comes to in any format: rows of text, and
+columns that are quantities with units."""
 import re
-import unicodedata
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from math import isfinite, nan
 from pathlib import Path
 from typing import NamedTuple
 
 from caisson_design import InputError
+from caisson_design.cone_words import INSTEAD, LENGTH, NEEDED, QUANTITIES, unit_in
 
-LENGTH = {"m": 1.0, "meter": 1.0, "metre": 1.0, "cm": 1e-2, "mm": 1e-3}
-STRESS = {
-    **dict.fromkeys(("pa", "n/m2"), 1.0),
-    **dict.fromkeys(("kpa", "kn/m2"), 1e3),
-    **dict.fromkeys(("mpa", "mn/m2", "n/mm2"), 1e6),
-    "bar": 1e5,
-}
-UNITS: dict[str, Mapping[str, float]] = {
-    "depth": LENGTH,
-    "qc": STRESS,
-    "fs": STRESS,
-    "u2": STRESS,
-}
-NAMES = {
-    "depth": "depth",
-    "qc": "cone resistance",
-    "fs": "sleeve friction",
-    "u2": "pore pressure",
-}
-NEEDED = ("depth", "qc")
-MOST = 10  # rows that a message names
+EMPTY = frozenset(("", "-", "--", "n/a", "#n/a", "na", "nan", "none", "null", "void"))
+# what programs write where nothing was measured; no cone measures it in any unit
+STRESSES = "Pa, kPa, MPa, kN/m2, MN/m2, N/mm2 and bar"
+VOIDS = frozenset((-999.0, -999.25, -9999.0, -99999.0, -999999.0, -32768.0))
+COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")  # a number with a decimal comma
+Rows = list[tuple[int, list[str]]]  # the number of a row in the file, and its cells
+
+
+class Head(NamedTuple):
+    """A column as the file has it: its place, its name there, the quantity that this
+    means ("" for none), its unit as written, and the row that says so."""
+
+    place: int
+    text: str
+    quantity: str
+    unit: str
+    row: int
 
 
 class Column(NamedTuple):
-    """Where a quantity is, and its unit in m or Pa."""
+    """Where a quantity is, its unit in m or Pa, and its name in the file."""
 
     place: int
     unit: float
+    text: str
 
 
-@dataclass(frozen=True)
+class Facts(NamedTuple):
+    """What a file says of the whole test: the net area ratio of the cone, and depths
+    (m) of a hole above the test and of the water; None where it says nothing."""
+
+    area_ratio: float | None = None
+    predrilled: float | None = None
+    water: float | None = None
+
+
+@dataclass
 class Table:
-    """The rows of a test with their numbers in the file, and the columns by quantity.
+    """The rows of a test, and its columns by quantity.
 
-    n_cells: of a row; unread: heads that were not read; units_are: where the units
-    stand; advice: for a row with more cells; may_be_empty: whether a cell without a
-    value is no mistake; area_ratio: of the cone, net, where the file has one.
+    unread: heads that were not read; units_are: where the units stand; pushes: the name
+    of the push of each row, where a test has several; is_sorted: whether the order of
+    the rows is that of the depths.
     """
 
     columns: Mapping[str, Column]
-    rows: Sequence[tuple[int, list[str]]]
-    n_cells: int
+    rows: Rows
     unread: tuple[str, ...]
     units_are: str
-    advice: str
-    may_be_empty: bool = False
-    area_ratio: float | None = None
+    facts: Facts = Facts()
+    remarks: list[str] = field(default_factory=list)
+    pushes: list[str] = field(default_factory=list)
+    is_sorted: bool = True
 
 
-def plain(text: str) -> str:
-    """Return a text in small letters, without accents and powers: mn/m2 of MN/m²."""
-    letters = unicodedata.normalize("NFKD", text.casefold())
-    return "".join(c for c in letters if not unicodedata.combining(c) and c != "^")
+def cell_of(cells: Sequence[str], place: int) -> str:
+    """Return the text of a cell, "" for none."""
+    text = cells[place].strip() if place < len(cells) else ""
+    return "" if text.casefold() in EMPTY else text
 
 
-def unit_of(path: Path, row: int, head: str, quantity: str, text: str) -> float:
-    """Return a unit in m or Pa. Raises InputError."""
-    units = UNITS[quantity]
-    word = re.sub(r"\s", "", plain(text))
-    if word not in units:
-        raise InputError(
-            f"{path}, row {row}: the unit {text!r} of {head}, the {NAMES[quantity]}, is"
-            f" not known; known are {', '.join(units)}"
-        )
-    return units[word]
+def value_of(text: str) -> float:
+    """Return a number with a decimal point or comma, nan of an empty cell and of one
+    that stands for no value. Raises ValueError."""
+    if not text:
+        return nan
+    value = float(text.replace(",", ".") if COMMA.fullmatch(text) else text)
+    if not isfinite(value):
+        raise ValueError(f"{text!r} is no number")
+    return nan if value in VOIDS else value
+
+
+def is_number(text: str) -> bool:
+    """Return whether a cell is a number."""
+    try:
+        return isfinite(value_of(text.strip()))
+    except ValueError:
+        return False
 
 
 def refuse(path: Path, wrong: Sequence[tuple[int, str]]) -> None:
-    """Raise InputError with all rows that are wrong, if there are some."""
+    """Raise InputError with the first row that is wrong, and the numbers of others, if
+    there are some."""
+    if wrong:
+        row, why = wrong[0]
+        raise InputError(f"{path}, row {row}: {why}{more(wrong[1:])}")
+
+
+def more(wrong: Sequence[tuple[int, str]]) -> str:
+    """Return in words how many rows are wrong besides the first."""
     if not wrong:
-        return
-    texts = [f"{path}, row {row}: {why}" for row, why in wrong[:MOST]]
-    if len(wrong) > MOST:
-        rows = ", ".join(str(row) for row, _ in wrong[MOST : 3 * MOST])
-        more = ", ..." if len(wrong) > 3 * MOST else ""
-        texts.append(f"{path}: {len(wrong) - MOST} more rows are wrong: {rows}{more}")
-    raise InputError("\n".join(texts))
+        return ""
+    rows = ", ".join(str(row) for row, _ in wrong[:4])
+    dots = ", ..." if len(wrong) > 4 else ""
+    rows_are = "row is" if len(wrong) == 1 else "rows are"
+    return f" ({len(wrong)} more {rows_are} wrong: {rows}{dots})"
+
+
+def unit_of(path: Path, head: Head) -> float:
+    """Return the unit of a column in m or Pa. Raises InputError."""
+    quantity = QUANTITIES[head.quantity]
+    word = unit_in(head.unit)
+    if word not in quantity.units:
+        known = "m, cm and mm" if quantity.units is LENGTH else STRESSES
+        raise InputError(
+            f"{path}, row {head.row}: the column {head.text!r}, the {quantity.name},"
+            f" has no unit that is known, but {head.unit or 'none'!r}; known are"
+            f" {known}"
+        )
+    return quantity.units[word]
+
+
+def columns_of(
+    path: Path, heads: Sequence[Head], rows: Rows, wanted: Sequence[str], advice: str
+) -> dict[str, Column]:
+    """Return the columns of the quantities that are wanted and there. A quantity
+    without values in most rows gives way to the one that may stand for it. advice: how
+    the file would name depth and cone resistance. Raises InputError."""
+    found: dict[str, Column] = {}
+    for name in wanted:
+        some = [h for h in heads if h.quantity == name]
+        other = [h for h in heads if h.quantity == INSTEAD.get(name)]
+        filled = [head for head in some or other if is_filled(rows, head.place)]
+        if not filled and some and other and is_filled(rows, other[0].place):
+            some = other
+        some = filled or some or other
+        known = [h for h in some if unit_in(h.unit) in QUANTITIES[h.quantity].units]
+        some = known or some
+        if len(some) > 1:
+            raise InputError(
+                f"{path}, row {some[1].row}: two columns are the"
+                f" {QUANTITIES[some[0].quantity].name}, {some[0].text!r} and"
+                f" {some[1].text!r}; leave out one"
+            )
+        if not some and name in NEEDED:
+            raise InputError(
+                f"{path}: no column is the {QUANTITIES[name].name}; {advice}"
+            )
+        for head in some:
+            found[head.quantity] = Column(head.place, unit_of(path, head), head.text)
+    if "depth" in found:  # the length of the rods checks a corrected depth
+        for head in heads:
+            if (
+                head.quantity == "rods"
+                and unit_in(head.unit) in QUANTITIES["rods"].units
+            ):
+                found["rods"] = Column(head.place, unit_of(path, head), head.text)
+    return found
+
+
+def is_filled(rows: Rows, place: int) -> bool:
+    """Return whether a column has values in most rows."""
+    some = sum(is_number(cell_of(cells, place)) for _, cells in rows)
+    return some > len(rows) / 2
+
+
+def table_of(
+    path: Path,
+    heads: Sequence[Head],
+    rows: Rows,
+    wanted: Sequence[str],
+    units_are: str,
+    advice: str,
+) -> Table:
+    """Return the table of a file. Raises InputError."""
+    columns = columns_of(path, heads, rows, wanted, advice)
+    places = {column.place for column in columns.values()}
+    unknown = [h for h in heads if h.place not in places and h.text]
+    unread = tuple(h.text for h in unknown if h.quantity in ("", *wanted))
+    return Table(columns, rows, unread, units_are)

@@ -42,7 +42,8 @@ Young's modulus of sand
         factor of 1.5 is assumed
 
 Undrained strength of clay and silt
-    nkt                s_u = (q_t - sigma_v)/N_kt, N_kt = 14, from 10 to 18
+    nkt                s_u = (q_t - sigma_v)/N_kt, N_kt = 14, from 10 to 18; another
+        N_kt has the same scatter
         Robertson & Cabal (2015), Guide to cone penetration testing; CPT'18 has 8 to 25
         (Mayne & Peuchen 2018)
 
@@ -61,7 +62,7 @@ MODULUS, STRENGTH = "Young's modulus", "undrained strength"
 SCATTER_OF_RESISTANCE = 1.3  # a factor of q_c, for D_r
 SCATTER_OF_ANGLE = 2.8  # degrees, of Kulhawy & Mayne
 SCATTER_OF_BOLTON = 2.0
-CONE_FACTORS = (18.0, 14.0, 10.0)  # for the low, the best and the high strength
+CONE_FACTORS = (18 / 14, 1.0, 10 / 14)  # times N_kt, for low, best and high strength
 MODULUS_RATIOS = (2.0, 2.5, 3.5)
 SCATTER_OF_MODULUS = 1.5  # a factor
 ANGLES = 25.0, 50.0  # between which an angle is held
@@ -210,7 +211,7 @@ def moduli_of(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
 
 def strengths_of(ground: Ground, _: dict[str, str], end: int) -> np.ndarray:
     """Return s_u (Pa) [n]."""
-    return ground.net / CONE_FACTORS[end + 1]
+    return ground.net / (CONE_FACTORS[end + 1] * ground.cone_factor)
 
 
 def at_rest_of_clay(ground: Ground) -> np.ndarray:

@@ -7,6 +7,8 @@
     Q_tn = (q_t - sigma_v)/p_a (p_a/sigma'_v)^n,     F_r = 100 f_s / (q_t - sigma_v)
     n = 0.381 I_c + 0.05 sigma'_v/p_a - 0.15,        at most 1
     I_c = sqrt((3.47 - log Q_tn)^2 + (log F_r + 1.22)^2)
+    I_B = 100 (Q_tn + 10) / (Q_tn F_r + 70)
+    B_q = (u_2 - gamma_w z) / (q_t - sigma_v)
 
 with logarithms of base 10, R_f and F_r in percent, and p_a = 100 kPa. The unit weight
 is that of Robertson & Cabal (2010, "Estimating soil unit weight from CPT", CPT'10,
@@ -15,6 +17,14 @@ depend on each other and are found by iteration. Both formulas have been compare
 two published programs, not with the papers themselves. Under low stress the first one
 gives loose sand a weight that no sand has: that of sand (I_c < 2.6) is held at 17.5
 kN/m3 and more, a void ratio of 1.1, for which stress and I_c are found again.
+
+The kind of soil is that of I_c, unless the friction or the pore pressure is against it.
+I_c takes stiff clay for sand where Q_tn and F_r are both large: clay is also what has
+an I_B below 22, clay-like in the chart of Robertson (2016, doi 10.1139/cgj-2016-0044).
+In the chart of Q_t and B_q of Robertson (1990, doi 10.1139/t90-014) sand has a B_q of
+about 0: the limits of 0.1 for sand and of 0.2 for what does not drain are assumed. An
+excess pressure counts from 20 kPa; and none does if nearly all rows have 50 kPa and
+more, as where u_2 was not set to 0 at the mudline.
 
 The ground is below water: stresses are those above the pressure of the water at the
 mudline, and u_2 counts from there.
@@ -25,11 +35,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from caisson_design import cone_file
 from caisson_design.cone_file import Test
+from caisson_design.cone_rules import WATER  # its unit weight
 
 ATMOSPHERE = 100e3
-WATER = cone_file.WATER  # unit weight
 GRAVITY = 9.81
 LEAST_STRESS = 1e3  # of sigma'_v where something is divided by it: some 0.1 m of depth
 WEIGHTS = 14e3, 22e3  # between which the formula is held
@@ -39,6 +48,10 @@ FRICTION_RATIOS = 0.1, 10.0  # %, the ends of the chart of soil types
 SAND, SILT, CLAY = "sand", "silt", "clay"
 # I_c below which soil is sand-like, and above which it is clay-like (Robertson 2009)
 SAND_BELOW, CLAY_ABOVE = 2.60, 2.95
+CLAY_LIKE = 22.0  # I_B, below which soil is clay-like (Robertson 2016)
+DRAINED, UNDRAINED = 0.1, 0.2  # B_q, below and above which soil drains or does not
+LEAST_EXCESS, OFFSET = 20e3, 50e3  # Pa
+CONE_FACTOR = 14.0  # N_kt
 
 
 @dataclass(frozen=True)
@@ -46,7 +59,8 @@ class Ground:
     """A test with what follows from it: [n] each, from the mudline down.
 
     friction_ratio is F_r in percent, index I_c; both are nan where the file has no
-    sleeve friction. tip is q_t, normalized Q_tn.
+    sleeve friction. tip is q_t, normalized Q_tn; pore_pressure is u_2, None for none.
+    Rows above measured_from (m) were not measured; above says how they are known.
     """
 
     depth: np.ndarray
@@ -59,6 +73,47 @@ class Ground:
     normalized: np.ndarray
     friction_ratio: np.ndarray
     index: np.ndarray
+    pore_pressure: np.ndarray | None = None
+    cone_factor: float = CONE_FACTOR
+    measured_from: float = 0.0
+    above: str = ""
+
+    @property
+    def behavior(self) -> np.ndarray:
+        """I_B."""
+        return behavior_of(self.normalized, self.friction_ratio)
+
+    @property
+    def excess(self) -> np.ndarray:
+        """u_2 above that of water at rest (Pa), 0 where there is none."""
+        if self.pore_pressure is None:
+            return np.zeros(len(self.depth))
+        return self.pore_pressure - WATER * self.depth
+
+    @property
+    def has_offset(self) -> bool:
+        """Whether nearly all rows have an excess pressure."""
+        return bool(np.quantile(self.excess, 0.05) > OFFSET)
+
+    @property
+    def pressure_ratio(self) -> np.ndarray:
+        """B_q, 0 where the excess pressure does not count."""
+        counts = (np.abs(self.excess) >= LEAST_EXCESS) & (not self.has_offset)
+        return np.where(counts, self.excess / np.maximum(self.net, 1.0), 0.0)
+
+    @property
+    def kinds(self) -> np.ndarray:
+        """The kind of soil of each row."""
+        return kinds_of(self.index, self.behavior, self.pressure_ratio)
+
+    def median(self, values: np.ndarray, rows: np.ndarray) -> float:
+        """Return the median of values [n] over rows [n]."""
+        return float(np.median(values[rows]))
+
+    def kind(self, rows: np.ndarray) -> str:
+        """Return the kind of soil of rows [n] together, by their medians."""
+        every = self.index, self.behavior, self.pressure_ratio
+        return str(kinds_of(*(np.array(self.median(x, rows)) for x in every)))
 
     @property
     def net(self) -> np.ndarray:
@@ -85,6 +140,11 @@ def index_of(normalized: np.ndarray, friction_ratio: np.ndarray) -> np.ndarray:
     return np.hypot(3.47 - np.log10(normalized), np.log10(friction_ratio) + 1.22)
 
 
+def behavior_of(normalized: np.ndarray, friction_ratio: np.ndarray) -> np.ndarray:
+    """Return I_B [n] of Q_tn and F_r (%)."""
+    return 100 * (normalized + 10) / (normalized * friction_ratio + 70)
+
+
 def normalize(
     net: np.ndarray, stress: np.ndarray, friction_ratio: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -105,7 +165,7 @@ def ground_of(test: Test, area_ratio: float, unit_weight: float | None) -> Groun
     """Return the ground of a test. unit_weight: of all the soil; None takes that of
     Robertson & Cabal, for which the test must have a sleeve friction."""
     tip = test.resistance
-    if test.pore_pressure is not None:
+    if test.pore_pressure is not None and not test.is_corrected:
         tip = tip + (1 - area_ratio) * test.pore_pressure
     if unit_weight is not None:
         return under(test, tip, np.full(len(tip), unit_weight))
@@ -141,14 +201,25 @@ def under(test: Test, tip: np.ndarray, weight: np.ndarray) -> Ground:
         normalized,
         ratio,
         index,
+        test.pore_pressure,
+        measured_from=test.measured_from,
+        above=test.above,
     )
 
 
 def kind_of(index: float) -> str:
     """Return whether soil of this I_c behaves like sand, like clay or between."""
-    if index < SAND_BELOW:
-        return SAND
-    return CLAY if index > CLAY_ABOVE else SILT
+    return str(kinds_of(np.array(index), np.array(np.inf), np.array(0.0)))
+
+
+def kinds_of(
+    index: np.ndarray, behavior: np.ndarray, pressure: np.ndarray
+) -> np.ndarray:
+    """Return the kinds of soil [n] of I_c, I_B and B_q; nan says nothing."""
+    is_fine = index >= SAND_BELOW
+    is_clay = (index > CLAY_ABOVE) | (behavior < CLAY_LIKE)
+    is_clay |= is_fine & (pressure >= UNDRAINED)
+    return np.select([is_clay, is_fine | (pressure >= DRAINED)], [CLAY, SILT], SAND)
 
 
 def porosity_of(weight: float, grains: float, is_wet: bool) -> float:

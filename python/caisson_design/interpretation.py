@@ -1,20 +1,29 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """From the file of a cone test to layers with estimates, as options choose it."""
 import argparse
-from dataclasses import dataclass
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import inf
 from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
 
 from caisson_design import InputError
-from caisson_design import cone_file
+from caisson_design import cone_file, cone_options
 from caisson_design import cone_layers as layers
 from caisson_design import correlations
 from caisson_design.cone_estimates import Estimates, estimates_of
 from caisson_design.cone_file import Test
+from caisson_design.cone_rules import GIVEN
 from caisson_design.correlations import BY_NAME
-from caisson_design.ground import CLAY, SAND, SILT, WATER, Ground, ground_of
+from caisson_design.ground import CLAY, CONE_FACTOR, SAND, SILT, WATER
+from caisson_design.ground import Ground, ground_of
 from caisson_design.quantity import length, number
 
 AREA_RATIO = 0.8
+KINDS = (SAND, SILT, CLAY)
 
 
 @dataclass(frozen=True)
@@ -44,15 +53,40 @@ def depths(text: str) -> list[float]:
     return found
 
 
+class Soil(NamedTuple):
+    """The kind of soil that is given, of a layer by its number, of depths (m) from top
+    to bottom, or of all."""
+
+    kind: str
+    layer: int = 0
+    top: float = 0.0
+    bottom: float = inf
+
+
+def soil(text: str) -> Soil:
+    """Return the kind of soil of "clay", "2=clay" or "3.0-6.5=clay"."""
+    where, _, kind = text.rpartition("=")
+    number = r"\s*(\d+(?:\.\d*)?)\s*m?\s*"
+    depths_of = re.fullmatch(f"{number}-{number}", where)
+    if kind.strip() in KINDS and where.strip().isdecimal() and int(where):
+        return Soil(kind.strip(), int(where))
+    if kind.strip() in KINDS and depths_of:
+        top, bottom = map(float, depths_of.groups())
+        if top < bottom:
+            return Soil(kind.strip(), 0, top, bottom)
+    if text in KINDS:
+        return Soil(text)
+    raise argparse.ArgumentTypeError(
+        f"{text!r} must be {', '.join(KINDS)}, of all the soil, or as in 2=clay for"
+        " layer 2, or as in 3-6.5=clay for depths from 3 to 6.5 m"
+    )
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options that say how a test is read."""
-    add = parser.add_argument_group("how the cone test is read").add_argument
-    add(
-        "--location",
-        default="",
-        metavar="NAME",
-        help="one of the tests in a file of AGS",
-    )
+    group = parser.add_argument_group("how the cone test is read")
+    cone_options.add_arguments(group)
+    add = group.add_argument
     add(
         "--tops",
         type=depths,
@@ -76,8 +110,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add(
         "--soil",
-        choices=(SAND, SILT, CLAY),
-        help="kind of all the soil; needed where the test has no sleeve friction",
+        type=soil,
+        action="append",
+        default=[],
+        metavar="KIND",
+        help="sand, silt or clay: of all the soil, as needed where the test has no"
+        " sleeve friction; of a layer, 2=clay; of depths, 3-6.5=clay; give one option"
+        " for each",
+    )
+    add(
+        "--nkt",
+        type=number(""),
+        metavar="N",
+        help=f"cone factor N_kt of the strength of clay, default {CONE_FACTOR:g}",
     )
     add(
         "--unit-weight",
@@ -100,7 +145,7 @@ def check(file: Path, test: Test, options: argparse.Namespace) -> None:
         missing = [
             word
             for word, value in (
-                ("--soil sand", options.soil),
+                ("--soil sand", options.soil or None),
                 ("--unit-weight 19", options.unit_weight),
             )
             if value is None
@@ -118,6 +163,8 @@ def check(file: Path, test: Test, options: argparse.Namespace) -> None:
             f"--unit-weight {weight:g}: give the unit weight of the wet soil in kN/m3,"
             f" between {WATER / 1e3:g} and 25"
         )
+    if options.nkt is not None and not 5 <= options.nkt <= 40:
+        raise InputError(f"--nkt {options.nkt:g} is not between 5 and 40")
     if options.tops and options.tops[-1] >= test.depth[-1]:
         raise InputError(
             f"--tops {options.tops[-1]:g}: the test ends at {test.depth[-1]:g} m; give"
@@ -146,21 +193,28 @@ def interpret(
 ) -> Interpretation:
     """Return what a test says. deepest: below it (m) it does not count. Raises
     InputError."""
-    whole = cone_file.read(file, location=options.location)
+    whole = cone_file.read(file, how=cone_options.how_of(options))
     check(file, whole, options)
     area_ratio, said = area_ratio_of(whole, options.area_ratio)
     whole = whole._replace(remarks=(*whole.remarks, *said))
     test = whole if deepest is None else whole.down_to(deepest)
+    if test.depth[-1] <= test.measured_from:
+        raise InputError(
+            f"{file} begins at {test.measured_from:g} m, below the {deepest:g} m that"
+            " count for this skirt"
+        )
     weight = options.unit_weight
     ground = ground_of(test, area_ratio, weight and 1e3 * weight)
+    ground = replace(ground, cone_factor=options.nkt or CONE_FACTOR)
     names = correlations.chosen(options.correlation)
-    tops = [top for top in options.tops or () if top < test.depth[-1]]
-    tops = tops or layers.tops_of(ground, options.thinnest)
+    tops = tops_for(ground, options)
     try:
-        found = layers.layers_of(ground, tops, options.soil or "")
+        found = layers.layers_of(ground, tops, given_kinds(ground, tops, options.soil))
     except ValueError as error:
-        tops_are = "choose other --tops" if options.tops else "give --tops of your own"
-        raise InputError(f"{file}: {error}; {tops_are}") from error
+        ways = "choose other --tops" if options.tops else "give --tops of your own"
+        if "sleeve" in str(error):
+            ways = "give its kind, as in --soil 1=sand"
+        raise InputError(f"{file}: {error}; {ways}") from error
     return Interpretation(
         file,
         whole,
@@ -169,3 +223,31 @@ def interpret(
         estimates_of(ground, found, names),
         "robertson-cabal-2010" if weight is None else "--unit-weight",
     )
+
+
+def tops_for(ground: Ground, options: argparse.Namespace) -> list[float]:
+    """Return the tops of the layers (m): those given or found, and the ends of what is
+    given by --soil and --above."""
+    last = float(ground.depth[-1])
+    edges = [edge for soil in options.soil for edge in (soil.top, soil.bottom)]
+    edges += [ground.measured_from] if ground.above == GIVEN else []
+    if options.tops:
+        return layers.with_edges([t for t in options.tops if t < last], edges, 0, last)
+    found = layers.tops_of(ground, options.thinnest)
+    return layers.with_edges(found, edges, options.thinnest, last)
+
+
+def given_kinds(ground: Ground, tops: list[float], given: Sequence[Soil]) -> np.ndarray:
+    """Return the kind of soil of each row [n] that is given, "" for none; what is given
+    of a part goes before what is given of all. Raises InputError."""
+    found = np.full(len(ground.depth), "", dtype="<U4")
+    for soil in sorted(given, key=lambda soil: soil.layer > 0 or soil.bottom < inf):
+        top, bottom = soil.top, soil.bottom
+        if soil.layer > len(tops):
+            raise InputError(
+                f"--soil {soil.layer}={soil.kind}: the test has {len(tops)} layers"
+            )
+        if soil.layer:
+            top, bottom = [*tops, inf][soil.layer - 1 : soil.layer + 1]
+        found[(ground.depth >= top) & (ground.depth < bottom)] = soil.kind
+    return found

@@ -1,321 +1,152 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Cone tests in AGS 4, in GEF, and in tables of other countries: read, or refused with
-the row."""
+"""Files of cone tests: those of others, and what commands do with them."""
 import argparse
 import contextlib
 import io
-import tempfile
 import unittest
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 from caisson import __main__ as program
 from caisson.cpt import command
-from caisson_design import InputError, cone, cone_file, interpretation
+from caisson_design import cone, cone_file, interpretation
+from caisson_design.cone_options import How
+from made_up_cone import AGS, GEF, WithFiles, options
 
-HEADS = '"HEADING","LOCA_ID","SCPG_TESN","SCPT_DPTH","SCPT_RES","SCPT_FRES","SCPT_PWP2"'
-UNITS = '"UNIT","","","m","MN/m2","kN/m2","kPa"'
-AGS = f""""GROUP","PROJ"
-"HEADING","PROJ_ID"
-"UNIT",""
-"TYPE","ID"
-"DATA","7"
-
-"GROUP","SCPT"
-{HEADS}
-{UNITS}
-"TYPE","ID","X","2DP","2DP","1DP","1DP"
-"DATA","CPT01","1","0.50","1.00","5.0","10"
-"DATA","CPT01","1","1.00","2.50","",""
-"DATA","CPT01","1","1.50","4.00","20.0","15"
-"""
-OTHER = (
-    '"DATA","CPT02","1","0.50","9.00","50.0","1"\n"DATA","CPT02","1","1","9","50","1"\n'
-)
-
-GEF = """#GEFID= 1, 1, 0
-#REPORTCODE= GEF-CPT-Report, 1, 1, 0
-#COLUMN= 5
-#COLUMNINFO= 1, m, Sondeerlengte, 1
-#COLUMNINFO= 2, MPa, Conusweerstand, 2
-#COLUMNINFO= 3, MPa, Plaatselijke wrijving, 3
-#COLUMNINFO= 4, kPa, Waterspanning, 6
-#COLUMNINFO= 5, m, Gecorrigeerde diepte, 11
-#COLUMNVOID= 2, -9999.000
-#COLUMNVOID= 4, -1
-#COLUMNSEPARATOR= ;
-#RECORDSEPARATOR= !
-#EOH=
-0.50;1.00;0.005;-1;0.49;!
-1.00;-9999;0.006;-1;0.98;!
-1.50;4.00;2.0E-002;-1;1.47;!
-"""
+Rows = list[list[float]]
 
 
-class Reading(unittest.TestCase):
-    """Has a directory for a file."""
+class OfOthers(WithFiles):
+    """Features that decide whether files of others are read, each made anew here: GEF
+    of pygef, GEOLib-Plus and groundhog, AGS 4 of a wind farm, tables of liquepy,
+    groundhog and others."""
 
-    def setUp(self) -> None:
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.path = Path(temporary.name, "mine.txt")
-
-    def read(self, text: str, location: str = "") -> cone_file.Test:
-        """Return the test of a file with this text."""
-        self.path.write_text(text, encoding="utf-8")
-        return cone_file.read(self.path, location=location)
-
-    def refused(self, text: str, words: str) -> None:
-        """Expect words in the refusal of a text."""
-        with self.assertRaisesRegex(InputError, words):
-            self.read(text)
-
-
-class Ags(Reading):
-    """AGS 4."""
-
-    def test_good(self) -> None:
-        """Units of the row UNIT; a row without a value is left out, and said."""
-        test = self.read(AGS)
-        np.testing.assert_allclose(test.depth, [0.5, 1.5])
-        np.testing.assert_allclose(test.resistance, [1e6, 4e6])
-        assert test.friction is not None and test.pore_pressure is not None
-        np.testing.assert_allclose(test.friction, [5e3, 20e3])
-        np.testing.assert_allclose(test.pore_pressure, [10e3, 15e3])
-        self.assertIn("left out: 1, those of number 12", " ".join(test.remarks))
-        # the methods need no friction, and so have all rows
-        np.testing.assert_allclose(cone.read(self.path).depth[-3:], [0.5, 1, 1.5])
-
-    def test_several_tests(self) -> None:
-        """Of two locations, or of two pushes at one of them."""
-        self.refused(AGS + OTHER, "2 tests: CPT01, CPT02; choose one by --location")
-        self.assertEqual(self.read(AGS + OTHER, "CPT02").resistance[0], 9e6)
-        with self.assertRaisesRegex(InputError, "no test 'CPT03'.* CPT01, CPT02"):
-            self.read(AGS + OTHER, "CPT03")
-        pushes = AGS + OTHER.replace('"CPT02","1"', '"CPT01","2"')
-        self.refused(pushes, "CPT01/1, CPT01/2")
-        self.assertEqual(self.read(pushes, "CPT01/2").resistance[0], 9e6)
-
-    def test_pore_pressure_stops(self) -> None:
-        """The other columns count; and is hydrostatic: 9.81 kPa each meter."""
-        test = self.read(AGS.replace('"20.0","15"', '"20.0",""'))
-        np.testing.assert_allclose(test.depth, [0.5, 1.5])
-        assert test.pore_pressure is not None
-        np.testing.assert_allclose(test.pore_pressure, [10e3, 1.5 * 9.81e3])
-        self.assertIn("hydrostatic there: 1, the first at 1.5 m", str(test.remarks))
-
-    def test_area_ratio(self) -> None:
-        """Of the test that is read."""
-        group = (
-            '"GROUP","SCPG"\n"HEADING","LOCA_ID","SCPG_TESN","SCPG_CAR"\n'
-            '"UNIT","","",""\n"DATA","CPT02","1","0.6"\n"DATA","CPT01","1","0.75"\n'
+    def sounding(self, name: str, change: Callable[[Rows], object]) -> str:
+        """Return a GEF file with columns of a register, and changed rows of length, q_c
+        (MPa), depth and f_s (MPa)."""
+        unit, stress = ("m (meter)", "MPa (megaPascal)")
+        if "plain" in name:
+            unit, stress = "m", "MPa"
+        rows = [[0.02 + z / 50, 1 + z / 50, 0.02 + z / 50, 0.012] for z in range(120)]
+        change(rows)
+        heads = "#GEFID= 1, 1, 0\n#COLUMN= 4\n" + "".join(
+            f"#COLUMNINFO= {i}, {u}, {text}, {number}\n"
+            for i, (u, text, number) in enumerate(
+                (
+                    (unit, "sondeertrajectlengte", 1),
+                    (stress, "conusweerstand", 2),
+                    (unit, "diepte", 11 if "length" not in name else 12),
+                    (stress, "plaatselijke wrijving", 3),
+                ),
+                1,
+            )
         )
-        self.assertEqual(self.read(group + AGS).area_ratio, 0.75)
-        self.assertEqual(self.read(group + AGS + OTHER, "CPT02").area_ratio, 0.6)
-        self.assertIsNone(self.read(AGS).area_ratio)
+        hole = "#MEASUREMENTVAR= 13, 1.10, m (meter), voorgeboord tot\n"
+        heads += hole if "hole" in name else ""
+        table = "".join(" ".join(f"{x:g}" for x in row) + "\n" for row in rows)
+        return f"{heads}#COLUMNVOID= 4, -99999\n#EOH=\n{table}"
 
-    def test_blanks_and_no_rows(self) -> None:
-        """Blanks behind commas; a group that is empty."""
-        test = self.read(AGS.replace(",", ", "))
-        np.testing.assert_allclose(test.resistance, [1e6, 4e6])
-        self.refused('"GROUP","SCPT"\n', "the group SCPT, .*, is empty")
+    def test_gef(self) -> None:
+        """All of them, with the rows that count."""
 
-    def test_wrong_units(self) -> None:
-        """One that is not known, none at all, and megapascals below kilopascals."""
-        self.refused(AGS.replace("MN/m2", "tsf"), "row 9: the unit 'tsf' of SCPT_RES")
-        self.refused(AGS.replace(UNITS + "\n", ""), "row 8: .* has no row UNIT")
-        small = UNITS.replace("MN/m2", "Pa")
-        self.refused(AGS.replace(UNITS, small), "row 11: .*both units in the row UNIT")
+        def each(i: int, value: Callable[[float], float]) -> Callable[[Rows], object]:
+            def change(rows: Rows) -> None:
+                for row in rows:
+                    row[i] = value(row[0])
 
-    def test_wrong_groups(self) -> None:
-        self.refused(AGS.replace('"SCPT"', '"GEOL"'), "no group SCPT.* are PROJ, GEOL")
-        self.refused(AGS.replace("SCPT_RES", "SCPT_QT"), "row 8: .* heading SCPT_RES")
-        self.refused('"**PROJ"\n"*PROJ_ID"\n"7"\n', r"row 1: '\*\*PROJ' .* of AGS 3")
+            return change
 
-    def test_wrong_rows(self) -> None:
-        self.refused(AGS.replace('"1.00","2.50"', '"1.00,2.50"'), "row 12: 6 cells, an")
-        self.refused(
-            AGS.replace('"1.50"', '"0.25"'), "row 13: the depth of 0.25 m is n"
-        )
-        self.refused(AGS.replace('"4.00"', '"4,00"'), "row 13: '4,00' has a comma")
-        self.refused(AGS.replace('"4.00"', '"x"'), "row 13: 'x' is no number")
+        def first(*values: float) -> Callable[[Rows], object]:
+            return lambda rows: rows.insert(0, [0.0, values[0], 0.0, values[1]])
 
+        def below(start: float, friction: float) -> Callable[[Rows], object]:
+            def change(rows: Rows) -> None:
+                rows[:] = [row for row in rows if row[0] > start]
+                for row in rows[5:11]:
+                    row[3] = friction
 
-class Gef(Reading):
-    """GEF."""
+            return change
 
-    def test_good(self) -> None:
-        """The corrected depth counts; a column of voids only is none."""
-        test = self.read(GEF)
-        np.testing.assert_allclose(test.depth, [0.49, 1.47])
-        np.testing.assert_allclose(test.resistance, [1e6, 4e6])
-        assert test.friction is not None
-        np.testing.assert_allclose(test.friction, [5e3, 20e3])
-        self.assertIsNone(test.pore_pressure)
-        said = " ".join(test.remarks)
-        self.assertIn("the column of pore pressure has no values", said)
-        self.assertIn("left out: 1, those of number 15", said)
-        self.assertIn("not read: Sondeerlengte", said)
-
-    def test_separators(self) -> None:
-        """Blanks and lines where nothing is said, records on one line, and a length
-        of rods where there is no corrected depth."""
-        head, table = GEF.split("#EOH=\n")
-        plain = "\n".join(x for x in head.splitlines() if "SEPARATOR" not in x)
-        blanks = table.replace(";!", "").replace(";", "  ")
-        one = head + "#EOH=\n" + table.replace("\n", "")
-        rods = head.replace("diepte, 11", "diepte, 12") + "#EOH=\n" + table
-        for text, first in (
-            (f"{plain}\n#EOH=\n{blanks}", 0.49),
-            (one, 0.49),
-            (rods, 0.5),
+        for name, change, begin in (
+            ("units of the register", lambda rows: None, 0.02),
+            ("with a hole", lambda rows: None, 1.1),
+            ("a hole, and no rows in it", below(1.19, 0.012), 1.2),
+            ("no hole, and no rows above", below(2.09, 0.012), 2.1),
+            ("plain length, negative", each(0, lambda z: -z), 0.02),
+            ("corrected, negative", each(2, lambda z: -z), 0.02),
+            ("first row without load", first(0, 0.002), 0.02),
+            ("first row void", first(-9999, -9999), 0.02),
+            ("friction below 0 and a hole", below(1.69, -0.011), 1.7),
+            ("void friction", each(3, lambda z: -99999 if z < 1.05 else 0.01), 0.02),
         ):
-            test = self.read(text)
-            np.testing.assert_allclose(test.depth[0], first)
-            np.testing.assert_allclose(test.resistance, [1e6, 4e6])
-
-    def test_decimal_commas(self) -> None:
-        """In the table and in #COLUMNVOID; 0,99900 is the void 0.999."""
-        table = GEF.replace("0.006", "0.99900").replace("-9999;", "3.0;")
-        for void in ("0.999", "0,999", "0,9990, friction"):
-            head, rows = table.replace("2, -9999.000", f"3, {void}").split("#EOH=")
-            test = self.read(f"{head}#EOH={rows.replace('.', ',')}")
-            np.testing.assert_allclose(test.depth, [0.49, 1.47])
-        for void in ("-9999", "-9999,0"):
-            head, rows = GEF.replace("-9999.000", void).split("#EOH=")
-            rows = rows.replace("-9999;", "-9999.000;").replace(".", ",")
-            test = self.read(f"{head}#EOH={rows}")
-            np.testing.assert_allclose(test.resistance, [1e6, 4e6])
-
-    def test_corrected_depth_without_values(self) -> None:
-        """The length of the rods counts."""
-        void = GEF.replace("4, -1", "5, -7").replace("-1;0.98", "1;-7")
-        void = void.replace("0.49;!", "-7;!")
-        for last in ("-7", "1.47"):  # none, or in one row of three
-            test = self.read(void.replace("1.47;!", f"{last};!"))
-            np.testing.assert_allclose(test.depth, [0.5, 1.5])
-
-    def test_area_ratio(self) -> None:
-        for text in ("0.59", "0,59"):
-            head = f"#MEASUREMENTVAR= 1, 1000, mm2, x\n#MEASUREMENTVAR= 3, {text}, -\n"
-            self.assertEqual(self.read(head + GEF).area_ratio, 0.59)
-        self.assertIsNone(self.read(GEF).area_ratio)
-
-    def test_wrong_heads(self) -> None:
-        for old, new, words in (
-            ("#EOH=\n", "", "no line #EOH="),
-            ("Conusweerstand, 2", "Conusweerstand, 13", "quantity 2, the cone resist"),
-            ("2, MPa", "2, tsf", "row 5: the unit 'tsf' of 'Conusweerstand'"),
-            ("wrijving, 3", "wrijving, x", "row 6: #COLUMNINFO must have number"),
-            ("wrijving, 3", "wrijving, 2", "row 6: a second column of the quantity 2"),
-            ("= 1, m, S", "= 0, m, S", r"row 4: #COLUMNINFO must have number \(from"),
-            ("2, -9999.000", "0, -9999.000", "row 9: .* a column, from 1, and"),
-            ("2, -9999.000", "2", "row 9: #COLUMNVOID must have the number"),
-            ("GEF-CPT-Report", "GEF-BORE-Report", "row 2: .* is a borehole"),
-        ):
-            self.assertIn(old, GEF)
-            self.refused(GEF.replace(old, new), words)
-
-    def test_wrong_units(self) -> None:
-        self.refused(GEF.replace("2, MPa", "2, GPa"), "row 5: the unit 'GPa'")
-        self.refused(GEF.replace("2, MPa", "2, kPa"), "row 14: .* units in #COLUMNINFO")
-
-    def test_wrong_rows(self) -> None:
-        for old, new, words in (
-            ("1.00;-9999;", "1.00;", "row 15: 4 cells, and 5 columns"),
-            (
-                "1.00;-9999;0.006;-1;0.98;!",
-                "1.00;2;!",
-                "row 15: 2 cells, and 5 columns",
-            ),
-            (";1.47", ";0.2", "row 16: the depth of 0.2 m is not below"),
-            ("4.00", "4.0.0", "row 16: '4.0.0' is no number"),
-            ("-9999;", "-999;", "row 15: the cone resistance is -999 MPa"),
-            (";0.49;!", ";0.49;7;!", "row 14: 6 .*, and 5 .* a line #COLUMNINFO"),
-        ):
-            self.assertIn(old, GEF)
-            self.refused(GEF.replace(old, new), words)
-
-
-class Tables(Reading):
-    """Tables of text as other countries write them."""
-
-    def test_decimal_commas(self) -> None:
-        test = self.read("depth_m;qc_MPa\n0,5;1,25\n1;2,5\n")
-        np.testing.assert_allclose(test.resistance, [1.25e6, 2.5e6])
-        mixed = "depth_m;qc_kPa\n0.5;1250\n1.0;1,300\n"
-        self.refused(mixed, "row 3: '1,300' has a comma where other rows")
-
-    def test_thousands(self) -> None:
-        """With separators, which would be decimals; weak clay is a remark."""
-        for rows in ("0,5;1,424\n1;15,250\n", "0.5;712\n1;1.148\n"):
-            self.refused(f"depth_m;qc_kPa\n{rows}", "row .: .* of thousands.* write 1")
-        test = self.read("depth_m;qc_kPa\n0.5;95.25\n1;120.5\n")
-        self.assertIn("is only 120.5 kPa: check the unit in the", str(test.remarks))
-        for rows in ("0.5;712.5\n1;99\n", "0.5;712\n1;815.125\n"):
-            self.assertEqual(self.read(f"depth_m;qc_kPa\n{rows}").remarks, ())
-
-    def test_depths(self) -> None:
-        """Below the ground; not a level, and not below a hole."""
-        rows = "0.5;1\n1;4\n"
-        for head in ("Tiefe unter GOK (m)", "Teufe [m]", "Penetration (m)"):
-            self.assertEqual(self.read(f"{head};qc_MPa\n{rows}").depth[0], 0.5)
-        both = "Sondeerlengte (m);Diepte (m);qc_MPa\n0.5;0.4;1\n1;0.9;4\n"
-        self.assertEqual(self.read(both).depth[0], 0.4)
-        for head in ("Diepte t.o.v. NAP (m)", "Höhe (m)"):
-            self.refused(f"{head};qc_MPa\n{rows}", "is a level above a datum; subtract")
-        self.refused("depth_m;qc_MPa\n2;1\n3;4\n", "row 2: .* 2 m, .* add rows above")
-        self.refused("depth_m;qc_MPa\n0;1;2\n3;4\n", "row 2: .* needs a head in the f")
-        self.refused("depth_m,qc_MPa\n0,1,2\n3,4\n", "row 2: .* divide cells by semi")
-
-    def test_heads(self) -> None:
-        """German, Dutch, French and English; what is no measured resistance or friction
-        is left out."""
-        for head in (
-            "Tiefe [m];Spitzendruck qc [MN/m²];Mantelreibung fs [kPa];u1 [kPa]",
-            "Tiefe in m;Spitzenwiderstand (MPa);lokale Mantelreibung (kN/m²);Rf (%)",
-            "Diepte (m);Conusweerstand (MPa);Plaatselijke wrijving (kPa);Helling (gr)",
-            "Profondeur (m);Résistance de pointe (MPa);Frottement latéral (kPa);t (s)",
-            "Depth, m;Cone resistance (MPa);Sleeve friction (kPa);qt (MPa)",
-            "Tiefe;Spitzendruck;Mantelreibung;Zeit\nm;MPa;kPa;s",
-        ):
-            for encoding in ("utf-8", "latin-1"):
-                self.path.write_text(head + "\n0;1;5;7\n1,5;4;20;7\n", encoding)
-                test = cone_file.read(self.path)
-                np.testing.assert_allclose(test.depth, [0, 1.5])
-                np.testing.assert_allclose(test.resistance, [1e6, 4e6], err_msg=head)
+            with self.subTest(name=name):
+                test = self.read(self.sounding(name, change))
                 assert test.friction is not None
-                np.testing.assert_allclose(test.friction, [5e3, 20e3], err_msg=head)
-                self.assertIsNone(test.pore_pressure)
+                self.assertTrue(np.isfinite(test.friction).all())
+                measured = test.depth[test.depth >= test.measured_from - 1e-9]
+                self.assertAlmostEqual(measured[0], begin)
+                self.assertAlmostEqual(float(test.depth[-1]), 2.4)
+        mechanical = self.sounding("", each(3, lambda z: -99999))
+        self.assertIsNone(self.read(mechanical).friction)
+        status, said = Command.call_on(self.path)
+        self.assertEqual(status, 1)
+        self.assertIn("no sleeve friction (fs_kPa)", said)
+        words = "--soil", "sand", "--unit-weight", "19"
+        self.assertEqual(Command.call_on(self.path, *words)[0], 0)
 
-    def test_pore_pressure(self) -> None:
-        for head in ("Porenwasserdruck u2 (kPa)", "Waterspanning u2 (kPa)", "u2_kPa"):
-            test = self.read(f"depth_m;qc_MPa;{head}\n0;1;5\n1;4;20\n")
-            assert test.pore_pressure is not None
-            np.testing.assert_allclose(test.pore_pressure, [5e3, 20e3])
+    def test_ags(self) -> None:
+        """A test at the seabed, one push from 3 m, and 19 of them down a borehole."""
+        lines = AGS.splitlines()[:10]
+        row = '"DATA","W","{}","{:.2f}","{}","100","9"'
+        pushes = [
+            row.format(i, 1.6 * i + z / 20, 9) for i in range(19) for z in range(30)
+        ]
+        for rows, begin in ((pushes[:30], 0), (pushes[60:90], 3.2), (pushes, 0)):
+            test = self.read("\n".join([*lines, *rows, ""]))
+            self.assertEqual(test.measured_from, begin)
+            self.assertAlmostEqual(test.depth[-1], float(rows[-1].split('"')[7]))
+        self.assertEqual(len(test.depth), 570)
+        self.assertIn("19 pushes were joined, gaps at 1.45 to 1.6 m", str(test.remarks))
 
-    def test_no_text(self) -> None:
-        """A spreadsheet, and the UTF-16 of Windows."""
-        for content in (b"PK\x03\x04", "depth_m,qc_MPa\n".encode("utf-16")):
-            self.path.write_bytes(content)
-            with self.assertRaisesRegex(InputError, "save it as CSV in UTF-8"):
-                cone_file.read(self.path)
+    def test_tables(self) -> None:
+        """As they come, or with the columns that the message asks for."""
+        above = "CPT data;;;\nOperator:;X;;\nAssumed GWL:;2;;\naratio;0,8;;\n"
+        head = "Depth (m);qc (MPa);fs (MPa);u2 (MPa)\n"
+        rows = [f"{z / 50:g};{1 + z / 50:g};0.012;0.001\n" for z in range(120)]
+        table = "".join(rows)
+        no_load = "0;0.002;0.005;0\n0.02;0.5;-0.001;-0.08\n" + "".join(rows[2:])
+        for name, text, columns in (
+            ("lines above", above + head + table, ""),
+            ("a hole", above + "Pre-Drill:;1.2;;\n" + head + "".join(rows[63:]), ""),
+            ("Dutch", "Diepte[m];Conuswaarden[MN/m2];;\n" + table, ""),
+            ("no heads", table.replace(";", "\t"), "depth,qc,fs (MPa),u2 (MPa)"),
+            ("no load, a drift", head + no_load, ""),
+        ):
+            with self.subTest(name=name):
+                test = self.read(text, columns=columns)
+                self.assertAlmostEqual(float(test.depth[-1]), 2.38)
+                self.assertAlmostEqual(float(test.resistance[-1]), 3.38e6)
 
 
-class Command(Reading):
+class Command(WithFiles):
     """caisson cpt, and what is kept with a run."""
 
-    def call(self, *words: str) -> tuple[int, str]:
+    @staticmethod
+    def call_on(path: Path, *words: str) -> tuple[int, str]:
         """Return status and words of `caisson cpt`."""
         parser = argparse.ArgumentParser()
         command.add_arguments(parser)
         said = io.StringIO()
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-            out = str(self.path.parent / "out")
-            words = (str(self.path), "--out", out, *words)
-            status = command.main(parser.parse_args(words))
+            out = str(path.parent / "out")
+            status = command.main(parser.parse_args([str(path), "--out", out, *words]))
         return status, said.getvalue()
+
+    def call(self, *words: str) -> tuple[int, str]:
+        """Return the same of the file."""
+        return self.call_on(self.path, *words)
 
     @staticmethod
     def say(*words: str) -> tuple[int, str]:
@@ -349,15 +180,17 @@ class Command(Reading):
     def test_area_ratio(self) -> None:
         """That of the file counts, and is said, where none is given."""
         group = '"GROUP","SCPG"\n"HEADING","LOCA_ID","SCPG_CAR"\n"DATA","CPT02","{}"\n'
-        for text, said_of_it in (("0.6", "0.6, from the file"), ("59", "59, is not")):
-            self.path.write_text(group.format(text) + self.deep(), encoding="utf-8")
-            said = self.call("--location", "CPT02")[1]
-            self.assertRegex(said, f"net area ratio of the cone: .*{said_of_it}")
-            said = self.call("--location", "CPT02", "--area-ratio", "0.7")[1]
-            self.assertNotIn("net area ratio", said)
+        for text, words in (("0.6", "0.6, from the file"), ("59", "59, is not")):
+            self.written(group.format(text) + self.deep())
+            for given, number in ((list[str](), 1), (["--area-ratio", "0.7"], 0)):
+                told = options("--location", "CPT02", *given)
+                remarks = interpretation.interpret(self.path, told).test.remarks
+                said = [r for r in remarks if "net area ratio of the cone:" in r]
+                self.assertEqual(len(said), number)
+                self.assertIn(words if number else "", "".join(said))
         for text, ratio in (("0.6", 0.6), ("59", 0.8)):
             self.path.write_text(group.format(text) + self.deep(), encoding="utf-8")
-            test = cone_file.read(self.path, location="CPT02")
+            test = cone_file.read(self.path, how=How("CPT02"))
             self.assertEqual(interpretation.area_ratio_of(test, None)[0], ratio)
             self.assertEqual(interpretation.area_ratio_of(test, 0.7), (0.7, ()))
 

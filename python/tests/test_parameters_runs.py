@@ -419,6 +419,11 @@ class Evaluation(WithFiles):
         found.study.keys["cone"] = "cone.csv"
         with self.assertRaisesRegex(StudyError, "cone.csv, row 3: the depth of 0 m"):
             parameters.check([found.study], 1)
+        (self.path / "cone.csv").write_text("0,1\n1,20\n")  # asks for an option
+        with self.assertRaisesRegex(
+            StudyError, "; or name the table that `caisson sug"
+        ):
+            parameters.check([found.study], 1)
 
     def test_observed(self) -> None:
         """What there is; what there is not is refused with the columns there are."""

@@ -405,6 +405,12 @@ class ConeTests(SuggestTest):
         page = (out / "report.html").read_text("utf-8")
         for words_of_page in ("bolton-1986-tip", "DNV", "layer 1 has silt"):
             self.assertIn(words_of_page, page)
+        for named in (
+            r"Caisson: <b>diameter \S+ m, skirt \S+ m, wall 400 mm; tip to 0.53 m<",
+            "Ground: <b>cone test cpt_example.csv<",
+            r"Computed: <b>20\d\d-\d\d-\d\d \d\d:\d\d<",
+        ):
+            self.assertRegex(page, named)
         for name in ("low", "best", "high"):
             run = out / f"study/soil_{name}"
             self.assertTrue((run / "report.html").is_file())

@@ -5,8 +5,8 @@ caisson also its scene, and a study of the three estimates beside all design met
     caisson cpt FILE
     caisson cpt FILE --diameter 10 --skirt 8 --wall 40mm --run
 
-The file is AGS 4, GEF or a table with the columns depth_m and qc_MPa and, where they
-were measured, fs_kPa and u2_kPa. Results go to
+The file is GEF, AGS 4, BRO-XML, a workbook (.xlsx) or a table with the columns depth_m
+and qc_MPa and, where they were measured, fs_kPa and u2_kPa. Results go to
 results/cpt/NAME: layers.csv and cpt.png; of a caisson scene.prm and study.toml, and
 with --run report.html.
 """
@@ -63,6 +63,15 @@ def check(options: argparse.Namespace) -> bool:
     return bool(given)
 
 
+def caisson_of(options: argparse.Namespace) -> str:
+    """Return the caisson in words."""
+    weight = f", weight in water {options.weight / 1e3:g} kN" if options.weight else ""
+    return (
+        f"diameter {options.diameter:g} m, skirt {options.skirt:g} m, wall"
+        f" {options.wall * 1e3:g} mm{weight}; tip to {suggest.end_of(options):g} m"
+    )
+
+
 def write(
     found: Interpretation, directory: Path, tip: float | None, location: str
 ) -> list[Path]:
@@ -104,7 +113,9 @@ def work(options: argparse.Namespace) -> int:
     if not options.run:
         return 0
     status = page.run_study(options.study, directory, options.jobs)
-    report([page.write(found, options.study, directory)])
+    name = f"{found.file.name} {options.location}".rstrip()
+    facts = [("Caisson", caisson_of(options)), ("Ground", f"cone test {name}")]
+    report([page.write(found, options.study, directory, facts)])
     return status
 
 

@@ -124,9 +124,21 @@ def troubles_of(outcomes: Outcomes) -> list[str]:
     return found + [f"{', '.join(names)}: {text}" for text, names in warnings.items()]
 
 
-def write(test: Interpretation, file: Path, directory: Path) -> Path:
-    """Write the page of a study with a cone test. Raises ResultsError where no run
-    has an answer."""
+def job_of(facts: list[tuple[str, str]], outcomes: Outcomes) -> list[tuple[str, str]]:
+    """Return what a first page must name: facts, and when the last run was computed and
+    by what."""
+    summaries = [outcome.run.results.summary for outcome in outcomes.complete]
+    last = max(summaries, key=lambda summary: str(summary.get("written", "")))
+    written = str(last.get("written", ""))[:16].replace("T", " ")
+    program = f"caisson_mpm {last.get('version', '')}".rstrip()
+    return [*facts, ("Computed", written or "not known"), ("Program", program)]
+
+
+def write(
+    test: Interpretation, file: Path, directory: Path, facts: list[tuple[str, str]]
+) -> Path:
+    """Write the page of a study with a cone test. facts: what it names first. Raises
+    ResultsError where no run has an answer."""
     study = study_of(file, directory)
     outcomes = Outcomes(study)
     if not outcomes.complete:
@@ -146,6 +158,7 @@ def write(test: Interpretation, file: Path, directory: Path) -> Path:
     path.write_text(
         environment.get_template("page.html.jinja").render(
             title=study.title,
+            job=job_of(facts, outcomes),
             test=test.file.name,
             troubles=troubles_of(outcomes),
             soil=by_layer(*tables.cells_of(test.layers)),

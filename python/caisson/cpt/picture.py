@@ -20,11 +20,20 @@ from caisson_design.cone_estimates import (
     growth_of,
 )
 from caisson_design.correlations import ANGLE, BEST, DENSITY, MODULUS, STRENGTH
-from caisson_design.ground import CLAY, CLAY_ABOVE, SAND, SAND_BELOW, SILT, Ground
+from caisson_design.ground import (
+    CLAY,
+    CLAY_ABOVE,
+    SAND,
+    SAND_BELOW,
+    SILT,
+    WATER,
+    Ground,
+)
 
 COLORS = {SAND: "#f3e2b3", SILT: "#d8d3c4", CLAY: "#c9b8a8"}
 LINE, BAND = "#2166ac", "#2166ac"
-PROFILE, TIP = "0.35", "#b2182b"
+PROFILE, TIP, WATER_LINE = "0.35", "#b2182b", "#4393c3"
+PRESSURE = "$u_2$ (kPa)"
 WIDEST = 1.6  # of an axis over the largest estimate, so that no spike hides them
 
 
@@ -48,6 +57,8 @@ def panels_of(
     if ground.friction is not None:
         found.append(Panel("$f_s$ (kPa)", ground.friction * 1e-3))
         found.append(Panel("$I_c$", ground.index, INDEX))
+    if ground.pore_pressure is not None:
+        found.insert(2, Panel(PRESSURE, ground.pore_pressure * 1e-3))
     has = {name for e in every for name in e.values}
     sand = rows_with(every, ANGLE, len(ground.depth))
     if DENSITY in has:
@@ -137,6 +148,11 @@ def draw_panel(
         axes.set_xlim(*correlations.ANGLES)
     elif panel.estimate == DENSITY:
         axes.set_xlim(0, 105)
+    elif panel.title == PRESSURE:
+        at_rest = WATER * depth * 1e-3
+        axes.plot(at_rest, depth, color=WATER_LINE, linestyle="--", linewidth=1.0)
+        ends = [*panel.profile, at_rest[-1], 0.0]
+        axes.set_xlim(1.05 * min(ends), 1.05 * max(ends))
     else:
         shown = panel.profile[np.isfinite(panel.profile)]
         top = 1.05 * float(max(shown, default=0.0)) or 1.0
@@ -148,6 +164,19 @@ def draw_panel(
     axes.set_xlabel(panel.title)
     axes.grid(color="0.85", linewidth=0.6)
     axes.set_axisbelow(True)
+
+
+def draw_unmeasured(columns: Sequence[Axes], ground: Ground) -> None:
+    """Hatch the soil above the first row that was measured."""
+    for axes in columns if ground.above else ():
+        axes.axhspan(
+            0,
+            ground.measured_from,
+            facecolor="none",
+            edgecolor="0.55",
+            hatch="//",
+            lw=0,
+        )
 
 
 def name_layers(axes: Axes, every: Sequence[Estimates]) -> None:
@@ -164,11 +193,16 @@ def name_layers(axes: Axes, every: Sequence[Estimates]) -> None:
             fontsize=8,
             fontweight="bold",
             color="0.2",
+            zorder=6,
         )
 
 
 def legend_of(
-    figure: Figure, every: Sequence[Estimates], note: str, tip: float | None
+    figure: Figure,
+    ground: Ground,
+    every: Sequence[Estimates],
+    note: str,
+    tip: float | None,
 ) -> None:
     """Draw the legend below the panels, with a note."""
     kinds = {e.layer.kind for e in every}
@@ -184,6 +218,14 @@ def legend_of(
         for k in COLORS
         if k in lenses
     ]
+    if ground.pore_pressure is not None:
+        text = "water at rest"
+        handles.append(Line2D([], [], color=WATER_LINE, linestyle="--", label=text))
+    if ground.above:
+        text = f"not measured, {ground.above}"
+        handles.append(
+            Patch(facecolor="none", edgecolor="0.55", hatch="//", label=text)
+        )
     if tip is not None:
         text = f"skirt tip at {tip:g} m"
         handles.append(Line2D([], [], color=TIP, linestyle="--", label=text))
@@ -217,13 +259,14 @@ def draw(
     columns[0].set_ylim(every[-1].layer.bottom, 0)
     columns[0].set_ylabel("Depth below the mudline (m)")
     name_layers(columns[0], every)
+    draw_unmeasured(columns, ground)
     if tip is not None:
         for axes in columns:
             axes.axhline(tip, color=TIP, linewidth=1.4, linestyle="--", zorder=5)
     figure.suptitle(title, fontsize=11)
     shown = [p.estimate for p in panels if p.estimate in names]
     note = "; ".join(names[quantity] for quantity in shown)
-    legend_of(figure, every, note, tip)
+    legend_of(figure, ground, every, note, tip)
     figure.tight_layout(rect=(0, 0.06, 1, 1))
     figure.savefig(path, dpi=150)
     return path

@@ -18,7 +18,7 @@ from caisson_design.cone_estimates import (
     Estimate,
     Estimates,
 )
-from caisson_design.cone_layers import BAND
+from caisson_design.cone_layers import BAND, Layer
 from caisson_design.correlations import (
     ANGLE,
     DENSITY,
@@ -26,7 +26,8 @@ from caisson_design.correlations import (
     MODULUS,
     STRENGTH,
 )
-from caisson_design.ground import SAND, kind_of
+from caisson_design.ground import CLAY, CLAY_LIKE, DRAINED, OFFSET, SAND
+from caisson_design.ground import Ground, kind_of
 from caisson_design.interpretation import Interpretation
 
 WIDEST_GAP = 1.0  # m between rows; a wider one is reported
@@ -86,6 +87,52 @@ def text_of_test(test: Interpretation) -> str:
     return "\n".join([f"{test.file}: low / best / high", text, *remarks(test)])
 
 
+def signs(ground: Ground, number: int, layer: Layer) -> list[str]:
+    """Return where I_c, friction ratio and pore pressure of a layer do not agree with
+    each other, or with the kind that is given."""
+    index, friction, behavior, pressure, excess = (
+        ground.median(values, layer.rows)
+        for values in (
+            ground.index,
+            ground.friction_ratio,
+            ground.behavior,
+            ground.pressure_ratio,
+            ground.excess,
+        )
+    )
+    if not np.isfinite(index):
+        return []
+    own, by_index = ground.kind(layer.rows), kind_of(index)
+    why = []
+    if behavior < CLAY_LIKE:
+        why.append(
+            f"its F_r of {friction:.1f} % (I_B of {behavior:.0f}) is that of clay"
+        )
+    if pressure >= DRAINED:
+        why.append(
+            f"its u_2 is {excess / 1e3:.0f} kPa above water at rest (B_q of"
+            f" {pressure:.2f}), as in soil that does not drain"
+        )
+    of_index = f"its I_c of {index:.2f}"
+    if layer.is_given:
+        text = " and ".join(why) or f"{of_index} is that of {own}"
+        taken = f"layer {number} is taken as {layer.kind} by --soil; {text}"
+        return [taken] if own != layer.kind else []
+    if own != by_index:
+        return [
+            f"layer {number} is taken as {own}, though {of_index} is that of"
+            f" {by_index}: {' and '.join(why)}; --soil {number}={SAND} overrules this"
+        ]
+    measured = ground.pore_pressure is not None and not ground.has_offset
+    if own == CLAY and measured and pressure < DRAINED / 2:
+        return [
+            f"layer {number} is clay by its friction, but its u_2 is not above water at"
+            " rest, as in soil that drains or in stiff clay: the two do not agree;"
+            f" --soil {number}=sand takes it as sand"
+        ]
+    return []
+
+
 def remarks(test: Interpretation) -> list[str]:
     """Return what the table rests on, lenses and bands, what can be done with other
     soil than sand, gaps, and columns that were not read."""
@@ -93,7 +140,9 @@ def remarks(test: Interpretation) -> list[str]:
     found = [f"{WEIGHT}: {test.weight}"]
     for c in EVERY:
         if test.names[c.quantity] == c.name and c.quantity in have:
-            found.append(f"{c.quantity}: {c.name}, {c.source}; {c.holds}")
+            factor = test.ground.cone_factor
+            name = f"{c.name}, N_kt = {factor:g}" if c.quantity == STRENGTH else c.name
+            found.append(f"{c.quantity}: {name}, {c.source}; {c.holds}")
     for number, e in enumerate(test.layers, 1):
         lenses = [f"{kind} from {a:g} to {b:g} m" for a, b, kind in e.layer.lenses]
         if lenses:
@@ -108,14 +157,15 @@ def remarks(test: Interpretation) -> list[str]:
                 " from its usual resistance, and not in a scene; --tops makes other"
                 " layers"
             )
-        index = float(np.median(test.ground.index[e.layer.rows]))
-        if np.isfinite(index) and kind_of(index) != e.layer.kind:
-            found.append(
-                f"layer {number} is taken as {e.layer.kind} by --soil; its I_c of"
-                f" {index:.2f} is that of {kind_of(index)}"
-            )
+        found += signs(test.ground, number, e.layer)
         if e.layer.kind != SAND:
             found.append(f"layer {number} is {e.layer.kind}: {CAN[e.layer.kind]}")
+    if test.ground.has_offset:
+        found.append(
+            f"u_2 is {OFFSET / 1e3:g} kPa and more above water at rest in nearly all"
+            " rows, as if it had not been set to 0 at the mudline: it tells no soils"
+            " apart"
+        )
     depth = test.ground.depth
     found += [
         f"no row lies between {a:g} and {b:g} m: the soil there is unknown"

@@ -101,7 +101,10 @@ def cone_of(study: Study) -> Path | None:
     try:
         cone.read(path)
     except InputError as error:
-        raise StudyError(f"{study.file}: cone: {error}") from error
+        way = ""
+        if " --" in str(error):  # an option, which a study does not have
+            way = "; or name the table that `caisson suggest --cpt` writes with --study"
+        raise StudyError(f"{study.file}: cone: {error}{way}") from error
     return path
 
 

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from caisson.results import Results, ResultsError
-from caisson_design import InputError
+from caisson_design import InputError, cone_options
 
 
 def draw(directory: Path) -> list[Path]:
@@ -42,21 +42,22 @@ def add_cone_arguments(parser: argparse.ArgumentParser) -> None:
         "--cpt",
         type=Path,
         metavar="FILE",
-        help="a cone test for the design methods, a table with the columns depth_m and"
-        " qc_MPa; it is kept as cone.csv in the directory of the run",
+        help="a cone test for the design methods; it is kept as cone.csv in the"
+        " directory of the run",
     )
-    text = "one of the tests in a file of AGS"
-    parser.add_argument("--location", default="", metavar="NAME", help=text)
+    cone_options.add_arguments(parser)
 
 
 def keep_cone(options: argparse.Namespace, directory: Path) -> None:
     """Keep a cone test, if one is given, with a run. Raises InputError."""
+    how = cone_options.how_of(options)
     if options.cpt is not None:
         from caisson_design import cone
 
-        cone.adopt(options.cpt, directory, options.location)
-    elif options.location:
-        raise InputError("--location is for a cone test, --cpt")
+        for remark in cone.adopt(options.cpt, directory, how):
+            print(f"{options.cpt}: {remark}")
+    else:
+        how.refuse()
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

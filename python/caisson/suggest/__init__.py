@@ -38,7 +38,7 @@ from caisson.suggest import cone, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
 from caisson.suggest.soil import CAM_CLAY, NGI_ADP, layers_of
-from caisson_design import InputError, cone_file, interpretation
+from caisson_design import InputError, cone_file, cone_options, interpretation
 from caisson_design.interpretation import Interpretation
 from caisson_design.quantity import length, number
 
@@ -62,7 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--cpt",
         type=Path,
         metavar="FILE",
-        help="a cone test that gives the layers, in place of --layer: CSV, AGS 4, GEF",
+        help="a cone test that gives the layers, in place of --layer",
     )
     add("--sand", metavar="WORD", help=f"all of it sand: {', '.join(sand.WORDS)}")
     text = "all of it sand of this relative density, as 0.85 or 85%%"
@@ -123,7 +123,9 @@ def check(options: argparse.Namespace) -> None:
         raise SuggestError(
             f"--law {options.law} is for a cone test, --cpt; give the angle by --layer"
         )
-    for name in ("location", "tops", "correlation", "soil", "unit_weight"):
+    if not options.cpt:
+        cone_options.how_of(options).refuse()
+    for name in ("tops", "correlation", "soil", "unit_weight", "nkt"):
         if not options.cpt and getattr(options, name):
             raise SuggestError(f"--{name.replace('_', '-')} is for a cone test, --cpt")
     if body.wall > body.diameter / 10:
@@ -296,7 +298,7 @@ def reached(options: argparse.Namespace, layers: Sequence[Layer]) -> list[Layer]
 
 def table_of_cone(options: argparse.Namespace) -> Path:
     """Return the cone test as a table, beside the study if the file is none."""
-    if cone_file.is_a_table(options.cpt):
+    if cone_file.is_plain(options.cpt, cone_options.how_of(options)):
         return Path(options.cpt)
     study: Path = options.study
     return study.with_name(f"{study.stem}_cone.csv")

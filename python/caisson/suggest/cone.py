@@ -8,7 +8,6 @@ from caisson.suggest import sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.soil import ASSUMED, BY_STRESS, POISSON_OF_CLAY
 from caisson_design.cone_estimates import (
-    CAN,
     ENDS,
     K0,
     REFERENCE,
@@ -17,7 +16,8 @@ from caisson_design.cone_estimates import (
     Estimates,
 )
 from caisson_design.correlations import ANGLE, DENSITY, MODULUS, STRENGTH
-from caisson_design.ground import CLAY, SAND
+from caisson_design.cone_rules import GIVEN
+from caisson_design.ground import CLAY, SAND, SILT
 from caisson_design.interpretation import Interpretation
 
 REACH = 1.5  # times the skirt: the test counts to this depth
@@ -27,22 +27,29 @@ ADHESION_OF_CLAY = Entry(
 )
 
 
-def refuse_fines(found: Interpretation, end: float, flows: bool) -> None:
-    """Refuse silt that the skirt reaches, and clay if water flows. Raises
-    SuggestError."""
-    allowed = (SAND,) if flows else (SAND, CLAY)
-    wrong = [
-        f"layer {number}, {e.layer.top:g} to {e.layer.bottom:g} m, is {e.layer.kind}"
-        f" ({CAN[e.layer.kind]})"
+def refuse_silt(found: Interpretation, end: float, flows: bool) -> None:
+    """Refuse silt that the skirt reaches. flows: water flows through the ground, so
+    that none of it can be undrained. Raises SuggestError."""
+    silt = [
+        number
         for number, e in enumerate(found.layers, 1)
-        if e.layer.kind not in allowed and e.layer.top < end
+        if e.layer.kind == SILT and e.layer.top < end
     ]
-    if wrong:
+    if silt:
+        layers = [found.layers[number - 1].layer for number in silt]
+        where = [
+            f"layer {number}, {layer.top:g} to {layer.bottom:g} m"
+            for number, layer in zip(silt, layers)
+        ]
+        sand, clay = (
+            " ".join(f"--soil {number}={kind}" for number in silt)
+            for kind in (SAND, CLAY)
+        )
+        undrained = f"{clay} if it does not" + (", without --weight" if flows else "")
         raise SuggestError(
-            f"{found.file}: {'; '.join(wrong)}. No scene is written by itself where"
-            " the skirt reaches silt, or clay under suction: nothing says how far the"
-            " soil drains. Give the layers in words, --layer, or end above it,"
-            " --penetration"
+            f"{found.file}: {'; '.join(where)}, is silt, of which a cone test does not"
+            f" tell how far it drains while the skirt passes. Say it: {sand} if it"
+            f" drains, {undrained}"
         )
 
 
@@ -53,8 +60,8 @@ def refuse_no_strength(found: Interpretation) -> None:
             raise SuggestError(
                 f"{found.file}: layer {number}, {e.layer.top:g} to"
                 f" {e.layer.bottom:g} m, has no strength: its cone resistance does not"
-                " exceed the total vertical stress. Check the zero of the test and"
-                " --unit-weight, or give the layers in words, --layer"
+                " exceed the total vertical stress. Check the zero of the test,"
+                f" --unit-weight and the kind of soil, as --soil {number}={SAND}"
             )
 
 
@@ -74,7 +81,13 @@ def remark(found: Interpretation, e: Estimates, name: str) -> str:
     names = found.names | {REFERENCE: found.names[MODULUS], WEIGHT: found.weight}
     source = names[name]
     shown = SHOWN[name]
-    return f" # FROM CPT ({source}): {shown.head} {text_of(e.values[name], shown)}"
+    text = f" # FROM CPT ({source}): {shown.head} {text_of(e.values[name], shown)}"
+    start = found.ground.measured_from
+    if e.layer.top >= start:
+        return text
+    if found.ground.above == GIVEN:
+        return text.replace("CPT", "--above", 1)
+    return f"{ASSUMPTION} above {start:g} m, where nothing was measured;{text[2:]}"
 
 
 def number(value: float) -> str:
@@ -158,7 +171,7 @@ def layers_of(
     """Return the layers of a scene whose skirt ends at a depth (m). law: of sand, a
     name of sand.LAWS or sand.ONE_ANGLE; flows: water flows through the ground. Raises
     SuggestError."""
-    refuse_fines(found, end, flows)
+    refuse_silt(found, end, flows)
     refuse_no_strength(found)
     return [Layer(e.layer.top, entries_of(found, e, law)) for e in found.layers]
 

@@ -33,6 +33,7 @@ class CaissonMpm(CMakePackage):
         depends_on("py-scipy", type="run")
         depends_on("py-matplotlib", type="run")
         depends_on("py-jinja2", type="run")
+        depends_on("py-openpyxl", type="run")
         depends_on("vtk+python", type="run")
 
     generator("ninja")

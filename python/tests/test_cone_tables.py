@@ -1,0 +1,311 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Cone tests as tables of other countries, as workbooks, and the rules for any rows."""
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from caisson import needed
+from caisson_design import InputError, cone_file, cone_grid
+from caisson_design.cone_options import How
+from made_up_cone import AGS, GEF, OTHER, WithFiles
+
+
+class Tables(WithFiles):
+    """Tables of text as other countries write them."""
+
+    def test_decimal_commas(self) -> None:
+        test = self.read("depth_m;qc_MPa\n0,5;1,25\n1;2,5\n")
+        np.testing.assert_allclose(test.resistance, [1.25e6, 2.5e6])
+        mixed = "depth_m;qc_kPa\n0.5;1250\n1.0;1,300\n"
+        self.refused(mixed, "row 3: '1,300' has a comma where other rows")
+
+    def test_thousands(self) -> None:
+        """With separators, which would be decimals; weak clay is a remark."""
+        for rows in ("0,5;1,424\n1;15,250\n", "0.5;712\n1;1.148\n"):
+            self.refused(f"depth_m;qc_kPa\n{rows}", "row .: .* of thousands.* write 1")
+        test = self.read("depth_m;qc_kPa\n0.5;95.25\n1;120.5\n")
+        self.assertIn("is only 120.5 kPa: check the unit in the", str(test.remarks))
+        for rows in ("0.5;712.5\n1;99\n", "0.5;712\n1;815.125\n"):
+            self.assertEqual(self.read(f"depth_m;qc_kPa\n{rows}").remarks, ())
+
+    def test_depths(self) -> None:
+        """Below the ground; not a level, and not below a hole."""
+        rows = "0.5;1\n1;4\n"
+        for head in ("Tiefe unter GOK (m)", "Teufe [m]", "Penetration (m)"):
+            self.assertEqual(self.read(f"{head};qc_MPa\n{rows}").depth[0], 0.5)
+        both = "Sondeerlengte (m);Diepte (m);qc_MPa\n0.5;0.4;1\n1;0.9;4\n"
+        self.assertEqual(self.read(both).depth[0], 0.4)
+        for head in ("Diepte t.o.v. NAP (m)", "Höhe (m)"):
+            self.refused(f"{head};qc_MPa\n{rows}", "is a level above a datum; subtract")
+        self.refused("depth_m;qc_MPa\n0;1;2\n3;4\n", "row 2: .* column needs a head")
+        self.refused("depth_m,qc_MPa\n0,1,2\n3,4\n", "row 2: .* divide cells by semi")
+
+    def test_heads(self) -> None:
+        """German, Dutch, French and English; what is no measured resistance or friction
+        is left out."""
+        for head in (
+            "Tiefe [m];Spitzendruck qc [MN/m²];Mantelreibung fs [kPa];u1 [kPa]",
+            "Tiefe in m;Spitzenwiderstand (MPa);lokale Mantelreibung (kN/m²);Rf (%)",
+            "Diepte (m);Conusweerstand (MPa);Plaatselijke wrijving (kPa);Helling (gr)",
+            "Profondeur (m);Résistance de pointe (MPa);Frottement latéral (kPa);t (s)",
+            "Depth, m;Cone resistance (MPa);Sleeve friction (kPa);qt (MPa)",
+            "Tiefe;Spitzendruck;Mantelreibung;Zeit\nm;MPa;kPa;s",
+        ):
+            for encoding in ("utf-8", "latin-1"):
+                self.path.write_text(head + "\n0;1;5;7\n1,5;4;20;7\n", encoding)
+                test = cone_file.read(self.path)
+                np.testing.assert_allclose(test.depth, [0, 1.5])
+                np.testing.assert_allclose(test.resistance, [1e6, 4e6], err_msg=head)
+                assert test.friction is not None
+                np.testing.assert_allclose(test.friction, [5e3, 20e3], err_msg=head)
+                self.assertIsNone(test.pore_pressure)
+
+    def test_pore_pressure(self) -> None:
+        for head in ("Porenwasserdruck u2 (kPa)", "Waterspanning u2 (kPa)", "u2_kPa"):
+            test = self.read(f"depth_m;qc_MPa;{head}\n0;1;5\n1;4;20\n")
+            assert test.pore_pressure is not None
+            np.testing.assert_allclose(test.pore_pressure, [5e3, 20e3])
+
+    def test_no_text(self) -> None:
+        """An archive, an old workbook, and the UTF-16 of Windows."""
+        for content, words in (
+            (b"PK\x03\x04", "no workbook that can be read .*save it as .xlsx"),
+            (b"\xd0\xcf\x11\xe0\0", "old form .*: save it as .xlsx or CSV"),
+            ("depth_m,qc_MPa\n".encode("utf-16"), "save it as CSV in UTF-8"),
+        ):
+            self.path.write_bytes(content)
+            with self.assertRaisesRegex(InputError, words):
+                cone_file.read(self.path)
+        with self.assertRaisesRegex(InputError, "it is a device"):
+            cone_file.read(Path("/dev/zero"))
+
+    def test_lines_above_and_below(self) -> None:
+        """What they say of the test is used or named."""
+        rows = "0.5,1,5,0\n1.5,1,5,9\n2,4,,\n2.5,,5,9\n3,4,20,9\nEnd of test,20.3 m,,\n"
+        head = "Depth (m),qc (MPa),fs (kPa),u2 (kPa)\n"
+        above = (
+            "Contractor:,X,,\nAssumed GWL:,1.2,,\naratio,0.8,,\nPre-Drill:,1.2 m,,\n"
+        )
+        test = self.read(above + ",,,\n" + head + rows)
+        said = " ".join(test.remarks)
+        self.assertEqual((test.area_ratio, test.measured_from), (0.8, 1.5))
+        np.testing.assert_allclose(test.depth[-3:], [1.5, 2, 3])
+        assert test.friction is not None
+        np.testing.assert_allclose(test.friction[-3:], [5e3, 20e3, 20e3])
+        for words in (
+            "above the heads that were not read: 1",
+            "row 12, 'End of test 20.3 m'",
+            "above the pre-excavated depth of 1.2 m, left out: 1",
+            "water level of the file, 1.2 m, is not used",
+            "without a depth or a cone resistance, left out: 1",
+        ):
+            self.assertIn(words, said)
+        plain = above.replace("Pre-Drill:,1.2 m", "Voorgeboord tot [m] : 120 cm")
+        self.assertEqual(self.read(plain + head + rows).measured_from, 1.5)
+        self.assertIn("not read: 1: Contractor: X", said)
+        self.assertIn(
+            "two values: area ratio",
+            str(self.read("aratio,0.8\narea ratio,0.6\n" + head + rows).remarks),
+        )
+
+    def test_heads_of_others(self) -> None:
+        """Units in any bracket or below, a corrected resistance alone, any divider."""
+        for text in (
+            "Diepte[m];Maaiveld[m];Conuswaarden[MN/m²]\n0,2;-0,2;1\n1,5;-1,5;4\n",
+            "sep=;\nz [m];qc [MPa]\n0,2;1\n1,5;4\n",
+            "z [m]\tqt [MPa]\n0.2\t1\n1.5\t4\n",
+            "Depth  qc\n m  MPa\n0.2 1\n1.5 4\n",
+            "Tiefe {m u. GOK};Spitzendruck / MPa\n0,2;1\n1,5;4\n",
+            "Penetration length (m),Measured cone resistance [MPa]\n-0.2,1\n-1.5,4\n",
+            "z_mm,Tip Resistance (kN / m2),qc/pa\n200,1000,1\n1500,4000,1\n",
+            '"Test depth\n(m)",Depth (ft),"qc\n(MPa)"\n0.2,1,1\n1.5,5,4\n',
+        ):
+            test = self.read(text)
+            np.testing.assert_allclose(test.depth, [0.2, 1.5], err_msg=text)
+            np.testing.assert_allclose(test.resistance, [1e6, 4e6], err_msg=text)
+            self.assertEqual(test.is_corrected, "qt" in text)
+        no_unit = self.read("Depth,qc_MPa\n0.2,1\n1.5,4\n")
+        self.assertIn("ASSUMED: 'Depth' is in m", str(no_unit.remarks))
+        both = "depth_m,qc_MPa,qt_MPa\n0.2,1,2\n1.5,4,5\n"
+        self.assertEqual(self.read(both).resistance[0], 1e6)
+        ratio = "depth_m,qc_MPa,Sleeve friction ratio (MPa)\n0.2,1,2\n1.5,4,5\n"
+        self.assertIsNone(self.read(ratio).friction)
+
+    def test_without_heads(self) -> None:
+        """The message says how columns are named, and that works."""
+        rows = "0\t0.5\t0\t-1.6\n0.01\t1\t1\t-70\n0.02\t2\t20\t3\n"
+        self.refused(rows, "row 1 is '0, 0.5, 0, -1.6'. Name the columns: --columns d")
+        for columns in (cone_grid.EXAMPLE, "depth,qc,fs,u2"):
+            test = self.read(rows, columns=columns)
+            assert test.friction is not None and test.pore_pressure is not None
+            np.testing.assert_allclose(test.resistance, [0.5e6, 1e6, 2e6])
+            np.testing.assert_allclose(test.friction, [0, 1e3, 20e3])
+            np.testing.assert_allclose(test.pore_pressure, [-1600, -70e3, 3e3])
+            self.assertEqual("ASSUMED" in str(test.remarks), "_" not in columns)
+        test = self.read("x\n" + rows, columns="z_m,qc_MPa,-,-")
+        np.testing.assert_allclose(test.resistance, [0.5e6, 1e6, 2e6])
+        timed = "".join(f"10:20:0{i} 0,{i + 1} {i + 1},5 x\n" for i in range(9))
+        test = self.read("Test 1\n" + timed, columns="-,depth (m),qc (MPa),-")
+        np.testing.assert_allclose(test.resistance[:2], [1.5e6, 2.5e6])
+        self.refused(rows, "'rubbish' is no column", columns="depth,rubbish")
+        self.refused(GEF, "--columns is for tables; .* is GEF", columns="depth,qc")
+
+
+@unittest.skipUnless(needed.is_there("openpyxl"), "openpyxl is missing")
+class Workbooks(WithFiles):
+    """Sheets of .xlsx."""
+
+    def test_sheets(self) -> None:
+        import openpyxl
+
+        book = openpyxl.Workbook()
+        book.active.title = "about"
+        book.active.append(["Contractor", "X"])
+        sheet = book.create_sheet("CPT 1")
+        for row in (
+            ["Pre-Drill:", None],
+            ["z\n[m]", "qc\n[MPa]", None, "fs [kPa]"],
+            [0.1, 1, None, 10.5],
+            [0.3, 4, None, None],
+        ):
+            sheet.append(row)
+        book.save(self.path)
+        test = cone_file.read(self.path)
+        np.testing.assert_allclose(test.resistance, [1e6, 4e6])
+        assert test.friction is not None
+        np.testing.assert_allclose(test.friction, [10.5e3, 42e3])
+        with self.assertRaisesRegex(InputError, "no sheet 'x'; .* are about, CPT 1"):
+            cone_file.read(self.path, how=How(sheet="x"))
+        book.copy_worksheet(sheet)
+        book.save(self.path)
+        with self.assertRaisesRegex(InputError, "2 sheets .*, CPT 1, CPT 1 Copy; cho"):
+            cone_file.read(self.path)
+        self.assertEqual(
+            len(cone_file.read(self.path, how=How(sheet="CPT 1")).depth), 2
+        )
+        self.assertFalse(cone_file.is_plain(self.path))
+
+
+class Rules(WithFiles):
+    """What rows must be, in any format; here in one that is short."""
+
+    HEAD = "depth_m,qc_MPa,fs_kPa,u2_kPa\n"
+
+    @staticmethod
+    def rows(begin: float = 0.02, number: int = 200) -> list[list[float]]:
+        """Return rows each 2 cm of sand."""
+        return [[begin + i / 50, 2 + i / 100, 12, 0.2 * i] for i in range(number)]
+
+    def of(self, rows: list[list[float]], **how: str) -> cone_file.Test:
+        """Return the test of rows."""
+        text = "\n".join(",".join(f"{x:g}" for x in row) for row in rows)
+        return self.read(self.HEAD + text, **how)
+
+    def test_small_readings_below_zero(self) -> None:
+        """A drift is taken as 0, and counted; more is refused."""
+        rows = self.rows()
+        rows[7][2], rows[9][2] = -2, -11
+        test = self.of(rows)
+        assert test.friction is not None
+        self.assertEqual(list(test.friction[6:10]), [12e3, 0, 12e3, 0])
+        self.assertIn("down to -11 kPa, taken as 0: 2, those of nu", str(test.remarks))
+        rows[9][2] = -60
+        with self.assertRaisesRegex(InputError, "row 11: the sleeve .* is -0.06 MPa"):
+            self.of(rows)
+        rows[9][2:] = [12, -80]
+        self.assertIn("kept, 1, down to -80 kPa", str(self.of(rows).remarks))
+        rows[9][3] = -900
+        with self.assertRaisesRegex(InputError, "row 11: the pore pressure is -0.9"):
+            self.of(rows)
+
+    def test_rows_without_load(self) -> None:
+        """At the start, or few, they are left out; else a unit is wrong."""
+        rows = self.rows()
+        for row in rows[:30]:
+            row[1:3] = [0, 0.6]
+        rows[90][1] = -0.01
+        test = self.of(rows)
+        self.assertEqual((len(test.depth), test.measured_from), (200 - 31 + 31, 0.62))
+        self.assertIn("without load (q_c below 0 or below f_s)", str(test.remarks))
+        for row in rows:
+            row[1:3] = [0.1, 500]
+        with self.assertRaisesRegex(InputError, r"row 2: .* \(199 more rows are wrong"):
+            self.of(rows)
+
+    def test_friction_in_few_rows(self) -> None:
+        """It says nothing of the others."""
+        rows = self.rows()
+        for row in rows[20:]:
+            row[2] = -9999
+        test = self.of(rows)
+        self.assertIsNone(test.friction)
+        self.assertIn("friction has values in only 20 of 200 rows", str(test.remarks))
+
+    def test_depths(self) -> None:
+        """All of them negative; a few that repeat; a corrected one that is a level."""
+        rows = self.rows()
+        test = self.of([[-z, *rest] for z, *rest in rows])
+        np.testing.assert_allclose(test.depth, [z for z, *_ in rows])
+        self.assertIn("negative downward: taken by their amount", str(test.remarks))
+        rows[50][0] = rows[49][0]
+        self.assertIn("repeat a depth, left out: 1, tho", str(self.of(rows).remarks))
+        rows[50][0] -= 1
+        with self.assertRaisesRegex(InputError, "row 52: the depth of 0 m is not bel"):
+            self.of(rows)
+        rows = self.rows()
+        rows[3][0] = -0.5
+        self.assertIn("above the ground, left out: 1", str(self.of(rows).remarks))
+        head = "Depth (m),Penetration length (m),qc (MPa)\n"
+        for shift, depth in ((0.0, 0.4), (-4.0, 0.42)):
+            text = [f"{shift - 0.4 - i:g},{0.42 + i:g},2" for i in range(9)]
+            test = self.read(head + "\n".join(text))
+            self.assertEqual(test.depth[0], depth)
+
+    def test_soil_above(self) -> None:
+        """Of a test that begins below the mudline: ASSUMED, or as it is given."""
+        test = self.of(self.rows(1.62))
+        self.assertEqual((test.measured_from, test.above), (1.62, "ASSUMED"))
+        self.assertEqual(test.depth[0], 0)
+        first = test.resistance[test.depth < 1.62]
+        np.testing.assert_allclose(first, 2.125e6)  # the median of half a meter
+        test = self.of(self.rows(1.62), above="qc = 1 MPa, fs = 20 kPa")
+        self.assertEqual(test.above, "GIVEN")
+        assert test.friction is not None
+        self.assertEqual((test.resistance[0], test.friction[80]), (1e6, 20e3))
+        self.assertEqual(self.of(self.rows(0.4)).above, "")
+        for words, said in (
+            ("fs = 20 kPa", "qc is missing"),
+            ("qc = 1 MPa, fr = 1", "'fr' is neither qc nor fs"),
+            ("qc = 1 m", "no unit of it"),
+            ("qc = -1 MPa", "is no cone resistance"),
+        ):
+            with self.assertRaisesRegex(InputError, said):
+                self.of(self.rows(1.62), above=words)
+        with self.assertRaisesRegex(
+            InputError, "--above is for a test that begins bel"
+        ):
+            self.of(self.rows(), above="qc = 1 MPa")
+
+    def test_hole_below_the_test(self) -> None:
+        text = GEF.replace("#EOH=", "#MEASUREMENTVAR= 13, {}, x\n#EOH=")
+        text = text.replace("-9999;0", "2;0")
+        for hole, unit in (("0.9", "m (meter)"), ("900", "mm"), ("0,9", "m")):
+            test = self.read(text.format(hole).replace("x\n#EOH", f"{unit}\n#EOH"))
+            self.assertIn(
+                "pre-excavated depth of 0.9 m, left out: 1", str(test.remarks)
+            )
+        self.refused(text.format("7"), "hole above the test is 7 m .* at 1.47 m: corr")
+
+    def test_nothing_reaches_a_terminal(self) -> None:
+        """Names of a file cannot command one, in messages and in remarks."""
+        self.refused(
+            AGS + OTHER.replace("CPT02", "C\x1b[31m2"), r"CPT01, C\\x1b\[31m2;"
+        )
+        head = "depth_m,qc_MPa,\x1b]0;x\x07\u202e\n"
+        said = str(self.read(head + "0.5,1,1\n1,4,1\n").remarks)
+        self.assertIn("not read: \\\\x1b]0;x\\\\x07\\\\u202e", said)
+
+
+if __name__ == "__main__":
+    unittest.main()

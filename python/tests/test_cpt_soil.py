@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the soil of a cone test is: by I_c, friction and pore pressure, or as told."""
+import contextlib
+import io
+import unittest
+
+import numpy as np
+
+from caisson.cpt import tables
+from caisson.suggest import cone
+from caisson_design import InputError, cone_file, interpretation
+from caisson_design.correlations import STRENGTH
+from caisson_design.ground import behavior_of, ground_of, kinds_of
+from made_up_cone import WithFiles, options
+
+
+class Kinds(WithFiles):
+    """What soil is, by I_c, friction and pore pressure, or as it is told."""
+
+    STIFF = ((2.0, 5.0, 0.6), (5.0, 3.2, 4.2, 250.0), (12.0, 18.0, 0.7))
+
+    def kinds(self, *words: str) -> list[tuple[float, str]]:
+        """Return tops and kinds of layers of the file."""
+        self.found = interpretation.interpret(self.path, options(*words))
+        return [(e.layer.top, e.layer.kind) for e in self.found.layers]
+
+    def said(self) -> str:
+        """Return the remarks."""
+        return "\n".join(tables.remarks(self.found))
+
+    def test_by_hand(self) -> None:
+        """100 (54 + 10) / (54 4.7 + 70), below 22; (268 - 18) kPa over 1.3 MPa."""
+        behavior = behavior_of(np.array([54.0]), np.array([4.7]))
+        np.testing.assert_allclose(behavior, [19.7654], rtol=1e-5)
+        z = np.array([2.0, 3.0])
+        tip, pressure = np.array([1.338e6, 1e6]), np.array([269620.0, 29430.0])
+        found = ground_of(cone_file.Test(z, tip, tip / 50, pressure, ()), 1.0, 19e3)
+        np.testing.assert_allclose(found.pressure_ratio, [0.25 / 1.3, 0])
+        index, behaviors, pressures = map(
+            np.array, zip((2.5, 30, 0), (2.5, 20, 0), (2.5, 30, 0.15), (2.7, 30, 0.3))
+        )
+        wanted = ["sand", "clay", "silt", "clay"]
+        self.assertEqual(list(kinds_of(index, behaviors, pressures)), wanted)
+
+    def test_stiff_clay_is_no_sand(self) -> None:
+        """I_c alone takes it for sand; friction and pore pressure do not, and either
+        tells it alone; all agree on the sand."""
+        for excess, ratio, kind, words in (
+            (
+                250,
+                4.6,
+                "clay",
+                "(I_B of 20) is that of clay and its u_2 is 250 kPa abo",
+            ),
+            (0, 4.2, "clay", "(I_B of 21) is that of clay; --soil 2=sand overrules"),
+            (
+                250,
+                2.4,
+                "silt",
+                "though its I_c of 2.38 is that of sand: its u_2 is 250",
+            ),
+        ):
+            sand, (bottom, tip, *_), dense = self.STIFF
+            self.layered(sand, (bottom, tip, ratio, excess), dense)
+            kinds = self.kinds("--tops", "0,2,5")
+            self.assertEqual([k for _, k in kinds], ["sand", kind, "sand"], ratio)
+            self.assertIn(words, self.said())
+            self.assertNotIn("layer 3 is", self.said())
+
+    def test_boundary_by_friction(self) -> None:
+        """Where Q_tn does not change."""
+        self.layered((4, 2.4, 0.6), (8, 2.4, 4.6))
+        tops, kinds = zip(*self.kinds())
+        self.assertEqual((kinds[0], kinds[-1]), ("sand", "clay"))
+        self.assertTrue(any(abs(top - 4) <= 0.1 for top in tops))
+
+    def test_clay_that_does_not_show_pressure(self) -> None:
+        self.layered((5, 15, 0.5), (12, 0.6, 4.5))
+        self.kinds("--tops", "0,5")
+        self.assertIn(
+            "layer 2 is clay by its friction, but its u_2 is not", self.said()
+        )
+
+    def test_pressure_that_was_not_set_to_zero(self) -> None:
+        """It is not used, and said."""
+        self.layered(
+            *(
+                (bottom, tip, ratio, 400.0)
+                for bottom, tip, ratio in ((2.0, 5.0, 0.6), (8.0, 9.0, 0.7))
+            )
+        )
+        self.assertEqual({kind for _, kind in self.kinds()}, {"sand"})
+        self.assertIn("as if it had not been set to 0 at the mudline", self.said())
+
+    def test_soil_that_is_given(self) -> None:
+        """Of all, of a layer, and of depths, whose ends are boundaries then."""
+        self.layered(*self.STIFF)
+        tops = ["--tops", "0,2,5"]
+        for words, wanted in (
+            (["2=sand"], [(0, "sand"), (2, "sand"), (5, "sand")]),
+            (["clay", "2=silt"], [(0, "clay"), (2, "silt"), (5, "clay")]),
+            (
+                ["3.0-6.5=clay", "sand"],
+                [(0, "sand"), (2, "sand"), (3, "clay"), (5, "clay"), (6.5, "sand")],
+            ),
+        ):
+            told = [x for word in words for x in ("--soil", word)]
+            self.assertEqual(self.kinds(*tops, *told), wanted)
+        self.assertIn("layer 2 is taken as sand by --soil; its F_r of 4", self.said())
+        tops_found = [top for top, _ in self.kinds("--soil", "4.8 - 6.5m = clay")]
+        self.assertIn(4.8, tops_found)
+        self.assertFalse([top for top in tops_found if 4.8 < top < 5.3])
+        with self.assertRaisesRegex(InputError, "--soil 4=clay: the test has 3 layers"):
+            self.kinds(*tops, "--soil", "4=clay")
+        for word in ("mud", "0=clay", "2=", "6-3=clay", "x=clay"):
+            with contextlib.redirect_stderr(io.StringIO()) as said:
+                with self.assertRaises(SystemExit):
+                    options("--soil", word)
+            self.assertIn("as in 2=clay for layer 2", said.getvalue())
+
+    def test_without_friction(self) -> None:
+        """Each layer needs a kind."""
+        rows = "".join(f"{z / 20:g},{1 if z < 60 else 9}\n" for z in range(120))
+        self.written("depth_m,qc_MPa\n" + rows)
+        words = ["--unit-weight", "19", "--tops", "0,3", "--soil", "1=clay"]
+        with self.assertRaisesRegex(InputError, "3 to 5.95 m; give .* --soil 1=sand"):
+            self.kinds(*words)
+        kinds = self.kinds(*words, "--soil", "2=sand")
+        self.assertEqual(kinds, [(0, "clay"), (3, "sand")])
+
+    def test_cone_factor(self) -> None:
+        self.layered((5, 0.6, 4.5))
+        self.kinds()
+        first = self.found.layers[0].values[STRENGTH]
+        self.kinds("--nkt", "17.5")
+        second = self.found.layers[0].values[STRENGTH]
+        self.assertAlmostEqual(first.best / second.best, 1.25)
+        self.assertAlmostEqual(first.low / second.low, 1.25)
+        self.assertIn("undrained strength: nkt, N_kt = 17.5", self.said())
+        with self.assertRaisesRegex(InputError, "--nkt 2 is not between 5 and 40"):
+            self.kinds("--nkt", "2")
+
+
+class Above(WithFiles):
+    """Soil above the first row that was measured."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        rows = [
+            f"{z / 20:g},{0.5 * z ** 0.5:.4f},{3 * z ** 0.5:.3f}"
+            for z in range(30, 160)
+        ]
+        self.written("depth_m,qc_MPa,fs_kPa\n" + "\n".join(rows))
+
+    def test_assumed(self) -> None:
+        """The first layer reaches up, with the estimates of its measured rows; scene
+        and remarks say so."""
+        found = interpretation.interpret(self.path, options("--tops", "0,4"))
+        layer = found.layers[0].layer
+        self.assertGreaterEqual(found.ground.depth[layer.rows].min(), 1.5)
+        self.assertIn("ASSUMED: the soil above 1.5 m", "".join(tables.remarks(found)))
+        entries = cone.layers_of(found, 6.0, "density")
+        said = [" ".join(e.remark for e in layer.entries) for layer in entries]
+        self.assertIn(
+            "ASSUMED above 1.5 m, where nothing was measured; FROM CPT", said[0]
+        )
+        self.assertNotIn("above", said[1])
+
+    def test_given(self) -> None:
+        """It is a layer of its own."""
+        words = ["--above", "qc = 1 MPa, fs = 50 kPa"]
+        found = interpretation.interpret(self.path, options(*words))
+        first, second = (e.layer for e in found.layers[:2])
+        self.assertEqual((first.bottom, first.kind, second.kind), (1.5, "clay", "sand"))
+        said = " ".join(
+            e.remark for e in cone.layers_of(found, 6.0, "density")[0].entries
+        )
+        self.assertIn("FROM --above (nkt)", said)
+        self.assertNotIn("FROM CPT (", said)
+
+    def test_skirt_above_the_test(self) -> None:
+        with self.assertRaisesRegex(
+            InputError, "begins at 1.5 m, below the 1.2 m that"
+        ):
+            interpretation.interpret(self.path, options(), 1.2)
+
+
+if __name__ == "__main__":
+    unittest.main()
