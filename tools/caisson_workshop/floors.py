@@ -9,10 +9,12 @@
 - A CMakeLists.txt names every source/**/*.cc.
 - Words that are not used in sources: BANNED.
 - A file has at most 600 lines, a function 60, a script 40 (lengths.py).
+- The top level of the project holds nothing but TOP_LEVEL.
 """
 import argparse
 import re
-from collections.abc import Iterator
+import subprocess
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from caisson.paths import ROOT
@@ -28,6 +30,11 @@ NOT_IN_KERNELS = re.compile(
 )
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
 LICENSE = "SPDX-License-Identifier: LGPL-2.1-or-later"
+TOP_LEVEL = set(
+    ".ci .clang-format .dockerignore .gitignore CHANGELOG.md CITATION.cff CMakeLists.txt"
+    " CMakePresets.json CONTRIBUTING.md LICENSE README.md doc include lab packaging prm"
+    " pyproject.toml python scripts setup.cfg source tests tools".split()
+)
 # regular expression: why, and what to use
 BANNED: dict[str, str] = {
     r"\bstd::to_string\b": "1.2e-7 would become 0.000000; use to_text() (base/text.h)",
@@ -128,6 +135,21 @@ def check_words(path: Path) -> Violations:
                 yield number, reason
 
 
+def strangers(paths: Iterable[str]) -> list[str]:
+    """Return what does not belong to the top level of the project, of paths there."""
+    return sorted({path.split("/")[0] for path in paths} - TOP_LEVEL)
+
+
+def committed() -> list[str]:
+    """Return the paths of all files that git knows or would take; none where there is
+    no repository."""
+    git = ["git", "-C", str(ROOT), "ls-files", "--cached", "--others"]
+    done = subprocess.run(
+        [*git, "--exclude-standard"], text=True, capture_output=True, check=False
+    )
+    return [path for path in done.stdout.splitlines() if (ROOT / path).exists()]
+
+
 def named_in_cmake() -> set[Path]:
     """Return the absolute paths of all .cc names in the CMakeLists.txt files."""
     names = set()
@@ -166,7 +188,10 @@ def main(_: argparse.Namespace) -> int:
     folders = ("python", "lab", "tools", "tests")
     python = files(*(f"{folder}/**/*.py" for folder in folders))
     scripts = files("scripts/*", "tools/*")
-    violations = []
+    violations = [
+        f"{name}: does not belong to the top level: remove it, or add it to TOP_LEVEL"
+        for name in strangers(committed())
+    ]
     for path in sources + tests + python + scripts:
         found = [*check_license(path), *check_lengths(path)]
         if path in sources:

@@ -20,6 +20,7 @@ from matplotlib.figure import Figure
 from caisson import curve, curves
 from caisson.plot import design
 from caisson.plot.forces import penetration
+from caisson.paths import RESULTS, short
 from caisson.results import Results, ResultsError, Table
 from caisson.table import write_csv
 
@@ -30,7 +31,7 @@ PUSHING, TOTAL = "pushing_force_N", "total_force_N"
 MORE = ("required_suction_Pa", "suction_Pa", "cavity_pressure_Pa")
 DEPTH = "penetration_m"
 INTERVAL = 0.1  # m
-PICTURE = Path("comparison.png")
+PICTURE = RESULTS / "comparison.png"
 PICTURES = {".png", ".pdf", ".svg"}  # what a word ends with that is no directory
 
 Histories = dict[str, Table]  # by the name of the run
