@@ -311,8 +311,8 @@ def read(path: Path, with_friction: bool = True, location: str = "") -> Test:
     )
 
 
-def write(path: Path, test: Test) -> Path:
-    """Write a test as a table of text."""
+def text_of(test: Test) -> str:
+    """Return a test as a table of text."""
     columns = {
         "depth_m": test.depth,
         "qc_kPa": test.resistance / 1e3,
@@ -321,5 +321,4 @@ def write(path: Path, test: Test) -> Path:
     }
     there = {head: values for head, values in columns.items() if values is not None}
     rows = [",".join(f"{x:.8g}" for x in row) for row in zip(*there.values())]
-    path.write_text("\n".join([",".join(there), *rows, ""]), encoding="utf-8")
-    return path
+    return "\n".join([",".join(there), *rows, ""])

@@ -37,7 +37,7 @@ from caisson.suggest import cone, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
 from caisson.suggest.soil import CAM_CLAY, NGI_ADP, layers_of
-from caisson_design import InputError, cone_file, interpretation
+from caisson_design import InputError, cone_file, disk, interpretation
 from caisson_design.interpretation import Interpretation
 from caisson_design.quantity import length, number
 
@@ -460,10 +460,11 @@ def write(options: argparse.Namespace) -> None:
             soil_study_of(options, found) if found else study_of(options, layers)
         )
     cost = cost_of(options.file, texts[options.file])
-    for file, text in texts.items():  # all or none
-        file.write_text(text, encoding="utf-8")
     if options.study and found and (table := table_of_cone(options)) != options.cpt:
-        cone_file.write(table, found.test)
+        texts[table] = cone_file.text_of(found.test)
+    with disk.all_or_none(options.overwrite):
+        for file, text in texts.items():
+            disk.write(file, text)
     print(cost)
     assumed = texts[options.file].count(ASSUMPTION)
     print(f"assumed: {assumed} lines of {options.file} are marked ASSUMED: check them")
