@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Exported states as tables and pictures: .csv of cells, points or zones, and .vtu."""
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,7 +18,7 @@ Columns = dict[str, np.ndarray]
 ZONE_ROWS = 12
 
 
-def write_table(path: Path, lines: Iterable[str], columns: Columns) -> None:
+def write_table(path: Path, lines: Sequence[str], columns: Columns) -> None:
     """Write columns with remarks before them."""
     rows = [[f"{value:.9g}" for value in row] for row in zip(*columns.values())]
     write_csv(path, list(columns), rows, lines)
