@@ -22,15 +22,9 @@ from caisson_design import InputError, disk
 from caisson_design.quantity import length, number
 from caisson_export import decks, spring_files, spring_picture, tables
 from caisson_export.balance import Balanced, balance, check_forces
+from caisson_export.gmsh import read_gmsh
 from caisson_export.interpolate import interpolate
-from caisson_export.mesh import (
-    Mesh,
-    Window,
-    check_spacing,
-    default_window,
-    read_gmsh,
-    regular,
-)
+from caisson_export.mesh import Mesh, Window, check_spacing, default_window, regular
 from caisson_export.places import read_places
 from caisson_export.springs import Springs, springs_of
 from caisson_export.state import State, read_state

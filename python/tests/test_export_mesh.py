@@ -11,12 +11,12 @@ from scipy.spatial import cKDTree
 from caisson.results import ResultsError
 from caisson_export import decks
 from caisson_export.balance import balance
+from caisson_export.gmsh import read_gmsh
 from caisson_export.interpolate import interpolate
 from caisson_export.mesh import (
     Mesh,
     Window,
     default_window,
-    read_gmsh,
     regular,
     with_sets,
 )
