@@ -101,7 +101,7 @@ def mesh_of(state: State, options: argparse.Namespace) -> Mesh:
     if options.mesh is not None:
         if any(given):
             raise ResultsError("--radius, --depth and --spacing are not for --mesh")
-        mesh = read_gmsh(options.mesh, state.wall)
+        mesh = read_gmsh(options.mesh, state)
     else:
         usual = default_window(state)
         window = Window(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Meshes of the soil for other programs: a regular grid around the wall, and the sets of
+"""Meshes of the soil for other programs: a regular grid around the wall, and sets of
 nodes of any mesh. The wall itself is no part of the mesh."""
 from dataclasses import dataclass, field
 
@@ -17,13 +17,15 @@ class Mesh:
     """Quadrilaterals, and triangles as quadrilaterals whose last two corners are one.
 
     nodes [n, 2]: r and z (m); cells [m, 4]: numbers of nodes, counterclockwise. sets:
-    numbers of nodes by name; groups [m]: the names of the physical groups of a file.
+    numbers of nodes by name; groups [m]: the names of the physical groups of a file;
+    remark: what of the file is left out.
     """
 
     nodes: np.ndarray
     cells: np.ndarray
     sets: dict[str, np.ndarray] = field(default_factory=dict)
     groups: np.ndarray | None = None
+    remark: str = ""
 
     @property
     def centers(self) -> np.ndarray:
@@ -218,9 +220,10 @@ def with_sets(mesh: Mesh, wall: Wall | None) -> Mesh:
     on_wall = np.zeros(len(r), dtype=bool)
     if wall is not None:
         around = edge & (r > wall.inner - close) & (r < wall.outer + close)
-        masks["TIP"] = around & ~held & (z < wall.lower_end(r) + close)
-        masks["TIP"] &= z > wall.lower_end(r) - close
-        free = around & ~masks["TIP"] & (z > wall.lower_end(r))
+        # a mesh may have a flat tip where that of the body has a bevel
+        masks["TIP"] = around & ~held & (z < wall.shoulder + close)
+        masks["TIP"] &= z > wall.tip - close
+        free = around & ~masks["TIP"] & (z > wall.shoulder)
         masks["OUTER_WALL"] = free & (abs(r - wall.outer) < close)
         masks["INNER_WALL"] = free & (abs(r - wall.inner) < close) & (wall.inner > 0)
         on_wall = masks["TIP"] | masks["OUTER_WALL"] | masks["INNER_WALL"]
