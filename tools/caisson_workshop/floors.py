@@ -9,6 +9,7 @@
 - A CMakeLists.txt names every source/**/*.cc.
 - Words that are not used in sources: BANNED.
 - A file has at most 600 lines, a function 60, a script 40 (lengths.py).
+- Python files of users are written by caisson_design.disk only.
 - The top level of the project holds nothing but TOP_LEVEL.
 """
 import argparse
@@ -39,6 +40,12 @@ TOP_LEVEL = set(
 BANNED: dict[str, str] = {
     r"\bstd::to_string\b": "1.2e-7 would become 0.000000; use to_text() (base/text.h)",
 }
+# of python and lab: files are whole there, or as they were; copy is a temporary one
+WRITES = {
+    r"(?<!\bcopy)\.write_(text|bytes)\(|savefig\(|rmtree\(|\bopen\([^)]*\"[wx]b?\"": "a file of a"
+    " user is written whole or not at all: use caisson_design.disk",
+}
+MAY_WRITE = {"disk.py", "timed.py"}  # the latter the log of a process
 
 
 def lines_of(path: Path) -> list[str]:
@@ -127,10 +134,10 @@ def check_license(path: Path) -> Violations:
         yield 1, f"no line with {LICENSE}"
 
 
-def check_words(path: Path) -> Violations:
+def check_words(path: Path, banned: dict[str, str] = BANNED) -> Violations:
     """Yield words that are not used."""
     for number, line in enumerate(lines_of(path), 1):
-        for pattern, reason in BANNED.items():
+        for pattern, reason in banned.items():
             if re.search(pattern, line):
                 yield number, reason
 
@@ -168,6 +175,13 @@ def files(*patterns: str) -> list[Path]:
     return sorted(path for path in found if path.is_file())
 
 
+def is_user_code(path: Path) -> bool:
+    """Return whether a Python file writes files of users only by the module disk."""
+    parts = path.relative_to(ROOT).parts
+    is_tool = parts[0] not in ("python", "lab") or parts[1] == "tests"
+    return path.suffix == ".py" and not is_tool and path.name not in MAY_WRITE
+
+
 def check_source(path: Path, listed: set[Path]) -> Violations:
     """Yield all violations of a source of the program."""
     for check in (check_floor, check_cycles, check_kernel, check_words):
@@ -196,6 +210,8 @@ def main(_: argparse.Namespace) -> int:
         found = [*check_license(path), *check_lengths(path)]
         if path in sources:
             found += check_source(path, listed)
+        if is_user_code(path):
+            found += check_words(path, WRITES)
         name = path.relative_to(ROOT)
         violations += [f"{name}:{line}: {text}" for line, text in found]
     print(
