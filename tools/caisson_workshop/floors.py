@@ -34,7 +34,8 @@ LICENSE = "SPDX-License-Identifier: LGPL-2.1-or-later"
 TOP_LEVEL = set(
     ".ci .clang-format .dockerignore .gitignore CHANGELOG.md CITATION.cff"
     " CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE README.md doc include"
-    " lab packaging prm pyproject.toml python scripts setup.cfg source tests tools".split()
+    " lab packaging prm pyproject.toml python scripts setup.cfg source tests"
+    " tools".split()
 )
 # regular expression: why, and what to use
 BANNED: dict[str, str] = {
