@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson_design import InputError, cone_ags, cone_csv, cone_gef
+from caisson_design import InputError, cone_ags, cone_csv, cone_gef, disk
 from caisson_design.cone_table import NAMES, NEEDED, UNITS, Column, Table, refuse
 
 # Pa; more and less than any test has
@@ -153,10 +153,7 @@ def cell_of(cells: Sequence[str], column: Column) -> str:
 def lines_of(path: Path) -> list[str]:
     """Return the lines of a file: in UTF-8, or as Western European programs write it.
     Raises InputError."""
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise InputError(f"{path} cannot be read as a cone test: {error}") from error
+    content = disk.read_bytes(path)
     if content.startswith(b"PK") or b"\0" in content:
         raise InputError(
             f"{path} cannot be read as a cone test: it is no text, or in UTF-16; save"
