@@ -234,8 +234,9 @@ class Reader:
 
     def study(self, table: dict[str, Any]) -> Study:
         """Return one study."""
-        if not isinstance(table.get("id"), str) or not table["id"]:
-            raise StudyError(f"{self.file}: a study has no id")
+        name = table.get("id")
+        if not isinstance(name, str) or not name or not name.isprintable():
+            raise StudyError(f"{self.file}: a study has no id, or not one line of text")
         if self.options.quick and isinstance(table["quick"], dict):
             table = {**table, **table["quick"]}
         of = f"study {table['id']}"
@@ -253,9 +254,8 @@ class Reader:
             entries = {**self.set, **table.get("set", {}), **table["reference"]}
             runs.append(self.one_run(table, {}, "", "reference", entries))
         keys = {k: v for k, v in table.items() if k in self.study_keys}
-        return Study(
-            table["id"], table.get("title", table["id"]), self.file, runs, keys
-        )
+        title = disk.one_line(str(table.get("title", table["id"])))
+        return Study(table["id"], title, self.file, runs, keys)
 
     def made_runs(self, study: dict[str, Any]) -> list[dict[str, Any]]:
         """Return the runs that the kind makes for a study."""

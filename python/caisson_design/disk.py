@@ -9,6 +9,7 @@ results.
 """
 import contextlib
 import io
+import json
 import os
 import re
 import threading
@@ -57,10 +58,20 @@ def read_text(path: Path, refuse: Refusal = InputError) -> str:
         ) from error
 
 
+def printable(text: str) -> str:
+    """Return a text with a blank for each end of a line or other control character."""
+    return "".join(c if c.isprintable() else " " for c in text)
+
+
 def one_line(text: str) -> str:
-    """Return a text of a user without ends of lines and other control characters, as
-    a remark in a file or a line on the terminal needs it."""
-    return "".join(c if c.isprintable() else " " for c in text).strip()
+    """Return a text of a user as a remark in a file or a line on the terminal needs
+    it."""
+    return printable(text).strip()
+
+
+def quoted(text: str) -> str:
+    """Return a text as a string of TOML or JSON."""
+    return json.dumps(text, ensure_ascii=False)
 
 
 def remarks(mark: str, lines: Iterable[str]) -> list[str]:

@@ -3,6 +3,7 @@
 import errno
 import io
 import os
+import tomllib
 import unittest
 import unittest.mock
 from contextlib import redirect_stderr
@@ -41,6 +42,9 @@ class Reading(Temporary):
         """No text of a user begins a line of its own, or reaches a terminal as code."""
         text = "x\nexit()\r\x1b[31m\x85y\u2028z"
         self.assertEqual(disk.remarks("#", [text]), ["# x exit()  [31m y z"])
+        name = 'O"Brien\\1\n.prm'
+        said = tomllib.loads(f"a = {disk.quoted(name)}")["a"]
+        self.assertEqual(said, name)
 
 
 class Writing(Temporary):

@@ -124,7 +124,7 @@ quick = {seconds = 1, mine = "fast"}
     def test_directories(self) -> None:
         """Each run has its own, below that of the results."""
         one = '[[study]]\nscene = "a.prm"\nid = '
-        for name in ('".."', '"."', '"..."', '""', "5"):
+        for name in ('".."', '"."', '"..."', '""', "5", '"a\\nb"'):
             with self.assertRaisesRegex(StudyError, "no name for a directory|no id"):
                 self.read(one + name)
         with self.assertRaisesRegex(StudyError, "2 runs would write into .*/a_b"):

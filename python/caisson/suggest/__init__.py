@@ -258,7 +258,10 @@ def template(name: str) -> jinja2.Template:
         lstrip_blocks=True,
         keep_trailing_newline=True,
         undefined=jinja2.StrictUndefined,
+        # a text of the user, as the name of a file, ends no line
+        finalize=lambda x: disk.printable(x) if isinstance(x, str) else x,
     )
+    environment_of_text.filters["quoted"] = disk.quoted
     environment_of_text.filters["number"] = lambda value: f"{float(value):.6g}"
     return environment_of_text.get_template(name)
 
