@@ -6,6 +6,7 @@ Each subcommand is a module with add_arguments(parser) and main(options). Only t
 module of the subcommand that is called is loaded.
 """
 import argparse
+import csv
 import difflib
 import importlib
 import os
@@ -26,7 +27,7 @@ Groups = Mapping[str, Mapping[str, tuple[str, str]]]
 # what reading a file that is not as it should be may end with
 DAMAGE = (
     *(ArithmeticError, AttributeError, LookupError, MemoryError),
-    *(RecursionError, TypeError, ValueError),
+    *(RecursionError, TypeError, ValueError, csv.Error),
 )
 TRACEBACK = "CAISSON_TRACEBACK"
 
