@@ -8,11 +8,12 @@ from matplotlib.figure import Figure
 
 from caisson import table
 from caisson.paths import short
+from caisson_design import disk
 
 
 def write_picture(kind: str, path: Path, figure: Figure) -> None:
     """Write a picture, and say where it is."""
-    figure.savefig(path, dpi=130)
+    disk.save(figure, path, dpi=130)
     print(f"{kind}: {short(path)}")
 
 
@@ -25,7 +26,7 @@ def write_table(
     """Write table.csv and, below the heading, table.md; print the table."""
     table.write_csv(results / "table.csv", columns, rows)
     text = table.markdown(columns, rows)
-    (results / "table.md").write_text(f"{heading}{text}\n", encoding="utf-8")
+    disk.write(results / "table.md", f"{heading}{text}\n")
     print(text)
 
 

@@ -21,6 +21,7 @@ from collections.abc import Callable, Sequence
 
 from caisson.paths import short
 from caisson.study import Options, Study, StudyError
+from caisson_design import disk
 from lab.performance.kernels import measure_kernels, measure_roofline
 from lab.performance.program import (
     measure_agreement,
@@ -66,6 +67,6 @@ def measure(studies: Sequence[Study], options: Options, evaluate: bool) -> int:
     texts = [options.results / f"{name}.md" for name in SECTIONS]
     parts = [text.read_text(encoding="utf-8") for text in texts if text.exists()]
     table = options.results / "table.md"
-    table.write_text("\n".join(parts), encoding="utf-8")
+    disk.write(table, "\n".join(parts))
     print(f"speed: {short(table)}")
     return 0

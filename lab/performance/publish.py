@@ -5,6 +5,7 @@ import argparse
 import shutil
 
 from caisson.paths import PICTURES, RESULTS, ROOT
+from caisson_design import disk
 
 DOCUMENT = ROOT / "lab/performance/speed.md"
 BEGIN, END = "<!-- speed: begin -->", "<!-- speed: end -->"
@@ -20,7 +21,7 @@ def main(_: argparse.Namespace) -> int:
     after = rest.split(END)[1]
     table = (RESULTS / "speed/table.md").read_text(encoding="utf-8")
     table = table.replace("](pictures/", "](../../doc/pictures/")
-    DOCUMENT.write_text(f"{before}{BEGIN}\n{table}\n{END}{after}", encoding="utf-8")
+    disk.write(DOCUMENT, f"{before}{BEGIN}\n{table}\n{END}{after}")
     for picture in (RESULTS / "speed").glob("speed_*.png"):
         shutil.copy(picture, PICTURES)
     return 0

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson import table
+from caisson_design import disk
 from lab.machine import machine
 
 COLORS = {"SSE2": "#8c8c8c", "AVX2": "#3b7dd8", "AVX-512": "#d1495b"}
@@ -36,14 +37,14 @@ class Report:
     def picture(self, figure: Figure, caption: str) -> None:
         """Add the picture of the section."""
         name = f"speed_{self.name}.png"
-        figure.savefig(self.results / name, dpi=130)
+        disk.save(figure, self.results / name, dpi=130)
         self.parts.append(f"![{caption}](pictures/{name})")
 
     def write(self) -> None:
         """Write NAME.md and print it."""
         line = machine()
         text = "\n\n".join([*self.parts, f"{line[0].upper()}{line[1:]}."]) + "\n"
-        (self.results / f"{self.name}.md").write_text(text, encoding="utf-8")
+        disk.write(self.results / f"{self.name}.md", text)
         print(text, flush=True)
 
 

@@ -6,7 +6,6 @@ whole path of the caisson is seeded with points whatever piece of it is run. Its
 cost is the sum of the sections of its steps (run.json): set-up, the first
 frame and the checkpoint at the end do not count.
 """
-import shutil
 import statistics
 import subprocess
 import time
@@ -78,11 +77,12 @@ def stop_in_time(process: "subprocess.Popen[bytes]", run: StudyRun) -> None:
 def execute(run: StudyRun) -> Measured:
     """Make the run and return what it measured. Raises StudyError."""
     directory = run.run.directory
-    shutil.rmtree(directory, ignore_errors=True)
-    directory.mkdir(parents=True)
+    directory.mkdir(parents=True, exist_ok=True)
+    (directory / "stop").unlink(missing_ok=True)  # of a run that ended before it
+    command = [*run.run.command(), "--overwrite"]
     with open(directory / "log", "w", encoding="utf-8") as log:
         process = subprocess.Popen(
-            run.run.command(), stdout=log, stderr=log, cwd=ROOT, env=environment()
+            command, stdout=log, stderr=log, cwd=ROOT, env=environment()
         )
         if run.settings.keys() & {"until", "stop_after"}:
             stop_in_time(process, run)

@@ -22,6 +22,7 @@ from caisson import table
 from caisson.results import Results, ResultsError, Table
 from caisson.runner import Status
 from caisson.study import Options, Study, StudyRun
+from caisson_design import disk
 
 NAME = "stability"
 STUDY_KEYS = {"must_fail", "largest_residual", "why"}
@@ -134,6 +135,6 @@ def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
     """Write table.md and print it; return 1 if a scene does not do what it must."""
     judged = [judge(run) for study in studies for run in study.runs]
     text = table.markdown(COLUMNS, [line for line, _ in judged])
-    (options.results / "table.md").write_text(text + "\n", encoding="utf-8")
+    disk.write(options.results / "table.md", text + "\n")
     print(text)
     return 0 if all(good for _, good in judged) else 1

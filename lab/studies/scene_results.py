@@ -19,6 +19,7 @@ from caisson import curves, table
 from caisson.paths import PROGRAM, RESULTS, ROOT, SCENES
 from caisson.results import Results, Table
 from caisson.runner import Entries, Run, RunError, Status
+from caisson_design import disk
 from lab import machine
 from lab.curves import final_mean
 
@@ -280,9 +281,7 @@ def write_page(numbers: list[Number], path: Path = PAGE) -> None:
     text = path.read_text(encoding="utf-8")
     before, rest = text.split(BEGIN)
     after = rest.split(END)[1]
-    path.write_text(
-        before + BEGIN + "\n" + page(numbers) + "\n" + END + after, encoding="utf-8"
-    )
+    disk.write(path, before + BEGIN + "\n" + page(numbers) + "\n" + END + after)
 
 
 def merged(old: list[Number], new: list[Number]) -> list[Number]:

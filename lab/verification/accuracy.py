@@ -21,6 +21,7 @@ from caisson import curves, table
 from caisson.paths import short
 from caisson.results import ResultsError
 from caisson.study import Options, Study, StudyRun
+from caisson_design import disk
 from caisson_error.error_bar import refinement_of
 from caisson_error.mesh_error import mesh_error
 from lab.curves import relative_error
@@ -109,7 +110,7 @@ def draw(study: Study, found: Found, options: Options) -> None:
     axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     figure.tight_layout()
     path = options.results / f"accuracy_{study.id}.png"
-    figure.savefig(path, dpi=130)
+    disk.save(figure, path, dpi=130)
     print(f"accuracy: {short(path)}")
 
 
@@ -146,6 +147,6 @@ def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
     whose = ("cheapest", "default")
     heads = [f"{100 * asked:.0f} %: {who}" for asked in ASKED for who in whose]
     text = table.markdown(["problem", *heads], lines)
-    (options.results / "table.md").write_text(text + "\n", encoding="utf-8")
+    disk.write(options.results / "table.md", text + "\n")
     print(text)
     return 0

@@ -6,18 +6,43 @@ Each subcommand is a module with add_arguments(parser) and main(options). Only t
 module of the subcommand that is called is loaded.
 """
 import argparse
+import csv
 import difflib
 import importlib
 import os
 import re
 import sys
+import traceback
 from collections.abc import Callable, Collection, Mapping, Sequence
+from pathlib import Path
 from typing import NoReturn
 
 from caisson import needed, paths
+from caisson_design import InputError, disk
 
 # group: subcommand: its module, and what it does
 Groups = Mapping[str, Mapping[str, tuple[str, str]]]
+
+
+# what reading a file that is not as it should be may end with
+DAMAGE = (
+    *(ArithmeticError, AttributeError, LookupError, MemoryError),
+    *(RecursionError, TypeError, ValueError, csv.Error),
+)
+TRACEBACK = "CAISSON_TRACEBACK"
+
+
+def words_on(error: Exception) -> str:
+    """Return in one line what a file has led to: which files were read, and where the
+    program did not understand them."""
+    place = traceback.extract_tb(error.__traceback__)[-1]
+    kind = type(error).__name__
+    text = disk.one_line(f"{kind}: {error}" if str(error) else kind)[:200]
+    files = " or ".join(map(str, disk.read_last)) or "the input"
+    return (
+        f"{files} is not as it should be, or is too large ({text}, at"
+        f" {Path(place.filename).name}:{place.lineno}; {TRACEBACK}=1 shows all)"
+    )
 
 
 def commands_of(groups: Groups) -> dict[str, tuple[str, str]]:
@@ -95,7 +120,18 @@ def run_command(
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     module.add_arguments(own)
-    return int(module.main(own.parse_args(argv[1:])))
+    options = own.parse_args(argv[1:])
+    try:
+        return int(module.main(options))
+    except BrokenPipeError:  # as of `| head`
+        raise
+    except (InputError, OSError) as error:
+        print(f"{name}: {error}", file=sys.stderr)
+    except DAMAGE as error:
+        if TRACEBACK in os.environ:
+            raise
+        print(f"{name}: {words_on(error)}", file=sys.stderr)
+    return 1
 
 
 def end_process(main: Callable[[Sequence[str]], int]) -> NoReturn:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from caisson import needed
-from caisson.results import ResultsError
+from caisson.results import Read, ResultsError
 from caisson.units import unit_of
 
 Arrays = dict[str, np.ndarray]
@@ -66,12 +66,6 @@ class Frame:
                 f"{self.directory} has no {series}_*.vtu at {self.time:.6g} s"
             )
         vtu = reader()
-        for file in self._files[series]:
-            if b"</VTKFile>" not in file.read_bytes()[-64:]:
-                raise ResultsError(
-                    f"the frame is broken: {file} is not complete. Take another frame,"
-                    " or run the scene again"
-                )
         return vtu.joined([vtu.read_grid(file) for file in self._files[series]])
 
     @functools.cached_property
@@ -101,14 +95,16 @@ class Frame:
     def cell_data(self) -> Arrays:
         """The fields of the cells by name: [n_cells]. The arrays are those of mesh, so
         that what is written to one is in the other."""
-        return reader().named_arrays(self.mesh.GetCellData())
+        found = reader().named_arrays(self.mesh.GetCellData())
+        return Read(self._files["grid"][0], found)
 
     @functools.cached_property
     def point_data(self) -> Arrays:
         """The fields of the material points by name: [n_points], [n_points, 3] of
         vectors, r, z and 0, and [n_points, 6] of stress, whose components are rr, zz,
         tt, rz, 0 and 0. The arrays are those of points."""
-        return reader().named_arrays(self.points.GetPointData())
+        found = reader().named_arrays(self.points.GetPointData())
+        return Read(self._files["points"][0], found)
 
     @functools.cached_property
     def corners(self) -> np.ndarray:

@@ -2,21 +2,36 @@
 """What a run has left in its directory: the only reader of its files."""
 import csv
 import functools
+import io
 import json
+import math
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
 from caisson.lock import is_locked
-from caisson_design import InputError
+from caisson_design import InputError, disk
 
 Table = dict[str, np.ndarray]
 
 
 class ResultsError(InputError):
     """What is wrong with the files of a run; the text is for the user."""
+
+
+class Read(dict[str, Any]):
+    """What a file has, by name: a name that it lacks raises ResultsError."""
+
+    def __init__(self, path: Path, content: Mapping[str, Any]) -> None:
+        """content: by name; path: of the file."""
+        super().__init__(content)
+        self.path = path
+
+    def __missing__(self, name: str) -> NoReturn:
+        raise ResultsError(f"{self.path} has no {name}")
 
 
 def read_table(path: Path) -> Table:
@@ -30,8 +45,11 @@ def read_table(path: Path) -> Table:
         raise ResultsError(
             f"no {path.name} in {path.parent}: is it the output directory of a run?"
         )
-    with path.open(newline="", encoding="utf-8") as file:
-        lines = list(csv.reader(line for line in file if not line.startswith("#")))
+    text = io.StringIO(disk.read_text(path, ResultsError), newline="")
+    try:
+        lines = list(csv.reader(line for line in text if not line.startswith("#")))
+    except csv.Error as error:
+        raise ResultsError(f"{path} is no table: {error}") from error
     names = [name.strip() for name in lines[0]] if lines else []
     rows = []
     for line in lines[1:]:
@@ -43,7 +61,7 @@ def read_table(path: Path) -> Table:
             rows.append(row)
     if not rows:
         raise ResultsError(f"{path} has no complete row")
-    return dict(zip(names, np.array(rows).T))
+    return Read(path, dict(zip(names, np.array(rows).T)))
 
 
 class Results:
@@ -68,7 +86,12 @@ class Results:
     def history(self) -> Table:
         """Forces, energies and counts; a row is the mean since the row before. Columns
         of what a scene lacks are absent."""
-        return self.table("history.csv", "time_s")
+        found = self.table("history.csv", "time_s")
+        for name in ("time_s", "penetration_m"):
+            if not np.isfinite(found.get(name, 0.0)).all():
+                path = self.directory / "history.csv"
+                raise ResultsError(f"{path} has a {name} that is no number")
+        return found
 
     @functools.cached_property
     def observations(self) -> Table:
@@ -88,23 +111,31 @@ class Results:
         """Lower and upper bounds of forces; empty where there are none, as in a run
         that ended above the depths of its error bar."""
         path = self.directory / "history_error.csv"
-        if not path.is_file() or len(path.read_text(encoding="utf-8").split()) < 2:
+        if not path.is_file() or len(disk.read_text(path, ResultsError).split()) < 2:
             return {}
         return self.table("history_error.csv", "penetration_m")
 
     def _json(self, name: str) -> Any:
         path = self.directory / name
+        if not path.is_file():
+            raise ResultsError(f"no {name} in {self.directory}")
+        text = disk.read_text(path, ResultsError)
         try:
-            return json.loads(path.read_text(encoding="utf-8"))
-        except FileNotFoundError as error:
-            raise ResultsError(f"no {name} in {self.directory}") from error
-        except ValueError as error:
+            return json.loads(
+                text,
+                object_hook=lambda found: Read(path, found),
+                parse_int=lambda digits: int(digits) if len(digits) < 19 else math.inf,
+            )
+        except (ValueError, RecursionError) as error:
             raise ResultsError(f"{path} cannot be read: {error}") from error
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
         """Sizes, times and counts: run.json."""
-        return self._json("run.json")
+        found = self._json("run.json")
+        if not isinstance(found, Read):
+            raise ResultsError(f"{self.directory / 'run.json'} is no list of results")
+        return found
 
     @property
     def at_depths(self) -> Table:
@@ -136,8 +167,9 @@ class Results:
         """The scene's title or file, and where the results are."""
         if not (self.directory / "run.json").is_file():
             return str(self.directory)
-        names = (self.summary.get(key) for key in ("title", "scene_file"))
-        return ", ".join([*filter(None, names), f"results in {self.directory}"])
+        names = [str(self.summary.get(key) or "") for key in ("title", "scene_file")]
+        names.append(f"results in {self.directory}")
+        return disk.one_line(", ".join(filter(None, names)))
 
     @property
     def is_running(self) -> bool:
@@ -170,11 +202,12 @@ class Results:
             return []
         frames: dict[float, list[Path]] = {}
         try:
-            entries = list(ElementTree.parse(path).iter("DataSet"))
-        except ElementTree.ParseError as error:
+            for entry in ElementTree.fromstring(
+                disk.read_bytes(path, ResultsError)
+            ).iter("DataSet"):
+                file = path.parent / entry.get("file", "")
+                if file.is_file():
+                    frames.setdefault(float(entry.get("timestep", 0)), []).append(file)
+        except (ElementTree.ParseError, LookupError, ValueError) as error:
             raise ResultsError(f"{path} cannot be read: {error}") from error
-        for entry in entries:
-            file = path.parent / entry.get("file", "")
-            if file.is_file():
-                frames.setdefault(float(entry.get("timestep", 0)), []).append(file)
         return sorted(frames.items())

@@ -7,7 +7,6 @@ import hashlib
 import json
 import os
 import re
-import shutil
 import subprocess
 import tempfile
 import threading
@@ -19,6 +18,7 @@ from typing import Any
 from caisson.lock import is_locked
 from caisson.paths import PROGRAM, WORK
 from caisson.ranks import Size
+from caisson_design import disk
 
 Entries = Mapping[str, Any]
 # what batch systems set, which may give a run several hosts
@@ -152,11 +152,18 @@ class Run:
     depends on (the program's file, all entries in effect, the ranks that it asks for,
     but not those that execute() lends it: they change the last digits), the entries
     that it set, the exit status and the times. is_complete() compares the hash, so
-    that a study repeats only what has changed. The class owns its directory and
-    empties it before it runs, unless another process computes there.
+    that a study repeats only what has changed. A directory with this file is the run's
+    own, and its results there are replaced. Elsewhere the program puts earlier results
+    aside. Files with other names stay.
     """
 
     RECORD = "run_key.json"
+    # what this package and its commands write beside the program's own files
+    OWN = (
+        *("log", RECORD, "forces.png", "suction.png", "design.csv", "walls.png"),
+        *("stress.png", "displacement.png", "void_ratio.png", "pore_pressure.png"),
+        *("blocks.png", "report.html", "report.pdf"),
+    )
 
     def __init__(
         self,
@@ -214,11 +221,13 @@ class Run:
 
     def completion_record(self) -> dict[str, Any] | None:
         """Return what a finished run has left: key, entries, status, wall_s and
-        cpu_s."""
+        cpu_s. None where there is none, or a broken one."""
         try:
-            return json.loads((self.directory / self.RECORD).read_text("utf-8"))
-        except (OSError, ValueError):
+            found = json.loads((self.directory / self.RECORD).read_text("utf-8"))
+        except (OSError, ValueError, RecursionError):
             return None
+        keys = {"key", "entries", "status", "wall_s", "cpu_s"}
+        return found if isinstance(found, dict) and keys <= set(found) else None
 
     def share_done(self, elapsed: float) -> float:
         """Return what part of the time of a run is over after so many seconds, by the
@@ -291,11 +300,20 @@ class Run:
             process.terminate()
         process.communicate()
 
+    def make_room(self) -> list[str]:
+        """Make the directory and, if it is the run's own, remove what this package has
+        written there; return the options with which the program does the same."""
+        is_own = (self.directory / self.RECORD).is_file()
+        self.directory.mkdir(parents=True, exist_ok=True)
+        for name in self.OWN if is_own else ():
+            (self.directory / name).unlink(missing_ok=True)
+        return ["--overwrite"] if is_own else []
+
     def execute(
         self, time_limit: float | None = None, ranks: int | None = None
     ) -> Status | None:
-        """Run the program into an emptied directory, its output in the file log; ranks:
-        lent to it, others than those of the run.
+        """Run the program, its output in the file log; ranks: lent to it, others than
+        those of the run.
 
         Returns the exit status, None if it took longer than time_limit (s) and
         was ended, or was ended by a signal. Raises RunError where another process
@@ -303,12 +321,11 @@ class Run:
         """
         if is_locked(self.directory):
             raise RunError(f"another process computes in {self.directory}")
-        shutil.rmtree(self.directory, ignore_errors=True)
-        self.directory.mkdir(parents=True)
+        command = [*self.command(ranks), *self.make_room()]
         begin = time.monotonic()
-        with open(self.directory / "log", "w", encoding="utf-8") as log:
+        with open(self.directory / "log", "a", encoding="utf-8") as log:
             process = subprocess.Popen(
-                self.command(ranks), stdout=log, stderr=log, cwd=WORK, env=environment()
+                command, stdout=log, stderr=log, cwd=WORK, env=environment()
             )
             clock = threading.Timer(time_limit or 0, process.kill)
             if time_limit is not None:
@@ -325,5 +342,5 @@ class Run:
             "wall_s": time.monotonic() - begin,
             "cpu_s": used.ru_utime + used.ru_stime,
         }
-        (self.directory / self.RECORD).write_text(json.dumps(record), "utf-8")
+        disk.write(self.directory / self.RECORD, json.dumps(record))
         return Status(status)

@@ -7,15 +7,16 @@ folder that is not there yet: scenes include each other.
 import argparse
 import re
 import shutil
-import sys
+import tempfile
 from pathlib import Path
 
 from caisson.paths import SCENES
+from caisson_design import InputError, disk
 
 
 def title_of(scene: Path) -> str:
     """Return the title of a scene, or nothing."""
-    text = scene.read_text(encoding="utf-8")
+    text = disk.read_text(scene)
     found = re.search(r"^\s*set Title\s*=\s*(.*)$", text, re.MULTILINE)
     return found.group(1) if found else ""
 
@@ -28,17 +29,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(options: argparse.Namespace) -> int:
-    """List or copy; return 1 where DIR cannot be made."""
+    """List or copy. Raises InputError where DIR cannot be made."""
     if options.copy is None:
         print(f"Scenes in {SCENES}:")
         for scene in sorted(SCENES.glob("*.prm")):
             print(f"  {scene.name:24}{title_of(scene)}")
         return 0
+    if options.copy.exists():
+        raise InputError(f"no copy into {options.copy}: it is there already")
     try:
-        shutil.copytree(SCENES, options.copy, copy_function=shutil.copyfile)
+        with tempfile.TemporaryDirectory(dir=options.copy.parent) as folder:
+            new = Path(folder, "scenes")
+            shutil.copytree(SCENES, new, copy_function=shutil.copyfile)
+            new.rename(options.copy)
     except OSError as error:
-        reason = "it is there already" if options.copy.exists() else error.strerror
-        print(f"scenes: no copy into {options.copy}: {reason}", file=sys.stderr)
-        return 1
+        reason = error.strerror or "not all files can be copied"
+        raise InputError(f"no copy into {options.copy}: {reason}") from error
     print(f"scenes: copied into {options.copy}")
     return 0

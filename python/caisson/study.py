@@ -51,11 +51,12 @@ so that no misspelled one is left out in silence.
 A run that is complete is not repeated while the program, all entries in effect
 and the ranks are the same (caisson.runner.Run).
 """
+import collections
 import concurrent.futures
 import re
 import time
 import tomllib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -65,6 +66,7 @@ from caisson.progress import Progress
 from caisson.ranks import Size
 from caisson.results import Results
 from caisson.runner import Entries, Run, RunError, Status
+from caisson_design import InputError, disk
 
 FILE_KEYS = {"kind", "set", "variants", "study"}
 STUDY_KEYS = set(
@@ -79,7 +81,7 @@ SHARED_KEYS = set("h ranks binding until stop_after".split())
 MakeRuns = Callable[[dict[str, Any], Run], list[dict[str, Any]]]
 
 
-class StudyError(Exception):
+class StudyError(InputError):
     """What is wrong with a study file; the text is for the user."""
 
 
@@ -206,14 +208,19 @@ class Reader:
         else:
             one = {k: v for k, v in content.items() if k not in ("kind", "set")}
             tables = [{"id": self.file.stem, "title": self.file.stem, **one}]
-        return [self.study(table) for table in tables if self.is_asked_for(table)]
+        found = [self.study(table) for table in tables if self.is_asked_for(table)]
+        places = collections.Counter(run.run.directory for s in found for run in s.runs)
+        for place, count in places.items():
+            if count > 1:
+                raise StudyError(f"{self.file}: {count} runs would write into {place}")
+        return found
 
     def is_asked_for(self, table: dict[str, Any]) -> bool:
         """Return whether the study fits the options."""
         if self.options.quick and not table.get("quick", False):
             return False
         texts = (table.get("id", ""), table.get("title", ""))
-        return any(re.search(self.options.only, text) for text in texts)
+        return any(re.search(self.options.only, str(text)) for text in texts)
 
     def refuse_unknown(self, table: dict[str, Any], known: set[str], of: str) -> None:
         """Raise StudyError for a key that is not known."""
@@ -227,8 +234,9 @@ class Reader:
 
     def study(self, table: dict[str, Any]) -> Study:
         """Return one study."""
-        if "id" not in table:
-            raise StudyError(f"{self.file}: a study has no id")
+        name = table.get("id")
+        if not isinstance(name, str) or not name or not name.isprintable():
+            raise StudyError(f"{self.file}: a study has no id, or not one line of text")
         if self.options.quick and isinstance(table["quick"], dict):
             table = {**table, **table["quick"]}
         of = f"study {table['id']}"
@@ -246,9 +254,8 @@ class Reader:
             entries = {**self.set, **table.get("set", {}), **table["reference"]}
             runs.append(self.one_run(table, {}, "", "reference", entries))
         keys = {k: v for k, v in table.items() if k in self.study_keys}
-        return Study(
-            table["id"], table.get("title", table["id"]), self.file, runs, keys
-        )
+        title = disk.one_line(str(table.get("title", table["id"])))
+        return Study(table["id"], title, self.file, runs, keys)
 
     def made_runs(self, study: dict[str, Any]) -> list[dict[str, Any]]:
         """Return the runs that the kind makes for a study."""
@@ -314,17 +321,30 @@ class Reader:
 def read_toml(file: Path) -> dict[str, Any]:
     """Return the content of a study file. Raises StudyError."""
     try:
-        with open(file, "rb") as stream:
-            return tomllib.load(stream)
-    except OSError as error:
-        raise StudyError(f"{file} cannot be read: {error.strerror}") from error
-    except tomllib.TOMLDecodeError as error:
+        return tomllib.loads(disk.read_text(file, StudyError))
+    except (ValueError, RecursionError) as error:
         raise StudyError(f"{file}: {error}") from error
 
 
 def file_name(text: str) -> str:
-    """Return a text as the name of a file."""
-    return re.sub(r"[^\w.-]+", "_", text)
+    """Return a text as the name of a file or directory. Raises StudyError where it
+    would be another directory, as .. is."""
+    name = re.sub(r"[^\w.-]+", "_", text)
+    if text and not name.strip("."):
+        raise StudyError(f"{text!r} is no name for a directory: use letters or digits")
+    return name
+
+
+def check_is_own(directory: Path, study: Study, names: Iterable[str]) -> None:
+    """Raise StudyError where a directory has files of these names, which the study is
+    going to write, and none of its runs: they are of something else."""
+    found = [path for path in map(directory.joinpath, names) if path.exists()]
+    is_own = any((run.run.directory / Run.RECORD).is_file() for run in study.runs)
+    if found and not is_own:
+        raise StudyError(
+            f"{found[0]} is there, and is not of the study {study.id}, which has no run"
+            " there: move the file, or choose other --results or another id"
+        )
 
 
 def longest_first(runs: Sequence[StudyRun]) -> list[StudyRun]:

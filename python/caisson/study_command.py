@@ -8,6 +8,7 @@ entries and ranks are the same.
 import argparse
 import concurrent.futures
 import importlib
+import re
 import sys
 import time
 from collections.abc import Mapping, Sequence
@@ -45,6 +46,15 @@ def whole_number(text: str) -> int:
     return int(text)
 
 
+def pattern(text: str) -> str:
+    """Return a regular expression of the command line."""
+    try:
+        re.compile(text)
+    except re.error as error:
+        raise argparse.ArgumentTypeError(f"{text!r}: {error}") from error
+    return text
+
+
 def part_of(text: str) -> tuple[int, int]:
     """Return K and N of K/N."""
     number, of = map(int, text.split("/"))
@@ -65,7 +75,13 @@ def add_arguments(parser: argparse.ArgumentParser, file: Path | None = None) -> 
     else:
         parser.set_defaults(file=file)
     add = parser.add_argument
-    add("--only", default="", metavar="REGEX", help="studies whose id or title fits")
+    add(
+        "--only",
+        type=pattern,
+        default="",
+        metavar="REGEX",
+        help="studies whose id or title fits",
+    )
     add("--quick", action="store_true", help="those of some seconds only")
     add("--list", action="store_true", help="say what there is, and run nothing")
     add("--evaluate", action="store_true", help="evaluate what is there, run nothing")

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Tables as Markdown and as .csv."""
 import csv
+import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+
+from caisson_design import disk
 
 
 def number(value: float | None, digits: int = 5) -> str:
@@ -35,8 +38,13 @@ def markdown(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> str:
 
 
 def write_csv(
-    path: Path, columns: Sequence[str], rows: Sequence[Sequence[Any]]
+    path: Path,
+    columns: Sequence[str],
+    rows: Sequence[Sequence[Any]],
+    remarks: Sequence[str] = (),
 ) -> None:
-    """Write a table with all digits."""
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        csv.writer(file).writerows([list(columns), *rows])
+    """Write a table with all digits, below remarks."""
+    text = io.StringIO(newline="")
+    text.writelines(f"{line}\n" for line in disk.remarks("#", remarks))
+    csv.writer(text).writerows([list(columns), *rows])
+    disk.write(path, text.getvalue())

@@ -15,7 +15,6 @@ row; below the last row there is no answer (nan).
 
 SI units; z is the depth below the mudline (m), q_c is in Pa.
 """
-import shutil
 from collections.abc import Mapping, Sequence
 from math import inf, nan, pi, radians, tan
 from pathlib import Path
@@ -23,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson_design import InputError, cone_file
+from caisson_design import InputError, cone_file, disk
 from caisson_design.cone_options import How
 from caisson_design.method import Forces
 
@@ -153,10 +152,10 @@ def adopt(path: Path, directory: Path, how: How = How()) -> tuple[str, ...]:
     if not directory.is_dir():
         raise InputError(f"no directory {directory}")
     target = directory / NAME
-    if not cone_file.is_plain(path, how):
-        cone_file.write(target, test)
-    elif not (target.exists() and target.samefile(path)):
-        shutil.copyfile(path, target)
+    if cone_file.is_plain(path, how):
+        disk.keep(target, disk.read_bytes(path))
+    else:
+        disk.keep(target, cone_file.text_of(test))
     return test.remarks
 
 

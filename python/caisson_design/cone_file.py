@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson_design import InputError, cone_formats, cone_grid, printable
+from caisson_design import InputError, cone_formats, cone_grid, disk, printable
 from caisson_design.cone_options import How
 from caisson_design.cone_rules import RANGES, Readings
 from caisson_design.cone_table import Rows, Table, cell_of, refuse, value_of
@@ -61,10 +61,7 @@ def content_of(path: Path) -> bytes:
     """Return what is in a file. Raises InputError."""
     if path.is_char_device():
         raise InputError(f"{path} cannot be read as a cone test: it is a device")
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise InputError(f"{path} cannot be read as a cone test: {error}") from error
+    return disk.read_bytes(path)
 
 
 def lines_of(path: Path, content: bytes) -> list[str]:
@@ -255,8 +252,8 @@ def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
     )
 
 
-def write(path: Path, test: Test) -> Path:
-    """Write a test as a table of text, with nothing that needs an option."""
+def text_of(test: Test) -> str:
+    """Return a test as a table of text, with nothing that needs an option."""
     head = "qt_kPa" if test.is_corrected else "qc_kPa"
     columns = {
         "depth_m": test.depth,
@@ -266,5 +263,4 @@ def write(path: Path, test: Test) -> Path:
     }
     there = {name: values for name, values in columns.items() if values is not None}
     rows = [",".join(f"{x:.8g}" for x in row) for row in zip(*there.values())]
-    path.write_text("\n".join([",".join(there), *rows, ""]), encoding="utf-8")
-    return path
+    return "\n".join([",".join(there), *rows, ""])

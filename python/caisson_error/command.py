@@ -21,6 +21,7 @@ from caisson.ranks import Size
 from caisson.runner import Run, RunError, read_parameters
 from caisson.study import Options, Study, StudyError, StudyRun, execute
 from caisson.study_command import shares_of, to_do_of
+from caisson_design import disk
 from caisson_error import error_bar
 
 UNITS = {"s": 1, "min": 60, "h": 3600}
@@ -68,6 +69,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--budget", type=seconds_of, metavar="TIME", help=f"{text} that of the scene")
     text = "the file to write, default: that of Output/Error bar, or FILE_error_bar.csv"
     add("--output", type=Path, metavar="CSV", help=text)
+    add("--overwrite", action="store_true", help="replace the file if it is there")
     add("--list", action="store_true", help="print the runs, and run nothing")
     add("--again", action="store_true", help="repeat also runs that are complete")
     add("--program", type=Path, default=PROGRAM, help="caisson_mpm")
@@ -165,31 +167,20 @@ class Plan:
             raise StudyError(TOO_SHORT)
 
     def check_output(self) -> None:
-        """Raise StudyError where the file would replace something else, or cannot be
-        written."""
+        """Raise StudyError where the file cannot be written."""
         folder = self.output.resolve().parent
         if not os.access(folder, os.W_OK):
             raise StudyError(f"{folder} cannot be written. Choose --output")
         if self.output.is_dir():
             raise StudyError(f"{self.output} is a directory. Choose --output")
-        if self.output.exists():
-            text = self.output.read_text(encoding="utf-8", errors="replace")
-            if "\n# fingerprint: " not in f"\n{text}":
-                raise StudyError(
-                    f"{self.output} exists and is no error bar. Choose --output, or"
-                    " move the file"
-                )
 
-    def check_results(self, runs: list[StudyRun]) -> None:
-        """Raise StudyError where a run would empty a directory of something else."""
-        for folder in (run.run.directory for run in runs):
-            names = (
-                {path.name for path in folder.iterdir()} if folder.is_dir() else set()
+    def check_free(self, runs: list[StudyRun]) -> None:
+        """Raise StudyError where the file is there and runs are missing, so that it
+        will be another one."""
+        if self.output.exists() and not all(run.run.is_complete() for run in runs):
+            raise StudyError(
+                f"{self.output} exists. Choose --output, or replace it by --overwrite"
             )
-            if names and not names & {Run.RECORD, "log"}:
-                raise StudyError(
-                    f"{folder} has files that are not of such a run. Choose --results"
-                )
 
     def size_of_scene(self) -> Size:
         """Return the points of the scene and how long it takes on one core. The program
@@ -283,7 +274,6 @@ class Plan:
 
     def execute(self, runs: list[StudyRun], again: bool) -> None:
         """Run what is not complete. Raises StudyError where a run has no result."""
-        self.check_results(runs)
         self.results.mkdir(parents=True, exist_ok=True)
         execute(shares_of(to_do_of(runs, again), None), again)
         if missing := [run for run in runs if not run.run.is_complete()]:
@@ -333,9 +323,12 @@ def main(arguments: argparse.Namespace) -> int:
             print(f"This is more than the budget, {duration(plan.budget)}.")
         if arguments.list:
             return 0
+        if not arguments.overwrite:
+            plan.check_free(study.runs)
         plan.execute(study.runs, arguments.again)
         set_depths(study)
-        error_bar.evaluate([study], Options(), 0)
+        with disk.all_or_none(arguments.overwrite):
+            error_bar.evaluate([study], Options(), 0)
         advise(plan, study)
         return 0
     except (StudyError, RunError, OSError) as error:

@@ -40,6 +40,7 @@ from caisson.paths import short
 from caisson.progress import duration
 from caisson.results import ResultsError, Table
 from caisson.study import Options, Study, StudyError, StudyRun
+from caisson_design import disk
 from caisson_error.mesh_error import MeshError, mesh_error
 
 NAME = "error bar"
@@ -243,7 +244,7 @@ def write_file(
         ",".join(columns),
         *map(",".join, zip(*columns.values())),
     ]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    disk.write(path, "\n".join(lines) + "\n")
 
 
 def minutes(run: StudyRun) -> str:

@@ -18,18 +18,13 @@ from caisson.frame import Frame
 from caisson.loaded import LoadedRun, load
 from caisson.paths import short
 from caisson.results import ResultsError
+from caisson_design import InputError, disk
 from caisson_design.quantity import length, number
 from caisson_export import decks, spring_files, spring_picture, tables
 from caisson_export.balance import Balanced, balance, check_forces
+from caisson_export.gmsh import read_gmsh
 from caisson_export.interpolate import interpolate
-from caisson_export.mesh import (
-    Mesh,
-    Window,
-    check_spacing,
-    default_window,
-    read_gmsh,
-    regular,
-)
+from caisson_export.mesh import Mesh, Window, check_spacing, default_window, regular
 from caisson_export.places import read_places
 from caisson_export.springs import Springs, springs_of
 from caisson_export.state import State, read_state
@@ -38,7 +33,7 @@ from caisson_export.text import about, about_points
 Writer = Callable[[Path, Balanced], None]
 # form: end of the file, and what writes it
 FORMS: dict[str, tuple[str, Writer]] = {
-    "csv": (".csv", tables.write_csv),
+    "csv": (".csv", tables.write_cells),
     "vtu": (".vtu", tables.write_vtu),
     "abaqus": (
         "_abaqus.inp",
@@ -68,6 +63,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("directory", type=Path, metavar="DIR", help="output directory of a run")
     add("--to", choices=[*FORMS, *SPRINGS], required=True, help="form of the file")
     add("--output", type=Path, metavar="FILE", help="default: state... in DIR")
+    add("--overwrite", action="store_true", help="replace the file if it is there")
     frame = parser.add_mutually_exclusive_group()
     text = "the frame at this depth (m); default: the last one"
     frame.add_argument("--penetration", type=number("m"), metavar="M", help=text)
@@ -105,7 +101,7 @@ def mesh_of(state: State, options: argparse.Namespace) -> Mesh:
     if options.mesh is not None:
         if any(given):
             raise ResultsError("--radius, --depth and --spacing are not for --mesh")
-        mesh = read_gmsh(options.mesh, state.wall)
+        mesh = read_gmsh(options.mesh, state)
     else:
         usual = default_window(state)
         window = Window(
@@ -191,9 +187,10 @@ def main(options: argparse.Namespace) -> int:
     """Write the file, and print what it is."""
     try:
         export = export_springs if options.to in SPRINGS else export_state
-        path, lines = export(options)
+        with disk.all_or_none(options.overwrite):
+            path, lines = export(options)
         print("\n".join([*lines, f"written to {short(path)}"]))
         return 0
-    except (ResultsError, OSError) as error:
+    except (InputError, OSError) as error:
         print(f"export: {error}", file=sys.stderr)
         return 1

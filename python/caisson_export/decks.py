@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from caisson_design import disk
 from caisson_export.balance import Balanced
 from caisson_export.state import GRAVITY
 from caisson_export.text import TOTAL, about
@@ -91,7 +92,7 @@ def abaqus(state: Balanced) -> Iterator[str]:
     """Yield the lines of an input file for Abaqus."""
     yield "*HEADING"
     yield "State of the soil of a run of caisson_mpm, SI units"
-    yield from (f"** {line}" for line in [*about(state), TOTAL])
+    yield from disk.remarks("**", [*about(state), TOTAL])
     yield "** Replace the elastic materials by your own before a step of loading."
     yield from mesh_lines(state)
     yield from soil_lines(state)
@@ -112,7 +113,7 @@ def calculix(state: Balanced) -> Iterator[str]:
     the brick into which it expands an element."""
     yield "*HEADING"
     yield "State of the soil of a run of caisson_mpm, SI units"
-    yield from (f"** {line}" for line in [*about(state), TOTAL])
+    yield from disk.remarks("**", [*about(state), TOTAL])
     yield from mesh_lines(state)
     yield from soil_lines(state)
     yield "** element, point, rr, zz, tt, rz, 0, 0"
@@ -188,7 +189,7 @@ def opensees(state: Balanced) -> Iterator[str]:
     """Yield the lines of a script of OpenSeesPy: a sector of bricks, as its
     quadrilaterals are not axisymmetric."""
     mesh = state.mesh
-    yield from (f"# {line}" for line in [*about(state), TOTAL])
+    yield from disk.remarks("#", [*about(state), TOTAL])
     yield "# A sector of 2 degrees of bricks: x is radial, z is upward. InitStrain"
     yield "# gives each brick its stress; OpenSees has it since 2024."
     yield "# Replace the elastic soil by your own, in a stage after this one."
@@ -223,5 +224,4 @@ def opensees(state: Balanced) -> Iterator[str]:
 
 def write(path: Path, lines: Iterable[str]) -> None:
     """Write the lines of a file."""
-    with path.open("w", encoding="utf-8") as file:
-        file.writelines(f"{line}\n" for line in lines)
+    disk.write(path, "".join(f"{line}\n" for line in lines))

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The points of a table at which values are asked for: numbers within the soil."""
 import csv
+import io
 from pathlib import Path
 
 import numpy as np
 
 from caisson.results import ResultsError
+from caisson_design import disk
 from caisson_export.mesh import default_window, steps, surface_of
 from caisson_export.state import TOLERANCE, State
 
@@ -16,11 +18,8 @@ def read_table(path: Path) -> tuple[np.ndarray, list[int]]:
     """Return the points [n, 2] (m) of a table, and the line of each. Raises
     ResultsError where a row has no two numbers."""
     points, numbers = [], []
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            lines = list(enumerate(csv.reader(file), 1))
-    except UnicodeError as error:
-        raise ResultsError(f"{path} is no table of text: {error}") from error
+    text = io.StringIO(disk.read_text(path, ResultsError), newline="")
+    lines = list(enumerate(csv.reader(text), 1))
     rows = [(n, row) for n, row in lines if row and not row[0].startswith("#")]
     names = [name.strip() for name in rows[0][1]] if rows else []
     if not set(COLUMNS) <= set(names):

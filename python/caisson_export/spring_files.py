@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Springs of a caisson as files: a table in the form of t-z curves, and OpenSees."""
-import csv
 from pathlib import Path
 
 import numpy as np
 
+from caisson import table
+from caisson_design import disk
 from caisson_export.springs import SMALL, STILL_GROWS, WALLS, Springs
 
 ROWS = 25  # of a curve in the table
@@ -137,32 +138,30 @@ def beside(found: Springs, other: Springs, number: int) -> np.ndarray:
 
 def write_csv(path: Path, found: Springs, other: Springs | None) -> None:
     """Write one row for each spring and displacement."""
-    rows = rows_of(found)
-    with path.open("w", newline="", encoding="utf-8") as file:
-        file.writelines(f"# {line}\n" for line in [*about_both(found, other), *SIGNS])
-        writer = csv.writer(file)
-        names = ["place", "depth_m", "area_m2", "displacement_mm"]
-        names += ["displacement_over_diameter", "resistance_kPa"]
-        names += ["resistance_over_ultimate", "stress_kPa"]
-        writer.writerow(names + ["beside_resistance_kPa"] * (other is not None))
-        for number, spring in enumerate(found.springs):
-            compared = None if other is None else beside(found, other, number)
-            for row in rows:
-                z, t = found.displacement[row], spring.resistance[row]
-                values = [spring.depth, spring.area, 1e3 * z, z / found.diameter]
-                values.append(t / 1e3)
-                values.append(t / spring.ultimate if spring.ultimate else np.nan)
-                values.append((spring.before + found.direction * t) / 1e3)
-                if compared is not None:
-                    values.append(compared[row] / 1e3)
-                writer.writerow([spring.place, *(f"{v:.6g}" for v in values)])
+    names = ["place", "depth_m", "area_m2", "displacement_mm"]
+    names += ["displacement_over_diameter", "resistance_kPa"]
+    names += ["resistance_over_ultimate", "stress_kPa"]
+    names += ["beside_resistance_kPa"] * (other is not None)
+    lines = []
+    for number, spring in enumerate(found.springs):
+        compared = None if other is None else beside(found, other, number)
+        for row in rows_of(found):
+            z, t = found.displacement[row], spring.resistance[row]
+            values = [spring.depth, spring.area, 1e3 * z, z / found.diameter]
+            values.append(t / 1e3)
+            values.append(t / spring.ultimate if spring.ultimate else np.nan)
+            values.append((spring.before + found.direction * t) / 1e3)
+            if compared is not None:
+                values.append(compared[row] / 1e3)
+            lines.append([spring.place, *(f"{v:.6g}" for v in values)])
+    table.write_csv(path, names, lines, [*about_both(found, other), *SIGNS])
 
 
 def write_opensees(path: Path, found: Springs, other: Springs | None) -> None:
     """Write the springs as materials and elements of OpenSees, in a module."""
-    lines = ["# SPDX-License-Identifier: LGPL-2.1-or-later", '"""Springs of a caisson.']
-    lines += ["", *about_both(found, other), *SIGNS, "", OPENSEES]
-    lines += [about_hyperbolas(found), '"""']
+    text = ["SPDX-License-Identifier: LGPL-2.1-or-later", "", "Springs of a caisson."]
+    text += [*about_both(found, other), *SIGNS, OPENSEES, about_hyperbolas(found), ""]
+    lines = disk.remarks("#", text)
     lines += ["# place, depth (m), ultimate (N), displacement at half of it (m)"]
     lines += ["SPRINGS = ["]
     for spring in found.springs:
@@ -173,7 +172,7 @@ def write_opensees(path: Path, found: Springs, other: Springs | None) -> None:
                 f'    ("{spring.place}", {spring.depth:.5g}, {force:.6g}, {half:.6g}),'
             )
     bearing = f"BEARING = {('tip', 'lid') if found.direction > 0 else ()}"
-    path.write_text("\n".join([*lines, "]", bearing, *ADD, ""]), encoding="utf-8")
+    disk.write(path, "\n".join([*lines, "]", bearing, *ADD, ""]))
 
 
 SIGNS = (

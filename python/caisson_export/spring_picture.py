@@ -6,6 +6,7 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from caisson_design import disk
 from caisson_export.springs import WALLS, Springs
 
 
@@ -53,4 +54,4 @@ def draw(path: Path, found: Springs, other: Springs | None) -> None:
     if other is not None:
         lines.append(f"{other.title} (dashed)")
     figure.suptitle("\n".join(lines), fontsize=9)
-    figure.savefig(path, dpi=150)
+    disk.save(figure, path)

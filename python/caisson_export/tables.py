@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Exported states as tables and pictures: .csv of cells, points or zones, and .vtu."""
-import csv
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from caisson.table import write_csv
+from caisson_design import disk
 from caisson_export.balance import Balanced
 from caisson_export.interpolate import Values
 from caisson_export.state import STRESS, State
@@ -17,14 +18,10 @@ Columns = dict[str, np.ndarray]
 ZONE_ROWS = 12
 
 
-def write_table(path: Path, lines: Iterable[str], columns: Columns) -> None:
+def write_table(path: Path, lines: Sequence[str], columns: Columns) -> None:
     """Write columns with remarks before them."""
-    with path.open("w", newline="", encoding="utf-8") as file:
-        file.writelines(f"# {line}\n" for line in lines)
-        writer = csv.writer(file)
-        writer.writerow(columns)
-        for row in zip(*columns.values()):
-            writer.writerow([f"{value:.9g}" for value in row])
+    rows = [[f"{value:.9g}" for value in row] for row in zip(*columns.values())]
+    write_csv(path, list(columns), rows, lines)
 
 
 def tensor(name: str, values: np.ndarray) -> Columns:
@@ -59,7 +56,7 @@ def of_cells(state: Balanced) -> Columns:
     return result | {"correction_exceeds_scatter": state.exceeds.astype(int)}
 
 
-def write_csv(path: Path, state: Balanced) -> None:
+def write_cells(path: Path, state: Balanced) -> None:
     """Write one row for each cell."""
     place = dict(zip(("r_m", "z_m"), state.mesh.centers.T))
     numbers = {"cell": np.arange(1, len(state.stress) + 1)}
@@ -75,9 +72,9 @@ def write_points(path: Path, state: State, at: np.ndarray, values: Values) -> No
 
 
 def write_vtu(path: Path, state: Balanced) -> None:
-    """Write the mesh with the values of its cells."""
+    """Write the mesh with the values of its cells; what it is stands in a comment."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+    from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import (
         VTK_QUAD,
         VTK_TRIANGLE,
@@ -98,16 +95,14 @@ def write_vtu(path: Path, state: Balanced) -> None:
         array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
         array.SetName(name)
         grid.GetCellData().AddArray(array)
-    text = vtkStringArray()
-    text.SetName("about")
-    for line in about(state):
-        text.InsertNextValue(line)
-    grid.GetFieldData().AddArray(text)
     writer = vtkXMLUnstructuredGridWriter()
-    writer.SetFileName(str(path))
     writer.SetInputData(grid)
-    if not writer.Write():
-        raise OSError(f"{path} cannot be written")
+    writer.WriteToOutputStringOn()
+    writer.Write()
+    head, body = writer.GetOutputString().split("\n", 1)
+    # an array of strings would say it too, but only to VTK
+    text = "\n".join(disk.remarks(" ", about(state))).replace("--", "- -")
+    disk.write(path, f"{head}\n<!--\n{text}\n-->\n{body}")
 
 
 @dataclass
@@ -233,14 +228,12 @@ def line_of(state: Balanced, zone: Zone) -> dict[str, float | str]:
 
 def write_plaxis(path: Path, state: Balanced) -> None:
     """Write zones of soil, each with its weight, K0 and OCR."""
-    lines = [line_of(state, zone) for zone in zones_of(state)]
-    with path.open("w", newline="", encoding="utf-8") as file:
-        file.writelines(f"# {line}\n" for line in [*about(state), *PLAXIS])
-        writer = csv.DictWriter(file, lines[0])
-        writer.writeheader()
-        for line in lines:
-            numbers = {k: f"{v:.8g}" for k, v in line.items() if not isinstance(v, str)}
-            writer.writerow({**line, **numbers})
+    zones = [line_of(state, zone) for zone in zones_of(state)]
+    rows = [
+        [value if isinstance(value, str) else f"{value:.8g}" for value in zone.values()]
+        for zone in zones
+    ]
+    write_csv(path, list(zones[0]), rows, [*about(state), *PLAXIS])
 
 
 PLAXIS = (

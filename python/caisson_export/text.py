@@ -17,6 +17,11 @@ TOTAL = (
 )
 
 
+def percent(share: float) -> str:
+    """Return a share in percent: two digits, and no power of ten where it is large."""
+    return f"{float(f'{100 * share:.2g}'):.9g} %"
+
+
 def about_state(state: State) -> list[str]:
     """Return what run and frame it is."""
     depth = f", penetration {state.penetration:.6g} m" if state.wall else ""
@@ -48,16 +53,16 @@ def about_correction(state: Balanced) -> list[str]:
     """Return the lines on residual and correction."""
     lines = [
         f"Residual, the sum of the out-of-balance forces over the weight of"
-        f" {state.weight / 1e3:.6g} kN: {100 * state.before:.3g} % as interpolated,"
-        f" {100 * state.after:.2g} % as exported."
+        f" {state.weight / 1e3:.6g} kN: {percent(state.before)} as interpolated,"
+        f" {percent(state.after)} as exported."
     ]
     if not state.correction.any():
         return [*lines, "The interpolated stress is exported without a correction."]
     share = state.volume[state.exceeds].sum() / state.volume.sum()
     lines.append(
-        f"The correction of the stress is {100 * state.size_of_correction:.2g} % of it"
+        f"The correction of the stress is {percent(state.size_of_correction)} of it"
         f" (mean of squares), and exceeds the scatter of the points in"
-        f" {100 * share:.2g} % of the volume. {largest_correction(state)}"
+        f" {percent(share)} of the volume. {largest_correction(state)}"
     )
     if state.after > WANTED:
         lines.append(
@@ -78,8 +83,8 @@ def about_wall(state: Balanced) -> list[str]:
             f" {state.wall_before[name] / 1e3:.5g}, exported {force / 1e3:.5g} kN."
         )
     tension = state.stress[:, :3].sum(axis=1) > 0
-    share = 100 * state.volume[tension].sum() / state.volume.sum()
-    return [*lines, f"Mean stress is tensile in {share:.2g} % of the volume."]
+    share = percent(state.volume[tension].sum() / state.volume.sum())
+    return [*lines, f"Mean stress is tensile in {share} of the volume."]
 
 
 def about_stiffness(state: State) -> list[str]:
@@ -96,4 +101,5 @@ def about_stiffness(state: State) -> list[str]:
 def about(state: Balanced) -> list[str]:
     """Return all lines on a balanced state."""
     lines = [*about_state(state.state), *SIGNS, *about_stiffness(state.state)]
+    lines += filter(None, [state.mesh.remark])
     return [*lines, *about_correction(state), *about_wall(state)]

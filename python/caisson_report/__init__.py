@@ -12,6 +12,7 @@ from pathlib import Path
 from caisson.plot import add_cone_arguments, draw, keep_cone
 from caisson.results import Results, ResultsError
 from caisson_design import InputError
+from caisson_design import disk
 
 NAME = "report.html"
 INTERVAL = 30.0  # s, in which a followed report is renewed
@@ -26,12 +27,8 @@ def write(directory: Path, rate: float | None = None) -> Path:
 
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
-    path, new = directory / NAME, directory / f".{NAME}"
     text = page.html(Results(directory), Rate() if rate is None else Rate(rate, False))
-    # whoever looks at the page never sees a half of it
-    new.write_text(text, encoding="utf-8")
-    new.replace(path)
-    return path
+    return disk.write(directory / NAME, text)
 
 
 def follow(directory: Path, interval: float, rate: float | None = None) -> Path:
@@ -60,7 +57,7 @@ def print_pdf(path: Path) -> Path:
             "--pdf needs a browser: install the package chromium, or print"
             f" {path} from yours"
         )
-    pdf = path.with_suffix(".pdf")
+    new, pdf = path.with_name(".report.pdf"), path.with_suffix(".pdf")
     subprocess.run(
         [
             browser,
@@ -69,12 +66,14 @@ def print_pdf(path: Path) -> Path:
             "--disable-gpu",
             "--no-pdf-header-footer",
             "--virtual-time-budget=10000",  # ms, in which the curves are drawn
-            f"--print-to-pdf={pdf}",
+            f"--print-to-pdf={new}",
             path.resolve().as_uri(),
         ],
         check=True,
         capture_output=True,
     )
+    disk.write(pdf, disk.read_bytes(new))
+    new.unlink()
     return pdf
 
 

@@ -8,7 +8,6 @@ Alone it can only compare its tip with what the tip bore under the weight, befor
 was suction, both over the vertical stress of undisturbed ground: this ratio rises and
 falls with depth without any suction, too (ONE_RUN).
 """
-import shutil
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +16,7 @@ import numpy as np
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.suction import rest_of_run
 from caisson.results import Results, ResultsError
+from caisson_design import disk
 from caisson_design.houlsby_byrne import UNDISTURBED
 from caisson_design.suction_installation import mean_unit_weight
 
@@ -54,7 +54,7 @@ def adopt(jacked: Path, directory: Path) -> None:
                 f"--jacked {jacked}: {name} in its run.json is not that of {directory}:"
                 " jack the same scene, --set Water/Level=drained"
             )
-    shutil.copyfile(jacked / "history.csv", directory / NAME)
+    disk.keep(directory / NAME, disk.read_bytes(jacked / "history.csv"))
 
 
 def table_of(run: Results, at: np.ndarray) -> tuple[dict[str, Any], str]:

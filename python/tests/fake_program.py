@@ -58,6 +58,7 @@ def main() -> int:
     parser.add_argument("--output-directory", default="results", type=Path)
     parser.add_argument("--print-parameters", action="store_true")
     parser.add_argument("--validate", action="store_true")
+    parser.add_argument("--overwrite", action="store_true")
     words = parser.parse_args()
     entries = dict(ENTRIES)
     for text in words.set:

@@ -2,11 +2,13 @@
 """Which design methods answer in a scene, and why the others do not."""
 import unittest
 from math import nan
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from caisson.plot import theory
+from caisson.results import Read
 from caisson_design.cone import Profile
 
 LINEAR = Profile([0, 10], [0, 20e6])  # 2 MPa per meter
@@ -63,7 +65,10 @@ class Applicability(unittest.TestCase):
         for layers, words in (
             ((LAYER, clay), "none is assumed for layer 2, which is clay"),
             ((unknown,), "none is assumed: layer 1 is hypoplastic sand, and run.json"),
-            ((bare,), "run.json has no submerged_unit_weight_N_m3"),
+            (
+                (Read(Path("run.json"), bare),),
+                "run.json has no submerged_unit_weight_N_m3",
+            ),
         ):
             site = self.site(*layers)._replace(cone=None)
             self.assertIn(words, self.why(site)[1])

@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """States of made-up points, exported and read back by a plain solver."""
+import ast
 import contextlib
+import errno
+import importlib
 import io
 import json
 import math
+import os
 import runpy
 import shutil
 import subprocess
@@ -11,6 +15,7 @@ import sys
 import types
 import unittest
 import unittest.mock
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Any
 
@@ -328,7 +333,7 @@ class Tables(Temporary):
 
     def test_csv(self) -> None:
         found = balanced(made_up(noise=0.02))
-        tables.write_csv(self.path / "a.csv", found)
+        tables.write_cells(self.path / "a.csv", found)
         table = read_table(self.path / "a.csv")
         np.testing.assert_allclose(table["stress_tt_Pa"], found.stress[:, 2], rtol=1e-8)
         np.testing.assert_allclose(
@@ -356,7 +361,11 @@ class Tables(Temporary):
         cells = vtu.named_arrays(grid.GetCellData())
         np.testing.assert_array_equal(cells["stress_rr_Pa"], found.stress[:, 0])
         self.assertEqual(grid.GetNumberOfPoints(), len(found.mesh.nodes))
-        self.assertIsNotNone(grid.GetFieldData().GetAbstractArray("about"))
+        text = (self.path / "a.vtu").read_text(encoding="utf-8")
+        self.assertIn("\n  Stresses are effective, in Pa", text.split("-->")[0])
+        with contextlib.suppress(ModuleNotFoundError):  # python3-meshio is not needed
+            mesh = importlib.import_module("meshio").read(self.path / "a.vtu")
+            self.assertEqual(len(mesh.points), len(found.mesh.nodes))
 
     def test_zones_at_rest(self) -> None:
         """K0 is that of the soil, and nothing is overconsolidated."""
@@ -487,6 +496,49 @@ class Command(Temporary):
             self.assertEqual(status, 0, text)
             for said in (text, path.read_text(encoding="utf-8")):
                 self.assertIn("Layer 1: its law has no Young's modulus", said)
+
+    def test_a_title_is_no_code(self) -> None:
+        """A title of several lines, with quotes and signs of remarks, is a remark."""
+        run = self.path / "run"
+        shutil.copytree(TINY, run)
+        summary = json.loads((run / "run.json").read_text(encoding="utf-8"))
+        summary["title"] = 'x\n*STEP\r"""\nexit()\x1b[31m\u2028exit() --> <a>'
+        (run / "run.json").write_text(json.dumps(summary), encoding="utf-8")
+        marks = {"csv": "#", "plaxis": "#", "opensees": "#", "abaqus": "**", "vtu": ""}
+        for form, mark in marks.items():
+            path = self.path / form
+            status, said = self.call(run, "--to", form, "--output", path)
+            self.assertEqual(status, 0, said)
+            self.assertNotIn("\x1b", said)
+            text = path.read_text(encoding="utf-8")
+            (line,) = (line for line in text.splitlines() if "exit()" in line)
+            self.assertTrue(line.startswith(mark), line)
+            self.assertNotIn("\x1b", text)
+            if form == "vtu":
+                comment = ElementTree.fromstring(text)
+                self.assertEqual(comment.tag, "VTKFile")
+            elif form == "opensees":
+                calls = {ast.unparse(n) for n in ast.walk(ast.parse(text))}
+                self.assertNotIn("exit()", calls)
+
+    def test_a_disk_that_is_full(self) -> None:
+        """Nothing is said to be written, the older file stays, and no half of one."""
+        run = self.path / "run"
+        shutil.copytree(TINY, run)
+        full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        for form in ("vtu", "abaqus"):
+            path = self.path / f"old.{form}"
+            path.write_text("mine", encoding="utf-8")
+            given = (run, "--to", form, "--output", path)
+            status, text = self.call(*given)
+            self.assertEqual(status, 1)
+            self.assertIn(f"{path} exists, and differs", text)
+            with unittest.mock.patch("os.fsync", side_effect=full):
+                status, text = self.call(*given, "--overwrite")
+            self.assertEqual(status, 1)
+            self.assertRegex(text, rf"^export: {path} cannot .*: No space left .*kept$")
+            self.assertEqual(path.read_text(encoding="utf-8"), "mine")
+            self.assertEqual(list(self.path.glob(".*")), [])
 
     def test_a_run_of_another_body(self) -> None:
         status, text = self.call(self.run_with({}), "--to", "csv")

@@ -11,13 +11,15 @@ from scipy.spatial import cKDTree
 from caisson.results import ResultsError
 from caisson_export import decks
 from caisson_export.balance import balance
+from caisson_export.gmsh import read_gmsh
 from caisson_export.interpolate import interpolate
 from caisson_export.mesh import (
     Mesh,
     Window,
     default_window,
-    read_gmsh,
+    lattice,
     regular,
+    steps,
     with_sets,
 )
 from caisson_export.state import Wall
@@ -137,6 +139,25 @@ $EndElements
 """
 
 
+def msh_2(
+    nodes: np.ndarray,
+    cells: np.ndarray,
+    groups: np.ndarray,
+    surfaces: np.ndarray | None = None,
+) -> str:
+    """Return a file of Gmsh, in which group 7 has a name."""
+    tags = np.stack([groups, groups if surfaces is None else surfaces], 1).astype(int)
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "1"]
+    lines += ['2 7 "body"', "$EndPhysicalNames", "$Nodes", str(len(nodes))]
+    lines += [f"{i} {r:.9g} {z:.9g} 0" for i, (r, z) in enumerate(nodes, 1)]
+    lines += ["$EndNodes", "$Elements", str(len(cells))]
+    for i, (cell, (group, surface)) in enumerate(zip(cells + 1, tags), 1):
+        corners = list(dict.fromkeys(cell.tolist()))
+        words = [i, len(corners) - 1, 2, group, surface, *corners]
+        lines.append(" ".join(map(str, words)))
+    return "\n".join([*lines, "$EndElements", ""])
+
+
 class Gmsh(Temporary):
     """Meshes of Gmsh."""
 
@@ -144,7 +165,7 @@ class Gmsh(Temporary):
         """Return the mesh of a file."""
         path = self.path / "a.msh"
         path.write_text(text, encoding="utf-8")
-        return read_gmsh(path, wall)
+        return read_gmsh(path, made_up(wall=wall))
 
     def test_both_formats(self) -> None:
         """Quadrilaterals and triangles, one of which is clockwise."""
@@ -164,8 +185,8 @@ class Gmsh(Temporary):
     def test_what_is_refused(self) -> None:
         for text, words in (
             ("", "is no text file of Gmsh"),
-            (MSH_2.replace("2.2 0", "2.2 1"), "save it as text"),
-            (MSH_2.replace("2.2 0", "3 0"), "save it as text"),
+            (MSH_2.replace("2.2 0", "2.2 1"), "binary .*-format msh41 -o a_text.msh$"),
+            (MSH_2.replace("2.2 0", "3 0"), "another version .3 0.: save it as text"),
             (MSH_2.replace("8 4 0 0", "8 4 0 1"), "not in the plane"),
             (MSH_2.replace("1 0 -4", "1 -1 -4"), "nodes at r < 0"),
             (MSH_2.replace("1 2 7 3", "1 2 7 33"), "node 33, which is not among"),
@@ -180,6 +201,56 @@ class Gmsh(Temporary):
         mesh.cells = mesh.cells[(r < 3.5) | (z > -3.5)]
         with self.assertRaisesRegex(ResultsError, "neither on the axis"):
             with_sets(mesh, WEDGE)
+
+    def test_binary(self) -> None:
+        """It is refused before its bytes are taken for text."""
+        head = "$MeshFormat\n4.1 1 8\n"
+        (self.path / "b.msh").write_bytes(head.encode() + b"\1\0\0\0\xc0\xff")
+        with self.assertRaisesRegex(ResultsError, "b.msh is binary .4.1 1.: save it"):
+            read_gmsh(self.path / "b.msh", made_up())
+
+    def test_units_and_origin(self) -> None:
+        """They are told by how far the mesh reaches."""
+        for scale, shift, words in (
+            (1e3, 0, "r = 4000 m, and from z = 0 m to -4000 m, .* seems to be in mm"),
+            (1e2, 0, "it seems to be in cm; scale it to m"),
+            (1e3, -2e4, "it seems to be in mm"),
+            (1e-3, 0, "the wall stands at r = 2 m: the file must be in m"),
+            (1, -20, "from z = -20 m .* must be at z = 0, .* move the mesh by 20 m$"),
+            (1, 4, "move the mesh by -4 m, or turn the sign of z if it points down"),
+        ):
+            nodes, cells = self.around_the_wall(0.5)
+            text = msh_2(scale * nodes + [0, shift], cells, np.ones(len(cells)))
+            with self.subTest(words), self.assertRaisesRegex(ResultsError, words):
+                self.read(text, WEDGE)
+
+    @staticmethod
+    def around_the_wall(size: float) -> tuple[np.ndarray, np.ndarray]:
+        """Return quadrilaterals, some of which are a wall with a flat tip."""
+        across = steps(1.9, 2, size)
+        r = np.unique([*steps(0, 1.9, 0.4), *across, *steps(2, 4, 0.4)])
+        z = np.unique([*steps(-4, -2, 0.4), *steps(-2, 0, size)])
+        return lattice(r, z)
+
+    def test_a_wall_that_is_meshed(self) -> None:
+        """None of its cells is soil, not at the corners of a flat tip either, whether
+        it is a group or only a surface of its own; the walls are found."""
+        for size in (0.02, 0.05, 0.1):
+            nodes, quads = self.around_the_wall(size)
+            triangles = np.concatenate([quads[:, [0, 1, 2, 2]], quads[:, [0, 2, 3, 3]]])
+            for cells in (quads, triangles):
+                r, z = Mesh(nodes, cells).centers.T
+                is_wall = (r > 1.9) & (r < 2) & (z > -2)
+                for groups in (np.where(is_wall, 7, 1), np.ones(len(cells))):
+                    text = msh_2(nodes, cells, groups, np.where(is_wall, 2, 1))
+                    mesh = self.read(text, WEDGE)
+                    self.assertEqual(len(mesh.cells), np.count_nonzero(~is_wall))
+                    words = f"{is_wall.sum()} cells of the mesh are the wall, and left"
+                    self.assertIn(words, mesh.remark)
+                    self.assertEqual("group body" in mesh.remark, groups.max() == 7)
+                    self.assertFalse((mesh.nodes[mesh.sets["SURFACE"], 1] < 0).any())
+                    tip = mesh.nodes[mesh.sets["TIP"]]
+                    self.assertEqual((tip[:, 0].min(), tip[:, 0].max()), (1.9, 2))
 
     def test_a_piece_that_is_not_held(self) -> None:
         """The plug alone, whose wall slides."""

@@ -21,6 +21,7 @@ import caisson_report
 import caisson_workshop.__main__
 import lab.__main__
 from caisson.paths import ROOT
+from caisson_workshop.floors import committed, strangers
 from caisson_workshop.lengths import cpp_functions
 
 CPP = """
@@ -73,6 +74,15 @@ def modules() -> list[str]:
     cases = (ROOT / "lab").glob("*/*/*.py")
     names += [".".join(path.relative_to(ROOT).with_suffix("").parts) for path in cases]
     return [name for name in names if not name.endswith("__main__")]
+
+
+class TopLevel(unittest.TestCase):
+    """What lies beside the sources."""
+
+    def test_strangers(self) -> None:
+        found = ["doc/a.md", "comparison.csv", "README.md", "scripts/x", "old/x"]
+        self.assertEqual(strangers(found), ["comparison.csv", "old"])
+        self.assertEqual(strangers(committed()), [])
 
 
 class Imports(unittest.TestCase):

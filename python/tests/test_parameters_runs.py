@@ -166,11 +166,15 @@ class Commands(WithFiles):
         self.assertIn("no run has results (out of date", said)
 
     def test_a_run_that_is_computed_elsewhere(self) -> None:
-        """Its directory is left alone."""
+        """Its directory is left alone; what is not its own stays in any case."""
         self.write(PHI + "values = [30, 34]")
         place = self.path / "results/s/Friction_angle_30"
         place.mkdir(parents=True)
         (place / "precious").touch()
+        (place.parent / "table.csv").touch()
+        status, said = self.study()
+        self.assertIn("table.csv is there, and is not of the study s", said)
+        (place.parent / "table.csv").unlink()
         with open(place / ".lock", "w", encoding="utf-8") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             status, said = self.study()
@@ -178,6 +182,12 @@ class Commands(WithFiles):
         self.assertIn("another process computes in", said)
         self.assertTrue((place / "precious").exists())
         self.assertEqual(self.calls(), ["Friction_angle_34"])
+        (place / "forces.png").touch()  # not of this run, which has not been made
+        self.assertEqual(self.study("--again")[0], 0)
+        self.assertTrue((place / "forces.png").exists())
+        self.assertEqual(self.study("--again")[0], 0)
+        self.assertTrue((place / "precious").exists())
+        self.assertFalse((place / "forces.png").exists())
 
     def test_jobs(self) -> None:
         """As many runs at a time as there are cores for their ranks."""
@@ -263,6 +273,7 @@ class Evaluation(WithFiles):
                 "entries": run.run.entry_texts(),
                 "status": 0,
                 "wall_s": 1,
+                "cpu_s": 1,
             }
             (run.run.directory / "run_key.json").write_text(json.dumps(record))
         return Outcomes(study)

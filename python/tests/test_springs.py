@@ -98,7 +98,7 @@ class MadeUp(Temporary):
         """Return the status of the command, and what it prints."""
         out = io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
-            status = program.main(["export", *map(str, words)])
+            status = program.main(["export", "--overwrite", *map(str, words)])
         return status, out.getvalue()
 
 

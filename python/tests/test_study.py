@@ -121,7 +121,22 @@ quick = {seconds = 1, mine = "fast"}
         with self.assertRaisesRegex(StudyError, "has no scene"):
             self.read('[[study]]\nid = "s"')
 
+    def test_directories(self) -> None:
+        """Each run has its own, below that of the results."""
+        one = '[[study]]\nscene = "a.prm"\nid = '
+        for name in ('".."', '"."', '"..."', '""', "5", '"a\\nb"'):
+            with self.assertRaisesRegex(StudyError, "no name for a directory|no id"):
+                self.read(one + name)
+        with self.assertRaisesRegex(StudyError, "2 runs would write into .*/a_b"):
+            self.read(f'{one}"a b"\n{one}"a/b"')
+
     def test_files_that_cannot_be_read(self) -> None:
+        (self.path / "latin.toml").write_bytes(b'kind = "x"\ntitle = "Gr\xfcndung"')
+        with self.assertRaisesRegex(StudyError, "latin.toml, line 2: the byte 0xfc"):
+            read_toml(self.path / "latin.toml")
+        with self.assertRaisesRegex(StudyError, "deep.toml: "):
+            (self.path / "deep.toml").write_text("a = " + "[" * 9999)
+            read_toml(self.path / "deep.toml")
         with self.assertRaisesRegex(StudyError, "test.toml"):
             self.read("kind = ")
         with self.assertRaisesRegex(StudyError, "kind is 'x', not one of"):

@@ -41,6 +41,7 @@ class Export(ProgramTest):
         path = run / "exported"
         script = HERE.parent / "scripts/caisson"
         call = [str(script), "export", str(run), "--to", form, "--output", str(path)]
+        call.append("--overwrite")  # one form after the other
         done = subprocess.run([*call, *words], text=True, capture_output=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         return path

@@ -402,6 +402,11 @@ class ConeTests(SuggestTest):
         words += ["--law", "angle"]
         said = self.caisson("cpt", str(EXAMPLE), *words)
         self.assertIn("report.html", said)
+        with (out / "scene.prm").open("a", encoding="utf-8") as file:
+            file.write("# mine\n")
+        refused = self.caisson("cpt", str(EXAMPLE), *words, status=1)
+        self.assertRegex(refused, "(?m)^cpt: .*scene.prm exists, and differs")
+        self.assertIn("# mine", (out / "scene.prm").read_text("utf-8"))
         page = (out / "report.html").read_text("utf-8")
         for words_of_page in ("bolton-1986-tip", "DNV", "layer 1 has silt"):
             self.assertIn(words_of_page, page)

@@ -143,6 +143,12 @@ end
         self.assertTrue((bounds["total_force_low_N"] < bounds["total_force_N"]).all())
         self.assertTrue((bounds["total_force_high_N"] > bounds["total_force_N"]).all())
         self.assertIn("total_force_limit_N", bounds)
+        with (path / "own_error_bar.csv").open("a", encoding="utf-8") as file:
+            file.write("# checked\n")
+        self.assertIn("exists, and differs", self.caisson(*call, status=1)[1])
+        self.assertIn(
+            "exists. Choose", self.caisson(*call, "--results", str(path), status=1)[1]
+        )
         scene.write_text(self.SCENE.replace("wall = 4", "wall = 2"), encoding="utf-8")
         complaint = self.caisson(*call, status=1)[1]
         self.assertRegex(

@@ -9,10 +9,13 @@
 - A CMakeLists.txt names every source/**/*.cc.
 - Words that are not used in sources: BANNED.
 - A file has at most 600 lines, a function 60, a script 40 (lengths.py).
+- Python files of users are written by caisson_design.disk only.
+- The top level of the project holds nothing but TOP_LEVEL.
 """
 import argparse
 import re
-from collections.abc import Iterator
+import subprocess
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from caisson.paths import ROOT
@@ -28,10 +31,23 @@ NOT_IN_KERNELS = re.compile(
 )
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
 LICENSE = "SPDX-License-Identifier: LGPL-2.1-or-later"
+TOP_LEVEL = set(
+    ".ci .clang-format .dockerignore .gitignore CHANGELOG.md CITATION.cff"
+    " CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE README.md doc include"
+    " lab packaging prm pyproject.toml python scripts setup.cfg source tests"
+    " tools".split()
+)
 # regular expression: why, and what to use
 BANNED: dict[str, str] = {
     r"\bstd::to_string\b": "1.2e-7 would become 0.000000; use to_text() (base/text.h)",
 }
+# of python and lab, where copy is a temporary file
+WRITES = {
+    r"(?<!\bcopy)\.write_(text|bytes)\(|savefig\(|rmtree\(|\bopen\([^)]*\"[wx]b?\"": (
+        "a file of a user is written whole or not at all: use caisson_design.disk"
+    )
+}
+MAY_WRITE = {"disk.py", "timed.py"}  # the latter the log of a process
 
 
 def lines_of(path: Path) -> list[str]:
@@ -120,12 +136,27 @@ def check_license(path: Path) -> Violations:
         yield 1, f"no line with {LICENSE}"
 
 
-def check_words(path: Path) -> Violations:
+def check_words(path: Path, banned: dict[str, str]) -> Violations:
     """Yield words that are not used."""
     for number, line in enumerate(lines_of(path), 1):
-        for pattern, reason in BANNED.items():
+        for pattern, reason in banned.items():
             if re.search(pattern, line):
                 yield number, reason
+
+
+def strangers(paths: Iterable[str]) -> list[str]:
+    """Return what does not belong to the top level of the project, of paths there."""
+    return sorted({path.split("/")[0] for path in paths} - TOP_LEVEL)
+
+
+def committed() -> list[str]:
+    """Return the paths of all files that git knows or would take; none where there is
+    no repository."""
+    git = ["git", "-C", str(ROOT), "ls-files", "--cached", "--others"]
+    done = subprocess.run(
+        [*git, "--exclude-standard"], text=True, capture_output=True, check=False
+    )
+    return [path for path in done.stdout.splitlines() if (ROOT / path).exists()]
 
 
 def named_in_cmake() -> set[Path]:
@@ -146,10 +177,18 @@ def files(*patterns: str) -> list[Path]:
     return sorted(path for path in found if path.is_file())
 
 
+def is_user_code(path: Path) -> bool:
+    """Return whether a Python file writes files of users only by the module disk."""
+    parts = path.relative_to(ROOT).parts
+    is_tool = parts[0] not in ("python", "lab") or parts[1] == "tests"
+    return path.suffix == ".py" and not is_tool and path.name not in MAY_WRITE
+
+
 def check_source(path: Path, listed: set[Path]) -> Violations:
     """Yield all violations of a source of the program."""
-    for check in (check_floor, check_cycles, check_kernel, check_words):
+    for check in (check_floor, check_cycles, check_kernel):
         yield from check(path)
+    yield from check_words(path, BANNED)
     if path.suffix == ".cc" and path.resolve() not in listed:
         yield 1, "not named in any CMakeLists.txt"
 
@@ -166,11 +205,16 @@ def main(_: argparse.Namespace) -> int:
     folders = ("python", "lab", "tools", "tests")
     python = files(*(f"{folder}/**/*.py" for folder in folders))
     scripts = files("scripts/*", "tools/*")
-    violations = []
+    violations = [
+        f"{name}: does not belong to the top level: remove it, or add it to TOP_LEVEL"
+        for name in strangers(committed())
+    ]
     for path in sources + tests + python + scripts:
         found = [*check_license(path), *check_lengths(path)]
         if path in sources:
             found += check_source(path, listed)
+        if is_user_code(path):
+            found += check_words(path, WRITES)
         name = path.relative_to(ROOT)
         violations += [f"{name}:{line}: {text}" for line, text in found]
     print(

@@ -24,6 +24,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson.paths import ROOT
+from caisson_design import disk
 
 KERNELS = ROOT / "tests/kernels/hypoplastic_element_tests.output"
 # phi_c, h_s, n, e_d0, e_c0, e_i0, alpha, beta
@@ -297,7 +298,7 @@ def plot(file: Path) -> None:
         "Hypoplastic sand. Lines: reference integration; dots: the kernels", fontsize=10
     )
     figure.tight_layout()
-    figure.savefig(file, dpi=110)
+    disk.save(figure, file, dpi=110)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

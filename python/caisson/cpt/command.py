@@ -18,11 +18,10 @@ from caisson import suggest
 from caisson.cpt import page, picture, tables
 from caisson.paths import RESULTS, scene_or_study, short
 from caisson.runner import RunError
-from caisson.study import StudyError, file_name
+from caisson.study import StudyError, check_is_own, file_name
 from caisson.suggest.cone import REACH
 from caisson.suggest.entry import SuggestError
-from caisson_design import InputError
-from caisson_design import interpretation
+from caisson_design import InputError, disk, interpretation
 from caisson_design.correlations import EVERY
 from caisson_design.interpretation import Interpretation
 
@@ -36,6 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("cpt", type=scene_or_study, nargs="?", metavar="FILE", help="the test")
     add("--out", type=Path, metavar="DIR", help="of the results")
     add("--list", action="store_true", help="list the correlations, and do no more")
+    add("--overwrite", action="store_true", help="replace files that were changed")
     add("--run", action="store_true", help="run the study of a caisson")
     add("--jobs", type=int, metavar="N", help="runs at a time, default: the fastest")
     suggest.add_caisson_arguments(parser, required=False)
@@ -103,15 +103,19 @@ def work(options: argparse.Namespace) -> int:
     if not has_caisson:
         print(tables.text_of_test(found))
     tip = suggest.end_of(options) if has_caisson else None
-    report(write(found, directory, tip, options.location))
-    if has_caisson:
-        options.file, options.study = directory / SCENE, directory / STUDY
-        options.layer = options.sand = options.density = None
-        options.overwrite = True
-        suggest.write(options)  # which prints the table
-        report([options.file, options.study])
+    with disk.all_or_none(options.overwrite):
+        files = write(found, directory, tip, options.location)
+        if has_caisson:
+            options.file, options.study = directory / SCENE, directory / STUDY
+            options.layer = options.sand = options.density = None
+            options.overwrite = True
+            suggest.write(options)  # which prints the table
+            files += [options.file, options.study]
+    report(files)
     if not options.run:
         return 0
+    study = page.study_of(options.study, directory)
+    check_is_own(directory, study, [page.NAME])
     status = page.run_study(options.study, directory, options.jobs)
     name = f"{found.file.name} {options.location}".rstrip()
     facts = [("Caisson", caisson_of(options)), ("Ground", f"cone test {name}")]

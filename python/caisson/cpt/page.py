@@ -19,6 +19,7 @@ from caisson.parameters.outcome import Outcomes, words_of
 from caisson.plot import theory
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
+from caisson_design import disk
 from caisson_design.interpretation import Interpretation
 from caisson_design.reasons import text_of
 
@@ -155,7 +156,8 @@ def write(
     environment.filters["sub"] = with_subscripts
     css = Path(caisson_report.__file__).parent / "page.css"
     path = directory / NAME
-    path.write_text(
+    disk.write(
+        path,
         environment.get_template("page.html.jinja").render(
             title=study.title,
             job=job_of(facts, outcomes),
@@ -172,6 +174,5 @@ def write(
             reports=reports_of(outcomes, directory),
             style=css.read_text(encoding="utf-8"),
         ),
-        encoding="utf-8",
     )
     return path

@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from caisson_design import correlations
+from caisson_design import disk
 from caisson_design.cone_estimates import (
     ENDS,
     INDEX,
@@ -268,5 +269,4 @@ def draw(
     note = "; ".join(names[quantity] for quantity in shown)
     legend_of(figure, ground, every, note, tip)
     figure.tight_layout(rect=(0, 0.06, 1, 1))
-    figure.savefig(path, dpi=150)
-    return path
+    return disk.save(figure, path)

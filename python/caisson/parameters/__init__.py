@@ -50,7 +50,14 @@ from caisson.parameters.outcome import Outcomes
 from caisson.parameters.sampling import runs_of
 from caisson.paths import short
 from caisson.runner import RunError
-from caisson.study import Options, Study, StudyError, StudyRun, file_name
+from caisson.study import (
+    Options,
+    Study,
+    StudyError,
+    StudyRun,
+    check_is_own,
+    file_name,
+)
 from caisson_design import cone
 from caisson_design import InputError
 
@@ -60,6 +67,7 @@ STUDY_KEYS = set(
     " cone".split()
 )
 RUN_KEYS = {"sample"}
+FILES = ("table.csv", "fan.csv", "fan.png", "tornado.png", "methods.csv", "methods.png")
 make_runs = runs_of
 
 
@@ -78,6 +86,7 @@ def check(studies: Sequence[Study], jobs: int) -> None:
 
     for study in studies:
         cone_of(study)
+        check_is_own(study.runs[0].run.directory.parent, study, FILES)
     runs = [run for study in studies for run in study.runs]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         refused = [text for text in pool.map(refusal_of, runs) if text]
@@ -127,8 +136,9 @@ def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
     """Write and print the results of each study; return 1 where a run is missing."""
     status = 0
     for study in studies:
-        outcomes = Outcomes(study)
         directory = options.results / file_name(study.id)
+        check_is_own(directory, study, FILES)
+        outcomes = Outcomes(study)
         files: list[Path | None] = [
             tables.write_runs(directory / "table.csv", outcomes)
         ]

@@ -48,11 +48,9 @@ def require(holds: bool, text: str) -> None:
 
 def is_number(value: object) -> bool:
     """Return whether a value of a study is a finite number, and no truth value."""
-    return (
-        isinstance(value, (int, float))
-        and not isinstance(value, bool)
-        and math.isfinite(value)
-    )
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return False
+    return abs(value) < 1e300  # an int may be larger than any float
 
 
 def numbers_of(name: str, given: Mapping[str, Any]) -> dict[str, float]:

@@ -49,8 +49,8 @@ class Formula:
         self.text = text
         try:
             self.tree = ast.parse(text, mode="eval").body
-        except (SyntaxError, ValueError) as error:
-            raise FormulaError(f"the formula {text!r} cannot be read") from error
+        except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+            raise FormulaError(f"the formula {text!r:.80} cannot be read") from error
 
     @property
     def names(self) -> set[str]:
@@ -62,8 +62,8 @@ class Formula:
         """Return its value. Raises FormulaError where it has none."""
         try:
             result = float(self._value(self.tree, values))
-        except (ArithmeticError, ValueError, TypeError) as error:
-            raise FormulaError(f"the formula {self.text!r}: {error}") from error
+        except (ArithmeticError, ValueError, TypeError, RecursionError) as error:
+            raise FormulaError(f"the formula {self.text!r:.80}: {error}") from error
         if not math.isfinite(result):
             raise FormulaError(f"the formula {self.text!r} gives {result}")
         return result

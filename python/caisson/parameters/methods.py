@@ -18,6 +18,7 @@ from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import DEPTH, Outcome, Outcomes, values_at
 from caisson.plot import theory
 from caisson.table import write_csv
+from caisson_design import disk
 
 TOTAL = "total_force_N"
 INTERVAL = 0.1  # m
@@ -196,5 +197,4 @@ def draw(path: Path, found: Answers, outcomes: Outcomes) -> Path:
     note = "\n".join(filter(None, [note, byrne, reasons_of(found)]))
     figure.text(0.5, 0.01, note, ha="center", fontsize=8, color="0.3", wrap=True)
     figure.tight_layout(rect=(0, 0.03 + 0.02 * note.count("\n"), 1, 1))
-    figure.savefig(path, dpi=150)
-    return path
+    return disk.save(figure, path)

@@ -267,7 +267,7 @@ class Outcomes:
             file = outcome.run.results.summary["entries"]["Output/Error bar"]
             bar = read_table(outcome.run.run.scene.parent / file)
             sides = [bar[column.format(side)] for side in ("below", "above")]
-        except (ResultsError, KeyError):
+        except ResultsError:
             return None
         nan = math.nan
         error = np.array(

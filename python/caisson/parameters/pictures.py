@@ -14,6 +14,7 @@ from caisson.parameters.effects import Effect
 from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import Outcome, Outcomes, title_of, unit_of, words_of
 from caisson.parameters.sampling import BASE, LATIN, ONE
+from caisson_design import disk
 
 BLUE, RED = "#2166ac", "#c0392b"
 STYLES = ("-", "--", ":", "-.")
@@ -194,8 +195,7 @@ def draw_fan(path: Path, outcomes: Outcomes) -> Path:
     note = caption(outcomes, text)
     figure.text(0.5, 0.01, note, ha="center", fontsize=8, color="0.3")
     figure.tight_layout(rect=(0, 0.03 + 0.018 * note.count("\n"), 1, 1))
-    figure.savefig(path, dpi=150)
-    return path
+    return disk.save(figure, path)
 
 
 def draw_correlations(axes: Axes, found: list[Effect], n: int) -> None:
@@ -295,5 +295,4 @@ def draw_tornado(path: Path, outcomes: Outcomes, depth: float | None) -> Path | 
     note = "\n".join(notes)
     figure.text(0.5, 0.012, note, ha="center", fontsize=8, color="0.3")
     figure.tight_layout(rect=(0, 0.06 * len(notes), 1, 1))
-    figure.savefig(path, dpi=150)
-    return path
+    return disk.save(figure, path)

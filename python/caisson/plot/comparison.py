@@ -20,8 +20,10 @@ from matplotlib.figure import Figure
 from caisson import curve, curves
 from caisson.plot import design
 from caisson.plot.forces import penetration
+from caisson.paths import RESULTS, short
 from caisson.results import Results, ResultsError, Table
 from caisson.table import write_csv
+from caisson_design import InputError, disk
 
 LINES = ("black", "#c0392b", "#2166ac", "#2e8b57", "#8c510a", "#7b3294")
 STYLES = ("-", "--", ":", "-.")
@@ -30,7 +32,7 @@ PUSHING, TOTAL = "pushing_force_N", "total_force_N"
 MORE = ("required_suction_Pa", "suction_Pa", "cavity_pressure_Pa")
 DEPTH = "penetration_m"
 INTERVAL = 0.1  # m
-PICTURE = Path("comparison.png")
+PICTURE = RESULTS / "comparison.png"
 PICTURES = {".png", ".pdf", ".svg"}  # what a word ends with that is no directory
 
 Histories = dict[str, Table]  # by the name of the run
@@ -119,8 +121,7 @@ def draw(picture: Path, histories: Histories) -> Path:
         axes.set_ylabel("penetration of the tip (m)")
         axes.legend(fontsize=8)
     figure.tight_layout()
-    figure.savefig(picture, dpi=150)
-    return picture
+    return disk.save(figure, picture)
 
 
 def quantities_of(history: Table) -> Table:
@@ -193,13 +194,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="DIR",
         help="the output directory of a run, whose name is its label; before the first"
-        f" one the name of the picture may stand, default {PICTURE}, beside which the"
-        " .csv file of the same name is written",
+        f" one the picture may stand, default {short(PICTURE)}, beside which"
+        " the .csv file of the same name is written",
     )
     text = f"between the depths of the .csv file, in m, default {INTERVAL:g}"
     parser.add_argument(
         "--interval", type=positive, default=INTERVAL, metavar="M", help=text
     )
+    text = "replace picture and .csv file if they are there"
+    parser.add_argument("--overwrite", action="store_true", help=text)
     text = "print forces at round depths and the roughness of curves, and draw nothing"
     parser.add_argument("--values", action="store_true", help=text)
     text = "depths of --values, in m"
@@ -218,9 +221,14 @@ def main(options: argparse.Namespace) -> int:
             raise ResultsError("give the output directory of a run")
         histories = read(directories)
         columns = columns_of(histories, options.interval)
-        print(f"compare: {draw(picture, histories)}")
-        print(f"compare: {write(picture.with_suffix('.csv'), columns)}")
-    except (ResultsError, OSError) as error:
+        if picture == PICTURE:
+            picture.parent.mkdir(parents=True, exist_ok=True)
+        with disk.all_or_none(options.overwrite):
+            written = [draw(picture, histories)]
+            written.append(write(picture.with_suffix(".csv"), columns))
+        for path in written:
+            print(f"compare: {short(path)}")
+    except (InputError, OSError) as error:
         print(f"compare: {error}", file=sys.stderr)
         return 1
     return 0

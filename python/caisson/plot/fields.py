@@ -15,6 +15,7 @@ from caisson.plot.cells import CellMeans
 from caisson.plot.forces import penetration
 from caisson.plot.vtu import read_cells, read_points
 from caisson.results import Results, ResultsError, Table
+from caisson_design import disk
 
 Series = list[tuple[float, list[Path]]]  # [(time, [files])]
 Window = tuple[float, float, float]  # radius, bottom, top (m)
@@ -293,8 +294,7 @@ def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
         *stress_of(frames, window),
     )
     sides = [stress, ratio_of("right halves: ratio to the stress at rest (-)", frames)]
-    figure_of(frames, window, sides)[0].savefig(path, dpi=150)
-    return path
+    return disk.save(figure_of(frames, window, sides)[0], path)
 
 
 def draw_void_ratio(path: Path, frames: Sequence[Frame], window: Window) -> Path | None:
@@ -310,8 +310,7 @@ def draw_void_ratio(path: Path, frames: Sequence[Frame], window: Window) -> Path
         return None
     style = {"cmap": "viridis", "vmin": low, "vmax": high}
     field = ("void ratio (-), mean of each cell", fields, style)
-    figure_of(frames, window, [field])[0].savefig(path, dpi=150)
-    return path
+    return disk.save(figure_of(frames, window, [field])[0], path)
 
 
 def draw_tip(
@@ -387,8 +386,7 @@ def draw_displacement(
     labels = ["displacement (m), mean of each cell", *[label for label, *_ in fields]]
     for panel, artist, label in zip(axes, painted, labels):
         figure.colorbar(artist, ax=panel, extend="max", shrink=0.8, label=label)
-    figure.savefig(path, dpi=150)
-    return path
+    return disk.save(figure, path)
 
 
 def frames_of(run: Results) -> list[Frame]:

@@ -12,6 +12,7 @@ from caisson import curves
 from caisson.curves import path_of, running_mean
 from caisson.plot import theory
 from caisson.results import Results, Table
+from caisson_design import disk
 
 COLORS = {
     "total": "black",
@@ -282,5 +283,4 @@ def draw(path: Path, run: Results) -> Path | None:
         figure.tight_layout()
     else:
         figure = draw_over_depth(run, depth)
-    figure.savefig(path, dpi=150)
-    return path
+    return disk.save(figure, path)

@@ -11,6 +11,7 @@ from matplotlib.colors import ListedColormap
 from caisson.plot import fields
 from caisson.plot.flow import Flow
 from caisson.results import Results, Table
+from caisson_design import disk
 
 N_LINES = 12
 LEAST = 0.03  # of the largest pressure; flow lines of less are not drawn
@@ -125,5 +126,4 @@ def draw(
     if flows:
         figure.supxlabel(f"\n{caption(frames)}", fontsize=8, color="0.3")
     path = run.directory / "pore_pressure.png"
-    figure.savefig(path, dpi=150)
-    return path
+    return disk.save(figure, path)

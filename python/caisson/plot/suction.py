@@ -11,6 +11,7 @@ from caisson.plot import suction_methods as methods
 from caisson.plot import theory
 from caisson.plot.forces import COLORS, draw_error_bar, error_band, penetration
 from caisson.results import Results, Table
+from caisson_design import disk
 
 BLUE, GREEN, RED = (
     COLORS[name] for name in ("inner friction", "outer friction", "tip")
@@ -297,5 +298,4 @@ def draw(directory: Path, run: Results) -> list[Path]:
     figure.text(0.5, 0.008, text, ha="center", fontsize=8, color="0.3")
     figure.tight_layout(rect=(0, 0.015 + 0.02 * len(text.splitlines()), 1, 1))
     picture = directory / "suction.png"
-    figure.savefig(picture, dpi=150)
-    return [picture]
+    return [disk.save(figure, picture)]

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson.density_law import BY_DENSITY
-from caisson.results import Results
+from caisson.results import Results, ResultsError
 from caisson_design import andersen, clay, dnv, houlsby_byrne, senders_randolph
 from caisson_design.assumed_cone import STEP, Sand, SandGround, assumed_cone
 from caisson_design.cone import ConeMethod, Profile, Skirt, of_run
@@ -221,8 +221,8 @@ def cone_of(site: Site, deepest: float) -> Profile:
             )
     try:
         sands = tuple(sand_of(entry, i) for i, entry in site.layers(deepest))
-    except KeyError as error:
-        raise NotApplicable(f"run.json has no {error.args[0]}") from error
+    except ResultsError as error:  # run.json lacks something
+        raise NotApplicable(str(error)) from error
     except NotApplicable as reason:
         raise NotApplicable(f"{CONE_NEEDED}; none is assumed: {reason}") from reason
     return assumed_cone(sands, deepest)
@@ -234,8 +234,8 @@ def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
     skirt = skirt_of(site)
     try:
         layers = layers_of(site, deepest)
-    except KeyError as error:
-        raise NotApplicable(f"run.json has no {error.args[0]}") from error
+    except ResultsError as error:  # run.json lacks something
+        raise NotApplicable(str(error)) from error
     refuse_undrained(site)
     return houlsby_byrne.method(
         skirt.outer_diameter,

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from caisson.plot.fields import MOST_FRAMES
 from caisson.results import Results, Table
+from caisson_design import disk
 
 # part of the name of a column: its label, and the column of what stands beside it
 STRESSES = {
@@ -77,5 +78,4 @@ def draw(path: Path, run: Results) -> Path | None:
         row[0].set_ylabel("depth (m)")
         row[0].legend(title="penetration", fontsize=8)
     axes[0, 0].invert_yaxis()  # that of all
-    figure.savefig(path, dpi=150)
-    return path
+    return disk.save(figure, path)

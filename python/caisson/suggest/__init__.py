@@ -38,7 +38,7 @@ from caisson.suggest import cone, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
 from caisson.suggest.soil import CAM_CLAY, NGI_ADP, layers_of
-from caisson_design import InputError, cone_file, cone_options, interpretation
+from caisson_design import InputError, cone_file, cone_options, disk, interpretation
 from caisson_design.interpretation import Interpretation
 from caisson_design.quantity import length, number
 
@@ -267,7 +267,10 @@ def template(name: str) -> jinja2.Template:
         lstrip_blocks=True,
         keep_trailing_newline=True,
         undefined=jinja2.StrictUndefined,
+        # a text of the user, as the name of a file, ends no line
+        finalize=lambda x: disk.printable(x) if isinstance(x, str) else x,
     )
+    environment_of_text.filters["quoted"] = disk.quoted
     environment_of_text.filters["number"] = lambda value: f"{float(value):.6g}"
     return environment_of_text.get_template(name)
 
@@ -469,10 +472,11 @@ def write(options: argparse.Namespace) -> None:
             soil_study_of(options, found) if found else study_of(options, layers)
         )
     cost = cost_of(options.file, texts[options.file])
-    for file, text in texts.items():  # all or none
-        file.write_text(text, encoding="utf-8")
     if options.study and found and (table := table_of_cone(options)) != options.cpt:
-        cone_file.write(table, found.test)
+        texts[table] = cone_file.text_of(found.test)
+    with disk.all_or_none(options.overwrite):
+        for file, text in texts.items():
+            disk.write(file, text)
     print(cost)
     assumed = texts[options.file].count(ASSUMPTION)
     print(f"assumed: {assumed} lines of {options.file} are marked ASSUMED: check them")

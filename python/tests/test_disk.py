@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Files of users: read as text, and written whole or not at all."""
+import errno
+import io
+import os
+import tomllib
+import unittest
+import unittest.mock
+from contextlib import redirect_stderr
+from pathlib import Path
+
+from made_up_state import Temporary
+
+from caisson import command_line
+from caisson.__main__ import GROUPS
+from caisson_design import InputError, disk
+
+FULL = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
+class Reading(Temporary):
+    """Bytes that are no text."""
+
+    def test_text(self) -> None:
+        path = self.path / "a.txt"
+        path.write_bytes(b"\xef\xbb\xbfa\nb\xc3\xbc")
+        self.assertEqual(disk.read_text(path), "a\nb\u00fc")
+        path.write_bytes("a\nGr\u00fcndung".encode("latin-1"))
+        with self.assertRaisesRegex(InputError, f"{path}, line 2: the byte 0xfc is no"):
+            disk.read_text(path)
+
+    def test_devices_and_directories(self) -> None:
+        with unittest.mock.patch.object(disk, "MOST", 1000):
+            with self.assertRaisesRegex(InputError, "/dev/zero is larger than"):
+                disk.read_text(Path("/dev/zero"))
+        with self.assertRaisesRegex(InputError, "cannot be read: Is a directory"):
+            disk.read_text(self.path)
+        with self.assertRaisesRegex(InputError, "cannot be read: embedded null"):
+            disk.read_text(Path("a\0b"))
+
+    def test_remarks(self) -> None:
+        """No text of a user begins a line of its own, or reaches a terminal as code."""
+        text = "x\nexit()\r\x1b[31m\x85y\u2028z"
+        self.assertEqual(disk.remarks("#", [text]), ["# x exit()  [31m y z"])
+        name = 'O"Brien\\1\n.prm'
+        said = tomllib.loads(f"a = {disk.quoted(name)}")["a"]
+        self.assertEqual(said, name)
+
+
+class Writing(Temporary):
+    """What stays where writing fails."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.old = self.path / "old"
+        self.old.write_text("mine", encoding="utf-8")
+
+    def names(self) -> list[str]:
+        """Return what the directory has."""
+        return sorted(os.listdir(self.path))
+
+    def test_a_full_disk(self) -> None:
+        for name in ("os.fsync", "pathlib.Path.replace"):
+            with unittest.mock.patch(name, side_effect=FULL):
+                for path, kept in (self.old, "; what was"), (self.path / "new", "$"):
+                    with self.assertRaisesRegex(
+                        OSError, f"{path} .*: No space.*{kept}"
+                    ):
+                        disk.write(path, "x")
+        self.assertEqual(self.names(), ["old"])
+        self.assertEqual(self.old.read_text(encoding="utf-8"), "mine")
+
+    def test_devices(self) -> None:
+        """They get the bytes, and are not replaced by a file."""
+        link = self.path / "link"
+        link.symlink_to("/dev/full")
+        with self.assertRaisesRegex(OSError, "link cannot be written: No space left"):
+            disk.write(link, "x" * 10000)
+        self.assertTrue(link.is_symlink())
+
+    def test_all_or_none(self) -> None:
+        new = self.path / "new"
+
+        def write_both(overwrite: bool, text: str = "x") -> None:
+            with disk.all_or_none(overwrite):
+                disk.write(new, "x")
+                disk.write(self.old, text)
+                self.assertEqual(self.old.read_text(encoding="utf-8"), "mine")
+
+        with self.assertRaisesRegex(InputError, f"{self.old} exists, and differs"):
+            write_both(False)
+        self.assertEqual(self.names(), ["old"])
+        write_both(False, "mine")
+        write_both(True)
+        self.assertEqual(self.old.read_text(encoding="utf-8"), "x")
+        with self.assertRaises(ZeroDivisionError):
+            with disk.all_or_none(True):
+                disk.write(new, str(1 / 0))
+        disk.write(new, "y")
+        self.assertEqual(new.read_text(encoding="utf-8"), "y")
+
+    def test_keep(self) -> None:
+        """Another file goes to the next earlier_N, the same one stays."""
+        (self.path / "earlier_7").mkdir()
+        for text in ("x", "x", "y"):
+            disk.keep(self.old, text)
+        self.assertEqual(self.names(), ["earlier_7", "earlier_8", "earlier_9", "old"])
+        self.assertEqual((self.path / "earlier_8/old").read_text("utf-8"), "mine")
+        self.assertEqual((self.path / "earlier_9/old").read_text("utf-8"), "x")
+
+
+class Damage(Temporary):
+    """The last resort at the command line."""
+
+    def test_one_line(self) -> None:
+        """Whatever a file leads to: its name, the kind and the place, and status 1."""
+        path = self.path / "a.csv"
+        path.write_text("1", encoding="utf-8")
+
+        def fail(_: object) -> int:
+            disk.read_text(path)
+            raise error
+
+        for error in (KeyError("a\nb"), MemoryError(), OverflowError("x" * 999)):
+            said = io.StringIO()
+            with unittest.mock.patch("caisson.scenes.main", fail), redirect_stderr(
+                said
+            ):
+                status = command_line.run_command(["scenes"], "caisson", "", GROUPS)
+            self.assertEqual(status, 1)
+            words = (
+                rf"^scenes: .*{path} is not as it .* \({type(error).__name__}.*\)\n$"
+            )
+            self.assertRegex(said.getvalue(), words)
+            self.assertLess(len(said.getvalue()), 600)
+        with unittest.mock.patch("caisson.scenes.main", fail):
+            with unittest.mock.patch.dict(os.environ, {command_line.TRACEBACK: "1"}):
+                with self.assertRaises(OverflowError):
+                    command_line.run_command(["scenes"], "caisson", "", GROUPS)
+
+
+if __name__ == "__main__":
+    unittest.main()
