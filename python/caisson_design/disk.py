@@ -58,7 +58,7 @@ def read_text(path: Path, refuse: Refusal = InputError) -> str:
         ) from error
 
 
-def printable(text: str) -> str:
+def in_one_line(text: str) -> str:
     """Return a text with a blank for each end of a line or other control character."""
     return "".join(c if c.isprintable() else " " for c in text)
 
@@ -66,7 +66,7 @@ def printable(text: str) -> str:
 def one_line(text: str) -> str:
     """Return a text of a user as a remark in a file or a line on the terminal needs
     it."""
-    return printable(text).strip()
+    return in_one_line(text).strip()
 
 
 def quoted(text: str) -> str:

@@ -364,12 +364,11 @@ namespace CaissonMPM
     const unsigned int enough = scene.water.least_points,
                        n      = scene.generator.points_per_direction_in_path();
     if (is_pushed_in() && !scene.generator.splits_and_merges() && n < enough)
-      origins.add_warning(
+      throw BadInput(
         "Material points/Per direction in path = " + to_text(n) +
         " without Split and merge lets cells beneath the tip run out of "
-        "points. Coupled water then bears what the soil should: the effective "
-        "tip force has been seen to fall by half. Set Split and merge = true, "
-        "or at least " +
+        "points, and coupled water bears half of what the soil should. Set "
+        "Material points/Split and merge = true, or at least " +
         to_text(enough) + " points.");
   }
 

@@ -7,6 +7,7 @@
 #include <caisson_mpm/output/records.h>
 #include <caisson_mpm/simulation/recorded_parts.h>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -16,9 +17,9 @@ namespace CaissonMPM
 {
   /**
    * Looks at the records of a run for signs of a numerical fault: a tip force
-   * that falls suddenly, a pore pressure that rises by more than the load, and
-   * work that the transfer between points and nodes loses. On the rank that has
-   * the records; not collective.
+   * that falls suddenly, a wall from which clay has come off, and work that
+   * the transfer between points and nodes loses. On the rank that has the
+   * records; not collective.
    */
   class RunReview
   {
@@ -32,12 +33,11 @@ namespace CaissonMPM
     /** What a stretch of the way into the soil shows, as means. */
     struct Stretch
     {
-      double penetration   = 0.; // m
-      double tip           = 0.; // N
-      double water_on_tip  = 0.; // N
-      double pore_pressure = 0.; // largest in the soil, Pa
-      double suction       = 0.; // beneath the lid, Pa
-      double speed         = 0.; // m/s
+      double                penetration = 0.;         // m
+      double                tip         = 0.;         // N
+      double                suction     = 0.;         // beneath the lid, Pa
+      double                speed       = 0.;         // m/s
+      std::array<double, 2> friction    = {{0., 0.}}; // inner, outer wall, N
     };
 
   private:
@@ -61,9 +61,14 @@ namespace CaissonMPM
     std::optional<std::string>
     fall_of_tip() const;
     std::optional<std::string>
-    jump_of_pore_pressure() const;
+    bare_wall(const unsigned int wall) const;
     std::optional<std::string>
     lost_work() const;
+
+    /** Return adhesion times area of a wall (0 inner, 1 outer) down to a depth
+     * in m, for the whole circumference. Units: N. */
+    double
+    adhesion_down_to(const double depth, const unsigned int wall) const;
 
     const RecordedParts  parts;
     const double         width; // of the tip, m

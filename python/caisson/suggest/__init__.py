@@ -268,7 +268,7 @@ def template(name: str) -> jinja2.Template:
         keep_trailing_newline=True,
         undefined=jinja2.StrictUndefined,
         # a text of the user, as the name of a file, ends no line
-        finalize=lambda x: disk.printable(x) if isinstance(x, str) else x,
+        finalize=lambda x: disk.in_one_line(x) if isinstance(x, str) else x,
     )
     environment_of_text.filters["quoted"] = disk.quoted
     environment_of_text.filters["number"] = lambda value: f"{float(value):.6g}"
