@@ -27,7 +27,7 @@ namespace CaissonMPM
 
   namespace
   {
-    const std::string format_name = "caisson_mpm-checkpoint-11";
+    const std::string format_name = "caisson_mpm-checkpoint-12";
 
     // what a rank has in memory at a time besides its own
     constexpr unsigned long rows_per_piece = 20000;
@@ -47,6 +47,7 @@ namespace CaissonMPM
       std::uint64_t checksum = 0; // of the points
       std::vector<Checkpoint::FieldSum> fields;
       NamedNumbers                      state;
+      std::vector<std::string>          warnings;
       std::string                       fingerprint;
     };
 
@@ -63,6 +64,12 @@ namespace CaissonMPM
       out << "state\n";
       for (const auto &[name, value] : info.state)
         out << name << ' ' << to_text(value, 17) << '\n';
+      out << "warnings\n";
+      for (std::string warning : info.warnings)
+        {
+          std::replace(warning.begin(), warning.end(), '\n', ' ');
+          out << warning << '\n';
+        }
       out << "fingerprint\n" << info.fingerprint;
       return out.str();
     }
@@ -75,12 +82,22 @@ namespace CaissonMPM
              fingerprint_of(body) + "\n" + body;
     }
 
+    /** Return the lines up to this one. */
+    std::vector<std::string>
+    read_lines(std::istream &in, const std::string &end)
+    {
+      std::vector<std::string> lines;
+      for (std::string line; std::getline(in, line) && line != end;)
+        lines.push_back(line);
+      return lines;
+    }
+
     /** Call action(name, value) for the lines up to this one. */
     template <typename Action>
     void
-    read_lines(std::istream &in, const std::string &end, const Action &action)
+    read_pairs(std::istream &in, const std::string &end, const Action &action)
     {
-      for (std::string line; std::getline(in, line) && line != end;)
+      for (const std::string &line : read_lines(in, end))
         action(line.substr(0, line.find(' ')), line.substr(line.find(' ') + 1));
     }
 
@@ -99,10 +116,10 @@ namespace CaissonMPM
         return {};
       std::map<std::string, std::string> entries;
       Info                               info;
-      read_lines(in, "fields", [&](const auto &name, const auto &value) {
+      read_pairs(in, "fields", [&](const auto &name, const auto &value) {
         entries[name] = value;
       });
-      read_lines(in, "state", [&](const auto &name, const auto &value) {
+      read_pairs(in, "state", [&](const auto &name, const auto &value) {
         info.fields.emplace_back(name, value);
       });
       const auto count = [&](const std::string &name) {
@@ -112,9 +129,10 @@ namespace CaissonMPM
       info.n_points = count("points");
       info.n_bytes  = count("bytes");
       info.checksum = count("checksum_of_points");
-      read_lines(in, "fingerprint", [&](const auto &name, const auto &value) {
+      read_pairs(in, "warnings", [&](const auto &name, const auto &value) {
         info.state.emplace_back(name, std::strtod(value.c_str(), nullptr));
       });
+      info.warnings = read_lines(in, "fingerprint");
       std::ostringstream rest;
       rest << in.rdbuf();
       info.fingerprint = rest.str();
@@ -356,12 +374,13 @@ namespace CaissonMPM
 
 
   void
-  write_checkpoint(const std::string    &directory,
-                   const BackgroundGrid &grid,
-                   const MaterialPoints &points,
-                   const NamedFields    &fields,
-                   const NamedNumbers   &state,
-                   const std::string    &fingerprint)
+  write_checkpoint(const std::string              &directory,
+                   const BackgroundGrid           &grid,
+                   const MaterialPoints           &points,
+                   const NamedFields              &fields,
+                   const NamedNumbers             &state,
+                   const std::vector<std::string> &warnings,
+                   const std::string              &fingerprint)
   {
     const MPI_Comm communicator = grid.communicator();
     Info           info;
@@ -374,6 +393,7 @@ namespace CaissonMPM
       Utilities::MPI::sum<unsigned long>(points.n_points(), communicator);
     info.fields            = checksums_of(fields);
     info.state             = state;
+    info.warnings          = warnings;
     info.fingerprint       = fingerprint;
     const std::string path = directory + "/" + info.file;
     unsigned long     n_bytes =
@@ -428,6 +448,7 @@ namespace CaissonMPM
     checksum        = info.checksum;
     fields          = info.fields;
     state_          = info.state;
+    warnings_       = info.warnings;
     fingerprint_    = info.fingerprint;
   }
 

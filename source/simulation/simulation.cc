@@ -451,14 +451,17 @@ namespace CaissonMPM
     if (!needs_force_on_body()) // but a run that continues this one may
       force_on_body = find_force_on_body();
     totals.bring_to_first_rank(grid.communicator());
-    NamedNumbers state = totals.state();
+    const auto   warnings = recorder.prepare_checkpoint();
+    NamedNumbers state    = totals.state(), seconds = timer.state();
     state.emplace_back("mesh_uplift", lines.total_uplift());
     state.emplace_back("mesh_travel", lines.total_travel());
+    state.insert(state.end(), seconds.begin(), seconds.end());
     write_checkpoint(recorder.output_directory(),
                      grid,
                      points,
                      gather(grid, water->fields()),
                      state,
+                     warnings,
                      physics(prm) + soil.checksums_of_libraries());
   }
 
@@ -546,6 +549,7 @@ namespace CaissonMPM
       recorder.resume(overwrites);
     else
       recorder.start(overwrites);
+    last_checkpoint = recorder.seconds_running();
     if (is_restart && schedule.is_finished())
       return nothing_left();
     recorder.print_header(input);

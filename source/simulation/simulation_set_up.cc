@@ -33,6 +33,7 @@ namespace CaissonMPM
     points.register_totals(totals);
     energy.register_totals(totals);
     schedule.register_totals(totals);
+    time_step.register_totals(totals);
     recorder.register_totals(totals);
   }
 
@@ -451,6 +452,8 @@ namespace CaissonMPM
       throw BadInput("the checkpoint in " + recorder.output_directory() +
                      " lacks the entry " + missing +
                      ". Start the run again in another directory.");
+    timer.resume(state);
+    recorder.remember(checkpoint.warnings());
     grid.move_to(body.motion().travel());
     scatter(grid, checkpoint.read_fields(grid.communicator()), water->fields());
     if (grid.n_ranks() > 1)
