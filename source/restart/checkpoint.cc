@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/fingerprint.h>
+#include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/restart/checkpoint.h>
@@ -170,11 +171,13 @@ namespace CaissonMPM
       return fs::space(directory, error).available >= n_bytes;
     }
 
-    /** Whether a file can become as large as that; 0 or an errno. HDF5 must not
-     * find out: if it cannot close a file, it crashes when the program ends. */
+    /** Remove an older checkpoint of this name, and see whether a new one can
+     * become as large as that; 0 or an errno. HDF5 must not find out: if it
+     * cannot close a file, it crashes when the program ends. */
     int
-    look_for_room(const fs::path &file, const unsigned long n_bytes)
+    make_room(const fs::path &file, const unsigned long n_bytes)
     {
+      OutputDirectory::remove(file.string());
       const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT, 0666);
       if (descriptor < 0)
         return errno;
@@ -182,30 +185,8 @@ namespace CaissonMPM
       if (error == EOPNOTSUPP) // by this file system
         error = has_space(file.parent_path(), n_bytes) ? 0 : ENOSPC;
       close(descriptor);
-      std::error_code ignored;
-      fs::remove(file, ignored);
+      OutputDirectory::remove(file.string());
       return error;
-    }
-
-    /**
-     * Remove what is left of an older checkpoint of this name, with all files
-     * of earlier formats, and see that there is room for the new one. Returns 0
-     * or an errno.
-     */
-    int
-    make_room(const std::string  &directory,
-              const std::string  &file,
-              const unsigned long n_bytes)
-    {
-      const std::string     name = fs::path(file).stem().string();
-      std::vector<fs::path> old;
-      std::error_code       error;
-      for (const auto &entry : fs::directory_iterator(directory, error))
-        if (entry.path().filename().string().compare(0, name.size(), name) == 0)
-          old.push_back(entry.path());
-      for (const fs::path &path : old)
-        fs::remove(path, error);
-      return look_for_room(directory + "/" + file, n_bytes);
     }
 
     /** Call action() on the first rank; all throw where it returns an errno. */
@@ -401,13 +382,12 @@ namespace CaissonMPM
     for (const auto &field : fields)
       n_bytes += field.second.size() * sizeof(double);
     const auto on_failure = [&]() {
-      const int       error = has_space(directory, n_bytes) ? EIO : ENOSPC;
-      std::error_code ignored;
-      fs::remove(path, ignored);
+      const int error = has_space(directory, n_bytes) ? EIO : ENOSPC;
+      OutputDirectory::remove(path);
       return error;
     };
     on_first_rank(communicator, directory, [&]() {
-      return make_room(directory, info.file, n_bytes + 10000);
+      return make_room(path, n_bytes + 10000);
     });
 
     const auto written = write_data(path, grid, points, fields);

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace CaissonMPM
 {
@@ -466,15 +467,11 @@ namespace CaissonMPM
   }
 
   std::string
-  Simulation::reason_to_stop()
+  Simulation::request_of_any_rank()
   {
-    // A search for factors of the inertia would come in other steps after a
-    // restart, unless the stop waits for the step of one.
-    if (grid.n_ranks() == 1 && !time_step.has_inertia_tolerance())
-      return stop_request.reason();
-    if (clock.step % Intervals::agreement != 0)
-      return "";
-    const std::string  reason = stop_request.reason();
+    const std::string reason = stop_request.reason();
+    if (grid.n_ranks() == 1)
+      return reason;
     const unsigned int rank =
       Utilities::MPI::min(reason.empty() ? grid.n_ranks() :
                                            Utilities::MPI::this_mpi_process(
@@ -483,6 +480,25 @@ namespace CaissonMPM
     return rank == grid.n_ranks() ?
              "" :
              Utilities::MPI::broadcast(grid.communicator(), reason, rank);
+  }
+
+  std::string
+  Simulation::reason_to_stop()
+  {
+    // A search for factors of the inertia would come in other steps after a
+    // restart, unless the stop waits for the step of one.
+    if ((grid.n_ranks() > 1 || time_step.has_inertia_tolerance()) &&
+        clock.step % Intervals::agreement != 0)
+      return "";
+    const std::string reason = request_of_any_rank();
+    if (reason.empty() || rebuild_is_due() ||
+        Utilities::MPI::max(stop_request.seconds_since(), grid.communicator()) >
+          Intervals::longest_wait)
+      return reason;
+    if (!std::exchange(is_stopping, true))
+      recorder.message(reason + ": the run stops within " +
+                       to_text(Intervals::longest_wait) + " s");
+    return "";
   }
 
   ExitStatus
