@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <caisson_mpm/base/choice.h>
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/base/stop_request.h>
 #include <caisson_mpm/base/text.h>
 
@@ -85,6 +87,16 @@ namespace CaissonMPM
       return;
     for (std::size_t i = 0; i < handled_signals.size(); ++i)
       sigaction(handled_signals[i], &previous_actions[i], nullptr);
+  }
+
+  void
+  StopRequest::check_parameters() const
+  {
+    if (stop_file.find('/') != std::string::npos ||
+        OutputDirectory::is_result(stop_file))
+      throw BadInput("Run control/Stop file = " + stop_file +
+                     " must be the name of a new file in the output directory, "
+                     "for instance stop: the run removes it.");
   }
 
   void

@@ -98,6 +98,7 @@ namespace CaissonMPM
                      "strained with the volume change that the pressure sees. "
                      "Set it to true.");
     schedule.check_parameters();
+    stop_request.check_parameters();
     if (Kernels::select_kernels(instruction_set.c_str()) == nullptr)
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");

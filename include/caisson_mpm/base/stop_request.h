@@ -52,6 +52,11 @@ namespace CaissonMPM
     /** Restores the signal handlers that were found by arm(). */
     ~StopRequest() override;
 
+    /** Throws BadInput for a stop file that is more than a name in the output
+     * directory, or a result there: the run would remove it. */
+    void
+    check_parameters() const;
+
     /**
      * Catch signals from now on, and look for the stop file in this
      * directory.
