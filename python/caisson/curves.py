@@ -173,10 +173,11 @@ def roughness(position: np.ndarray, force: np.ndarray) -> float:
 def largest_energy_ratio(history: Table) -> float:
     """Return the largest kinetic energy over external work, from FROM on (a
     share of 1)."""
-    deep = (history["penetration_m"] >= FROM) & (history["external_work_J"] != 0)
+    work = history["external_work_J"] + history.get("water_work_J", 0.0)
+    deep = (history["penetration_m"] >= FROM) & (work != 0)
     if not deep.any():
         return float("nan")
-    ratio = history["kinetic_energy_J"][deep] / history["external_work_J"][deep]
+    ratio = history["kinetic_energy_J"][deep] / work[deep]
     return float(ratio.max())
 
 

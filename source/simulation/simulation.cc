@@ -210,14 +210,18 @@ namespace CaissonMPM
     recorder.add_step(on_body, reactions.prescribed.impulse);
     if (needs_force_on_body())
       force_on_body = find_force_on_body();
-    const double work_at_tip =
-      water->end_step(clock.time,
-                      clock.step_size,
-                      force_on_body,
-                      body.mean_velocity() * body.shape().direction() *
-                        clock.step_size);
+    const double travel = body.mean_velocity() * body.shape().direction() *
+                          clock.step_size,
+                 work_on_water = water->resistance_to_body() * travel,
+                 work_at_tip   = water->end_step(clock.time,
+                                               clock.step_size,
+                                               force_on_body,
+                                               travel);
     if (grid.is_first_rank())
-      work_of_step.load += work_at_tip;
+      {
+        work_of_step.load += work_at_tip;
+        work_of_step.water = work_on_water;
+      }
     energy.add(work_of_step,
                grid.circumference() * points.update_result().stress_work);
     clock.time += clock.step_size;
