@@ -250,8 +250,6 @@ namespace CaissonMPM
           wall_file->resume(parts.clock.time);
       }
     visualization->resume(last_frame);
-    for (const std::string &warning : earlier_warnings)
-      console->warning(warning);
     warn_of_changed_files();
     start_time -=
       std::chrono::duration_cast<std::chrono::steady_clock::duration>(
@@ -392,6 +390,8 @@ namespace CaissonMPM
       console->warning(warning,
                        input.is_cosmetic(warning) ? WarningRank::cosmetic :
                                                     WarningRank::input);
+    for (const std::string &warning : earlier_warnings)
+      console->warning(warning);
   }
 
   // ------------------------------------------------------------ the end

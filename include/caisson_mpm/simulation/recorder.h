@@ -181,7 +181,7 @@ namespace CaissonMPM
     std::vector<std::string>
     prepare_checkpoint();
 
-    /** Repeat the @p warnings of a checkpoint in resume(). */
+    /** Let print_header() repeat the @p warnings of a checkpoint. */
     void
     remember(const std::vector<std::string> &warnings)
     {
