@@ -211,7 +211,8 @@ namespace CaissonMPM
   {
     const std::string path  = path_ + "/.lock";
     const auto        refusal = [&]() {
-      return "is in use by another run, " + read_text(path);
+      const std::string run = read_text(path);
+      return "is in use by another run" + (run.empty() ? "" : ", " + run);
     };
     // that of the file alone would be lost with it
     directory = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -47,10 +47,15 @@ namespace CaissonMPM
   std::string
   printable(const std::string &text)
   {
-    std::string result = text;
+    std::string result;
     for (std::size_t i = 0; i < text.size(); ++i)
-      if (text[i] != '\n' && is_control(text, i))
-        result[text[i] == '\xc2' ? i + 1 : i] = '?';
+      if (text[i] == '\n' || !is_control(text, i))
+        result += text[i];
+      else
+        {
+          result += '?';
+          i += text[i] == '\xc2'; // two bytes
+        }
     return result;
   }
 

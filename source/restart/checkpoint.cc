@@ -332,8 +332,8 @@ namespace CaissonMPM
       throw BadInput(
         "the checkpoint in " + directory +
         " is damaged, or was written by another version. Compute the run that "
-        "wrote it again, in another directory: without --restart, the results "
-        "in this one would be removed.");
+        "wrote it again, without --restart: its results so far are moved to a "
+        "subdirectory earlier_N.");
     }
 
     Info
