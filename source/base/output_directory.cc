@@ -49,9 +49,9 @@ namespace CaissonMPM
     }
 
     /** The names of those that it begins with. */
-    const std::regex first_names(
-      R"((points|grid|body)(_0000\.vtu|(_by_penetration)?\.pvd)|)"
-      R"((history|observations|wall)\.csv|run\.json)");
+    const std::regex
+      first_names(R"((points|grid|body)(_0000\.vtu|(_by_penetration)?\.pvd)|)"
+                  R"((history|observations|wall)\.csv|run\.json)");
 
     /** Whether a run left nothing but its start there: its first frame, and a
      * history.csv without a second row. */
@@ -209,7 +209,7 @@ namespace CaissonMPM
   std::string
   OutputDirectory::lock()
   {
-    const std::string path  = path_ + "/.lock";
+    const std::string path    = path_ + "/.lock";
     const auto        refusal = [&]() {
       const std::string run = read_text(path);
       return "is in use by another run" + (run.empty() ? "" : ", " + run);

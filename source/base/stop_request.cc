@@ -25,8 +25,8 @@ namespace CaissonMPM
       received_signal = signal;
     }
 
-    /** Those that ask for an end in order, of which the first one is Ctrl-C, and
-     * two that must not end the run: a reader of the output has gone, as
+    /** Those that ask for an end in order, of which the first one is Ctrl-C,
+     * and two that must not end the run: a reader of the output has gone, as
      * "| head", and a file would exceed the limit of its size. */
     constexpr StopRequest::Signals handled_signals = {{SIGINT,
                                                        SIGTERM,

@@ -66,11 +66,11 @@ namespace CaissonMPM
     std::size_t
     length_of_character(const unsigned char first)
     {
-      return first < 0x80                   ? 1 :
+      return first < 0x80                  ? 1 :
              first >= 0xc2 && first < 0xe0 ? 2 :
              first >= 0xe0 && first < 0xf0 ? 3 :
              first >= 0xf0 && first < 0xf5 ? 4 :
-                                              0;
+                                             0;
     }
 
     bool

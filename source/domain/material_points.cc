@@ -577,21 +577,6 @@ namespace CaissonMPM
   }
 
   void
-  MaterialPoints::rebuild_sums()
-  {
-    if (active_cells_changed)
-      collect_active_cells();
-    clear_sums();
-    for_each([this](const MaterialPoint &point, const unsigned int cell) {
-      include_in_sums(cell, point);
-    });
-    // a law may compute a register in another way for the sake of its padding
-    for (const unsigned int cell : active_cells)
-      for (int b = first_block[cell]; b >= 0; b = headers[b].next)
-        pad(b, headers[b].count, block_size);
-  }
-
-  void
   MaterialPoints::settle()
   {
     collect_active_cells();

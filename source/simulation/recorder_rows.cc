@@ -228,10 +228,10 @@ namespace CaissonMPM
     if (!has_reported_suction && *suction > 0. && last_suction <= 0.)
       {
         has_reported_suction = true;
-        console->header({{"suction",
-                          "begins at a penetration of " +
-                            to_text(last_depth, 4) +
-                            " m, where the weight no longer suffices"}});
+        console->header(
+          {{"suction",
+            "begins at a penetration of " + to_text(last_depth, 4) +
+              " m, where the weight no longer suffices"}});
       }
     last_depth   = row.penetration;
     last_suction = *suction;

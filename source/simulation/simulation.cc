@@ -22,12 +22,6 @@ namespace CaissonMPM
 {
   using namespace dealii;
 
-  namespace
-  {
-    // To repartition the mesh takes about as long as this many steps.
-    constexpr double steps_of_repartition = 30.;
-  } // namespace
-
   Simulation::Simulation(const MPI_Comm communicator)
     : ParameterAcceptor("/")
     , grid(lines, communicator)
@@ -390,18 +384,6 @@ namespace CaissonMPM
   // ------------------------------------------------------------ the run
 
   void
-  Simulation::balance()
-  {
-    const auto costs = points.cell_costs();
-    // A part is made of whole cells: it may be impossible to do better than
-    // after the last repartition.
-    lost_steps +=
-      Intervals::balance * std::max(0., imbalance(costs) - least_imbalance);
-    if (lost_steps > steps_of_repartition)
-      repartition(costs);
-  }
-
-  void
   Simulation::output()
   {
     SectionTimer::Scope scope(timer, timer.section("output"));
@@ -457,7 +439,7 @@ namespace CaissonMPM
       force_on_body = find_force_on_body();
     totals.bring_to_first_rank(grid.communicator());
     const auto   warnings = recorder.prepare_checkpoint();
-    NamedNumbers state    = totals.state(), seconds = timer.state();
+    NamedNumbers state = totals.state(), seconds = timer.state();
     state.emplace_back("mesh_uplift", lines.total_uplift());
     state.emplace_back("mesh_travel", lines.total_travel());
     state.insert(state.end(), seconds.begin(), seconds.end());

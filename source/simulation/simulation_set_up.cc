@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// From the parameters of a scene, or a checkpoint, to the first step.
+// From the parameters of a scene, or a checkpoint, to the first step; and the
+// parts of the ranks.
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/fingerprint.h>
+#include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/restart/checkpoint.h>
@@ -413,6 +415,20 @@ namespace CaissonMPM
         own += costs[index_of(grid.global_number(cell))];
     const auto work = Utilities::MPI::min_max_avg(own, grid.communicator());
     return work.max / work.avg;
+  }
+
+  void
+  Simulation::balance()
+  {
+    const auto costs = points.cell_costs();
+    // To repartition the mesh takes about as long as this many steps.
+    constexpr double steps_of_repartition = 30.;
+    // A part is made of whole cells: it may be impossible to do better than
+    // after the last repartition.
+    lost_steps +=
+      Intervals::balance * std::max(0., imbalance(costs) - least_imbalance);
+    if (lost_steps > steps_of_repartition)
+      repartition(costs);
   }
 
   void

@@ -202,7 +202,8 @@ test_bad_overrides()
   read({"Grid/Fine zone=2"});
   read({"Soil/Model=Tresca", "Soil/Model=elastic"});
   read({"Run control/Stop file=a\x1b[31m"});
-  read({"Run control/Stop file=a\xc2\x9b" "31m"});
+  read({"Run control/Stop file=a\xc2\x9b"
+        "31m"});
   read({"Run control/Stop file=in\nthree\t\r\nwords"});
   ParameterAcceptor::prm.enter_subsection("Run control");
   std::cout << '"' << ParameterAcceptor::prm.get("Stop file") << "\"\n";

@@ -60,10 +60,16 @@ void
 test_foreign_text()
 {
   title("text from outside");
-  for (const std::string text :
-       {"\x1b[31mred\n\x7f\tlast", "Gr\xc3\xb6\xc3\x9f" "e \xc2\x9b" "31m"})
+  for (const std::string text : {"\x1b[31mred\n\x7f\tlast",
+                                 "Gr\xc3\xb6\xc3\x9f"
+                                 "e \xc2\x9b"
+                                 "31m"})
     std::cout << printable(text) << '\n';
-  for (const std::string text : {"Gr\xf6\xdf" "e", "Gr\xc3\xb6\xc3\x9f" "e", "\xc3"})
+  for (const std::string text : {"Gr\xf6\xdf"
+                                 "e",
+                                 "Gr\xc3\xb6\xc3\x9f"
+                                 "e",
+                                 "\xc3"})
     std::cout << as_utf8(text) << '\n';
 }
 
@@ -134,7 +140,7 @@ test_output_directory()
         {
           // without the names of process and host
           const std::string text = error.what();
-          const auto        name = text.find(has_file ? ", process " : ". Choose");
+          const auto name = text.find(has_file ? ", process " : ". Choose");
           std::cout << text.substr(0, name) << (has_file ? " ..." : "")
                     << text.substr(text.find(". Choose")) << '\n';
         }
@@ -208,6 +214,13 @@ test_stop_request()
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     ask(request);
   }
+}
+
+
+
+void
+test_stop_file()
+{
   for (const std::string name : {"", "halt", "history.csv", "../notes"})
     {
       ParameterAcceptor::clear();
@@ -313,6 +326,7 @@ main(int argc, char *argv[])
   test_foreign_text();
   test_output_directory();
   test_stop_request();
+  test_stop_file();
   test_timing();
   test_console();
   test_single_process();

@@ -72,8 +72,9 @@ namespace CaissonMPM
     std::string
     reason();
 
-    /** How long ago the first reason was found; 0 if there is none, and infinite
-     * for a signal to a process of mpirun, which ends it soon. Units: s. */
+    /** How long ago the first reason was found; 0 if there is none, and
+     * infinite for a signal to a process of mpirun, which ends it soon. Units:
+     * s. */
     double
     seconds_since() const;
 

@@ -33,7 +33,8 @@ namespace CaissonMPM
   percent(const double share, const int significant_digits);
 
   /** Return whether the character at this place is one that controls a
-   * terminal, in ASCII or, of two bytes, in UTF-8. Line feeds and tabs count. */
+   * terminal, in ASCII or, of two bytes, in UTF-8. Line feeds and tabs count.
+   */
   bool
   is_control(const std::string &text, const std::size_t place);
 

@@ -96,11 +96,11 @@ namespace CaissonMPM
     using FieldSum = std::pair<std::string, std::string>;
 
   private:
-    std::string           directory, file;
-    unsigned long         n_points = 0;
-    std::uint64_t         checksum = 0; // of the points
-    std::vector<FieldSum> fields;
-    NamedNumbers          state_;
+    std::string              directory, file;
+    unsigned long            n_points = 0;
+    std::uint64_t            checksum = 0; // of the points
+    std::vector<FieldSum>    fields;
+    NamedNumbers             state_;
     std::vector<std::string> warnings_;
     std::string              fingerprint_;
   };
