@@ -421,7 +421,7 @@ namespace CaissonMPM
     append(members, {{"scene", Json::object(about_scene(parts, facts), 2)}});
     // several ranks may fail at once: each writes a file of its own first
     const std::string own =
-      path + "." +
+      path + ".of_rank_" +
       to_text(Utilities::MPI::this_mpi_process(parts.grid.communicator()));
     if (const int error = try_to_write(own, Json::object(members) + "\n"))
       return error;

@@ -122,6 +122,7 @@ test_output_directory()
                                  "checkpoint.info",
                                  "run.json",
                                  "forces.png",
+                                 "run.json.of_rank_1",
                                  "my_points_0001.vtu",
                                  "history.csv.bak"})
     std::ofstream("mesh/results/" + name) << name;
