@@ -179,7 +179,8 @@ def largest_energy_ratio(history: Table) -> float:
     FROM on (a share of 1). Of a body that is pulled out it is that of the rows with a
     pull, and at least a tenth of the largest work: the soil springs up when the load on
     it goes."""
-    depth, work = history["penetration_m"], np.abs(history["external_work_J"])
+    depth = history["penetration_m"]
+    work = np.abs(history["external_work_J"] + history.get("water_work_J", 0.0))
     used = (depth >= FROM) & (work > 0)
     if depth[-1] < depth[0]:
         force = history.get(WITH_WATER, history["total_force_N"])

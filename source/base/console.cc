@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <caisson_mpm/base/console.h>
+#include <caisson_mpm/base/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -176,7 +177,7 @@ namespace CaissonMPM
   void
   Console::failure(const std::string &text)
   {
-    out << text << std::endl;
+    out << printable(text) << std::endl;
   }
 
   Console::Verbosity
@@ -189,6 +190,6 @@ namespace CaissonMPM
   Console::print(const std::string &text)
   {
     if (verbosity != Verbosity::silent)
-      out << text << std::flush;
+      out << printable(text) << std::flush;
   }
 } // namespace CaissonMPM

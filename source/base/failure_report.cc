@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/failure_report.h>
+#include <caisson_mpm/base/text.h>
 
 #include <chrono>
 #include <iostream>
@@ -24,7 +25,7 @@ namespace CaissonMPM
   {
     const bool in_order = all_have_failed();
     if (!in_order || Utilities::MPI::this_mpi_process(communicator) == 0)
-      std::cerr << text << std::endl;
+      std::cerr << printable(text) << std::endl;
     if (!in_order)
       MPI_Abort(MPI_COMM_WORLD, static_cast<int>(status));
     return static_cast<int>(status);

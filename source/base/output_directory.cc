@@ -22,12 +22,14 @@ namespace CaissonMPM
   {
     namespace fs = std::filesystem;
 
-    /** The names of all files that a run writes. */
+    /** The names of all files that a run writes, and nothing else is removed.
+     */
     const std::regex
-      result_names(R"((points|grid|body)(_\d+([._]\d+)*\.p?vtu)(\.tmp)?|)"
+      result_names(R"((points|grid|body)_\d{4,}\.vtu(\.tmp)?|)"
                    R"((points|grid|body)(_by_penetration)?\.pvd(\.tmp)?|)"
                    R"((history|history_error|observations|wall)\.csv(\.tmp)?|)"
                    R"((run|verification)\.json(\.tmp)?|)"
+                   R"(run\.json\.of_rank_\d+(\.tmp)?|)"
                    R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5))");
 
     /** The names of what the Python package makes of them. */
@@ -47,14 +49,20 @@ namespace CaissonMPM
       return found;
     }
 
-    /** Whether a run left nothing but its start there: a history.csv without a
-     * second row, and no checkpoint. */
+    /** The names of those that it begins with. */
+    const std::regex
+      first_names(R"((points|grid|body)(_0000\.vtu|(_by_penetration)?\.pvd)|)"
+                  R"((history|observations|wall)\.csv|run\.json)");
+
+    /** Whether a run left nothing but its start there: its first frame, and a
+     * history.csv without a second row. */
     bool
     has_only_begun(const fs::path &directory)
     {
       std::error_code error;
       if (!fs::exists(directory / "history.csv", error) ||
-          fs::exists(directory / "checkpoint.info", error))
+          files_named(first_names, directory).size() !=
+            files_named(result_names, directory).size())
         return false;
       std::ifstream history(directory / "history.csv");
       unsigned int  n_lines = 0;
@@ -109,6 +117,14 @@ namespace CaissonMPM
       char host[256] = "";
       gethostname(host, sizeof(host) - 1);
       return "process " + to_text(getpid()) + " on " + host;
+    }
+
+    /** Lock an open file, unless another process has done so. Some file systems
+     * have no locks: then go without. */
+    bool
+    is_taken(const int file)
+    {
+      return flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     }
 
     /** Whether the open file is still the one of this path. */
@@ -172,11 +188,12 @@ namespace CaissonMPM
 
   OutputDirectory::~OutputDirectory()
   {
-    if (lock_file < 0)
-      return;
     std::error_code error;
-    fs::remove(path_ + "/.lock", error);
-    close(lock_file); // and thereby unlock
+    if (lock_file >= 0)
+      fs::remove(path_ + "/.lock", error);
+    for (const int file : {lock_file, directory})
+      if (file >= 0)
+        close(file); // and thereby unlock
   }
 
   std::string
@@ -193,7 +210,15 @@ namespace CaissonMPM
   std::string
   OutputDirectory::lock()
   {
-    const std::string path = path_ + "/.lock";
+    const std::string path    = path_ + "/.lock";
+    const auto        refusal = [&]() {
+      const std::string run = read_text(path);
+      return "is in use by another run" + (run.empty() ? "" : ", " + run);
+    };
+    // that of the file alone would be lost with it
+    directory = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (is_taken(directory))
+      return refusal();
     do
       {
         // a run that ended in between has removed the file that was opened
@@ -202,14 +227,11 @@ namespace CaissonMPM
         lock_file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (lock_file < 0)
           return std::string("cannot be locked: ") + std::strerror(errno);
-        if (flock(lock_file, LOCK_EX | LOCK_NB) != 0)
+        if (is_taken(lock_file))
           {
-            const bool is_in_use = errno == EWOULDBLOCK;
             close(lock_file);
-            lock_file = -1;
-            // some file systems have no locks: then go without
-            return is_in_use ? "is in use by another run, " + read_text(path) :
-                               "";
+            lock_file = -1; // that of the other run, which stays
+            return refusal();
           }
       }
     while (!is_file_at(lock_file, path));
@@ -220,13 +242,26 @@ namespace CaissonMPM
     return "";
   }
 
+  bool
+  OutputDirectory::is_result(const std::string &name)
+  {
+    return std::regex_match(name, result_names);
+  }
+
+  bool
+  OutputDirectory::remove(const std::string &path)
+  {
+    std::error_code error;
+    return is_result(fs::path(path).filename().string()) &&
+           fs::remove(path, error);
+  }
+
   unsigned int
   OutputDirectory::clear() const
   {
-    std::error_code error;
-    unsigned int    n_removed = 0;
+    unsigned int n_removed = 0;
     for (const fs::path &file : files_named(result_names, path_))
-      n_removed += fs::remove(file, error) ? 1 : 0;
+      n_removed += remove(file.string()) ? 1 : 0;
     return n_removed;
   }
 

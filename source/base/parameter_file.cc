@@ -391,7 +391,8 @@ namespace CaissonMPM
         throw BadInput(place + ": " + quote(entry.path) +
                        " is set a second time, first at " + earlier->second +
                        ".\n  Remove one of the two.");
-      const std::string present = present_value(entry, value, place);
+      const std::string present =
+        present_value(entry, in_one_line(value, entry.path, place), place);
       set_value(entry, present, place);
       const bool is_included = files.size() > 1;
       origins.record(

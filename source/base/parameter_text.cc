@@ -2,6 +2,7 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/nearest_names.h>
 #include <caisson_mpm/base/parameter_text.h>
+#include <caisson_mpm/base/text.h>
 
 #include <algorithm>
 #include <cctype>
@@ -79,10 +80,29 @@ namespace CaissonMPM
     std::string
     quote(const std::string &text)
     {
-      std::string result;
-      for (const char c : text.substr(0, 60))
-        result += std::iscntrl(static_cast<unsigned char>(c)) ? '?' : c;
+      std::string result = printable(text.substr(0, 60));
+      std::replace(result.begin(), result.end(), '\n', '?');
       return "\"" + result + (text.size() > 60 ? "..." : "") + "\"";
+    }
+
+    std::string
+    in_one_line(const std::string &value,
+                const std::string &path,
+                const std::string &place)
+    {
+      std::string line;
+      for (std::size_t i = 0; i < value.size(); ++i)
+        if (is_space(value[i]))
+          line += ' ';
+        else if (is_control(value, i))
+          throw BadInput(place + ": " + quote(path) +
+                         " has a control character, which would act on a "
+                         "terminal: number " +
+                         to_text(i + 1) + " of " + quote(value) +
+                         ".\n  Remove it.");
+        else
+          line += value[i];
+      return trim(line);
     }
 
     std::string

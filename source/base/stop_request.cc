@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <caisson_mpm/base/choice.h>
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/base/stop_request.h>
 #include <caisson_mpm/base/text.h>
 
 #include <deal.II/base/patterns.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <limits>
 
 namespace CaissonMPM
 {
@@ -21,9 +25,18 @@ namespace CaissonMPM
       received_signal = signal;
     }
 
-    /** The signals that ask for an end in order; the first one is Ctrl-C. */
-    constexpr StopRequest::Signals caught_signals = {
-      {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU}};
+    /** Those that ask for an end in order, of which the first one is Ctrl-C,
+     * and two that must not end the run: a reader of the output has gone, as
+     * "| head", and a file would exceed the limit of its size. */
+    constexpr StopRequest::Signals handled_signals = {{SIGINT,
+                                                       SIGTERM,
+                                                       SIGHUP,
+                                                       SIGQUIT,
+                                                       SIGUSR1,
+                                                       SIGUSR2,
+                                                       SIGXCPU,
+                                                       SIGPIPE,
+                                                       SIGXFSZ}};
 
     std::string
     name_of_signal(const int signal)
@@ -74,9 +87,18 @@ namespace CaissonMPM
   {
     if (!is_armed)
       return;
-    for (std::size_t i = 0; i < caught_signals.size(); ++i)
-      sigaction(caught_signals[i], &previous_actions[i], nullptr);
-    sigaction(SIGPIPE, &previous_pipe_action, nullptr);
+    for (std::size_t i = 0; i < handled_signals.size(); ++i)
+      sigaction(handled_signals[i], &previous_actions[i], nullptr);
+  }
+
+  void
+  StopRequest::check_parameters() const
+  {
+    if (stop_file.find('/') != std::string::npos ||
+        OutputDirectory::is_result(stop_file))
+      throw BadInput("Run control/Stop file = " + stop_file +
+                     " must be the name of a new file in the output directory, "
+                     "for instance stop: the run removes it.");
   }
 
   void
@@ -92,19 +114,17 @@ namespace CaissonMPM
 
     received_signal         = 0;
     struct sigaction action = {};
-    action.sa_handler       = remember_signal;
     sigemptyset(&action.sa_mask);
-    for (std::size_t i = 0; i < caught_signals.size(); ++i)
+    for (std::size_t i = 0; i < handled_signals.size(); ++i)
       {
+        const int signal = handled_signals[i];
         // The first SIGINT brings back the default action for the second.
         action.sa_flags =
-          SA_RESTART |
-          (caught_signals[i] == SIGINT ? static_cast<int>(SA_RESETHAND) : 0);
-        sigaction(caught_signals[i], &action, &previous_actions[i]);
+          SA_RESTART | (signal == SIGINT ? static_cast<int>(SA_RESETHAND) : 0);
+        action.sa_handler =
+          signal == SIGPIPE || signal == SIGXFSZ ? SIG_IGN : remember_signal;
+        sigaction(signal, &action, &previous_actions[i]);
       }
-    // A reader of the output that has gone, as "| head", does not end the run.
-    action.sa_handler = SIG_IGN;
-    sigaction(SIGPIPE, &action, &previous_pipe_action);
     is_armed = true;
   }
 
@@ -112,8 +132,21 @@ namespace CaissonMPM
   StopRequest::reason()
   {
     if (found_reason.empty())
-      found_reason = find_reason();
+      {
+        found_reason = find_reason();
+        found_at     = Clock::now();
+      }
     return found_reason;
+  }
+
+  double
+  StopRequest::seconds_since() const
+  {
+    if (received_signal != 0 && std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr)
+      return std::numeric_limits<double>::infinity();
+    return found_reason.empty() ?
+             0. :
+             std::chrono::duration<double>(Clock::now() - found_at).count();
   }
 
   std::string

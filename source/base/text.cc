@@ -36,6 +36,75 @@ namespace CaissonMPM
     return to_text(static_cast<unsigned long>(std::round(value / unit) * unit));
   }
 
+  bool
+  is_control(const std::string &text, const std::size_t place)
+  {
+    const unsigned char c    = text[place],
+                        next = place + 1 < text.size() ? text[place + 1] : 0;
+    return c < 0x20 || c == 0x7f || (c == 0xc2 && next >= 0x80 && next < 0xa0);
+  }
+
+  std::string
+  printable(const std::string &text)
+  {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i)
+      if (text[i] == '\n' || !is_control(text, i))
+        result += text[i];
+      else
+        {
+          result += '?';
+          i += text[i] == '\xc2'; // two bytes
+        }
+    return result;
+  }
+
+  namespace
+  {
+    /** The bytes of the UTF-8 character that begins with this one, 0 if none
+     * does. */
+    std::size_t
+    length_of_character(const unsigned char first)
+    {
+      return first < 0x80                  ? 1 :
+             first >= 0xc2 && first < 0xe0 ? 2 :
+             first >= 0xe0 && first < 0xf0 ? 3 :
+             first >= 0xf0 && first < 0xf5 ? 4 :
+                                             0;
+    }
+
+    bool
+    is_utf8(const std::string &text)
+    {
+      for (std::size_t i = 0; i < text.size();)
+        {
+          const std::size_t n = length_of_character(text[i]);
+          if (n == 0 || i + n > text.size())
+            return false;
+          for (std::size_t k = 1; k < n; ++k)
+            if ((text[i + k] & 0xc0) != 0x80)
+              return false;
+          i += n;
+        }
+      return true;
+    }
+  } // namespace
+
+  std::string
+  as_utf8(const std::string &text)
+  {
+    if (is_utf8(text))
+      return text;
+    std::string result;
+    for (const char c : text)
+      if (const unsigned char code = c; code < 0x80)
+        result += c;
+      else
+        result += {static_cast<char>(0xc0 | code >> 6),
+                   static_cast<char>(0x80 | (code & 0x3f))};
+    return result;
+  }
+
   std::string
   percent(const double share, const int significant_digits)
   {

@@ -4,8 +4,15 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+
 namespace CaissonMPM
 {
+  namespace
+  {
+    const std::string beginning = "seconds_of_"; // of a name in a checkpoint
+  }
+
   unsigned int
   SectionTimer::section(const std::string &name)
   {
@@ -16,13 +23,39 @@ namespace CaissonMPM
     return sections.size() - 1;
   }
 
-  std::vector<std::pair<std::string, double>>
+  NamedNumbers
   SectionTimer::seconds() const
   {
-    std::vector<std::pair<std::string, double>> result;
+    NamedNumbers result;
     for (const auto &[name, time] : sections)
       result.emplace_back(name, std::chrono::duration<double>(time).count());
     return result;
+  }
+
+  NamedNumbers
+  SectionTimer::state() const
+  {
+    NamedNumbers result = seconds();
+    for (auto &[name, time] : result)
+      {
+        std::replace(name.begin(), name.end(), ' ', '_');
+        name = beginning + name;
+      }
+    return result;
+  }
+
+  void
+  SectionTimer::resume(const NamedNumbers &state)
+  {
+    for (const auto &[key, seconds] : state)
+      if (key.compare(0, beginning.size(), beginning) == 0)
+        {
+          std::string name = key.substr(beginning.size());
+          std::replace(name.begin(), name.end(), '_', ' ');
+          sections[section(name)].second +=
+            std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+              std::chrono::duration<double>(seconds));
+        }
   }
 
   double

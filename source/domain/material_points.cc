@@ -577,17 +577,6 @@ namespace CaissonMPM
   }
 
   void
-  MaterialPoints::rebuild_sums()
-  {
-    if (active_cells_changed)
-      collect_active_cells();
-    clear_sums();
-    for_each([this](const MaterialPoint &point, const unsigned int cell) {
-      include_in_sums(cell, point);
-    });
-  }
-
-  void
   MaterialPoints::settle()
   {
     collect_active_cells();

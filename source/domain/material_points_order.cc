@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Where the blocks of the points lie in memory.
+// Where the blocks of the points lie in memory, and what is kept of them.
 #include <caisson_mpm/domain/material_points.h>
 
 #include <sys/mman.h>
@@ -109,5 +109,20 @@ namespace CaissonMPM
                    user_state.begin() + place_of_user_state(block, 0),
                    user_state.begin() + place_of_user_state(block + 1, 0));
     user_state.swap(state);
+  }
+
+  void
+  MaterialPoints::rebuild_sums()
+  {
+    if (active_cells_changed)
+      collect_active_cells();
+    clear_sums();
+    for_each([this](const MaterialPoint &point, const unsigned int cell) {
+      include_in_sums(cell, point);
+    });
+    // a law may compute a register in another way for the sake of its padding
+    for (const unsigned int cell : active_cells)
+      for (int b = first_block[cell]; b >= 0; b = headers[b].next)
+        pad(b, headers[b].count, block_size);
   }
 } // namespace CaissonMPM

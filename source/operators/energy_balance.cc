@@ -50,6 +50,7 @@ namespace CaissonMPM
   EnergyBalance::add(const NodalWork &nodes, const double stress)
   {
     work_of_body += nodes.body + nodes.prescribed;
+    work_on_water += nodes.water;
     force_work += nodes.forces;
     load_work += nodes.load;
     friction_heat += nodes.friction;
@@ -78,6 +79,7 @@ namespace CaissonMPM
   EnergyBalance::register_totals(RunTotals &totals)
   {
     totals.sum("work_of_body", work_of_body);
+    totals.sum("work_on_water", work_on_water);
     totals.sum("work_of_forces", force_work);
     totals.sum("work_of_loads", load_work);
     totals.sum("stress_work", stress_work);

@@ -244,11 +244,11 @@ namespace CaissonMPM
       worst = std::max(worst,
                        largest_in(points, cell, squares) *
                          size_of_ancestor(cell).with_level_rows);
-    worst               = Utilities::MPI::max(worst, grid.communicator());
-    const bool is_first = inertia_.empty();
-    inertia_at_tip_     = inertia_for(stress_over_inertia_at_tip());
-    least_inertia =
-      is_first ? inertia_at_tip_ : std::min(least_inertia, inertia_at_tip_);
+    worst           = Utilities::MPI::max(worst, grid.communicator());
+    inertia_at_tip_ = inertia_for(stress_over_inertia_at_tip());
+    least_inertia   = least_inertia > 0. ?
+                        std::min(least_inertia, inertia_at_tip_) :
+                        inertia_at_tip_;
     largest_inertia = std::max(largest_inertia, inertia_at_tip_);
     const auto set  = [&](const unsigned int cell, const double square) {
       const auto   size = size_of_ancestor(cell);

@@ -14,7 +14,7 @@ namespace CaissonMPM
     text(const std::string &value)
     {
       std::string result = "\"";
-      for (const char c : value)
+      for (const char c : as_utf8(value))
         if (c == '"' || c == '\\')
           result += std::string("\\") + c;
         else if (c == '\n')

@@ -71,8 +71,7 @@ namespace CaissonMPM
   void
   Records::append(const HistoryRow &row, const std::vector<double> &observed)
   {
-    std::vector<double> values = history_values(scene, row);
-    history.append(values);
+    std::vector<double> values = history.append(history_values(scene, row));
     if (observed_file)
       {
         std::vector<double> more = observed;

@@ -87,7 +87,7 @@ namespace CaissonMPM
     return rows;
   }
 
-  void
+  std::vector<double>
   RowFile::append(const std::vector<double> &values)
   {
     Assert(file != nullptr, dealii::ExcMessage("call create() or resume()"));
@@ -108,6 +108,7 @@ namespace CaissonMPM
       }
     size += line.size();
     written.add(line);
+    return numbers_in(line);
   }
 
   void

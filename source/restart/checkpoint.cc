@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/fingerprint.h>
+#include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/restart/checkpoint.h>
@@ -27,7 +28,7 @@ namespace CaissonMPM
 
   namespace
   {
-    const std::string format_name = "caisson_mpm-checkpoint-11";
+    const std::string format_name = "caisson_mpm-checkpoint-12";
 
     // what a rank has in memory at a time besides its own
     constexpr unsigned long rows_per_piece = 20000;
@@ -47,6 +48,7 @@ namespace CaissonMPM
       std::uint64_t checksum = 0; // of the points
       std::vector<Checkpoint::FieldSum> fields;
       NamedNumbers                      state;
+      std::vector<std::string>          warnings;
       std::string                       fingerprint;
     };
 
@@ -63,6 +65,12 @@ namespace CaissonMPM
       out << "state\n";
       for (const auto &[name, value] : info.state)
         out << name << ' ' << to_text(value, 17) << '\n';
+      out << "warnings\n";
+      for (std::string warning : info.warnings)
+        {
+          std::replace(warning.begin(), warning.end(), '\n', ' ');
+          out << warning << '\n';
+        }
       out << "fingerprint\n" << info.fingerprint;
       return out.str();
     }
@@ -75,12 +83,22 @@ namespace CaissonMPM
              fingerprint_of(body) + "\n" + body;
     }
 
+    /** Return the lines up to this one. */
+    std::vector<std::string>
+    read_lines(std::istream &in, const std::string &end)
+    {
+      std::vector<std::string> lines;
+      for (std::string line; std::getline(in, line) && line != end;)
+        lines.push_back(line);
+      return lines;
+    }
+
     /** Call action(name, value) for the lines up to this one. */
     template <typename Action>
     void
-    read_lines(std::istream &in, const std::string &end, const Action &action)
+    read_pairs(std::istream &in, const std::string &end, const Action &action)
     {
-      for (std::string line; std::getline(in, line) && line != end;)
+      for (const std::string &line : read_lines(in, end))
         action(line.substr(0, line.find(' ')), line.substr(line.find(' ') + 1));
     }
 
@@ -99,10 +117,10 @@ namespace CaissonMPM
         return {};
       std::map<std::string, std::string> entries;
       Info                               info;
-      read_lines(in, "fields", [&](const auto &name, const auto &value) {
+      read_pairs(in, "fields", [&](const auto &name, const auto &value) {
         entries[name] = value;
       });
-      read_lines(in, "state", [&](const auto &name, const auto &value) {
+      read_pairs(in, "state", [&](const auto &name, const auto &value) {
         info.fields.emplace_back(name, value);
       });
       const auto count = [&](const std::string &name) {
@@ -112,9 +130,10 @@ namespace CaissonMPM
       info.n_points = count("points");
       info.n_bytes  = count("bytes");
       info.checksum = count("checksum_of_points");
-      read_lines(in, "fingerprint", [&](const auto &name, const auto &value) {
+      read_pairs(in, "warnings", [&](const auto &name, const auto &value) {
         info.state.emplace_back(name, std::strtod(value.c_str(), nullptr));
       });
+      info.warnings = read_lines(in, "fingerprint");
       std::ostringstream rest;
       rest << in.rdbuf();
       info.fingerprint = rest.str();
@@ -152,11 +171,13 @@ namespace CaissonMPM
       return fs::space(directory, error).available >= n_bytes;
     }
 
-    /** Whether a file can become as large as that; 0 or an errno. HDF5 must not
-     * find out: if it cannot close a file, it crashes when the program ends. */
+    /** Remove an older checkpoint of this name, and see whether a new one can
+     * become as large as that; 0 or an errno. HDF5 must not find out: if it
+     * cannot close a file, it crashes when the program ends. */
     int
-    look_for_room(const fs::path &file, const unsigned long n_bytes)
+    make_room(const fs::path &file, const unsigned long n_bytes)
     {
+      OutputDirectory::remove(file.string());
       const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT, 0666);
       if (descriptor < 0)
         return errno;
@@ -164,30 +185,8 @@ namespace CaissonMPM
       if (error == EOPNOTSUPP) // by this file system
         error = has_space(file.parent_path(), n_bytes) ? 0 : ENOSPC;
       close(descriptor);
-      std::error_code ignored;
-      fs::remove(file, ignored);
+      OutputDirectory::remove(file.string());
       return error;
-    }
-
-    /**
-     * Remove what is left of an older checkpoint of this name, with all files
-     * of earlier formats, and see that there is room for the new one. Returns 0
-     * or an errno.
-     */
-    int
-    make_room(const std::string  &directory,
-              const std::string  &file,
-              const unsigned long n_bytes)
-    {
-      const std::string     name = fs::path(file).stem().string();
-      std::vector<fs::path> old;
-      std::error_code       error;
-      for (const auto &entry : fs::directory_iterator(directory, error))
-        if (entry.path().filename().string().compare(0, name.size(), name) == 0)
-          old.push_back(entry.path());
-      for (const fs::path &path : old)
-        fs::remove(path, error);
-      return look_for_room(directory + "/" + file, n_bytes);
     }
 
     /** Call action() on the first rank; all throw where it returns an errno. */
@@ -333,8 +332,8 @@ namespace CaissonMPM
       throw BadInput(
         "the checkpoint in " + directory +
         " is damaged, or was written by another version. Compute the run that "
-        "wrote it again, in another directory: without --restart, the results "
-        "in this one would be removed.");
+        "wrote it again, without --restart: its results so far are moved to a "
+        "subdirectory earlier_N.");
     }
 
     Info
@@ -356,12 +355,13 @@ namespace CaissonMPM
 
 
   void
-  write_checkpoint(const std::string    &directory,
-                   const BackgroundGrid &grid,
-                   const MaterialPoints &points,
-                   const NamedFields    &fields,
-                   const NamedNumbers   &state,
-                   const std::string    &fingerprint)
+  write_checkpoint(const std::string              &directory,
+                   const BackgroundGrid           &grid,
+                   const MaterialPoints           &points,
+                   const NamedFields              &fields,
+                   const NamedNumbers             &state,
+                   const std::vector<std::string> &warnings,
+                   const std::string              &fingerprint)
   {
     const MPI_Comm communicator = grid.communicator();
     Info           info;
@@ -374,6 +374,7 @@ namespace CaissonMPM
       Utilities::MPI::sum<unsigned long>(points.n_points(), communicator);
     info.fields            = checksums_of(fields);
     info.state             = state;
+    info.warnings          = warnings;
     info.fingerprint       = fingerprint;
     const std::string path = directory + "/" + info.file;
     unsigned long     n_bytes =
@@ -381,13 +382,12 @@ namespace CaissonMPM
     for (const auto &field : fields)
       n_bytes += field.second.size() * sizeof(double);
     const auto on_failure = [&]() {
-      const int       error = has_space(directory, n_bytes) ? EIO : ENOSPC;
-      std::error_code ignored;
-      fs::remove(path, ignored);
+      const int error = has_space(directory, n_bytes) ? EIO : ENOSPC;
+      OutputDirectory::remove(path);
       return error;
     };
     on_first_rank(communicator, directory, [&]() {
-      return make_room(directory, info.file, n_bytes + 10000);
+      return make_room(path, n_bytes + 10000);
     });
 
     const auto written = write_data(path, grid, points, fields);
@@ -428,6 +428,7 @@ namespace CaissonMPM
     checksum        = info.checksum;
     fields          = info.fields;
     state_          = info.state;
+    warnings_       = info.warnings;
     fingerprint_    = info.fingerprint;
   }
 

@@ -72,6 +72,14 @@ namespace CaissonMPM
     totals.keep("time_of_last_frame", last_frame);
     totals.keep("walls_are_requested", wants_walls);
     totals.keep("max_points_in_body", max_in_body);
+    totals.sum("point_steps", point_steps);
+    totals.keep("wall_time", wall_time);
+    totals.keep("repartitions", n_repartitions);
+    totals.keep("lid_is_touched", at_lid);
+    totals.keep("has_reported_rest", has_reported_rest);
+    totals.keep("has_reported_suction", has_reported_suction);
+    totals.keep("last_depth", last_depth);
+    totals.keep("last_suction", last_suction);
     totals.keep("fingerprint_of_history", files.history);
     totals.keep("fingerprint_of_observations", files.observations);
     totals.keep("fingerprint_of_frames", files.frames);
@@ -243,7 +251,21 @@ namespace CaissonMPM
       }
     visualization->resume(last_frame);
     warn_of_changed_files();
+    start_time -=
+      std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+        std::chrono::duration<double>(wall_time));
     begin();
+  }
+
+  std::vector<std::string>
+  Recorder::prepare_checkpoint()
+  {
+    wall_time = seconds_running();
+    std::vector<std::string> result;
+    for (const Warning &warning : console->warnings())
+      if (warning.rank == WarningRank::result)
+        result.push_back(warning.text);
+    return result;
   }
 
   void
@@ -302,6 +324,7 @@ namespace CaissonMPM
   Recorder::begin()
   {
     first_step        = parts.clock.step;
+    seconds_at_start  = wall_time;
     fraction_at_start = parts.schedule.fraction_done();
   }
 
@@ -367,6 +390,8 @@ namespace CaissonMPM
       console->warning(warning,
                        input.is_cosmetic(warning) ? WarningRank::cosmetic :
                                                     WarningRank::input);
+    for (const std::string &warning : earlier_warnings)
+      console->warning(warning);
   }
 
   // ------------------------------------------------------------ the end
@@ -409,7 +434,7 @@ namespace CaissonMPM
     result.kernels        = kernels->name;
     result.n_repartitions = n_repartitions;
     result.max_in_body    = max_in_body;
-    result.n_steps        = parts.clock.step - first_step;
+    result.n_steps        = parts.clock.step;
     result.wall_time      = seconds_running();
     result.warnings       = console->warnings();
     result.assumed        = assumed;

@@ -225,23 +225,23 @@ namespace CaissonMPM
     // beneath a sealed lid, it has nothing to do with the weight
     if (!suction || number_named("lid_growth_m3", row.counts))
       return;
-    if (!has_reported_suction && *suction > 0. && last_depth_and_suction &&
-        last_depth_and_suction->second <= 0.)
+    if (!has_reported_suction && *suction > 0. && last_suction <= 0.)
       {
         has_reported_suction = true;
-        console->header({{"suction",
-                          "begins at a penetration of " +
-                            to_text(last_depth_and_suction->first, 4) +
-                            " m, where the weight no longer suffices"}});
+        console->header(
+          {{"suction",
+            "begins at a penetration of " + to_text(last_depth, 4) +
+              " m, where the weight no longer suffices"}});
       }
-    last_depth_and_suction = {row.penetration, *suction};
+    last_depth   = row.penetration;
+    last_suction = *suction;
   }
 
   double
   Recorder::seconds_left(const double fraction_done) const
   {
     const double n = steps_left(), n_made = parts.clock.step - first_step;
-    return seconds_running() *
+    return (seconds_running() - seconds_at_start) *
            (std::isfinite(n) ?
               std::max(n, 0.) / n_made :
               (1. - fraction_done) / (fraction_done - fraction_at_start));

@@ -206,6 +206,7 @@ namespace CaissonMPM
     energies(const EnergyBalance &energy)
     {
       NamedNumbers result = {{"external_work_J", energy.work_of_body},
+                             {"water_work_J", energy.work_on_water},
                              {"kinetic_energy_gain_J", energy.kinetic_gain}};
       for (const auto &entry : energy.entries())
         result.push_back(entry);
@@ -352,6 +353,7 @@ namespace CaissonMPM
         return to_text(value, 6) + " J";
       };
       console.header({{"work of the body", joule(energy.work_of_body)},
+                      {"on the water", joule(energy.work_on_water)},
                       {"work of gravity", joule(energy.gravity_work)},
                       {"work of loads", joule(energy.load_work)},
                       {"stress work", joule(energy.stress_work)},
@@ -419,7 +421,7 @@ namespace CaissonMPM
     append(members, {{"scene", Json::object(about_scene(parts, facts), 2)}});
     // several ranks may fail at once: each writes a file of its own first
     const std::string own =
-      path + "." +
+      path + ".of_rank_" +
       to_text(Utilities::MPI::this_mpi_process(parts.grid.communicator()));
     if (const int error = try_to_write(own, Json::object(members) + "\n"))
       return error;

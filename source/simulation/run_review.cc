@@ -248,8 +248,10 @@ namespace CaissonMPM
   RunReview::lost_work() const
   {
     const EnergyBalance &energy = parts.energy;
-    const double         share  = energy.dissipation / energy.work_of_body;
-    if (width == 0. || energy.work_of_body <= 0. || share <= largest_lost_share)
+    // that of the force with water
+    const double work  = energy.work_of_body + energy.work_on_water,
+                 share = energy.dissipation / work;
+    if (width == 0. || work <= 0. || share <= largest_lost_share)
       return {};
     return "the transfer between points and nodes has lost " +
            percent(share, 2) +

@@ -24,7 +24,7 @@ namespace CaissonMPM
       const std::string entries = word.empty() ? describe_parameters(prm) :
                                                  describe_parameters(prm, word);
       for (const std::string &text : origins.warnings())
-        out << "# warning: " << text << '\n';
+        out << "# warning: " << printable(text) << '\n';
       out << entries;
     }
 
@@ -34,8 +34,8 @@ namespace CaissonMPM
     print_warnings(const ParameterOrigins &origins, std::ostream &out)
     {
       for (const std::string &text : origins.warnings())
-        out << "warning: " << text << origins.places_of_entries_in(text)
-            << '\n';
+        out << "warning: "
+            << printable(text + origins.places_of_entries_in(text)) << '\n';
       out << std::flush;
     }
 
@@ -128,7 +128,7 @@ namespace CaissonMPM
     if (!cost.failure.empty())
       origins.add_warning(cost.failure);
     print_warnings(origins, out);
-    out << command_line.parameter_file << " is valid\n"
+    out << printable(command_line.parameter_file) << " is valid\n"
         << describe(cost) << std::flush;
     return ExitStatus::success;
   }

@@ -16,16 +16,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace CaissonMPM
 {
   using namespace dealii;
-
-  namespace
-  {
-    // To repartition the mesh takes about as long as this many steps.
-    constexpr double steps_of_repartition = 30.;
-  } // namespace
 
   Simulation::Simulation(const MPI_Comm communicator)
     : ParameterAcceptor("/")
@@ -209,14 +204,18 @@ namespace CaissonMPM
     recorder.add_step(on_body, reactions.prescribed.impulse);
     if (needs_force_on_body())
       force_on_body = find_force_on_body();
-    const double work_at_tip =
-      water->end_step(clock.time,
-                      clock.step_size,
-                      force_on_body,
-                      body.mean_velocity() * body.shape().direction() *
-                        clock.step_size);
+    const double travel = body.mean_velocity() * body.shape().direction() *
+                          clock.step_size,
+                 work_on_water = water->resistance_to_body() * travel,
+                 work_at_tip   = water->end_step(clock.time,
+                                               clock.step_size,
+                                               force_on_body,
+                                               travel);
     if (grid.is_first_rank())
-      work_of_step.load += work_at_tip;
+      {
+        work_of_step.load += work_at_tip;
+        work_of_step.water = work_on_water;
+      }
     energy.add(work_of_step,
                grid.circumference() * points.update_result().stress_work);
     clock.time += clock.step_size;
@@ -385,18 +384,6 @@ namespace CaissonMPM
   // ------------------------------------------------------------ the run
 
   void
-  Simulation::balance()
-  {
-    const auto costs = points.cell_costs();
-    // A part is made of whole cells: it may be impossible to do better than
-    // after the last repartition.
-    lost_steps +=
-      Intervals::balance * std::max(0., imbalance(costs) - least_imbalance);
-    if (lost_steps > steps_of_repartition)
-      repartition(costs);
-  }
-
-  void
   Simulation::output()
   {
     SectionTimer::Scope scope(timer, timer.section("output"));
@@ -451,27 +438,26 @@ namespace CaissonMPM
     if (!needs_force_on_body()) // but a run that continues this one may
       force_on_body = find_force_on_body();
     totals.bring_to_first_rank(grid.communicator());
-    NamedNumbers state = totals.state();
+    const auto   warnings = recorder.prepare_checkpoint();
+    NamedNumbers state = totals.state(), seconds = timer.state();
     state.emplace_back("mesh_uplift", lines.total_uplift());
     state.emplace_back("mesh_travel", lines.total_travel());
+    state.insert(state.end(), seconds.begin(), seconds.end());
     write_checkpoint(recorder.output_directory(),
                      grid,
                      points,
                      gather(grid, water->fields()),
                      state,
+                     warnings,
                      physics(prm) + soil.checksums_of_libraries());
   }
 
   std::string
-  Simulation::reason_to_stop()
+  Simulation::request_of_any_rank()
   {
-    // A search for factors of the inertia would come in other steps after a
-    // restart, unless the stop waits for the step of one.
-    if (grid.n_ranks() == 1 && !time_step.has_inertia_tolerance())
-      return stop_request.reason();
-    if (clock.step % Intervals::agreement != 0)
-      return "";
-    const std::string  reason = stop_request.reason();
+    const std::string reason = stop_request.reason();
+    if (grid.n_ranks() == 1)
+      return reason;
     const unsigned int rank =
       Utilities::MPI::min(reason.empty() ? grid.n_ranks() :
                                            Utilities::MPI::this_mpi_process(
@@ -480,6 +466,25 @@ namespace CaissonMPM
     return rank == grid.n_ranks() ?
              "" :
              Utilities::MPI::broadcast(grid.communicator(), reason, rank);
+  }
+
+  std::string
+  Simulation::reason_to_stop()
+  {
+    // A search for factors of the inertia would come in other steps after a
+    // restart, unless the stop waits for the step of one.
+    if ((grid.n_ranks() > 1 || time_step.has_inertia_tolerance()) &&
+        clock.step % Intervals::agreement != 0)
+      return "";
+    const std::string reason = request_of_any_rank();
+    if (reason.empty() || rebuild_is_due() ||
+        Utilities::MPI::max(stop_request.seconds_since(), grid.communicator()) >
+          Intervals::longest_wait)
+      return reason;
+    if (!std::exchange(is_stopping, true))
+      recorder.message(reason + ": the run stops within " +
+                       to_text(Intervals::longest_wait) + " s");
+    return "";
   }
 
   ExitStatus
@@ -546,6 +551,7 @@ namespace CaissonMPM
       recorder.resume(overwrites);
     else
       recorder.start(overwrites);
+    last_checkpoint = recorder.seconds_running();
     if (is_restart && schedule.is_finished())
       return nothing_left();
     recorder.print_header(input);

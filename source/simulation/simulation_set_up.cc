@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// From the parameters of a scene, or a checkpoint, to the first step.
+// From the parameters of a scene, or a checkpoint, to the first step; and the
+// parts of the ranks.
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/fingerprint.h>
+#include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/kernels/dispatch.h>
 #include <caisson_mpm/restart/checkpoint.h>
@@ -33,6 +35,7 @@ namespace CaissonMPM
     points.register_totals(totals);
     energy.register_totals(totals);
     schedule.register_totals(totals);
+    time_step.register_totals(totals);
     recorder.register_totals(totals);
   }
 
@@ -97,6 +100,7 @@ namespace CaissonMPM
                      "strained with the volume change that the pressure sees. "
                      "Set it to true.");
     schedule.check_parameters();
+    stop_request.check_parameters();
     if (Kernels::select_kernels(instruction_set.c_str()) == nullptr)
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");
@@ -414,6 +418,20 @@ namespace CaissonMPM
   }
 
   void
+  Simulation::balance()
+  {
+    const auto costs = points.cell_costs();
+    // To repartition the mesh takes about as long as this many steps.
+    constexpr double steps_of_repartition = 30.;
+    // A part is made of whole cells: it may be impossible to do better than
+    // after the last repartition.
+    lost_steps +=
+      Intervals::balance * std::max(0., imbalance(costs) - least_imbalance);
+    if (lost_steps > steps_of_repartition)
+      repartition(costs);
+  }
+
+  void
   Simulation::repartition(const std::vector<unsigned int> &costs)
   {
     std::vector<unsigned int> of_all_cells(costs.size());
@@ -451,6 +469,8 @@ namespace CaissonMPM
       throw BadInput("the checkpoint in " + recorder.output_directory() +
                      " lacks the entry " + missing +
                      ". Start the run again in another directory.");
+    timer.resume(state);
+    recorder.remember(checkpoint.warnings());
     grid.move_to(body.motion().travel());
     scatter(grid, checkpoint.read_fields(grid.communicator()), water->fields());
     if (grid.n_ranks() > 1)

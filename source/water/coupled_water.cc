@@ -73,6 +73,7 @@ namespace CaissonMPM
     traits_.follows_soil = true;
     traits_.least_points = 4;
     projection.register_totals(scene.totals);
+    extremes.register_totals(scene.totals);
     scene.totals.keep("water_unbalanced", unbalanced);
     scene.totals.keep("water_through_surfaces", through_surfaces);
     scene.forces.add(std::make_unique<CoupledPressureForce>(*this));

@@ -39,6 +39,9 @@ namespace CaissonMPM
     totals.keep("volume_at_start", volume_at_start);
     totals.carry("plug_height_at_start", plug_height);
     totals.carry("plug_has_started", has_started);
+    totals.keep("has_warned_of_piping", has_warned_of_piping);
+    totals.keep("has_warned_of_cavity", has_warned_of_cavity);
+    totals.keep("has_warned_of_lift", has_warned_of_lift);
   }
 
   void

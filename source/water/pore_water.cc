@@ -23,7 +23,9 @@ namespace CaissonMPM
 
   PoreWater::PoreWater(const WaterScene &scene)
     : scene(scene)
-  {}
+  {
+    scene.totals.keep("has_warned_of_open_lid", has_warned_of_open_lid);
+  }
 
   void
   PoreWater::name_unused_entries(ParameterOrigins &origins) const

@@ -29,6 +29,7 @@ namespace CaissonMPM
     traits_.resists_body        = true;
     traits_.bulk_modulus        = scene.settings.undrained.bulk_modulus;
     scene.totals.keep("water_time", time);
+    extremes.register_totals(scene.totals);
   }
 
   void

@@ -3,6 +3,7 @@
 // The parameter file, included files and --set, with every message that they
 // can give.
 #include <caisson_mpm/base/stop_request.h>
+#include <caisson_mpm/base/text.h>
 
 #include <filesystem>
 #include <fstream>
@@ -189,7 +190,7 @@ test_bad_overrides()
     std::string all;
     for (const std::string &text : overrides)
       all += "--set \"" + text + "\" ";
-    print_error(all, [&]() {
+    print_error(printable(all), [&]() {
       read_parameters(ParameterAcceptor::prm, "", overrides);
     });
   };
@@ -200,6 +201,13 @@ test_bad_overrides()
   read({"Soil/Friction angle=steep"});
   read({"Grid/Fine zone=2"});
   read({"Soil/Model=Tresca", "Soil/Model=elastic"});
+  read({"Run control/Stop file=a\x1b[31m"});
+  read({"Run control/Stop file=a\xc2\x9b"
+        "31m"});
+  read({"Run control/Stop file=in\nthree\t\r\nwords"});
+  ParameterAcceptor::prm.enter_subsection("Run control");
+  std::cout << '"' << ParameterAcceptor::prm.get("Stop file") << "\"\n";
+  ParameterAcceptor::prm.leave_subsection();
 }
 
 

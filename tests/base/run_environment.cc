@@ -55,15 +55,38 @@ test_numbers()
 
 
 
+/** What comes from files and from the command line. */
+void
+test_foreign_text()
+{
+  title("text from outside");
+  for (const std::string text : {"\x1b[31mred\n\x7f\tlast",
+                                 "Gr\xc3\xb6\xc3\x9f"
+                                 "e \xc2\x9b"
+                                 "31m"})
+    std::cout << printable(text) << '\n';
+  for (const std::string text : {"Gr\xf6\xdf"
+                                 "e",
+                                 "Gr\xc3\xb6\xc3\x9f"
+                                 "e",
+                                 "\xc3"})
+    std::cout << as_utf8(text) << '\n';
+}
+
+
+
 /** What an earlier run left in mesh/results is kept. */
 void
 test_put_aside()
 {
   print_error("put aside", [&]() {
     const OutputDirectory directory("mesh/results", MPI_COMM_WORLD);
-    for (const std::string rows : {"", "0\n", "0\n1\n", "0\n1\n2\n"})
+    for (const std::string rows : {"", "0\n", "0\n1\n", "0\n1\n2\n", "0\n"})
       {
         std::ofstream("mesh/results/history.csv") << "time_s\n" << rows;
+        // the last one has a frame that no run begins with
+        if (std::filesystem::exists("mesh/results/earlier_2"))
+          std::ofstream("mesh/results/points_0009.vtu") << "";
         std::ofstream("mesh/results/report.html") << "drawn";
         std::cout << '"' << directory.put_aside(MPI_COMM_WORLD) << "\" ";
       }
@@ -74,6 +97,7 @@ test_put_aside()
   });
   std::filesystem::remove_all("mesh/results/earlier_1");
   std::filesystem::remove_all("mesh/results/earlier_2");
+  std::filesystem::remove_all("mesh/results/earlier_3");
 }
 
 
@@ -98,6 +122,7 @@ test_output_directory()
                                  "checkpoint.info",
                                  "run.json",
                                  "forces.png",
+                                 "run.json.of_rank_1",
                                  "my_points_0001.vtu",
                                  "history.csv.bak"})
     std::ofstream("mesh/results/" + name) << name;
@@ -105,18 +130,21 @@ test_output_directory()
   test_put_aside();
   print_error("in use", [&]() {
     const OutputDirectory directory("mesh/results", MPI_COMM_WORLD);
-    try
-      {
-        use("mesh/results");
-      }
-    catch (const BadInput &error)
-      {
-        // without the names of process and host
-        const std::string text = error.what();
-        const auto        name = text.find(", process ");
-        std::cout << text.substr(0, name) << " ..."
-                  << text.substr(text.find(". Choose")) << '\n';
-      }
+    for (const bool has_file : {true, false})
+      try
+        {
+          if (!has_file) // the user has removed it
+            std::filesystem::remove("mesh/results/.lock");
+          use("mesh/results");
+        }
+      catch (const BadInput &error)
+        {
+          // without the names of process and host
+          const std::string text = error.what();
+          const auto name = text.find(has_file ? ", process " : ". Choose");
+          std::cout << text.substr(0, name) << (has_file ? " ..." : "")
+                    << text.substr(text.find(". Choose")) << '\n';
+        }
   });
   std::ofstream("mesh/results/.lock") << "process 1 on a host of old";
   print_error("a lock that was left", [&]() { use("mesh/results"); });
@@ -150,6 +178,7 @@ test_stop_request()
       StopRequest request;
       request.arm("results");
       std::raise(SIGPIPE);
+      std::raise(SIGXFSZ);
       ask(request);
       std::raise(signal);
       ask(request);
@@ -191,6 +220,23 @@ test_stop_request()
 
 
 void
+test_stop_file()
+{
+  for (const std::string name : {"", "halt", "history.csv", "../notes"})
+    {
+      ParameterAcceptor::clear();
+      StopRequest request;
+      read_parameters(ParameterAcceptor::prm,
+                      "",
+                      {"Run control/Stop file=" + name});
+      ParameterAcceptor::parse_all_parameters();
+      print_error('"' + name + '"', [&]() { request.check_parameters(); });
+    }
+}
+
+
+
+void
 test_timing()
 {
   title("timing");
@@ -203,8 +249,11 @@ test_timing()
       std::this_thread::sleep_for(std::chrono::milliseconds(4));
     }
   std::cout << stress << transfer << timer.section("stress") << '\n';
+  timer.resume({{"time", 1e6}, {"seconds_of_points_to_grid", 1e5}});
   for (const auto &[name, seconds] : timer.seconds())
     std::cout << name << ' ' << (seconds >= 0.012) << (seconds < 1e4) << '\n';
+  for (const auto &[name, seconds] : timer.state())
+    std::cout << name << ' ' << (seconds >= 1e5 + 0.012) << '\n';
   std::cout << (peak_memory_bytes() > 1e6) << (peak_memory_bytes() < 1e12)
             << '\n';
 }
@@ -240,7 +289,7 @@ test_console()
       console.record(body);
       console.record(column);
       console.message("checkpoint written");
-      console.warning("two points left their cell by more than a cell");
+      console.warning("two points left their \x1b[31mcell by more than a cell");
       console.failure("1 of 2 checks failed");
       console.table("Wall time",
                     {{"points to grid", 12.3456, 61.2}, {"contact", 0.1, 0.5}});
@@ -275,8 +324,10 @@ main(int argc, char *argv[])
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   test_expressions();
   test_numbers();
+  test_foreign_text();
   test_output_directory();
   test_stop_request();
+  test_stop_file();
   test_timing();
   test_console();
   test_single_process();

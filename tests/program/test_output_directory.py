@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The output directory, and how a run ends that is not asked to."""
+import resource
 import signal
 import subprocess
 import time
 import unittest
 
 from program import (
+    ALONE,
     BAD_INPUT,
     FAILURE,
     STOPPED,
@@ -110,6 +112,22 @@ class Failures(ProgramTest):
             self.assertEqual(found["ranks"], ranks)
             self.assertGreater(found["scene"]["diameter_m"], 0)
             self.assertEqual(list(path.glob("run.json?*")), [])
+
+    def test_limit_of_file_size(self) -> None:
+        """It is met as a full disk is, and not by the end of the process."""
+        path = self.directory()
+        limit = 60 * 1024
+        done = subprocess.run(
+            self.command(scene("jack"), "--output-directory", path),
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            env=ALONE,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit,) * 2),
+        )
+        self.assertEqual(done.returncode, FAILURE, done.stdout)
+        self.assert_words(["cannot write", "File too large"], done.stdout)
+        self.assertEqual(summary(path)["status"], "failed")
 
 
 class Signals(ProgramTest):

@@ -20,7 +20,8 @@
 
 #include "saved_scene.h"
 
-const std::string parameters = "a = 1\nb = 2\n";
+const std::string              parameters = "a = 1\nb = 2\n";
+const std::vector<std::string> warnings   = {"file x y", "state", ""};
 
 std::vector<std::vector<double>>
 numbers_of(const Scene &s)
@@ -85,6 +86,7 @@ write(Scene &s, const double time)
                    s.points,
                    {},
                    {{"time", time}, {"third", 1. / 3.}, {"large", 1e300}},
+                   warnings,
                    parameters);
 }
 
@@ -98,6 +100,13 @@ check_contents(Scene &s)
   std::printf("written: %s\n", valid_file().c_str());
   write(s, .7);
   std::printf("written: %s\n", valid_file().c_str());
+  // copies of the user's, beside the one that is written
+  for (const std::string name : {"checkpoint-a.h5.bak", "checkpoint-a_copy.h5"})
+    std::ofstream(path(name)) << "kept";
+  write(s, .7);
+  write(s, .7);
+  for (const std::string name : {"checkpoint-a.h5.bak", "checkpoint-a_copy.h5"})
+    std::printf("%s: %s\n", name.c_str(), read_text(path(name)).c_str());
   s.points.extract_points();
   const Checkpoint checkpoint(directory);
   checkpoint.read_points(s.grid, s.points);
@@ -111,6 +120,8 @@ check_contents(Scene &s)
                                                  {"large", 1e300}} ?
                 "yes" :
                 "no");
+  std::printf("the same warnings: %s\n",
+              checkpoint.warnings() == warnings ? "yes" : "no");
   std::printf("%s\n", read(s, "a = 1\nb = 3\n").c_str());
 }
 
@@ -181,7 +192,7 @@ check_fields(Scene &s)
   const double      large   = 1.2345678901234567e300;
   const NamedFields written = {{"pressure", {1. / 3., nan, -0., large}},
                                {"is_wet", {1., 0.}}};
-  write_checkpoint(directory, s.grid, s.points, written, {}, parameters);
+  write_checkpoint(directory, s.grid, s.points, written, {}, {}, parameters);
   const auto same = [](const NamedFields &a, const NamedFields &b) {
     bool result = a.size() == b.size();
     for (std::size_t i = 0; result && i < a.size(); ++i)

@@ -11,9 +11,12 @@ namespace CaissonMPM
   namespace Intervals
   {
     // What is kept over steps only to save time is built again, as a restart
-    // builds it, and only then a run writes checkpoints by itself: a restart
-    // then repeats it to the last bit.
+    // builds it, and only then a run writes checkpoints: a restart then repeats
+    // it to the last bit.
     constexpr unsigned int rebuild = 400;
+    // A run that is asked to stop does so earlier if that takes longer: batch
+    // systems end it some 10 s after they ask. Units: s of wall time.
+    constexpr double longest_wait = 5.;
     // Ranks agree on what each sees for itself; rarely, since that is
     // collective.
     constexpr unsigned int agreement = 20;

@@ -12,9 +12,9 @@ namespace CaissonMPM
 {
   /**
    * The output directory while a run uses it. Two runs in one directory would
-   * mix their files, so the first rank locks the file ".lock" in it, which
-   * names the run. The system drops the lock when the process ends, however it
-   * ends: a file that was left behind locks nothing.
+   * mix their files, so the first rank locks it, and the file ".lock" in it,
+   * which names the run. The system drops the locks when the process ends,
+   * however it ends: a file that was left behind locks nothing.
    *
    * Construction, check() and put_aside() are collective, the rest is not.
    */
@@ -38,10 +38,17 @@ namespace CaissonMPM
     OutputDirectory &
     operator=(const OutputDirectory &) = delete;
 
-    /**
-     * Remove the files of an earlier run: those with names that the program
-     * gives. Returns their number. For the first rank.
-     */
+    /** Whether a run writes a file of this name. What has another name is the
+     * user's, and stays. */
+    static bool
+    is_result(const std::string &name);
+
+    /** Remove a file that a run writes. Returns whether it was there. */
+    static bool
+    remove(const std::string &path);
+
+    /** Remove the files of an earlier run. Returns their number. For the first
+     * rank. */
     unsigned int
     clear() const;
 
@@ -78,7 +85,7 @@ namespace CaissonMPM
     lock();
 
     const std::string path_;
-    int               lock_file = -1;
+    int               directory = -1, lock_file = -1; // open, and locked
   };
 } // namespace CaissonMPM
 

@@ -26,6 +26,13 @@ namespace CaissonMPM
     std::string
     quote(const std::string &text);
 
+    /** Return the value of an entry in one line: line feeds and tabs become
+     * blanks. Throws BadInput for other control characters. */
+    std::string
+    in_one_line(const std::string &value,
+                const std::string &path,
+                const std::string &place);
+
     /** Make plain spaces of no-break spaces (UTF-8), which text that was copied
      * from a document has. */
     std::string

@@ -20,7 +20,8 @@ namespace CaissonMPM
    *
    * From arm() to the destructor SIGINT, SIGTERM, SIGHUP (the terminal is
    * closed), SIGUSR1, SIGUSR2 and SIGXCPU (a batch system announces its limit)
-   * are caught; a second SIGINT ends the program at once. SIGPIPE is ignored.
+   * are caught; a second SIGINT ends the program at once. SIGPIPE and SIGXFSZ
+   * are ignored: writing then returns an error, as on a full disk.
    * The wall time is counted from the construction of the object, so construct
    * it early. Only one object may be armed at a time.
    *
@@ -40,7 +41,7 @@ namespace CaissonMPM
   class StopRequest : public dealii::ParameterAcceptor
   {
   public:
-    using Signals = std::array<int, 7>;
+    using Signals = std::array<int, 9>;
 
     StopRequest();
 
@@ -50,6 +51,11 @@ namespace CaissonMPM
 
     /** Restores the signal handlers that were found by arm(). */
     ~StopRequest() override;
+
+    /** Throws BadInput for a stop file that is more than a name in the output
+     * directory, or a result there: the run would remove it. */
+    void
+    check_parameters() const;
 
     /**
      * Catch signals from now on, and look for the stop file in this
@@ -66,6 +72,12 @@ namespace CaissonMPM
     std::string
     reason();
 
+    /** How long ago the first reason was found; 0 if there is none, and
+     * infinite for a signal to a process of mpirun, which ends it soon. Units:
+     * s. */
+    double
+    seconds_since() const;
+
   private:
     using Clock = std::chrono::steady_clock;
 
@@ -80,12 +92,11 @@ namespace CaissonMPM
     std::string           stop_file = "stop";
 
     const Clock::time_point start_time;
-    Clock::time_point       next_look;
+    Clock::time_point       next_look, found_at;
     std::string             stop_file_path;
     std::string             found_reason;
     bool                    is_armed = false;
     struct sigaction        previous_actions[std::tuple_size<Signals>::value];
-    struct sigaction        previous_pipe_action;
   };
 } // namespace CaissonMPM
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The only way in which the program turns numbers into text for its user.
+// The only way in which the program turns numbers into text for its user, and
+// what it does to text that comes from outside.
 #ifndef caisson_mpm_base_text_h
 #define caisson_mpm_base_text_h
 
@@ -30,6 +31,21 @@ namespace CaissonMPM
   /** Write a share as a percentage: 0.0123 becomes "1.2 %". */
   std::string
   percent(const double share, const int significant_digits);
+
+  /** Return whether the character at this place is one that controls a
+   * terminal, in ASCII or, of two bytes, in UTF-8. Line feeds and tabs count.
+   */
+  bool
+  is_control(const std::string &text, const std::size_t place);
+
+  /** Write a text for the terminal: what would control it becomes "?", but for
+   * line feeds. */
+  std::string
+  printable(const std::string &text);
+
+  /** Return the text in UTF-8: if it is not, it is taken for Latin-1. */
+  std::string
+  as_utf8(const std::string &text);
 
   /** Write a whole number with all its digits. */
   template <typename Integer>

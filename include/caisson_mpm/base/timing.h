@@ -4,6 +4,8 @@
 #ifndef caisson_mpm_base_timing_h
 #define caisson_mpm_base_timing_h
 
+#include <caisson_mpm/base/named_numbers.h>
+
 #include <chrono>
 #include <string>
 #include <utility>
@@ -60,8 +62,16 @@ namespace CaissonMPM
     section(const std::string &name);
 
     /** Name and seconds of each section, in the order of their first use. */
-    std::vector<std::pair<std::string, double>>
+    NamedNumbers
     seconds() const;
+
+    /** The seconds, with names for a checkpoint. */
+    NamedNumbers
+    state() const;
+
+    /** Add those of an earlier process, which are among other numbers. */
+    void
+    resume(const NamedNumbers &state);
 
   private:
     std::vector<std::pair<std::string, std::chrono::steady_clock::duration>>

@@ -67,7 +67,8 @@ namespace CaissonMPM
     settle();
 
     /** Forget what is kept of the cells from step to step: it is summed from
-     * the points again, in their order. */
+     * the points again, in their order, and the padding of blocks repeats
+     * them. */
     void
     rebuild_sums();
 

@@ -77,6 +77,7 @@ namespace CaissonMPM
     entries() const;
 
     double work_of_body  = 0.; // on the soil, prescribed nodes included
+    double work_on_water = 0.; // of the body; not a part of the balance
     double gravity_work  = 0.;
     double load_work     = 0.; // of the nodal forces of section Loads
     double kinetic_gain  = 0.;

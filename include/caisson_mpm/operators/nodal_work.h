@@ -24,6 +24,7 @@ namespace CaissonMPM
     double forces     = 0.; // of all forces on the nodes, before damping
     double load       = 0.; // of the nodal forces, contained in forces
     double body       = 0.; // of the rigid body on the soil
+    double water      = 0.; // and on the water that resists it
     double prescribed = 0.; // of the nodes with a prescribed velocity
     double friction   = 0.; // heat at the body's surface
     double damping    = 0.; // taken by local damping

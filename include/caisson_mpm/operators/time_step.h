@@ -19,6 +19,7 @@
 #define caisson_mpm_operators_time_step_h
 
 #include <caisson_mpm/base/intervals.h>
+#include <caisson_mpm/base/run_totals.h>
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/kernels/kernel_table.h>
@@ -27,6 +28,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -64,12 +66,18 @@ namespace CaissonMPM
       return inertia_at_tip_;
     }
 
-    /** The least and the largest scaling of the smallest cells since this
-     * process began. */
+    /** The least and the largest scaling of the smallest cells in the run. */
     std::pair<double, double>
     range_of_inertia() const
     {
-      return {least_inertia, largest_inertia};
+      return {std::max(1., least_inertia), largest_inertia};
+    }
+
+    void
+    register_totals(RunTotals &totals)
+    {
+      totals.keep("least_inertia", least_inertia);
+      totals.keep("largest_inertia", largest_inertia);
     }
 
     /** The factor of the inertia in each cell of this rank [n_cells], or null
@@ -191,7 +199,7 @@ namespace CaissonMPM
     std::string             limiting_cell;
     std::function<double()> stress_over_inertia_at_tip;
     double                  inertia_at_tip_ = 1.;
-    double                  least_inertia   = 1.;
+    double                  least_inertia   = 0.; // 0: not yet found
     double                  largest_inertia = 1.;
     std::vector<double>     inertia_;
   };

@@ -24,18 +24,20 @@ namespace CaissonMPM
   /**
    * Write the points, @p fields of the grid, and @p state, whatever else the run
    * must know: values of all ranks, of which the first one's are written. @p
+   * warnings is what the run has said, one line each. @p
    * fingerprint is the text of all parameters that must be the same when the
    * run is resumed, one per line. Throws RunFailure where there is no room or
    * the file is not as it should be; the previous checkpoint is still valid
    * then. Collective.
    */
   void
-  write_checkpoint(const std::string    &directory,
-                   const BackgroundGrid &grid,
-                   const MaterialPoints &points,
-                   const NamedFields    &fields,
-                   const NamedNumbers   &state,
-                   const std::string    &fingerprint);
+  write_checkpoint(const std::string              &directory,
+                   const BackgroundGrid           &grid,
+                   const MaterialPoints           &points,
+                   const NamedFields              &fields,
+                   const NamedNumbers             &state,
+                   const std::vector<std::string> &warnings,
+                   const std::string              &fingerprint);
 
   /** A checkpoint in a directory, which is only read. */
   class Checkpoint
@@ -54,6 +56,13 @@ namespace CaissonMPM
     state() const
     {
       return state_;
+    }
+
+    /** Return the warnings that were written. */
+    const std::vector<std::string> &
+    warnings() const
+    {
+      return warnings_;
     }
 
     /** Return the fingerprint that it was written with. */
@@ -87,12 +96,13 @@ namespace CaissonMPM
     using FieldSum = std::pair<std::string, std::string>;
 
   private:
-    std::string           directory, file;
-    unsigned long         n_points = 0;
-    std::uint64_t         checksum = 0; // of the points
-    std::vector<FieldSum> fields;
-    NamedNumbers          state_;
-    std::string           fingerprint_;
+    std::string              directory, file;
+    unsigned long            n_points = 0;
+    std::uint64_t            checksum = 0; // of the points
+    std::vector<FieldSum>    fields;
+    NamedNumbers             state_;
+    std::vector<std::string> warnings_;
+    std::string              fingerprint_;
   };
 } // namespace CaissonMPM
 

@@ -172,9 +172,21 @@ namespace CaissonMPM
       return directory;
     }
 
-    /** Wall time since describe(). Units: s. */
+    /** Wall time of the run, that before a restart included. Units: s. */
     double
     seconds_running() const;
+
+    /** Return what the run has said of its results, for a checkpoint, and take
+     * the time. */
+    std::vector<std::string>
+    prepare_checkpoint();
+
+    /** Let print_header() repeat the @p warnings of a checkpoint. */
+    void
+    remember(const std::vector<std::string> &warnings)
+    {
+      earlier_warnings = warnings;
+    }
 
     /** How often the parts of the ranks have been changed. */
     unsigned int n_repartitions = 0;
@@ -271,6 +283,7 @@ namespace CaissonMPM
     std::string                      scene, command, fingerprint, installation;
     std::string                      wrong_error_bar_;
     std::vector<std::string>         assumed; // entries
+    std::vector<std::string>         earlier_warnings;
     std::function<double()>          steps_left;
     const Kernels::KernelTable      *kernels = nullptr;
     std::chrono::steady_clock::time_point start_time;
@@ -289,8 +302,11 @@ namespace CaissonMPM
     std::array<double, n_surfaces> recorded_forces         = {};
     double                         recorded_force_of_water = 0.;
 
+    double point_steps = 0.; // of this rank
+    double wall_time   = 0.; // at the last checkpoint, s
+
     // since the start of this process
-    double        point_steps       = 0.; // of this rank
+    double        seconds_at_start  = 0.;
     double        fraction_at_start = 0.;
     double        fraction_printed  = 0.;
     unsigned long first_step        = 0;
@@ -307,9 +323,10 @@ namespace CaissonMPM
     unsigned int max_in_body       = 0;
     bool         at_lid            = false;
     bool         has_reported_rest = false;
-    // of the last record of this process, if it had a lid: m, Pa
-    std::optional<std::pair<double, double>> last_depth_and_suction;
-    bool                                     has_reported_suction = false;
+    // of the last record, if it had a lid: m, Pa
+    double last_depth           = 0.;
+    double last_suction         = 1.;
+    bool   has_reported_suction = false;
   };
 } // namespace CaissonMPM
 

@@ -24,8 +24,8 @@ namespace CaissonMPM
     std::string          installation; // directory of the run before, or empty
     std::string          kernels;
     unsigned int         n_repartitions = 0;
-    unsigned int         max_in_body    = 0;  // points at any record
-    unsigned long        n_steps        = 0;  // of this process
+    unsigned int         max_in_body    = 0; // points at any record
+    unsigned long        n_steps        = 0;
     double               point_steps    = 0.; // of all ranks
     double               wall_time      = 0.; // s
     std::vector<Warning> warnings;            // of the input and of the run

@@ -241,6 +241,11 @@ namespace CaissonMPM
     checkpoint_is_due();
     void
     save_checkpoint();
+    /** Why a rank has been asked to stop, or an empty text. Collective. */
+    std::string
+    request_of_any_rank();
+    /** The same once it is time to: if that is soon, before a step in which the
+     * caches are rebuilt, so that a run that is resumed repeats them. */
     std::string
     reason_to_stop();
     ExitStatus
@@ -271,7 +276,7 @@ namespace CaissonMPM
 
     // state
     bool                           is_restart = false;
-    bool                           overwrites = false;
+    bool                           overwrites = false, is_stopping = false;
     Clock                          clock;
     MaterialPoints                 points;
     std::vector<BodyPoint>         body_points;

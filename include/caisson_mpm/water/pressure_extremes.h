@@ -5,7 +5,7 @@
 #ifndef caisson_mpm_water_pressure_extremes_h
 #define caisson_mpm_water_pressure_extremes_h
 
-#include <caisson_mpm/base/named_numbers.h>
+#include <caisson_mpm/base/run_totals.h>
 #include <caisson_mpm/domain/cell_geometry.h>
 
 #include <mpi.h>
@@ -37,6 +37,13 @@ namespace CaissonMPM
     /** The same in the middle of a cell. */
     void
     include_in(const double pressure, const Kernels::CellGeometry &cell);
+
+    /** Let a restart know what has been warned of. */
+    void
+    register_totals(RunTotals &totals)
+    {
+      totals.keep("has_warned_of_cavitation", has_warned);
+    }
 
     /** Take the extremes of all ranks. Collective. */
     void
