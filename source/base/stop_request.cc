@@ -6,7 +6,9 @@
 
 #include <deal.II/base/patterns.h>
 
+#include <atomic>
 #include <filesystem>
+#include <limits>
 
 namespace CaissonMPM
 {
@@ -14,6 +16,15 @@ namespace CaissonMPM
   {
     // A signal handler can reach nothing but a global variable.
     volatile std::sig_atomic_t received_signal = 0;
+
+    // of the last object that has read its entries, by the steady clock
+    std::atomic<double> end_of_wall_time = std::numeric_limits<double>::max();
+
+    double
+    seconds(const std::chrono::steady_clock::time_point time)
+    {
+      return std::chrono::duration<double>(time.time_since_epoch()).count();
+    }
 
     extern "C" void
     remember_signal(const int signal)
@@ -68,6 +79,10 @@ namespace CaissonMPM
                   "with an empty name there is no such file. Units: none.",
                   prm,
                   dealii::Patterns::Anything());
+    parse_parameters_call_back.connect([this]() {
+      if (wall_time_limit)
+        end_of_wall_time = seconds(start_time) + *wall_time_limit;
+    });
   }
 
   StopRequest::~StopRequest()
@@ -116,6 +131,12 @@ namespace CaissonMPM
     return found_reason;
   }
 
+  bool
+  StopRequest::is_due()
+  {
+    return received_signal != 0 || seconds(Clock::now()) >= end_of_wall_time;
+  }
+
   std::string
   StopRequest::find_reason()
   {
@@ -123,9 +144,7 @@ namespace CaissonMPM
       return name_of_signal(received_signal) + " received";
 
     const Clock::time_point now = Clock::now();
-    if (wall_time_limit &&
-        std::chrono::duration<double>(now - start_time).count() >=
-          *wall_time_limit)
+    if (wall_time_limit && is_due())
       return "wall time limit of " + to_text(*wall_time_limit) + " s reached";
 
     if (is_armed && now >= next_look)

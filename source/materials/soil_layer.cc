@@ -264,6 +264,10 @@ namespace CaissonMPM
       }
     if (law != Kernels::UserMaterial::name)
       for (const char *const name : {"Library",
+                                     "Routine",
+                                     "Material name",
+                                     "Stress components",
+                                     "Unit of stress",
                                      "Properties",
                                      "State variables",
                                      "State at the start",

@@ -25,6 +25,33 @@ namespace CaissonMPM
       "The shared library of a user material, a UMAT of Abaqus, has "
       "this path, relative to the file that sets this entry (with --set, to "
       "the scene's file). Units: none.");
+    add_parameter("Routine",
+                  umat_settings.routine,
+                  "The name of the UMAT in its library; MODULE::NAME is a "
+                  "routine in a module of gfortran. Units: none.",
+                  prm,
+                  Patterns::Anything());
+    add_parameter("Material name",
+                  umat_settings.name,
+                  "A user material gets this name as CMNAME, in capitals; "
+                  "without it that of its section, as SOIL-LAYER-1. Units: "
+                  "none.",
+                  prm,
+                  Patterns::Anything());
+    add_choice(*this,
+               "Stress components",
+               umat_settings.n_components,
+               {{"4", 4U}, {"6", 6U}},
+               "A user material works on so many components (NTENS): 4 are "
+               "11, 22, 33, 12, and 6 also 13, 23, which are 0, for a UMAT of "
+               "three dimensions. Units: none.");
+    add_choice(*this,
+               "Unit of stress",
+               umat_settings.unit,
+               {{"Pa", 1.}, {"kPa", 1e3}, {"MPa", 1e6}},
+               "A user material computes STRESS and DDSDDE in this unit. The "
+               "program converts these two only, and not the Properties. "
+               "Units: none.");
     add_entry(*this,
               "Properties",
               "",
@@ -42,7 +69,8 @@ namespace CaissonMPM
     add_parameter("State at the start",
                   umat_settings.variables,
                   "The first STATEV have these values at the start, and the "
-                  "others 0. Units: those of the library.",
+                  "others 0; a subroutine SDVINI in the library may change "
+                  "them for each point. Units: those of the library.",
                   prm,
                   Patterns::List(Patterns::Double(), 0, 1000));
     add_choice(*this,
@@ -82,6 +110,11 @@ namespace CaissonMPM
                          " is no list of numbers. Write numbers with commas "
                          "between them, or none.");
         }
+    if (umat_settings.name.size() > UmatArgument::length_of_cmname)
+      throw BadInput(section() + "/Material name = " + umat_settings.name +
+                     " has more than " +
+                     to_text(UmatArgument::length_of_cmname) +
+                     " characters. Shorten it.");
     const std::size_t n = umat_settings.variables.size();
     if (n > umat_settings.n_variables)
       throw BadInput(
