@@ -28,7 +28,7 @@ ELASTIC_BODY = """
       STRESS=STRESS+MATMUL(DDSDDE,DSTRAN)
 """
 # subroutines as people have them: fixed form with long lines, and their entries
-ROUTINES = {
+ROUTINES: dict[str, tuple[str, str, Entries]] = {
     "turns": (
         "STRESS=-STRESS; DSTRAN=-DSTRAN; STRAN=-STRAN",
         "STRESS=-STRESS; DSTRAN=-DSTRAN",
@@ -115,7 +115,7 @@ class LawsOfOthers(UserMaterialTest):
 
     def test_same_stress(self) -> None:
         """The stress is that of the elastic law of the program."""
-        own = {**self.entries("named"), f"{LAYER}/Law": "linear elastic"}
+        own: Entries = {**self.entries("named"), f"{LAYER}/Law": "linear elastic"}
         own.update({f"{LAYER}/Youngs modulus": 5e6, f"{LAYER}/Poisson ratio": 0.3})
         path = self.directory("own")
         self.run_scene("patch_stretching", path, entries=own)
