@@ -16,6 +16,45 @@ namespace CaissonMPM
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** The entries that say how the UMAT wants to be called. */
+    void
+    declare_kind_of_umat(ParameterAcceptor &owner, UmatSettings &umat)
+    {
+      owner.add_parameter(
+        "Routine",
+        umat.routine,
+        "The name of the UMAT in its library; MODULE::NAME is a "
+        "routine in a module of gfortran. Units: none.",
+        ParameterAcceptor::prm,
+        Patterns::Anything());
+      owner.add_parameter(
+        "Material name",
+        umat.name,
+        "A user material gets this name as CMNAME, in capitals; "
+        "without it that of its section, as SOIL-LAYER-1. Units: "
+        "none.",
+        ParameterAcceptor::prm,
+        Patterns::Anything());
+      add_choice(
+        owner,
+        "Stress components",
+        umat.n_components,
+        {{"4", 4U}, {"6", 6U}},
+        "A user material works on so many components (NTENS): 4 are "
+        "11, 22, 33, 12, and 6 also 13, 23, which are 0, for a UMAT of "
+        "three dimensions. Units: none.");
+      add_choice(owner,
+                 "Unit of stress",
+                 umat.unit,
+                 {{"Pa", 1.}, {"kPa", 1e3}, {"MPa", 1e6}},
+                 "A user material computes STRESS and DDSDDE in this unit. The "
+                 "program converts these two only, and not the Properties. "
+                 "Units: none.");
+    }
+  } // namespace
+
   void
   SoilLayer::declare_user_material()
   {
@@ -25,33 +64,7 @@ namespace CaissonMPM
       "The shared library of a user material, a UMAT of Abaqus, has "
       "this path, relative to the file that sets this entry (with --set, to "
       "the scene's file). Units: none.");
-    add_parameter("Routine",
-                  umat_settings.routine,
-                  "The name of the UMAT in its library; MODULE::NAME is a "
-                  "routine in a module of gfortran. Units: none.",
-                  prm,
-                  Patterns::Anything());
-    add_parameter("Material name",
-                  umat_settings.name,
-                  "A user material gets this name as CMNAME, in capitals; "
-                  "without it that of its section, as SOIL-LAYER-1. Units: "
-                  "none.",
-                  prm,
-                  Patterns::Anything());
-    add_choice(*this,
-               "Stress components",
-               umat_settings.n_components,
-               {{"4", 4U}, {"6", 6U}},
-               "A user material works on so many components (NTENS): 4 are "
-               "11, 22, 33, 12, and 6 also 13, 23, which are 0, for a UMAT of "
-               "three dimensions. Units: none.");
-    add_choice(*this,
-               "Unit of stress",
-               umat_settings.unit,
-               {{"Pa", 1.}, {"kPa", 1e3}, {"MPa", 1e6}},
-               "A user material computes STRESS and DDSDDE in this unit. The "
-               "program converts these two only, and not the Properties. "
-               "Units: none.");
+    declare_kind_of_umat(*this, umat_settings);
     add_entry(*this,
               "Properties",
               "",
