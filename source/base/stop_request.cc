@@ -144,7 +144,8 @@ namespace CaissonMPM
       return name_of_signal(received_signal) + " received";
 
     const Clock::time_point now = Clock::now();
-    if (wall_time_limit && is_due())
+    if (wall_time_limit &&
+        seconds(now) - seconds(start_time) >= *wall_time_limit)
       return "wall time limit of " + to_text(*wall_time_limit) + " s reached";
 
     if (is_armed && now >= next_look)
