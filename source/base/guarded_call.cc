@@ -142,14 +142,9 @@ namespace CaissonMPM
         return;
       process = getpid();
       std::fegetenv(&arithmetic);
-      control     = control_of_arithmetic();
-      int has_mpi = 0;
-      MPI_Initialized(&has_mpi);
-      if (has_mpi)
-        {
-          MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-          MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
-        }
+      control = control_of_arithmetic();
+      rank    = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+      n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
       static char room[65536];
       stack_t     stack = {};
       stack.ss_sp       = room;

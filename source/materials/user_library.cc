@@ -20,27 +20,18 @@ namespace CaissonMPM
   namespace
   {
     /** The code that a library runs while it is loaded. */
-    class LoadedCode : public ForeignCode
+    struct LoadedCode : ForeignCode
     {
-    public:
-      explicit LoadedCode(const std::string &entry)
-        : entry(entry)
-      {}
+      const char *entry;
 
       void
       describe(const char       *what,
                char             *text,
                const std::size_t size) const override
       {
-        std::snprintf(text,
-                      size,
-                      "%s: while it is loaded, the library %s.",
-                      entry.c_str(),
-                      what);
+        std::snprintf(
+          text, size, "%s: while it is loaded, the library %s.", entry, what);
       }
-
-    private:
-      const std::string &entry;
     };
 
     std::string
@@ -64,8 +55,9 @@ namespace CaissonMPM
                           ", but something else of this name. " :
                           ". The path is relative to the file that sets it. ") +
                        "Correct it, or compile the library: " + compile + ".");
-      void             *handle = nullptr;
-      const LoadedCode  code(entry);
+      void      *handle = nullptr;
+      LoadedCode code;
+      code.entry              = entry.c_str();
       const std::string fault = guarded_call(code, [&]() {
         handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
       });
