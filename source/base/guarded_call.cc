@@ -1,141 +1,231 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/guarded_call.h>
-#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/base/stop_request.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <unistd.h>
+#include <boost/core/demangle.hpp>
 
-#include <array>
-#include <csetjmp>
+#include <sys/syscall.h>
+#include <unistd.h>
+#ifdef __SSE2__
+#  include <xmmintrin.h>
+#endif
+
+#include <atomic>
+#include <cfenv>
+#include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
-#include <utility>
+#include <thread>
+#include <typeinfo>
 
 namespace CaissonMPM
 {
   namespace
   {
-    constexpr std::array<std::pair<int, const char *>, 5> crashes = {
-      {{SIGSEGV, "SIGSEGV"},
-       {SIGBUS, "SIGBUS"},
-       {SIGFPE, "SIGFPE"},
-       {SIGILL, "SIGILL"},
-       {SIGABRT, "SIGABRT"}}};
+    constexpr std::size_t most_characters = 4096;
 
-    // of the call that is running
-    volatile std::sig_atomic_t is_running = 0;
-    sigjmp_buf                 begin_of_call;
-    void                      *argument_of_call = nullptr;
-    std::string (*text_of_exit_of_call)(void *) = nullptr;
-    int status_of_exit_of_call                  = 0;
-    // of the last crash
-    void *volatile address_of_last_crash = nullptr;
+    constexpr int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
-    std::array<struct sigaction, crashes.size()> handlers_before;
+    std::atomic<const ForeignCode *> running       = nullptr;
+    std::atomic<unsigned int>        n_calls       = 0;
+    std::atomic<ExitStatus>          status_of_end = ExitStatus::bad_input;
+    std::fenv_t                      arithmetic; // of the program
+    unsigned int                     control = 0;
+    pid_t process = 0; // a child that foreign code makes is not ours
+    int   rank = 0, n_ranks = 1;
 
-    /** Only what a handler of signals may do. */
-    void
-    on_crash(const int number, siginfo_t *const information, void *)
+    /** Rounding, traps, and what becomes of the smallest numbers; this is
+     * cheap, and to set them is not. */
+    unsigned int
+    control_of_arithmetic()
     {
-      if (is_running)
-        {
-          address_of_last_crash = information->si_addr;
-          siglongjmp(begin_of_call, number);
-        }
-      // not ours: the handler before finds the same again
-      for (std::size_t i = 0; i < crashes.size(); ++i)
-        if (crashes[i].first == number)
-          sigaction(number, &handlers_before[i], nullptr);
-      if (number == SIGABRT)
-        raise(number);
+#ifdef __SSE2__
+      return _mm_getcsr() & ~_MM_EXCEPT_MASK;
+#else
+      return std::fegetround() | fegetexcept() << 16;
+#endif
+    }
+
+    [[noreturn]] void
+    quit(const int status)
+    {
+      while (true)
+        syscall(SYS_exit_group, status);
+    }
+
+    [[noreturn]] void
+    quit_at_last(int)
+    {
+      quit(static_cast<int>(status_of_end.load()));
+    }
+
+    /** Where foreign code runs, say what it has done and end the program. Also
+     * called by handlers of signals. */
+    void
+    end_if_foreign(const char *what)
+    {
+      const ForeignCode *const code = running;
+      if (code == nullptr || getpid() != process)
+        return;
+      running = nullptr;
+      // of several ranks that fail one shall say it, and end the others
+      for (unsigned int left = rank > 0 ? 3 : 0; left > 0;)
+        left = sleep(left);
+      const ExitStatus status = status_of_end;
+      char             text[most_characters];
+      code->describe(what, text, sizeof(text));
+      dprintf(STDERR_FILENO,
+              "%s: %s\n",
+              status == ExitStatus::bad_input ? "bad input" : "failure",
+              text);
+      // what else is to be done may wait for a lock that the code has taken
+      std::signal(SIGALRM, quit_at_last);
+      alarm(5);
+      std::cout.flush();
+      if (n_ranks > 1)
+        MPI_Abort(MPI_COMM_WORLD, static_cast<int>(status));
+      quit(static_cast<int>(status));
+    }
+
+    void
+    on_crash(const int number)
+    {
+      char what[200];
+      std::snprintf(what,
+                    sizeof(what),
+                    "has crashed with SIG%s (%s). Compile it with -g "
+                    "-fcheck=all to find out where",
+                    sigabbrev_np(number),
+                    sigdescr_np(number));
+      end_if_foreign(what);
+      raise(number); // the handler is the default one again
     }
 
     void
     on_exit_of_program()
     {
-      if (!is_running)
-        return;
-      is_running = 0;
-      std::cerr << "failure: " << text_of_exit_of_call(argument_of_call)
-                << std::endl;
-      int has_mpi = 0, has_ended = 0;
-      MPI_Initialized(&has_mpi);
-      MPI_Finalized(&has_ended);
-      if (has_mpi && !has_ended &&
-          dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-        MPI_Abort(MPI_COMM_WORLD, status_of_exit_of_call);
-      _exit(status_of_exit_of_call);
+      end_if_foreign("has ended the program (STOP or exit). A UMAT should call "
+                     "XIT");
     }
 
-    /** Take the signals and the end of the program; once. A stack of their own
-     * serves handlers where the other one is full. */
+    /** End the program where one call takes too long. */
     void
-    install_handlers()
+    watch()
     {
-      static bool is_installed = false;
-      if (is_installed)
+      using namespace std::chrono_literals;
+      constexpr unsigned int most = 120;
+      for (unsigned int n_looks = 0, before = 0;;)
+        {
+          std::this_thread::sleep_for(500ms);
+          const unsigned int now = n_calls;
+          n_looks = running != nullptr && now == before ? n_looks + 1 : 0;
+          before  = now;
+          if (n_looks > most)
+            end_if_foreign("has not returned for a minute");
+          if (n_looks > 1 && StopRequest::is_due())
+            end_if_foreign("does not return, and the run has been asked to "
+                           "stop by a signal or by its Wall time limit");
+        }
+    }
+
+    /** Once, before any foreign code. A stack of their own serves handlers
+     * where the other one is full. */
+    void
+    install_guards()
+    {
+      if (process != 0)
         return;
-      is_installed = true;
-      static std::array<char, 65536> room;
-      stack_t                        stack = {};
-      stack.ss_sp                          = room.data();
-      stack.ss_size                        = room.size();
+      process = getpid();
+      std::fegetenv(&arithmetic);
+      control = control_of_arithmetic();
+      rank    = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+      n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+      static char room[65536];
+      stack_t     stack = {};
+      stack.ss_sp       = room;
+      stack.ss_size     = sizeof(room);
       sigaltstack(&stack, nullptr);
       struct sigaction handler = {};
-      handler.sa_sigaction     = on_crash;
-      handler.sa_flags         = SA_ONSTACK | SA_NODEFER | SA_SIGINFO;
-      sigemptyset(&handler.sa_mask);
-      for (std::size_t i = 0; i < crashes.size(); ++i)
-        sigaction(crashes[i].first, &handler, &handlers_before[i]);
+      handler.sa_handler       = on_crash;
+      handler.sa_flags         = SA_ONSTACK | SA_NODEFER | SA_RESETHAND;
+      for (const int number : crashes)
+        sigaction(number, &handler, nullptr);
       std::atexit(on_exit_of_program);
+      std::at_quick_exit(on_exit_of_program);
+      std::thread(watch).detach();
     }
   } // namespace
 
-  EndOfCall
-  guarded_call(void (*action)(void *),
-               void *argument,
-               std::string (*text_of_exit)(void *),
-               const int status_of_exit)
+  std::string
+  ForeignCode::description(const std::string &what) const
   {
-    install_handlers();
-    argument_of_call       = argument;
-    text_of_exit_of_call   = text_of_exit;
-    status_of_exit_of_call = status_of_exit;
-    // the mask of signals does not change: SA_NODEFER
-    const int end = sigsetjmp(begin_of_call, 0);
-    if (end == 0)
-      {
-        is_running = 1;
-        action(argument);
-      }
-    is_running = 0;
-    return static_cast<EndOfCall>(end);
+    char text[most_characters];
+    describe(what.c_str(), text, sizeof(text));
+    return text;
   }
 
-  void
-  leave_guarded_call()
+  ForeignCall::ForeignCall(const ForeignCode &code)
   {
-    if (is_running)
-      siglongjmp(begin_of_call, static_cast<int>(EndOfCall::stopped));
-    std::abort();
+    install_guards();
+    n_calls.store(n_calls.load(std::memory_order_relaxed) + 1,
+                  std::memory_order_relaxed);
+    running.store(&code, std::memory_order_release);
   }
 
-  const void *
-  address_of_crash()
+  ForeignCall::~ForeignCall()
   {
-    return address_of_last_crash;
+    running.store(nullptr, std::memory_order_release);
+    if (control_of_arithmetic() != control)
+      std::fesetenv(&arithmetic);
   }
 
   std::string
-  name_of_signal(const EndOfCall end)
+  text_of_exception()
   {
-    const int number = static_cast<int>(end);
-    for (const auto &[crash, name] : crashes)
-      if (crash == number)
-        return std::string(name) + " (" + strsignal(number) + ")";
-    return "signal " + to_text(number);
+    try
+      {
+        throw;
+      }
+    catch (const EndOfAnalysis &)
+      {
+        return "has called XIT, or STDB_ABQERR with an error, as for a CMNAME "
+               "(Material name) or for Properties that it does not know";
+      }
+    catch (const std::exception &error)
+      {
+        return "has thrown the C++ exception " +
+               boost::core::demangle(typeid(error).name()) + ": " +
+               error.what();
+      }
+    catch (...)
+      {
+        return "has thrown a C++ exception that is no std::exception";
+      }
+  }
+
+  void
+  begin_run_with_foreign_code()
+  {
+    status_of_end = ExitStatus::failure;
   }
 } // namespace CaissonMPM
+
+/** A library that ends the program by _exit() or _Exit() finds this function,
+ * and not that of the C library. */
+extern "C" void
+_exit(const int status)
+{
+  CaissonMPM::end_if_foreign("has ended the program by _exit()");
+  CaissonMPM::quit(status);
+}
+
+extern "C" void
+_Exit(const int status) noexcept
+{
+  _exit(status);
+}

@@ -386,6 +386,11 @@ namespace CaissonMPM
           }
         p.state      = states[p.material];
         p.user_state = user_states[p.material];
+        if (const auto &umat = soil.material(p.material).umat)
+          umat->initialize(p.position[radial],
+                           p.position[vertical],
+                           id,
+                           p.user_state.data());
         p.volume = p.initial_volume = part.volume;
         p.mass = soil.inertial_density(p.material) * p.volume;
         p.id   = id;

@@ -275,7 +275,8 @@ namespace CaissonMPM
                     (1. + 2. * at_bottom.earth_pressure_at_rest) / 3.);
     if (m.umat)
       m.umat_stiffness = m.umat->test(
-        stress_of_element_test(m, bottom, vertical_stress(bottom, below)));
+        stress_of_element_test(m, bottom, vertical_stress(bottom, below)),
+        bottom);
     m.top_depth = top;
     if (top == 0.)
       m.added_weight = surcharge / (bottom - top);

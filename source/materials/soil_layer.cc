@@ -6,7 +6,6 @@
 #include <caisson_mpm/materials/soil_layer.h>
 
 #include <deal.II/base/patterns.h>
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -117,84 +116,6 @@ namespace CaissonMPM
     declare_internal_length();
     declare_user_material();
     declare_walls();
-  }
-
-  void
-  SoilLayer::declare_user_material()
-  {
-    add_parameter(
-      "Library",
-      umat_settings.library,
-      "The shared library of a user material, a UMAT of Abaqus, has "
-      "this path, relative to the file that sets this entry (with --set, to "
-      "the scene's file). Units: none.");
-    add_entry(*this,
-              "Properties",
-              "",
-              "The user material gets these numbers as PROPS, with commas "
-              "between them; none gives it no number. Units: those of the "
-              "library.",
-              Patterns::Anything(),
-              [this](const std::string &text) { properties_text = text; });
-    add_parameter("State variables",
-                  umat_settings.n_variables,
-                  "A user material keeps so many numbers STATEV of each "
-                  "point. Units: none.",
-                  prm,
-                  Patterns::Integer(0, 1000));
-    add_parameter("State at the start",
-                  umat_settings.variables,
-                  "The first STATEV have these values at the start, and the "
-                  "others 0. Units: those of the library.",
-                  prm,
-                  Patterns::List(Patterns::Double(), 0, 1000));
-    add_choice(*this,
-               "Volume in shear",
-               soil.volume_in_shear,
-               {{"by state", Kernels::VolumeInShear::by_state},
-                {"kept", Kernels::VolumeInShear::kept},
-                {"gained", Kernels::VolumeInShear::gained}},
-               "Plastic shear of a user material changes the volume as the "
-               "state says, not at all, or only makes it larger: this decides "
-               "how a cell takes the pressure of its points. Units: none.");
-  }
-
-  void
-  SoilLayer::load_library(const ParameterOrigins &origins)
-  {
-    if (law != Kernels::UserMaterial::name)
-      return;
-    const std::string needs =
-      section() + "/Law = " + law + " needs " + section();
-    if (umat_settings.library.empty())
-      throw BadInput(needs + "/Library. Set it to the path of the shared "
-                             "library with the UMAT, relative to the file "
-                             "that sets it.");
-    if (properties_text.empty())
-      throw BadInput(needs + "/Properties. Set it to the PROPS of the UMAT, "
-                             "with commas between them, or to none.");
-    if (properties_text != "none")
-      try
-        {
-          umat_settings.properties = Utilities::string_to_double(
-            Utilities::split_string_list(properties_text));
-        }
-      catch (const ExceptionBase &)
-        {
-          throw BadInput(section() + "/Properties = " + properties_text +
-                         " is no list of numbers. Write numbers with commas "
-                         "between them, or none.");
-        }
-    const std::size_t n = umat_settings.variables.size();
-    if (n > umat_settings.n_variables)
-      throw BadInput(
-        section() + "/State at the start has " + to_text(n) + " numbers, but " +
-        section() + "/State variables = " + to_text(umat_settings.n_variables) +
-        ". Raise it, or remove numbers.");
-    soil.umat =
-      std::make_shared<UmatLaw>(umat_settings,
-                                section(),
-                                origins.directory_of(section() + "/Library"));
   }
 
   void
@@ -343,6 +264,10 @@ namespace CaissonMPM
       }
     if (law != Kernels::UserMaterial::name)
       for (const char *const name : {"Library",
+                                     "Routine",
+                                     "Material name",
+                                     "Stress components",
+                                     "Unit of stress",
                                      "Properties",
                                      "State variables",
                                      "State at the start",

@@ -4,8 +4,10 @@
 #include <caisson_mpm/materials/umat_law.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <cstddef>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <utility>
 
@@ -15,7 +17,7 @@ namespace CaissonMPM
   {
     namespace UserState = Kernels::UserState;
 
-    constexpr std::size_t bytes = sizeof(double);
+    constexpr auto nothing = UmatArgument::n_arguments;
 
     std::string
     path_of(const std::string &directory, const std::string &library)
@@ -24,39 +26,6 @@ namespace CaissonMPM
       return fs::absolute(fs::path(directory) / library)
         .lexically_normal()
         .string();
-    }
-
-    struct InputName
-    {
-      const char *name;
-      std::size_t begin, size;
-    };
-
-#define CAISSON_INPUT(name, member)                              \
-  {                                                              \
-    name, offsetof(UmatInput, member), sizeof(UmatInput::member) \
-  }
-    constexpr InputName input_names[] = {
-      CAISSON_INPUT("TIME", time),     CAISSON_INPUT("DTIME", dtime),
-      CAISSON_INPUT("TEMP", temp),     CAISSON_INPUT("DTEMP", dtemp),
-      CAISSON_INPUT("PREDEF", predef), CAISSON_INPUT("DPRED", dpred),
-      CAISSON_INPUT("COORDS", coords), CAISSON_INPUT("DROT", drot),
-      CAISSON_INPUT("CELENT", celent), CAISSON_INPUT("DFGRD0", dfgrd0),
-      CAISSON_INPUT("DFGRD1", dfgrd1), CAISSON_INPUT("NDI", ndi),
-      CAISSON_INPUT("NSHR", nshr),     CAISSON_INPUT("NTENS", ntens),
-      CAISSON_INPUT("NSTATV", nstatv), CAISSON_INPUT("NPROPS", nprops),
-      CAISSON_INPUT("NOEL", noel),     CAISSON_INPUT("NPT", npt),
-      CAISSON_INPUT("LAYER", layer),   CAISSON_INPUT("KSPT", kspt),
-      CAISSON_INPUT("JSTEP", jstep),   CAISSON_INPUT("KINC", kinc),
-      CAISSON_INPUT("CMNAME", cmname)};
-#undef CAISSON_INPUT
-
-    bool
-    is_finite(const double *list, const std::size_t n)
-    {
-      return std::all_of(list, list + n, [](const double x) {
-        return std::isfinite(x);
-      });
     }
 
     std::string
@@ -124,7 +93,7 @@ namespace CaissonMPM
     }
 
     double
-    largest_diagonal(const double *ddsdde)
+    largest_diagonal(const std::array<double, 16> &ddsdde)
     {
       return std::max({ddsdde[0], ddsdde[5], ddsdde[10], ddsdde[15]});
     }
@@ -165,8 +134,9 @@ namespace CaissonMPM
       if (bound < std::abs(at[0]) + std::abs(at[1]))
         throw BadInput(entry + ": the stiffness of the UMAT, " +
                        to_text(bound, 4) +
-                       " Pa, is less than the stress at the start. Give "
-                       "Properties such that it computes in Pa.");
+                       " Pa, is less than the stress at the start. If it "
+                       "computes in kPa or MPa, set Unit of stress; else "
+                       "correct Properties.");
     }
   } // namespace
 
@@ -176,35 +146,30 @@ namespace CaissonMPM
     : settings(settings)
     , section(section)
     , entry(section + "/Library = " + settings.library)
-    , library(path_of(directory, settings.library), entry)
-    , props(bytes * settings.properties.size(), Access::read_only)
-    , stran(bytes * 4, Access::read_only)
-    , dstran(bytes * 4, Access::read_only)
-    , input(sizeof(UmatInput), Access::read_only)
-    , stress(bytes * 4, Access::read_and_write)
-    , statev(bytes * settings.n_variables, Access::read_and_write)
-    , ddsdde(bytes * 16, Access::read_and_write)
+    , library(path_of(directory, settings.library), settings.routine, entry)
+    , arguments(settings.n_components,
+                settings.n_variables,
+                settings.properties.size())
   {
+    using namespace UmatArgument;
     std::copy(settings.properties.begin(),
               settings.properties.end(),
-              props.own<double>());
-    UmatInput &in = given();
-    in.npt = in.layer = in.kspt = in.jstep[0] = 1;
-    in.ndi                                    = 3;
-    in.nshr                                   = 1;
-    in.ntens                                  = 4;
-    in.nstatv                                 = settings.n_variables;
-    in.nprops                                 = settings.properties.size();
-    in.drot[8]                                = 1.;
-    std::fill_n(in.cmname, sizeof(in.cmname), ' ');
-    std::string name = section; // SOIL-LAYER-1
-    std::replace_if(
-      name.begin(),
-      name.end(),
-      [](const char c) { return c == '/' || c == ' '; },
-      '-');
-    for (std::size_t i = 0; i < name.size(); ++i)
-      in.cmname[i] = std::toupper(static_cast<unsigned char>(name[i]));
+              arguments.given(props));
+    for (const Index one : {npt, layer, kspt, jstep})
+      arguments.give(one, 1);
+    arguments.give(ndi, 3);
+    arguments.give(nshr, settings.n_components - 3);
+    arguments.give(ntens, settings.n_components);
+    arguments.give(nstatv, settings.n_variables);
+    arguments.give(nprops, settings.properties.size());
+    arguments.give(ncrds, settings.n_components == 4 ? 2 : 3);
+    arguments.given(drot)[8] = *arguments.given(pnewdt) = 1.;
+    std::string name = settings.name.empty() ? section : settings.name;
+    for (char &c : name) // SOIL-LAYER-1
+      c = c == '/' || c == ' ' ? '-' :
+                                 std::toupper(static_cast<unsigned char>(c));
+    name.resize(length_of_cmname, ' ');
+    std::memcpy(arguments.given(cmname), name.data(), name.size());
   }
 
   // ------------------------------------------------------------ a call
@@ -214,11 +179,11 @@ namespace CaissonMPM
                       const double       step_size,
                       const unsigned int step)
   {
-    UmatInput &in = given();
-    is_testing    = false;
-    in.time[0] = in.time[1] = time;
-    in.dtime                = step_size;
-    in.kinc                 = static_cast<int>(step + 1);
+    phase               = Phase::step;
+    double *const times = arguments.given(UmatArgument::time);
+    times[0] = times[1]                   = time;
+    *arguments.given(UmatArgument::dtime) = step_size;
+    arguments.give(UmatArgument::kinc, static_cast<int>(step + 1));
   }
 
   void
@@ -234,209 +199,231 @@ namespace CaissonMPM
       return;
     point = &p;
     prepare(p);
-    const int status = static_cast<int>(is_testing ? ExitStatus::bad_input :
-                                                     ExitStatus::failure);
-    const EndOfCall end =
-      guarded_call(&UmatLaw::call_umat, this, &UmatLaw::text_of_exit, status);
-    if (end == EndOfCall::returned && is_good())
+    std::string fault =
+      guarded_call(*this, [this]() { arguments.call_umat(library.umat()); });
+    if (fault.empty())
+      fault = find_fault();
+    if (fault.empty())
       accept(p);
     else
-      failure_ = describe(find_fault(end));
+      failure_ = description(fault);
+  }
+
+  void
+  UmatLaw::initialize(const double r,
+                      const double z,
+                      const double id,
+                      double      *state)
+  {
+    if (library.sdvini() == nullptr || settings.n_variables == 0)
+      return;
+    double *const variables = state + UserState::variables;
+    const Phase   before    = phase;
+    phase                   = Phase::start;
+    point                   = nullptr;
+    set_place(r, z, id);
+    std::copy_n(variables,
+                settings.n_variables,
+                arguments.given(UmatArgument::statev));
+    std::string fault = guarded_call(*this, [this]() {
+      arguments.call_sdvini(library.sdvini());
+    });
+    if (fault.empty())
+      fault = find_fault();
+    if (!fault.empty())
+      throw BadInput(description(fault));
+    std::copy_n(arguments.returned(UmatArgument::statev),
+                settings.n_variables,
+                variables);
+    phase = before;
+  }
+
+  void
+  UmatLaw::set_place(const double r, const double z, const double id)
+  {
+    double *const coords = arguments.given(UmatArgument::coords);
+    coords[0]            = r;
+    coords[1]            = z;
+    arguments.give(UmatArgument::noel, static_cast<int>(id) + 1);
   }
 
   void
   UmatLaw::prepare(const Kernels::UserPoint &p)
   {
-    UmatInput &in = given();
-    std::copy_n(p.stress, 4, stress.own<double>());
+    using namespace UmatArgument;
+    for (unsigned int i = 0; i < 4; ++i)
+      arguments.given(stress)[i] = p.stress[i] / settings.unit;
     // the strain so far turns as the stress does
     const double *e = p.state + UserState::strain;
     const double  c = p.cosine, s = p.sine, mean = .5 * (e[0] + e[1]),
                  difference = .5 * (e[0] - e[1]), shear = .5 * e[3],
                  cos2 = c * c - s * s, sin2 = 2. * s * c,
                  turned = cos2 * difference + sin2 * shear;
-    double *const sum   = stran.own<double>();
+    double *const sum   = arguments.given(stran);
     sum[0]              = mean + turned;
     sum[1]              = mean - turned;
     sum[2]              = e[2];
     sum[3]              = 2. * (cos2 * shear - sin2 * difference);
-    std::copy_n(p.strain, 4, dstran.own<double>());
-    std::copy_n(p.place, 2, in.coords);
-    double *const turn = in.drot;
+    std::copy_n(p.strain, 4, arguments.given(dstran));
+    set_place(p.place[0], p.place[1], p.id);
+    double *const turn = arguments.given(drot);
     turn[0] = turn[4] = c;
     turn[3]           = s;
     turn[1]           = -s;
     const double *f   = p.state + UserState::gradient;
-    set_gradient(f, in.dfgrd0);
-    set_gradient(next_gradient(f, p.gradient).data(), in.dfgrd1);
-    in.celent = p.cell_size;
-    in.noel   = static_cast<int>(p.id) + 1;
+    set_gradient(f, arguments.given(dfgrd0));
+    set_gradient(next_gradient(f, p.gradient).data(), arguments.given(dfgrd1));
+    *arguments.given(celent) = p.cell_size;
     std::copy_n(p.state + UserState::variables,
                 settings.n_variables,
-                statev.own<double>());
-    std::fill_n(ddsdde.own<double>(), 16, 0.);
-    pnewdt = 1.;
-  }
-
-  void
-  UmatLaw::call_umat(void *law)
-  {
-    UmatLaw   &l   = *static_cast<UmatLaw *>(law);
-    UmatInput &in  = *l.input.lent<UmatInput>();
-    double     sse = 0., spd = 0., scd = 0., rpl = 0., drpldt = 0.;
-    double     ddsddt[4] = {}, drplde[4] = {};
-    l.library.umat()(l.stress.lent<double>(),
-                     l.statev.lent<double>(),
-                     l.ddsdde.lent<double>(),
-                     &sse,
-                     &spd,
-                     &scd,
-                     &rpl,
-                     ddsddt,
-                     drplde,
-                     &drpldt,
-                     l.stran.lent<double>(),
-                     l.dstran.lent<double>(),
-                     in.time,
-                     &in.dtime,
-                     &in.temp,
-                     &in.dtemp,
-                     &in.predef,
-                     &in.dpred,
-                     in.cmname,
-                     &in.ndi,
-                     &in.nshr,
-                     &in.ntens,
-                     &in.nstatv,
-                     l.props.lent<double>(),
-                     &in.nprops,
-                     in.coords,
-                     in.drot,
-                     &l.pnewdt,
-                     &in.celent,
-                     in.dfgrd0,
-                     in.dfgrd1,
-                     &in.noel,
-                     &in.npt,
-                     &in.layer,
-                     &in.kspt,
-                     in.jstep,
-                     &in.kinc,
-                     sizeof(in.cmname));
+                arguments.given(statev));
   }
 
   std::string
-  UmatLaw::text_of_exit(void *law)
+  UmatLaw::not_finite(const UmatArgument::Index argument) const
   {
-    return static_cast<const UmatLaw *>(law)->describe(
-      "has ended the program (STOP or exit). A UMAT should call XIT");
-  }
-
-  bool
-  UmatLaw::is_good() const
-  {
-    return is_finite(stress.own<double>(), 4) &&
-           is_finite(statev.own<double>(), settings.n_variables) &&
-           is_finite(ddsdde.own<double>(), 16) && pnewdt >= 1.;
+    const double *const begin = arguments.returned(argument),
+                        *end  = begin + arguments.size(argument);
+    const double *const bad = std::find_if_not(begin, end, [](const double x) {
+      return std::isfinite(x);
+    });
+    if (bad == end)
+      return {};
+    const auto guard = Arguments::guard_in(*bad);
+    if (guard != nothing)
+      return outside("read", guard);
+    return "has returned a " + std::string(UmatArgument::name(argument)) +
+           " that is not finite: " + list_text(begin, end - begin);
   }
 
   std::string
-  UmatLaw::find_fault(const EndOfCall end) const
+  UmatLaw::find_fault() const
   {
-    if (end == EndOfCall::stopped)
-      return "has called XIT, or STDB_ABQERR with an error";
-    if (end != EndOfCall::returned)
+    using namespace UmatArgument;
+    const auto guard = arguments.written_guard();
+    if (guard != nothing)
+      return outside("written", guard);
+    for (const Index argument : {stress, statev, ddsdde})
+      if (const std::string fault = not_finite(argument); !fault.empty())
+        return fault;
+    if (const double factor = *arguments.returned(pnewdt); !(factor >= 1.))
+      return "asks for a smaller step by PNEWDT = " + to_text(factor, 4) +
+             ", which an explicit step cannot give. Reduce Time/Courant "
+             "number, or let the UMAT divide its step";
+    return {};
+  }
+
+  std::string
+  UmatLaw::outside(const std::string &what, const Arguments::Index guard) const
+  {
+    using namespace UmatArgument;
+    const std::string text = "has " + what + " outside ";
+    switch (guard)
       {
-        const std::string what = beyond_or_read_only(address_of_crash());
-        return !what.empty() ? what :
-                               "has crashed with " + name_of_signal(end) +
-                                 ". Compile it with -g -fcheck=all to find out "
-                                 "where";
+        case statev:
+          return text + "its " + to_text(settings.n_variables) +
+                 " State variables. Raise " + section + "/State variables";
+        case props:
+          return text + "its " + to_text(settings.properties.size()) +
+                 " Properties. Give all of them in " + section + "/Properties";
+        case stress:
+        case ddsdde:
+        case ddsddt:
+        case drplde:
+        case stran:
+        case dstran:
+          return text + "the " + to_text(settings.n_components) +
+                 " components of " + UmatArgument::name(guard) +
+                 (settings.n_components == 4 ?
+                    ". For a UMAT of three dimensions set " + section +
+                      "/Stress components = 6; else NTENS is 4 (11, 22, 33, "
+                      "12), and DDSDDE has 4 x 4 numbers" :
+                    ". NTENS is 6, and DDSDDE has 6 x 6 numbers");
+        default:
+          return text + UmatArgument::name(guard);
       }
-    const unsigned int n = settings.n_variables;
-    if (!is_finite(stress.own<double>(), 4))
-      return "has returned the STRESS " + list_text(stress.own<double>(), 4);
-    if (!is_finite(statev.own<double>(), n))
-      return "has returned a STATEV that is not finite: " +
-             list_text(statev.own<double>(), n);
-    if (!is_finite(ddsdde.own<double>(), 16))
-      return "has returned a DDSDDE that is not finite: " +
-             list_text(ddsdde.own<double>(), 16);
-    return "asks for a smaller step by PNEWDT = " + to_text(pnewdt, 4) +
-           ", which an explicit step cannot give. Reduce Time/Courant number, "
-           "or let the UMAT divide its step";
   }
 
-  std::string
-  UmatLaw::beyond_or_read_only(const void *address) const
+  std::array<double, 16>
+  UmatLaw::stiffness() const
   {
-    const std::string beyond = "has read or written beyond ";
-    for (const auto &[name, memory] : {std::make_pair("STRESS", &stress),
-                                       std::make_pair("DDSDDE", &ddsdde),
-                                       std::make_pair("STRAN", &stran),
-                                       std::make_pair("DSTRAN", &dstran)})
-      if (memory->is_behind(address))
-        return beyond + "the 4 components of " + name +
-               ". NTENS is 4 here (11, 22, 33, 12), and DDSDDE has 4 x 4 "
-               "numbers: a UMAT for NTENS = 6 needs its arrays by NTENS";
-    if (statev.is_behind(address))
-      return beyond + "its " + to_text(settings.n_variables) +
-             " State variables. Raise " + section + "/State variables";
-    if (props.is_behind(address))
-      return beyond + "its " + to_text(settings.properties.size()) +
-             " Properties. Give all of them in " + section + "/Properties";
-    std::string name = stran.is_inside(address)  ? "STRAN" :
-                       dstran.is_inside(address) ? "DSTRAN" :
-                       props.is_inside(address)  ? "PROPS" :
-                                                   "";
-    for (const InputName &n : input_names)
-      if (input.is_inside(address) &&
-          input.distance_to(address) - n.begin < n.size)
-        name = n.name;
-    return name.empty() ? "" :
-                          "has written to " + name +
-                            ", which a UMAT may only read. Let it work on a "
-                            "copy";
+    const double *const    ddsdde = arguments.returned(UmatArgument::ddsdde);
+    std::array<double, 16> result;
+    for (unsigned int j = 0; j < 4; ++j)
+      for (unsigned int i = 0; i < 4; ++i)
+        result[i + 4 * j] =
+          settings.unit * ddsdde[i + settings.n_components * j];
+    return result;
   }
 
   void
   UmatLaw::accept(Kernels::UserPoint &p)
   {
+    using namespace UmatArgument;
     double *const state = p.state;
-    std::copy_n(stress.own<double>(), 4, p.stress);
-    double &modulus = state[UserState::modulus];
-    modulus =
-      std::max(modulus, modulus_ratio * largest_diagonal(ddsdde.own<double>()));
     for (unsigned int i = 0; i < 4; ++i)
-      state[UserState::strain + i] =
-        stran.own<double>()[i] + dstran.own<double>()[i];
-    const double *const F = given().dfgrd1;
+      {
+        p.stress[i] = settings.unit * arguments.returned(stress)[i];
+        state[UserState::strain + i] =
+          arguments.given(stran)[i] + arguments.given(dstran)[i];
+      }
+    double &modulus = state[UserState::modulus];
+    modulus = std::max(modulus, modulus_ratio * largest_diagonal(stiffness()));
+    const double *const F = arguments.given(dfgrd1);
     double *const       f = state + UserState::gradient;
     f[0]                  = F[0] - 1.;
     f[1]                  = F[3];
     f[2]                  = F[1];
     f[3]                  = F[4] - 1.;
     f[4]                  = F[8] - 1.;
-    std::copy_n(statev.own<double>(),
+    std::copy_n(arguments.returned(statev),
                 settings.n_variables,
                 state + UserState::variables);
   }
 
-  std::string
-  UmatLaw::describe(const std::string &what) const
+  void
+  UmatLaw::describe(const char *what, char *text, const std::size_t size) const
   {
-    const UmatInput &in   = given();
-    std::string      text = entry + ": the UMAT " + what + ". This happened ";
-    if (is_testing)
-      text += "in the element test before the run";
+    using namespace UmatArgument;
+    std::size_t n   = 0;
+    const auto  add = [&](const char *format, const auto... values) {
+      if (n < size)
+        n += std::snprintf(text + n, size - n, format, values...);
+    };
+    const double *const place = arguments.given(coords);
+    add("%s: %s %s. This happened ",
+        entry.c_str(),
+        phase == Phase::start ? "its SDVINI" : "the UMAT",
+        what);
+    if (phase == Phase::element_test)
+      add("%s", "in the element test before the run");
+    else if (phase == Phase::start)
+      add("%s", "at the start");
     else
-      text += "in step " + to_text(in.kinc - 1) +
-              " at t = " + to_text(in.time[1], 6) + " s, at material point " +
-              to_text(in.noel - 1) + " at r = " + to_text(in.coords[0], 6) +
-              " m, z = " + to_text(in.coords[1], 6) + " m";
-    return text + ", with the stress " + list_text(point->stress, 4) +
-           " Pa and the strain increment " + list_text(point->strain, 4) +
-           " (rr, zz, tt, rz), DTIME = " + to_text(in.dtime, 4) + " s.";
+      add("in step %d at t = %.6g s",
+          arguments.given_integer(kinc) - 1,
+          arguments.given(time)[1]);
+    if (phase != Phase::element_test)
+      add(", at material point %d at r = %.6g m, z = %.6g m",
+          arguments.given_integer(noel) - 1,
+          place[0],
+          place[1]);
+    if (point != nullptr)
+      {
+        const double *const s = point->stress, *const e = point->strain;
+        add(", with the stress %.6g, %.6g, %.6g, %.6g Pa and the strain "
+            "increment %.6g, %.6g, %.6g, %.6g (rr, zz, tt, rz), DTIME = %.4g s",
+            s[0],
+            s[1],
+            s[2],
+            s[3],
+            e[0],
+            e[1],
+            e[2],
+            e[3],
+            *arguments.given(dtime));
+      }
+    add("%s", ".");
   }
 
   // ------------------------------------------------------------ element test
@@ -471,18 +458,19 @@ namespace CaissonMPM
     p.gradient[1] = p.gradient[2] = .5 * strain[3];
     p.gradient[3]                 = strain[1];
     p.gradient[4]                 = strain[2];
-    p.cosine = p.cell_size = 1.;
-    p.place[0]             = 1.;
-    p.state                = state.data();
-    given().dtime          = std::max(total, 1e-6) / rate;
+    p.cosine = p.cell_size                = 1.;
+    p.place[0]                            = 1.;
+    p.place[1]                            = -depth_of_test;
+    p.state                               = state.data();
+    *arguments.given(UmatArgument::dtime) = std::max(total, 1e-6) / rate;
+    initialize(p.place[0], p.place[1], p.id, state.data());
     update(p);
     if (!failure_.empty())
       throw BadInput(failure_);
     Answer answer;
-    std::copy_n(stress.own<double>(), 4, answer.stress.begin());
-    std::copy_n(ddsdde.own<double>(), 16, answer.ddsdde.begin());
-    answer.variables.assign(statev.own<double>(),
-                            statev.own<double>() + settings.n_variables);
+    std::copy_n(p.stress, 4, answer.stress.begin());
+    answer.ddsdde = stiffness();
+    answer.variables.assign(state.begin() + UserState::variables, state.end());
     return answer;
   }
 
@@ -551,17 +539,30 @@ namespace CaissonMPM
                    "DFGRD1 alone, and check State at the start.");
   }
 
+  void
+  UmatLaw::check_start_of_state()
+  {
+    std::vector<double> state = start_of_state(0., n_state());
+    initialize(1., -depth_of_test, 0., state.data());
+    if (!std::equal(settings.variables.begin(),
+                    settings.variables.end(),
+                    state.begin() + UserState::variables))
+      warning_ = "SDVINI of the library replaces State at the start. Remove "
+                 "the entry, or the routine from the library";
+  }
+
   UmatStiffness
-  UmatLaw::test(const Stress &at)
+  UmatLaw::test(const Stress &at, const double depth)
   {
     constexpr double strain = 1e-6;
+    depth_of_test           = depth;
+    check_start_of_state();
     check_reproducible(at);
     check_no_strain(at);
     // 1. DDSDDE of small strains, and what the stress says
     const Answer none  = ask(at, {{0., 0., 0., 0.}});
     double       bound = acoustic_bound(none.ddsdde),
-           diagonal = largest_diagonal(none.ddsdde.data()), measured = 0.,
-           trace = 0.;
+           diagonal = largest_diagonal(none.ddsdde), measured = 0., trace = 0.;
     for (const double sign : {1., -1.})
       {
         std::array<double, 16> found;
@@ -570,9 +571,8 @@ namespace CaissonMPM
             std::array<double, 4> e = {{0., 0., 0., 0.}};
             e[j]                    = sign * strain;
             const Answer answer     = ask(at, e);
-            bound = std::max(bound, acoustic_bound(answer.ddsdde));
-            diagonal =
-              std::max(diagonal, largest_diagonal(answer.ddsdde.data()));
+            bound    = std::max(bound, acoustic_bound(answer.ddsdde));
+            diagonal = std::max(diagonal, largest_diagonal(answer.ddsdde));
             for (unsigned int i = 0; i < 4; ++i)
               found[i + 4 * j] =
                 (answer.stress[i] - none.stress[i]) / (sign * strain);

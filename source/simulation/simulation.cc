@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/fingerprint.h>
+#include <caisson_mpm/base/guarded_call.h>
 #include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/domain/cell_geometry.h>
@@ -528,6 +529,7 @@ namespace CaissonMPM
   Simulation::run(const ParameterOrigins &input)
   {
     recorder.open();
+    begin_run_with_foreign_code();
     try
       {
         return run_to_end(input);

@@ -107,6 +107,8 @@ class Prefix(ProgramTest):
         """Python finds the package, with its types, and it finds program and scenes."""
         package = self.prefix / "share/caisson_mpm/python"
         self.assertTrue((package / "caisson/py.typed").is_file())
+        for name in ("ABA_PARAM.INC", "aba_param.inc"):  # of UMATs
+            self.assertTrue((package.parent / "abaqus" / name).is_file(), name)
         code = (
             "import caisson\nrun = caisson.run('column.prm', {'Time/End time': 0.05,"
             " 'Verification/Checks': ''})\nprint(caisson.__version__, run.status)"

@@ -12,13 +12,11 @@ from pathlib import Path
 from program import (
     ALONE,
     BAD_INPUT,
-    FAILURE,
     HERE,
     STOPPED,
     SUCCESS,
     Entries,
     ProgramTest,
-    Status,
     history,
     scene,
     set_options,
@@ -40,21 +38,29 @@ SAME_STEPS = {
 }
 
 
+def compile_law(path: Path, name: str, text: str) -> Path:
+    """Write a source into a directory, and compile it as the manual says."""
+    compiler = {".cc": "g++", ".c": "gcc"}.get(Path(name).suffix, "gfortran")
+    if not shutil.which(compiler):
+        raise FileNotFoundError(f"{compiler} is missing: scripts/setup tests")
+    (path / name).write_text(text, encoding="utf-8")
+    words = [compiler, "-shared", "-fPIC", "-O2", "-g", "-o", "law.so", name]
+    if compiler == "gfortran":
+        words += ["-cpp", "-ffixed-line-length-none", "-ffree-line-length-none"]
+        words += ["-I", str(HERE.parent / "include/abaqus")]
+    subprocess.run(words, cwd=path, check=True)
+    return path / "law.so"
+
+
 class UserMaterialTest(ProgramTest):
     """A test that compiles a UMAT."""
 
     def compiled(self, name: str, more: str = "", *, folder: str = "umat") -> Path:
         """Compile a UMAT of the tests, with more statements at its end."""
-        compiler = "gfortran" if name.endswith(".f90") else "gcc"
-        if not shutil.which(compiler):
-            self.fail(f"{compiler} is missing: scripts/setup tests installs it")
-        path = self.made_directory(folder)
         text = (SOURCES / name).read_text(encoding="utf-8")
-        end = text.rindex("end subroutine" if compiler == "gfortran" else "}")
-        (path / name).write_text(text[:end] + more + "\n" + text[end:], "utf-8")
-        words = [compiler, "-shared", "-fPIC", "-O2", "-g", "-o", "law.so", name]
-        subprocess.run(words, cwd=path, check=True)
-        return path / "law.so"
+        end = text.rindex("end subroutine" if name.endswith(".f90") else "}")
+        text = text[:end] + more + "\n" + text[end:]
+        return compile_law(self.made_directory(folder), name, text)
 
     @staticmethod
     def law(library: Path, properties: list[float], **more: object) -> Entries:
@@ -301,151 +307,6 @@ class States(UserMaterialTest):
         )
 
 
-# what goes wrong, and what the message says of it
-FAULTS = {
-    "stress[0] = 0. / (stress[1] - stress[1]);": ["STRESS", "nan"],
-    "((double *)dstran)[1] = 1.;": ["written to DSTRAN"],
-    "((double *)props)[1] = .2;": ["written to PROPS"],
-    "((int *)ntens)[0] = 6;": ["written to NTENS"],
-    "((double *)dfgrd1)[8] = 1.;": ["written to DFGRD1"],
-    "statev[0] = 1.;": ["beyond its 0 State variables"],
-    "statev[100000] = 1.;": ["beyond its 0 State variables"],
-    "stress[4] = 1.;": ["beyond the 4 components of STRESS", "NTENS is 4"],
-    "ddsdde[16] = 1.;": ["beyond the 4 components of DDSDDE"],
-    # what is read decides nothing
-    "if (props[2] == 7.) ddsdde[15] *= 1.01;": ["beyond its 2 Properties"],
-    "if (statev[3] == 7.) ddsdde[15] *= 1.01;": ["beyond its 0 State variables"],
-    "if (stran[4] == 7.) ddsdde[15] *= 1.01;": ["4 components of STRAN"],
-    "if (dstran[5] == 7.) ddsdde[15] *= 1.01;": ["4 components of DSTRAN"],
-    "if (stress[4] == 7.) ddsdde[15] *= 1.01;": ["4 components of STRESS"],
-    "stress[0] += props[-1];": ["STRESS", "nan"],
-    "*(volatile int *)0 = 1;": ["crashed with SIGSEGV"],
-    "__builtin_trap();": ["crashed with SIGILL"],
-    "__builtin_abort();": ["crashed with SIGABRT"],
-    "extern void xit_(void); xit_();": ["XIT"],
-    "extern void exit(int); exit(0);": ["STOP or exit"],
-    "*pnewdt = .25;": ["PNEWDT = 0.25"],
-    "ddsdde[5] = 0. / (stress[1] - stress[1]);": ["DDSDDE", "nan"],
-}
-
-
-class Faults(UserMaterialTest):
-    """UMATs that fail are named, with the place and the step."""
-
-    def run_fault(
-        self, status: Status, source: str, more: str, **entries: object
-    ) -> str:
-        """Run a scene with a faulty UMAT; return what the program says."""
-        law = self.law(self.compiled(source, more), ELASTIC, **entries)
-        path = self.directory("results")
-        text = self.run_scene("jack", path, status, entries=law)
-        self.assert_words([f"{LAYER}/Library", "law.so"], text)
-        self.assertEqual((path / "history.csv").exists(), status == FAILURE)
-        return text
-
-    def test_before_the_run(self) -> None:
-        """The element test finds what is wrong at once."""
-        for more, words in FAULTS.items():
-            with self.subTest(more):
-                text = self.run_fault(BAD_INPUT, "elastic.c", "  " + more)
-                self.assert_words([*words, "element test"], text)
-
-    def test_in_the_run(self) -> None:
-        """What happens later names the point and the step."""
-        for more, words in FAULTS.items():
-            with self.subTest(more):
-                later = f"  if (*kinc == 4 && coords[0] < 1.) {{ {more} }}"
-                text = self.run_fault(FAILURE, "elastic.c", later)
-                self.assert_words([*words, "in step 3 at t = ", "at r = 0."], text)
-
-    def test_stiffness_that_stress_contradicts(self) -> None:
-        """A wrong sign, and a DDSDDE or units that are far off."""
-        for factors, words in (
-            ((-1, 1), ["falls as the strain grows"]),
-            ((1, 1e8), ["no more than", "correct it"]),
-            ((1e-6, 1e-6), ["less than the stress at the start", "in Pa"]),
-        ):
-            with self.subTest(factors):
-                more = "  for (int i = 0; i < 4; ++i) for (int j = 0; j < 4; ++j) {"
-                more += f" stress[i] += {factors[0] - 1} * ddsdde[i + 4 * j]"
-                more += " * dstran[j]; }\n"
-                more += f"  for (int i = 0; i < 16; ++i) ddsdde[i] *= {factors[1]};"
-                text = self.run_fault(BAD_INPUT, "elastic.c", more)
-                self.assert_words(words, text)
-
-    def test_validate(self) -> None:
-        """--validate takes some steps, and a UMAT that fails in them is invalid."""
-        later = "  if (*kinc == 3) stress[0] = 0. / (*dtime - *dtime);"
-        law = self.law(self.compiled("elastic.c", later), ELASTIC)
-        text = self.run_program(BAD_INPUT, scene("jack"), "--validate", entries=law)
-        self.assert_words(["first steps of the run fail", "law.so", "step 2"], text)
-        self.assertNotIn("is valid", text)
-        # another failure is a warning: the entries may be as they should
-        self.compiled("elastic.c", "  if (*kinc == 1) stress[0] *= 1e30;")
-        text = self.run_program(SUCCESS, scene("jack"), "--validate", entries=law)
-        self.assert_words(["warning: the first steps", f"({LAYER}/Library)"], text)
-
-    def test_cause_of_a_lost_point(self) -> None:
-        """A run that breaks says that the law may be the cause."""
-        breaks = "  if (*kinc > 20) for (int i = 0; i < 4; ++i)\n"
-        breaks += "    stress[i] += 1e4 * ddsdde[5 * i] * dstran[i];"
-        law = self.law(self.compiled("elastic.c", breaks), ELASTIC)
-        cause = [f"user material ({LAYER}/Library)", "DDSDDE"]
-        text = self.run_scene("jack", self.directory(), FAILURE, entries=law)
-        self.assert_words(["material point", *cause], text)
-        law["Time/Time step"] = 1.0
-        self.refused(["exceeds the stability limit", *cause], entries=law)
-
-    def test_message_of_abaqus(self) -> None:
-        """STDB_ABQERR prints, and ends the run where it is an error."""
-        later = (
-            "  if (kinc == 4) call stdb_abqerr(-3, 'angle %R of %S in %I', [noel], &\n"
-            "    [30.5d0], 'SAND    ')"
-        )
-        text = self.run_fault(FAILURE, "elastic.f90", later)
-        self.assert_words(["angle 30.5 of SAND", "XIT", "in step 3"], text)
-
-    def test_stop_of_fortran(self) -> None:
-        """On two ranks all end."""
-        later = "  if (kinc == 4) stop 3"
-        law = self.law(self.compiled("elastic.f90", later), ELASTIC)
-        for ranks in (1, 2):
-            path = self.directory(f"ranks_{ranks}")
-            text = self.run_scene("jack", path, FAILURE, entries=law, ranks=ranks)
-            self.assert_words(["law.so", "STOP or exit", "in step 3"], text)
-
-    def test_one_rank_fails(self) -> None:
-        """A crash that only one of two ranks sees."""
-        later = "  if (*kinc == 4 && coords[0] < .3) *(volatile int *)0 = 1;"
-        law = self.law(self.compiled("elastic.c", later), ELASTIC)
-        text = self.run_scene(
-            "jack", self.directory("results"), FAILURE, entries=law, ranks=2
-        )
-        self.assert_words(["law.so", "SIGSEGV", "in step 3"], text)
-
-    def test_answers_of_no_use(self) -> None:
-        """Not reproducible, and a DDSDDE that says nothing or too little."""
-        faults = {
-            "static int n = 0; stress[0] += n++;": ["two answers", "STATEV"],
-            "for (int i = 0; i < 16; ++i) ddsdde[i] = 0.;": ["at least the elastic"],
-            "for (int i = 0; i < 16; ++i) ddsdde[i] *= .001;": ["DDSDDE", "STRESS"],
-        }
-        for more, words in faults.items():
-            with self.subTest(more):
-                text = self.run_fault(BAD_INPUT, "elastic.c", "  " + more)
-                self.assert_words(words, text)
-
-    def test_stiffness_that_grows(self) -> None:
-        """The time step follows DDSDDE."""
-        grows = "  if (*kinc > 400) { for (int i = 0; i < 16; ++i) ddsdde[i] *= 4.; }"
-        law = self.law(self.compiled("elastic.c", grows), ELASTIC)
-        path = self.directory("results")
-        more = {"Time/End penetration": 0.6, "Output/Record interval": 0.05}
-        self.run_scene("jack", path, entries={**law, **more})
-        steps = [row["time_step_s"] for row in history(path)]
-        self.assertAlmostEqual(steps[1] / steps[-2], 5**0.5, delta=0.05)
-
-
 class Input(UserMaterialTest):
     """Entries and files that are wrong or missing."""
 
@@ -466,17 +327,22 @@ class Input(UserMaterialTest):
         )
         words = ["gcc", "-c", "-o", "object.so", "none.c"]
         subprocess.run(words, cwd=folder, check=True)
-        for name in ("none", "lacks", "crashes"):
-            words = ["gcc", "-shared", "-fPIC", "-o", f"{name}.so", f"{name}.c"]
+        (folder / "throws.c").write_text(
+            'int f() { throw 1; } int x = f(); extern "C" void umat_() {}'
+        )
+        for name in ("none", "lacks", "crashes", "throws"):
+            compiler = "g++" if name == "throws" else "gcc"
+            words = [compiler, "-shared", "-fPIC", "-o", f"{name}.so", f"{name}.c"]
             subprocess.run(words, cwd=folder, check=True)
         for name, words in {
             "missing": ["there is no file", "relative to the file", "gfortran"],
-            "text": ["text.so is no compiled library", "gfortran -shared"],
-            "empty": ["empty.so is empty", "Compile"],
-            "folder": ["folder.so is a directory", "Name the file"],
-            "foreign": ["for RISC-V, and this program runs on", "Compile it"],
-            "object": ["object.so is an object file", "shared library"],
-            "none": ["no symbol umat_"],
+            "text": ["no shared library", "gfortran -shared"],
+            "empty": ["empty.so: file too short", "Compile it here"],
+            "folder": ["folder.so, but something else of this name"],
+            "foreign": ["no shared library that this machine can load"],
+            "object": ["object.so: only ET_DYN", "no shared library"],
+            "none": ["no subroutine umat", "Set Routine", "MODULE::NAME"],
+            "throws": ["while it is loaded", "SIGABRT"],
             "lacks": ["undefined symbol: f", "XIT"],
             "crashes": ["while it is loaded", "SIGSEGV"],
         }.items():
@@ -492,8 +358,9 @@ class Input(UserMaterialTest):
         for entry, value, words in (
             ("Library", "", ["needs", "Library"]),
             ("Properties", "", ["needs", "Properties", "none"]),
-            ("Properties", "none", ["beyond its 0 Properties"]),
-            ("Properties", "5e6", ["beyond its 1 Properties"]),
+            ("Properties", "none", ["outside its 0 Properties"]),
+            ("Properties", "5e6", ["outside its 1 Properties"]),
+            ("Material name", 81 * "x", ["Material name", "80 characters"]),
             ("Properties", "5e6, much", ["5e6, much", "list of numbers"]),
             ("State at the start", "1, 2", ["has 2 numbers", "State variables = 0"]),
             ("Internal length", 0.01, ["Internal length", "user material"]),

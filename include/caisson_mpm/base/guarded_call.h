@@ -1,48 +1,83 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Calls of code that somebody else has written, which may crash, stop or leave
-// the program.
+// Calls of code that somebody else has written, which may throw, crash, hang or
+// end the program.
 #ifndef caisson_mpm_base_guarded_call_h
 #define caisson_mpm_base_guarded_call_h
 
+#include <caisson_mpm/base/exceptions.h>
+
+#include <cstddef>
 #include <string>
 
 namespace CaissonMPM
 {
-  /** How a guarded call has ended. */
-  enum class EndOfCall : int
+  /** Code that somebody else has written. */
+  class ForeignCode
   {
-    returned = 0,
-    stopped  = -1 // by leave_guarded_call()
-    // else the number of the signal that ended it
+  public:
+    virtual ~ForeignCode() = default;
+
+    /** Write a sentence: the code, @p what it has done, and where. A handler of
+     * signals calls this, so that it must not ask for memory. */
+    virtual void
+    describe(const char *what, char *text, const std::size_t size) const = 0;
+
+    /** The same sentence. */
+    std::string
+    description(const std::string &what) const;
   };
 
+  /** What foreign code throws by XIT. */
+  struct EndOfAnalysis
+  {};
+
   /**
-   * Call @p action with its argument. A signal of a crash in it (SIGSEGV,
-   * SIGBUS, SIGFPE, SIGILL, SIGABRT) ends the call and not the program, and so
-   * does leave_guarded_call(). Where the action ends the program by exit(), as
-   * STOP of Fortran does, @p text_of_exit is asked for the error to print, and
-   * the program ends with @p status_of_exit, on all ranks. Objects of the
-   * action are not destroyed where it does not return. One call at a time.
+   * While an object lives, foreign code runs. Where it crashes (SIGSEGV,
+   * SIGBUS, SIGFPE, SIGILL, SIGABRT), leaves the program (exit, STOP, _exit,
+   * quick_exit), or does not return for a minute, its description is printed,
+   * and the program ends on all ranks. It does not wait for the minute where
+   * the run has been asked to stop (StopRequest). How the processor computes is
+   * set back at the end. One object at a time.
    */
-  EndOfCall
-  guarded_call(void (*action)(void *),
-               void *argument,
-               std::string (*text_of_exit)(void *),
-               const int status_of_exit);
+  class ForeignCall
+  {
+  public:
+    explicit ForeignCall(const ForeignCode &code);
+    ~ForeignCall();
 
-  /** End the guarded call that is running. */
-  [[noreturn]] void
-  leave_guarded_call();
+    ForeignCall(const ForeignCall &) = delete;
+    ForeignCall &
+    operator=(const ForeignCall &) = delete;
+  };
 
-  /** Where the last call that ended with SIGSEGV or SIGBUS wanted to read or to
-   * write. */
-  const void *
-  address_of_crash();
-
-  /** "SIGSEGV (Segmentation fault)" and the like. */
+  /** What the foreign code has thrown that is being caught, as in "has thrown
+   * the C++ exception std::runtime_error: no convergence". */
   std::string
-  name_of_signal(const EndOfCall end);
+  text_of_exception();
+
+  /** Call action() as foreign code. Returns what it has thrown; empty where it
+   * has returned. */
+  template <typename Action>
+  std::string
+  guarded_call(const ForeignCode &code, const Action &action)
+  {
+    const ForeignCall call(code);
+    try
+      {
+        action();
+        return {};
+      }
+    catch (...)
+      {
+        return text_of_exception();
+      }
+  }
+
+  /** From now on the program that foreign code ends has failed in a run;
+   * before, its input is bad. */
+  void
+  begin_run_with_foreign_code();
 } // namespace CaissonMPM
 
 #endif

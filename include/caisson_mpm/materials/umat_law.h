@@ -3,7 +3,7 @@
 // A constitutive law that the user has written as a UMAT of Abaqus.
 //
 // What the UMAT gets, with the components rr, zz, tt, rz in the place of 11,
-// 22, 33, 12, SI units, and tension positive:
+// 22, 33, 12, SI units but for the unit of stress, and tension positive:
 //   STRESS   the effective stress, turned with the soil (Jaumann),
 //   DSTRAN, STRAN   the increment of strain and the sum of the turned
 //            increments, with the engineering shear strain,
@@ -12,17 +12,18 @@
 //   TIME, DTIME, COORDS, CELENT   time, step, place, and the root of the area
 //            of the cell; KINC counts steps, NOEL is the number of the point,
 //   SSE, SPD, SCD, TEMP and the like   0.
+// A UMAT for six components gets 13 and 23 as zeros.
 // It returns STRESS, STATEV, and DDSDDE, from which the time step follows.
 #ifndef caisson_mpm_materials_umat_law_h
 #define caisson_mpm_materials_umat_law_h
 
 #include <caisson_mpm/base/conventions.h>
-#include <caisson_mpm/base/fenced_memory.h>
 #include <caisson_mpm/base/guarded_call.h>
 #include <caisson_mpm/kernels/user_point.h>
 #include <caisson_mpm/materials/user_library.h>
 
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
@@ -36,19 +37,13 @@ namespace CaissonMPM
   struct UmatSettings
   {
     std::string         library; // as the scene has it
+    std::string         routine = "umat";
+    std::string         name; // CMNAME; empty: that of the section
+    unsigned int        n_components = 4;
+    double              unit         = 1.; // of its stress, Pa
     std::vector<double> properties;
     unsigned int        n_variables = 0;
     std::vector<double> variables; // the first of them, at the start
-  };
-
-  /** What a UMAT only reads, besides STRAN, DSTRAN and PROPS. */
-  struct UmatInput
-  {
-    double time[2], dtime, temp, dtemp, predef, dpred, coords[3], drot[9],
-      celent, dfgrd0[9], dfgrd1[9];
-    int ndi, nshr, ntens, nstatv, nprops, noel, npt, layer, kspt, jstep[4],
-      kinc;
-    char cmname[80];
   };
 
   /** The stiffness of a law in a state, as the time step needs it. */
@@ -60,11 +55,11 @@ namespace CaissonMPM
   };
 
   /**
-   * Calls a UMAT for one point after the other. Owns the memory that the UMAT
-   * works on, with a fence behind each array, and keeps the first failure;
-   * after that it is not called again.
+   * Calls a UMAT for one point after the other. Owns the arguments that the
+   * UMAT works on, and keeps the first failure; after that it is not called
+   * again.
    */
-  class UmatLaw
+  class UmatLaw : public ForeignCode
   {
   public:
     /** Load the library. @p section is "Soil/Layer k", @p directory that of the
@@ -78,19 +73,24 @@ namespace CaissonMPM
     operator=(const UmatLaw &) = delete;
 
     /**
-     * The element test: strain soil with this stress a little in all
-     * directions. Throws BadInput where the UMAT fails, gives different answers
-     * to the same call, does not start from the stress that it is given, or
-     * returns a DDSDDE that no time step can follow from. Returns the
-     * stiffness.
+     * The element test: strain soil with this stress, at this depth (m), a
+     * little in all directions. Throws BadInput where the UMAT fails, gives
+     * different answers to the same call, does not start from the stress that
+     * it is given, or returns a DDSDDE that no time step can follow from.
+     * Returns the stiffness.
      */
     UmatStiffness
-    test(const Stress &stress);
+    test(const Stress &stress, const double depth);
 
     /** The numbers of a point at the start (Kernels::UserState), and no_state
      * up to @p n of them, which other laws keep. */
     std::vector<double>
     start_of_state(const double p_wave_modulus, const unsigned int n) const;
+
+    /** Let SDVINI, if the library has it, change the numbers of the point with
+     * this place (r, z in m) and number at the start. Throws BadInput. */
+    void
+    initialize(const double r, const double z, const double id, double *state);
 
     /** The number of numbers that a point keeps. */
     unsigned int
@@ -130,37 +130,38 @@ namespace CaissonMPM
     static void
     call(void *law, Kernels::UserPoint &point);
 
+    void
+    describe(const char       *what,
+             char             *text,
+             const std::size_t size) const override;
+
   private:
-    UmatInput &
-    given() const
-    {
-      return *input.own<UmatInput>();
-    }
+    using Arguments = UmatArguments;
+
     void
     update(Kernels::UserPoint &point);
+    void
+    set_place(const double r, const double z, const double id);
     /** Set the input of the call from the point. */
     void
     prepare(const Kernels::UserPoint &point);
-    /** Whether the answer is finite, and the step long enough for the UMAT. */
-    bool
-    is_good() const;
-    /** Say what is wrong with the answer. */
+    /** Say what is wrong with what the call has returned; empty if nothing. */
     std::string
-    find_fault(const EndOfCall end) const;
-    /** Say what lies at the address where the UMAT was stopped; empty if
-     * nothing of ours. */
+    find_fault() const;
+    /** Name what has been read or written outside of. */
     std::string
-    beyond_or_read_only(const void *address) const;
+    outside(const std::string &what, const Arguments::Index guard) const;
+    /** The numbers that an argument has been returned with, if one of them is
+     * not finite; else empty. */
+    std::string
+    not_finite(const UmatArgument::Index argument) const;
+    /** DDSDDE as it has been returned, of rr, zz, tt, rz by columns. Units: Pa.
+     */
+    std::array<double, 16>
+    stiffness() const;
     /** Take the answer over. */
     void
     accept(Kernels::UserPoint &point);
-    /** "the UMAT ... WHAT, at the point ..., in step ...". */
-    std::string
-    describe(const std::string &what) const;
-    static void
-    call_umat(void *law);
-    static std::string
-    text_of_exit(void *law);
 
     /** The answer of a call, in the element test. */
     struct Answer
@@ -174,6 +175,9 @@ namespace CaissonMPM
     ask(const Stress &stress, const std::array<double, 4> &strain);
     void
     check_reproducible(const Stress &stress);
+    /** Warn where SDVINI replaces State at the start. */
+    void
+    check_start_of_state();
     /** A strain increment of zero must keep a stress, but one that lies outside
      * of a yield surface, of which warning() tells. */
     void
@@ -184,12 +188,17 @@ namespace CaissonMPM
     const UserLibrary  library;
     std::string        failure_, warning_;
 
-    // the call in progress
-    const Kernels::UserPoint *point      = nullptr;
-    bool                      is_testing = true;
-    const FencedMemory        props, stran, dstran, input; // read only
-    const FencedMemory        stress, statev, ddsdde;
-    double                    pnewdt = 1.;
+    Arguments arguments;
+
+    enum class Phase
+    {
+      element_test,
+      start, // SDVINI
+      step
+    };
+    Phase                     phase = Phase::element_test;
+    const Kernels::UserPoint *point = nullptr;    // of the call in progress
+    double                    depth_of_test = 0.; // m
     // modulus over the largest entry on the diagonal of DDSDDE
     double modulus_ratio = 1.;
   };
