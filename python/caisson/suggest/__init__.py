@@ -20,6 +20,7 @@ or, of sand, no more than its density:
     caisson suggest --diameter 4 --skirt 2.5 --wall 20mm --sand dense own.prm
 """
 import argparse
+import functools
 import os
 import re
 import sys
@@ -35,7 +36,15 @@ from caisson.paths import INSTALLED
 from caisson.runner import RunError, query
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
+from caisson.suggest.sizes import (
+    LEVELS,
+    Body,
+    Level,
+    frames_of,
+    mesh_of,
+    start_of,
+    to_two_digits,
+)
 from caisson.suggest.soil import CAM_CLAY, NGI_ADP, layers_of
 from caisson_design import InputError, cone_file, interpretation
 from caisson_design.interpretation import Interpretation
@@ -44,6 +53,9 @@ from caisson_design.quantity import length, number
 # of a study: of the friction angle (degrees), or of the relative density
 CHANGES = (-4, -2, 0, 2, 4)
 CHANGES_OF_DENSITY = (-0.2, -0.1, 0, 0.1, 0.2)
+VELOCITY = 0.1  # m/s
+RAMP_SHARE = 0.05  # of the way, at most, until the velocity is reached
+LEAST_RECORDS = 100
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -88,6 +100,8 @@ def add_caisson_arguments(parser: argparse.ArgumentParser, required: bool) -> No
         help="on both sides",
     )
     add("--penetration", type=length, metavar="M", help="where the run ends")
+    text = "where it begins (default: at 6 %% of the skirt)"
+    add("--embedment", type=number("m"), metavar="M", help=text)
     add(
         "--weight",
         type=number("N"),
@@ -135,10 +149,13 @@ def check(options: argparse.Namespace) -> None:
             f"--skirt {body.skirt:g} m does not go with --diameter"
             f" {body.diameter:g} m: their ratio must be between 0.1 and 10"
         )
-    if end is not None and not start_of(body.skirt) < end <= body.skirt:
+    begin, most = begin_of(options), end_of(options)
+    if begin < 0 or end is None and begin >= most:
+        raise SuggestError(f"--embedment must be from 0 to less than {most:g} m")
+    if end is not None and not begin < end <= body.skirt:
         raise SuggestError(
-            f"--penetration must be between {start_of(body.skirt):g} m, where the"
-            f" caisson begins, and the length of the skirt, {body.skirt:g} m"
+            f"--penetration must be between {begin:g} m, where the caisson begins, and"
+            f" the length of the skirt, {body.skirt:g} m"
         )
     for name in ("weight", "water_depth"):
         if (value := getattr(options, name)) is not None and value <= 0:
@@ -263,8 +280,15 @@ def template(name: str) -> jinja2.Template:
     return environment_of_text.get_template(name)
 
 
+def begin_of(options: argparse.Namespace) -> float:
+    """Return where the run begins (m)."""
+    given = options.embedment
+    return start_of(options.skirt) if given is None else float(given)
+
+
 def end_of(options: argparse.Namespace) -> float:
-    """Return where the run ends (m)."""
+    """Return where the run ends (m): without --penetration where there is room left
+    for the soil that rises inside."""
     return float(options.penetration or options.skirt - start_of(options.skirt))
 
 
@@ -358,11 +382,11 @@ def density_after(layer: Layer, change: float) -> float:
 def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level) -> str:
     """Return the text of the scene."""
     body = Body(options.diameter, options.skirt, options.wall)
-    start = start_of(body.skirt)
-    end = end_of(options)
-    mesh = mesh_of(body, end, level, [layer.top for layer in layers])
+    start, end = begin_of(options), end_of(options)
+    mesh = mesh_of(body, start, end, level, [layer.top for layer in layers])
     how = "by weight and suction" if options.weight else "jacked"
     smallest = body.wall / level.cells
+    ramp = to_two_digits(min(0.5, RAMP_SHARE * (end - start) / VELOCITY))
     soil = with_adhesion(layers) if options.wall_friction is None else layers
     if options.weight:
         refuse_clay(reached(options, layers))
@@ -375,6 +399,9 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         smallest_mm=f"{smallest * 1e3:.3g}",
         start=start,
         end=end,
+        ramp=ramp,
+        record=to_two_digits(min(0.1, (end - start) / VELOCITY / LEAST_RECORDS)),
+        velocity=VELOCITY,
         wall_friction=wall_friction_of(options.wall_friction, reached(options, layers)),
         layers=with_permeability(soil) if options.weight else soil,
         is_clay=all(map(is_clay, reached(options, layers))),
@@ -385,6 +412,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
     )
 
 
+@functools.lru_cache
 def entries_of_layers() -> dict[str, str]:
     """Return the units of all entries of a layer by their names, "" for none, as the
     program knows them. Raises RunError."""
