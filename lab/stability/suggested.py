@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Scenes that `caisson suggest` writes for caissons and soils drawn at random.
 
-Diameters of 0.1 to 20 m, walls of 0.2 to 2 % of them, sand by angle and by density, clay
-of 2 to 200 kPa that is uniform or grows with depth, two and three layers, an embedment
-that is left open, 0 or given, sand with and without weight. The same seed gives the same
-scenes. Each must be written, be accepted by --validate --strict, and run to a tenth of
-its skirt with status 0, without a warning that is of the tool's own choice (energy,
-transfer, a tip force that falls), in at most three times its estimate. Runs that are
-complete are not repeated. table.csv and table.md have what each did.
+Diameters of 0.1 to 20 m, walls of 0.2 to 2 % of them, sand by angle and by density,
+clay of 2 to 200 kPa that is uniform or grows with depth, two and three layers, an
+embedment that is left open, 0 or given, sand with and without weight. The same seed
+gives the same scenes. Each must be written, be accepted by --validate --strict, and run
+to a tenth of its skirt with status 0, without a warning that is of the tool's own
+choice (energy, transfer, a tip force that falls), in at most three times its estimate.
+Runs that are complete are not repeated. table.csv and table.md have what each did.
 """
 import argparse
 import contextlib
@@ -24,7 +24,7 @@ from pathlib import Path
 from caisson import suggest
 from caisson.paths import RESULTS
 from caisson.results import Results, ResultsError
-from caisson.runner import Run, RunError, Status, query, read_parameters, size_in
+from caisson.runner import Run, RunError, Status, query, read_parameters
 from lab import machine, outcome
 
 NUMBER, QUICK, SEED = 60, 6, 49
@@ -165,7 +165,8 @@ def case_of(seed: int, number: int) -> Case:
         share = draw.between(0.01, 0.2) if embedment == "given" else 0.0
         words += ["--embedment", f"{share * skirt:.2g}"]
     weight = "-"
-    if not any("su" in layer for layer in layers) and draw.next() < 0.5:
+    is_sand = not any("su" in layer for layer in layers)
+    if is_sand and embedment != "zero" and draw.next() < 0.7:
         steel = math.pi * diameter * wall * skirt * 68e3  # N, in water
         weight = f"{steel * draw.between(1, 4) / 1e3:.2g}kN"
         words += ["--weight", weight]

@@ -264,7 +264,7 @@ class Words(SuggestTest):
         words = ["--study", str(path / "s.toml")]
         wrong = SAND + ", nu = 0.7"
         said = self.suggest(path / "own.prm", *words, status=1, layers=(wrong,))
-        self.assertIn("the program refuses the scene", said)
+        self.assertIn("the program refuses the scene, which is not written:", said)
         self.assertEqual(list(path.iterdir()), [])
         self.suggest(path / "own.prm", *words, layers=(SAND,))
 
@@ -358,7 +358,7 @@ class SandByDensity(SuggestTest):
         for words, said in (
             (["--sand", "dens"], "did you mean dense?"),
             (["--density", "85"], "Did you mean 0.85?"),
-            (["--sand", "clay"], "clay is given by --layer"),
+            (["--sand", "clay"], "clay is given by its strength"),
         ):
             text = self.suggest(path, *words, status=1, layers=())
             self.assertIn(said, text)
@@ -471,6 +471,8 @@ class Files(SuggestTest):
             ([], (SAND, SAND), "deeper than the one before"),
             ([], ("Friction angle = 33",), "must begin with the depth"),
             ([], ("0: Friction angle",), "ENTRY = VALUE"),
+            (["--embedment", "0", "--weight", "1MN"], (SAND,), "without --weight"),
+            (["--embedment", "9"], (SAND,), "less than 7.5 m"),
             (
                 ["--weight", "1e6"],
                 (SAND, "2: " + SAND[3:] + ", Permeability=1e-5"),

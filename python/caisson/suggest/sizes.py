@@ -65,6 +65,10 @@ class Mesh:
     levels: int
     refined_distance: float
     near_distance: float
+    smallest_row: float
+
+
+DEFAULT_ROW = 0.01  # m, the program's Grid/Smallest row height
 
 
 def to_two_digits(value: float) -> float:
@@ -81,6 +85,11 @@ def step_of(size: float, most: float) -> float:
 def rounded(length: float, step: float) -> float:
     """Return a length as a multiple of a step."""
     return round(round(length / step) * step, 9)
+
+
+def rounded_up(length: float, step: float) -> float:
+    """Return the least multiple of a step that is no smaller than a length."""
+    return rounded(ceil(length / step - 1e-9) * step, step)
 
 
 def zone_of(
@@ -100,14 +109,14 @@ def zone_of(
 def mesh_of(
     body: Body, start: float, end: float, level: Level, tops: Sequence[float]
 ) -> Mesh:
-    """Return the mesh for a travel from a depth to another in layers with these tops."""
+    """Return the mesh for a travel between two depths in layers with these tops."""
     d = body.diameter
     cell_height = to_two_digits(level.far * d / 15)
     step = step_of(d, 1.0)
     return Mesh(
         outer_radius=2.5 * d,
-        bottom=-rounded(ceil(max(3 * d, end + 1.5 * d) / step - 1e-9) * step, step),
-        top=rounded((ceil(body.skirt / step - 1e-9) + 1) * step, step),
+        bottom=-rounded_up(max(3 * d, end + 1.5 * d), step),
+        top=rounded_up(body.skirt + step, step),
         cell_width=to_two_digits(level.far * d / 5),
         cell_height=cell_height,
         growth=level.growth,
@@ -116,6 +125,7 @@ def mesh_of(
         levels=level.levels,
         refined_distance=3 * body.wall,
         near_distance=to_two_digits(d / 10),
+        smallest_row=to_two_digits(body.wall / 2),
     )
 
 
