@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/shown_unit.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/output/largest_pull.h>
 #include <caisson_mpm/output/result_lines.h>
@@ -134,15 +135,27 @@ namespace CaissonMPM
       return {};
     }
 
-    std::string
-    kilonewtons(const double newtons)
+    /** Units that fit a run, and numbers in them. */
+    struct ShownUnits
     {
-      constexpr double round_off   = 1e-6; // N
-      const double     kilonewtons = 1e-3 * newtons;
-      return std::abs(newtons) < round_off ? "0" :
-             std::abs(kilonewtons) < 1e3   ? to_text(kilonewtons, 4) :
-                                             to_text(std::round(kilonewtons), 9);
-    }
+      ShownUnit force, length;
+
+      std::string
+      number(const double newtons) const
+      {
+        constexpr double round_off = 1e-6; // N
+        const double     value     = force.factor * newtons;
+        return std::abs(newtons) < round_off ? "0" :
+               std::abs(value) < 1e3         ? to_text(value, 4) :
+                                               to_text(std::round(value), 9);
+      }
+
+      std::string
+      depth(const double meters, const int digits) const
+      {
+        return to_text(length.factor * meters, digits) + " " + length.name;
+      }
+    };
 
     std::string
     error_in_words(const std::optional<ErrorBar::Error> &error)
@@ -181,9 +194,10 @@ namespace CaissonMPM
     }
 
     Console::Lines
-    lines_at_depths(const Curves   &curves,
-                    const ErrorBar &error_bar,
-                    const bool      down)
+    lines_at_depths(const Curves     &curves,
+                    const ErrorBar   &error_bar,
+                    const ShownUnits &units,
+                    const bool        down)
     {
       const auto [top, bottom] =
         std::minmax_element(curves.depth.begin(), curves.depth.end());
@@ -193,16 +207,17 @@ namespace CaissonMPM
         if (const auto place = find(curves.depth, at, down, step))
           {
             const auto force = [&](const unsigned int k) {
-              return kilonewtons(place->value(curves.force[k]));
+              return units.number(place->value(curves.force[k]));
             };
             lines.emplace_back(
-              "at " + to_text(at, 4) + (down ? " m" : " m, up"),
+              "at " + units.depth(at, 4) + (down ? "" : ", up"),
               "tip " + force(0) + ", inner " + force(1) + ", outer " +
-                force(2) + ", total " + force(3) + " kN" +
+                force(2) + ", total " + force(3) + " " + units.force.name +
                 (curves.with_water.empty() ?
                    "" :
                    ", with water " +
-                     kilonewtons(place->value(curves.with_water)) + " kN") +
+                     units.number(place->value(curves.with_water)) + " " +
+                     units.force.name) +
                 (down ? error_in_words(error_bar.of_total_force(at)) +
                           suction_in_words(curves, *place) :
                         ""));
@@ -222,14 +237,14 @@ namespace CaissonMPM
     }
 
     std::string
-    pull_in_words(const LargestPull &most)
+    pull_in_words(const LargestPull &most, const ShownUnits &units)
     {
-      return kilonewtons(most.pull) + " kN at a penetration of " +
-             to_text(most.penetration, 5) + " m: water beneath lid and tip " +
-             kilonewtons(most.water) + ", outer friction " +
-             kilonewtons(most.outer) + ", inner friction " +
-             kilonewtons(most.inner) + ", tip " + kilonewtons(most.tip) +
-             " kN; " +
+      return units.number(most.pull) + " " + units.force.name +
+             " at a penetration of " + units.depth(most.penetration, 5) +
+             ": water beneath lid and tip " + units.number(most.water) +
+             ", outer friction " + units.number(most.outer) +
+             ", inner friction " + units.number(most.inner) + ", tip " +
+             units.number(most.tip) + " " + units.force.name + "; " +
              (most.is_capacity ?
                 most.mechanism :
                 "not the capacity: the pull neither fell nor levelled off");
@@ -237,7 +252,9 @@ namespace CaissonMPM
   } // namespace
 
   Console::Lines
-  result_lines(const Records &records, const ErrorBar &error_bar)
+  result_lines(const Records  &records,
+               const ErrorBar &error_bar,
+               const double    length)
   {
     const Curves curves(records);
     if (curves.depth.empty())
@@ -246,10 +263,12 @@ namespace CaissonMPM
     const auto &total     = has_water ? curves.with_water : curves.force.back();
     const auto [least, largest] =
       std::minmax_element(total.begin(), total.end());
-    const auto where = [&](const auto &force) {
-      return kilonewtons(*force) + (has_water ? " kN, with water," : " kN") +
-             " at a penetration of " +
-             to_text(curves.depth[force - total.begin()], 5) + " m";
+    const ShownUnits units{unit_of_forces(std::max(*largest, -*least)),
+                           unit_of_lengths(length)};
+    const auto       where = [&](const auto &force) {
+      return units.number(*force) + " " + units.force.name +
+             (has_water ? ", with water," : "") + " at a penetration of " +
+             units.depth(curves.depth[force - total.begin()], 5);
     };
     const bool     is_sealed = has_sealed_lid(records);
     Console::Lines lines;
@@ -259,11 +278,11 @@ namespace CaissonMPM
       lines.emplace_back("largest tension", where(least));
     if (is_sealed)
       if (const auto most = largest_pull(records))
-        lines.emplace_back("largest pull", pull_in_words(*most));
+        lines.emplace_back("largest pull", pull_in_words(*most, units));
     if (const auto depth = self_weight_penetration(records))
-      lines.emplace_back("rests by weight", "at " + to_text(*depth, 4) + " m");
+      lines.emplace_back("rests by weight", "at " + units.depth(*depth, 4));
     for (const bool down : {true, false})
-      for (const auto &line : lines_at_depths(curves, error_bar, down))
+      for (const auto &line : lines_at_depths(curves, error_bar, units, down))
         lines.push_back(line);
     return lines;
   }

@@ -15,10 +15,13 @@ namespace CaissonMPM
    * forces where the body first passed each of some evenly spaced depths (whole
    * meters, or 0.1, 0.2, 0.5, 2, 5, ... m), on the way down with the error of
    * the total force where it is known, and on the way up. The records need the
-   * columns of forces and penetration.
+   * columns of forces and penetration. The units fit the largest force and the
+   * length of the body (m).
    */
   Console::Lines
-  result_lines(const Records &records, const ErrorBar &error_bar);
+  result_lines(const Records  &records,
+               const ErrorBar &error_bar,
+               const double    length);
 } // namespace CaissonMPM
 
 #endif

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson.plot.fields import MOST_FRAMES
+from caisson.plot.small import in_units
 from caisson.results import Results, Table
 
 # part of the name of a column: its label, and the column of what stands beside it
@@ -77,5 +78,6 @@ def draw(path: Path, run: Results) -> Path | None:
         row[0].set_ylabel("depth (m)")
         row[0].legend(title="penetration", fontsize=8)
     axes[0, 0].invert_yaxis()  # that of all
+    in_units(figure, run.shown)
     figure.savefig(path, dpi=150)
     return path
