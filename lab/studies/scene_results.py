@@ -90,14 +90,11 @@ def scenes_of_readme() -> list[str]:
 def key_numbers(history: Table) -> dict[tuple[str, float], float]:
     """Return {(quantity, penetration): value} of a whole run: means over 0.2 m at each
     meter on the way down, and the largest tension of a run that pulls."""
-    rows = curves.way_down(history["penetration_m"])
-    depth = history["penetration_m"][rows]
-    meters = np.arange(np.ceil(depth[0]), depth[-1] + 1e-9)
+    depth = history["penetration_m"]
+    meters = np.arange(np.ceil(depth[0]), depth.max() + 1e-9)
     numbers = {}
     for quantity in filter(history.__contains__, QUANTITIES):
-        means = curves.window_means(
-            depth, history[quantity][rows], meters, curves.FORCE_WINDOW
-        )
+        means = curves.forces_at(history, quantity, meters)
         for x, mean in zip(meters, means):
             if np.isfinite(mean):
                 numbers[quantity, float(x)] = float(mean)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Prints numbers of one or more installations, from their history.csv.
 
-Per directory: tip force and friction (kN, means over 0.2 m) at each depth, then
-the required suction and the margin to piping, where there are any, and
+Per directory: tip force and friction (kN, means over 0.2 m, see curves) at each depth,
+then the required suction and the margin to piping, where there are any, and
   roughness  standard deviation of the curve minus its 0.2 m running mean over
              the mean of the latter, from 1 m on (%), tip and total
   KE/W       largest kinetic energy over external work from 1 m on (%)
@@ -30,29 +30,19 @@ def largest(history: Table, column: str) -> str:
     return f"{history[column].max():.0f}"
 
 
-def means(depth: np.ndarray, force: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Return the means over 0.2 m at depths [n], and at the end of the way down those
-    of smoothed_at()."""
-    found = curves.window_means(depth, force, at, curves.FORCE_WINDOW)
-    rows = curves.way_down(depth)[1:]
-    if len(rows) < 3:
-        return found
-    ends = curves.smoothed_at(depth[rows], force[rows], at)
-    return np.where(np.isfinite(found), found, ends)
-
-
 def suction_words(history: Table, at: np.ndarray) -> list[str]:
     """Return required suction and margin to piping at depths [n]; nothing without."""
     if not {"required_suction_Pa", "exit_gradient_axis"} <= set(history):
         return [""] * len(at)
-    steepest = np.maximum(history["exit_gradient_wall"], history["exit_gradient_axis"])
-    needed = np.maximum(history["required_suction_Pa"], 0) / 1e3
-    left = 100 * (1 - np.maximum(steepest, 0) / history["critical_gradient"])
-    rows = curves.way_down(history["penetration_m"])
-    depth, both = history["penetration_m"][rows], (needed[rows], left[rows])
+    rows = curves.main_way(history["penetration_m"])
+    suctions, shares = (
+        curves.smoothed_at(history["penetration_m"][rows], values[rows], at)
+        for values in (history["required_suction_Pa"], curves.gradient_share(history))
+    )
     return [
-        f"  required suction {suction:5.1f} kPa, margin to piping {margin:3.0f} %"
-        for suction, margin in zip(*(curves.smoothed_at(depth, v, at) for v in both))
+        f"  required suction {max(suction, 0) / 1e3:5.1f} kPa, margin to piping"
+        f" {100 * (1 - share):3.0f} %"
+        for suction, share in zip(suctions, shares)
     ]
 
 
@@ -63,9 +53,10 @@ def describe(directory: Path, depths: Sequence[float]) -> Iterator[str]:
     depth, tip = history["penetration_m"], history["tip_force_N"]
     friction = history["inner_friction_N"] + history["outer_friction_N"]
     at = np.array([x for x in depths if depth.min() <= x])
-    kilonewton = 1e-3 * shown.factor("kN")
+    rows, kilonewton = curves.main_way(depth), 1e-3 * shown.factor("kN")
     tips, frictions = (
-        kilonewton * means(depth, force, at) for force in (tip, friction)
+        kilonewton * curves.smoothed_at(depth[rows], force[rows], at)
+        for force in (tip, friction)
     )
     more = suction_words(history, at)
     yield str(directory)
@@ -82,10 +73,8 @@ def describe(directory: Path, depths: Sequence[float]) -> Iterator[str]:
             for force in (tip, history["total_force_N"])
         ]
         energy = 100 * curves.largest_energy_ratio(history)
-        yield (
-            f"  roughness: tip {rough[0]:.2f} %, total {rough[1]:.2f} %; "
-            f" KE/W {energy:.3f} %"
-        )
+        words = "roughness: tip {:.2f} %, total {:.2f} %;  ".format(*rough)
+        yield f"  {words if np.isfinite(rough).all() else ''}KE/W {energy:.3f} %"
     yield (
         f"  points in body {largest(history, 'points_in_body')}, limiter"
         f" {largest(history, 'limiter_count')}, steps {largest(history, 'step')}"

@@ -1,17 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Numbers of a curve: every mean over a window is taken here.
+"""Numbers of a curve: every mean over a window of history.csv is taken here.
 
-The rows of history.csv are means since the row before, so a force is averaged
-over a window of penetration before it is shown or compared. One definition
-holds for all of them:
-
-    The window of width w about x holds the rows whose position lies between
-    x - w/2 and x + w/2, both ends included; a distance that exceeds w/2 by no
-    more than EDGE still counts, so that rounding in the tenth digit does not
-    decide whether a row at the end is in. The mean is that of the values of
-    these rows, each with the same weight. It is nan where the window reaches
-    beyond the first or the last position of the curve, and where it holds no
-    finite value.
+The rows of history.csv are means since the row before, so a number is averaged over a
+window of penetration before it is shown or compared. smoothed_at() has the definition.
+The program takes the numbers at depths of its terminal and of run.json in the same way
+(ResultTable), and a test compares them.
 
 Positions are metres of penetration or of travelled path.
 """
@@ -22,11 +15,17 @@ import numpy as np
 
 from caisson.results import Table
 
-EDGE = 1e-9  # m
-FORCE_WINDOW = 0.2  # m, of the forces of a caisson
+EDGE = 1e-9  # m, by which a row may lie outside of a window and still count
+FORCE_WINDOW = 0.2  # m, of a way of 0.8 m and more; see window_of()
 # with excess pressure on the tip and beneath a sealed lid, where a run has such
 WITH_WATER = "total_force_with_water_N"
 FROM = 1.0  # m, of roughness and energy ratio: the start is left out
+
+
+def window_of(way: float) -> float:
+    """Return the width of the window on a way of this length (m): a quarter of a short
+    one."""
+    return min(FORCE_WINDOW, way / 4)
 
 
 def in_window(position: np.ndarray, at: float, width: float) -> np.ndarray:
@@ -66,51 +65,47 @@ def window_rms(position: np.ndarray, values: np.ndarray, width: float) -> np.nda
 
 
 def smoothed_at(position: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Return the means over FORCE_WINDOW about each of at [m]: [m]; near the ends of
-    the positions [n], which grow, over as much as fits, beyond them the last value, and
-    at the end itself that of a line through the last FORCE_WINDOW."""
-    means = window_means(position, values, at, FORCE_WINDOW)
-    short = means_to_the_ends(position, values, at, FORCE_WINDOW)
-    short = np.where(np.isfinite(short), short, np.interp(at, position, values))
-    last = (position >= position[-1] - FORCE_WINDOW - EDGE) & np.isfinite(values)
-    if last.sum() > 2:
-        line = np.polyfit(position[last] - position[-1], values[last], 1)
-        short = np.where(np.abs(at - position[-1]) < 1e-3, line[1], short)
-    return np.where(np.isfinite(means), means, short)
+    """Return the means of a curve [n], which only grows or only falls, at each of at
+    [m]: [m]; beyond its ends those at the ends.
 
-
-def integral(position: np.ndarray, values: np.ndarray, to: np.ndarray) -> np.ndarray:
-    """Return the integral of a curve [n], linear between its rows, from its first
-    position, which must be the smallest of rising ones, to each of to [m]: [m]."""
-    pieces = np.diff(position) * (values[1:] + values[:-1]) / 2
-    at_rows = np.concatenate([[0.0], np.cumsum(pieces)])
-    row = np.clip(np.searchsorted(position, to) - 1, 0, len(position) - 2)
-    ends = np.interp(to, position, values)
-    return at_rows[row] + (to - position[row]) * (values[row] + ends) / 2
-
-
-def means_to_the_ends(
-    position: np.ndarray, values: np.ndarray, at: np.ndarray, width: float
-) -> np.ndarray:
-    """Return the means over windows about each of at [m], which near the ends of the
-    curve are as wide as fits about them: [m].
-
-    position [n] only grows or only falls. The curve is linear between its rows, and
-    each part of a window has the same weight, so that rows which lie closer together,
-    as where a body is slow, do not count more. Beyond the ends the mean is nan.
+    A mean is that of the rows in the window of window_of() about a position. A window
+    that would reach beyond an end of the curve begins or ends there, and a straight
+    line of least squares through its rows gives the value at the position. With fewer
+    than three rows in it, the value lies on the line between the two rows around.
     """
-    known = np.isfinite(values)
-    order = np.argsort(position[known])
-    position, values = position[known][order], values[known][order]
-    if len(position) < 2:
-        return np.full(len(at), np.nan)
-    room = np.minimum(at - position[0], position[-1] - at)
-    half = np.clip(room, 0.0, width / 2)
-    low, high = [integral(position, values, at + side * half) for side in (-1, 1)]
-    exact = np.interp(at, position, values)
-    wide = half > EDGE
-    means = np.where(wide, (high - low) / np.where(wide, 2 * half, 1.0), exact)
-    return np.where(room < -EDGE, np.nan, means)
+    order = np.argsort(position)
+    order = order[np.isfinite(values[order])]
+    x, y = position[order], values[order]
+    if len(x) < 2:
+        return np.full(len(at), y[0] if len(y) else np.nan)
+    half = window_of(x[-1] - x[0]) / 2
+    at = np.clip(at, x[0], x[-1])
+    centers = np.clip(at, x[0] + half, x[-1] - half)
+    return np.array([mean_at(x, y, *pair, half) for pair in zip(at, centers)])
+
+
+def mean_at(
+    x: np.ndarray, y: np.ndarray, at: float, center: float, half: float
+) -> float:
+    """Return the mean of smoothed_at() at one position, by the window about center."""
+    near = in_window(x, center, 2 * half)
+    if near.sum() < 3:
+        return float(np.interp(at, x, y))
+    x, y = x[near], y[near]
+    mean, distance = float(y.mean()), x - x.mean()
+    if abs(at - center) < EDGE:
+        return mean
+    slope = distance @ y / (distance @ distance)
+    return float(mean + slope * (at - x.mean()))
+
+
+def smoothed_within(
+    position: np.ndarray, values: np.ndarray, at: np.ndarray
+) -> np.ndarray:
+    """Return the same means, [m], and nan beyond the ends of the curve."""
+    low, high = position.min() - EDGE, position.max() + EDGE
+    inside = (at >= low) & (at <= high)
+    return np.where(inside, smoothed_at(position, values, at), np.nan)
 
 
 def way_down(position: np.ndarray) -> np.ndarray:
@@ -124,6 +119,15 @@ def way_up(position: np.ndarray) -> np.ndarray:
     all between it and them."""
     deepest = int(np.argmax(position))
     return deepest + way_down(-position[deepest:])
+
+
+def main_way(position: np.ndarray) -> np.ndarray:
+    """Return the numbers of the rows of the way down, or of the way up where that is
+    ten times as long, as of a body that is pulled; without the row where it begins,
+    over which there is no mean."""
+    down, up = (way[1:] for way in (way_down(position), way_up(position)))
+    fall, rise = position.max() - position[0], position.max() - position[-1]
+    return up if 10 * fall <= rise and rise > 0 else down
 
 
 def common_depths(positions: Sequence[np.ndarray], interval: float) -> np.ndarray:
@@ -171,19 +175,33 @@ def roughness(position: np.ndarray, force: np.ndarray) -> float:
 
 
 def largest_energy_ratio(history: Table) -> float:
-    """Return the largest kinetic energy over external work, from FROM on (a
-    share of 1)."""
-    deep = (history["penetration_m"] >= FROM) & (history["external_work_J"] != 0)
-    if not deep.any():
+    """Return the largest kinetic energy over the external work, whatever its sign, from
+    FROM on (a share of 1). Of a body that is pulled out it is that of the rows with a
+    pull, and at least a tenth of the largest work: the soil springs up when the load on
+    it goes."""
+    depth, work = history["penetration_m"], np.abs(history["external_work_J"])
+    used = (depth >= FROM) & (work > 0)
+    if depth[-1] < depth[0]:
+        force = history.get(WITH_WATER, history["total_force_N"])
+        used = (force < 0) & (work > work.max() / 10)
+    if not used.any():
         return float("nan")
-    ratio = history["kinetic_energy_J"][deep] / history["external_work_J"][deep]
-    return float(ratio.max())
+    return float((history["kinetic_energy_J"][used] / work[used]).max())
+
+
+def gradient_share(history: Table) -> np.ndarray:
+    """Return the larger exit gradient over the critical one, [n_rows]."""
+    larger = np.maximum(history["exit_gradient_wall"], history["exit_gradient_axis"])
+    return np.maximum(larger, 0) / history["critical_gradient"]
 
 
 def forces_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
-    """Return the means of a force over FORCE_WINDOW about some depths [m] (m of
-    penetration): [m]."""
-    return window_means(history["penetration_m"], history[column], depths, FORCE_WINDOW)
+    """Return the means of a column on the way down at some depths [m] (m): [m]. nan
+    where the window is not whole."""
+    rows = way_down(history["penetration_m"])[1:]
+    depth = history["penetration_m"][rows]
+    width = window_of(float(np.ptp(depth))) if len(depth) else FORCE_WINDOW
+    return window_means(depth, history[column][rows], depths, width)
 
 
 def depth_at(time: float, history: Table) -> float:

@@ -140,8 +140,8 @@ def of_houlsby_byrne(found: Compared) -> str:
         tip += f" under its suction of {text_of(found.suction / 1e3)} kPa"
     return (
         f"At {depth_of(found.h)} the run has {found.ratio} times the {what}"
-        f" of Houlsby & Byrne (2005): its tip bears {tip}{cause_of_tip(found)} and its walls {inner}"
-        f" inside and {outer} outside{state_of_walls(found)}."
+        f" of Houlsby & Byrne (2005): its tip bears {tip}{cause_of_tip(found)} and its"
+        f" walls {inner} inside and {outer} outside{state_of_walls(found)}."
     )
 
 

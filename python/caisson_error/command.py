@@ -38,8 +38,8 @@ COST = {INERTIA: 2.0, STEP: 2.0, POINTS: 1.8, SIDES: 1.5}
 COST_OF_CHANGES = sum(COST.values())
 SHORTEST_WAY = 0.4  # m
 TOO_SHORT = (
-    f"the body is pushed by less than {SHORTEST_WAY} m. Forces are means over 0.2 m, so"
-    " that such a scene has no error bar"
+    f"the body is pushed by less than {SHORTEST_WAY} m, and the depths of an error bar"
+    " are 0.1 m apart: such a scene has none"
 )
 
 

@@ -279,17 +279,17 @@ def figures_of(run: Results, found: Installation | None) -> list[dict[str, Any]]
 def unit_table(run: Results) -> dict[str, Any]:
     """Return the unit resistances at each half meter: heads and rows of text.
 
-    They are those of the way down, or of the way up where there is none. Values are
-    means over 0.2 m, or less at the ends. Friction is over the wall below the mudline
-    of the start, the tip force over the area of the flat tip.
+    They are those of the way down, or of the way up where there is none. Friction is
+    over the wall below the mudline of the start, the tip force over the area of the
+    flat tip.
     """
     history, scene = run.history, run.scene
     nothing: dict[str, Any] = {"heads": [], "rows": []}
     if penetration(history) is None or not scene.get("wall_thickness_m"):
         return nothing
-    way = curves.way_down(history["penetration_m"])
+    way = curves.main_way(history["penetration_m"])
     if len(way) < 2:
-        way = curves.way_up(history["penetration_m"])[::-1]
+        return nothing
     depth = history["penetration_m"][way]
     at = depths_of(depth)
     at = at[at > 0]
@@ -313,6 +313,14 @@ def unit_table(run: Results) -> dict[str, Any]:
     texts = [texts_of(shown.factor_of(head) * x) for head, x in columns.items()]
     heads = [shown.named(head) for head in columns]
     return {"heads": heads, "rows": [list(row) for row in zip(*texts)]}
+
+
+def averaged(run: Results) -> str:
+    """Return over how much penetration the numbers of the tables are averaged."""
+    depth = run.history.get("penetration_m", np.zeros(1))
+    way = depth[curves.main_way(depth)]
+    window = curves.window_of(float(np.ptp(way))) if len(way) else 0.0
+    return f"Averaged over {run.shown.words(window, 'm', '.2g')} of penetration"
 
 
 def remarks_on_numbers(run: Results) -> list[str]:
@@ -346,10 +354,12 @@ def remarks_on_numbers(run: Results) -> list[str]:
                     f"The curve scatters by {rough:.2g} % about its mean over"
                     f" {curves.FORCE_WINDOW} m."
                 )
-            found.append(
-                f"Kinetic energy is at most {energy:.2g} % of the work: the run is "
-                + ("slow enough." if energy < 1 else "fast; halve the velocity to see.")
-            )
+            words = "slow enough" if energy < 1 else "fast; halve the velocity to see"
+            if math.isfinite(energy):
+                found.append(
+                    f"Kinetic energy is at most {energy:.2g} % of the work: the run is"
+                    f" {words}."
+                )
     inside = summary.get("max_points_in_body", 0)
     found.append(
         "No material point was inside the body."

@@ -28,10 +28,10 @@ INTERVAL = 0.5  # m, between the depths of the table
 HOUR = 3600.0
 LEAST_SHARE = 0.02  # of the critical gradient, below which the gradient is noise
 COMPUTED = "exit gradient computed"
+GRADIENT = "exit_gradient_over_critical"
 PIPING, BOILING, PUMP = "piping, Houlsby & Byrne", "water boils", "pump"
-NEAR = 0.25  # m, over which error bars of a force and a suction are taken together
 NOTHING = 5e-4  # of a unit of the tables
-HELD = 0.5  # m, below the error bar, over which its last width still stands
+HELD = 0.7  # m, below the error bar, over which its last width still stands
 
 
 class Rate(NamedTuple):
@@ -111,65 +111,75 @@ def depths_of(position: np.ndarray, interval: float = INTERVAL) -> np.ndarray:
         found = curves.round_depths(position)
     else:
         found = curves.common_depths([position], interval)
-        found = found[found > position.min() + 1e-9]
+        found = found[found > position.min() + 1e-6 * interval]
     end = float(position.max())
-    if len(found) and end - found[-1] < 1e-3:
+    near = 2e-3 * (found[1] - found[0] if len(found) > 1 else interval)
+    if len(found) and end - found[-1] <= near:
         return found
     return np.append(found, end)
 
 
-def needs_suction(history: Table) -> bool:
-    """Return whether the weight of a caisson does not suffice in any row of the table;
-    False without suction."""
-    if design.SUCTION not in history:
-        return False
-    rows = curves.way_down(history["penetration_m"])
+def numbers_of(run: Results) -> Table:
+    """Return the numbers of the way down at the depths of the tables: columns [n] by
+    their names in run.json, which has them at the end of a run. Before, they are taken
+    from what there is of history.csv; empty where that has no way down."""
+    if known := run.at_depths:
+        return known
+    history = run.history
+    rows = curves.way_down(history["penetration_m"])[1:]
     depth = history["penetration_m"][rows]
-    required = history[design.SUCTION][rows]
-    return bool(
-        (curves.smoothed_at(depth, required, depths_of(depth)) > 1e3 * NOTHING).any()
-    )
+    if len(rows) < 2:
+        return {}
+    more = {}
+    if design.SUCTION in history:
+        more[GRADIENT] = curves.gradient_share(history)
+    at = depths_of(depth)
+    means = {
+        name: curves.smoothed_at(depth, values[rows], at)
+        for name, values in (history | more).items()
+    }
+    return means | {"penetration_m": at}
 
 
-def bounds_at(
-    run: Results, quantity: str, unit: str, at: np.ndarray, values: np.ndarray
-) -> Bounds | None:
-    """Return the bounds of values [n] of history.csv at depths [n]: the widest within
-    NEAR; nan above the error bar and further than HELD below; None without one."""
-    bounds, unit = run.error_bounds, f"_{unit}" if unit else ""
-    if f"{quantity}_low{unit}" not in bounds:
+def needs_suction(run: Results) -> bool:
+    """Return whether the weight of a caisson does not suffice at any depth of the
+    tables; False without suction."""
+    required = numbers_of(run).get(design.SUCTION, np.empty(0))
+    return bool((required > 1e3 * NOTHING).any())
+
+
+def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
+    """Return the bounds of a column of numbers_of() in its unit, [n]; below the error
+    bar, up to HELD, those of the same width; None without an error bar."""
+    name, sides = f"{quantity}_{unit}", [
+        f"{quantity}_{s}_{unit}" for s in ("low", "high")
+    ]
+    if sides[0] not in numbers:
         return None
-    depth, known = bounds["penetration_m"], bounds[f"{quantity}{unit}"]
-    end, begin = float(depth.max()), float(depth.min())
-    inside = (at >= begin - 1e-2) & (at <= end + HELD)
+    values, depth = numbers[name], numbers["penetration_m"]
+    last = int(np.flatnonzero(np.isfinite(numbers[sides[0]]))[-1])
+    held = (depth > depth[last]) & (depth <= depth[last] + HELD)
     found = []
-    for side, widest in (("low", np.nanmin), ("high", np.nanmax)):
-        change = bounds[f"{quantity}_{side}{unit}"] - known
-        near = [change[np.abs(depth - h) <= NEAR] for h in np.clip(at, begin, end)]
-        widths = np.array([widest(part) if len(part) else np.nan for part in near])
-        found.append(np.where(inside, values + widths, np.nan))
-    return Bounds(found[0], found[1], end)
+    for side in sides:
+        ratio, change = numbers[side][last] / values[last], numbers[side] - values
+        below = values * ratio if unit == "N" else values + change[last]
+        found.append(np.where(held, below, numbers[side]))
+    return Bounds(found[0], found[1], float(depth[last]))
 
 
 def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
     """Return the suction (kPa) at which the exit gradient of the run becomes critical,
     at depths [n], nan before there is suction. The flow is linear in the suction."""
     history = run.history
-    rows = curves.way_down(history["penetration_m"])
+    rows = curves.way_down(history["penetration_m"])[1:]
     depth, suction = history["penetration_m"][rows], history["suction_Pa"][rows]
-    share = gradient_share(history)[rows]
+    share = curves.gradient_share(history)[rows]
     pulled = (suction > 0) & (share > LEAST_SHARE)
     if not pulled.any():
         return np.full(len(at), np.nan)
     found = suction[pulled] / share[pulled] / 1e3
     means = curves.smoothed_at(depth[pulled], found, at)
     return np.where(at >= depth[pulled][0], means, np.nan)
-
-
-def gradient_share(history: Table) -> np.ndarray:
-    """Return the larger exit gradient over the critical one, [n_rows]."""
-    larger = np.maximum(history["exit_gradient_wall"], history["exit_gradient_axis"])
-    return np.maximum(larger, 0) / history["critical_gradient"]
 
 
 def limits_of(run: Results, at: np.ndarray, boiling: np.ndarray) -> dict[str, Any]:
@@ -190,51 +200,38 @@ def installation_of(run: Results, rate: Rate) -> Installation | None:
     history = run.history
     if penetration(history) is None or not design.goes_down(history):
         return None
-    rows = curves.way_down(history["penetration_m"])
-    if len(rows) < 3 or not set(design.FORCES) <= set(history):
+    numbers = numbers_of(run)
+    if not numbers or not set(design.FORCES) <= set(numbers):
         return None
-    at = depths_of(history["penetration_m"][rows])
-    forces = {k: v / 1e3 for k, v in design.forces_at(history, at).items()}
+    at = numbers["penetration_m"]
+    forces = {name: numbers[name] / 1e3 for name in design.FORCES}
     found = Installation(at, forces, run.shown)
-    total = forces["total_force_N"] * 1e3
-    bars = bounds_at(run, "total_force", "N", at, total)
-    if bars:
+    if bars := bounds_of(numbers, "total_force", "N"):
         found.force_bounds = bars.scaled(1e-3)
-    force = history.get(curves.WITH_WATER)
-    if force is not None:
-        depth = history["penetration_m"][rows]
-        found.with_water = curves.smoothed_at(depth, force[rows], at) / 1e3
-    if design.SUCTION in history:
-        add_suction(found, run, rate)
+    if curves.WITH_WATER in numbers:
+        found.with_water = numbers[curves.WITH_WATER] / 1e3
+    if design.SUCTION in numbers:
+        add_suction(found, run, numbers, rate)
     return found
 
 
-def add_suction(found: Installation, run: Results, rate: Rate) -> None:
+def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -> None:
     """Add the columns of a run with suction."""
-    history, scene, at = run.history, run.scene, found.depth
-    rows = curves.way_down(history["penetration_m"])
-
-    def mean(values: np.ndarray) -> np.ndarray:
-        return curves.smoothed_at(history["penetration_m"][rows], values[rows], at)
-
-    raw = mean(history[design.SUCTION])
-    found.required = np.maximum(raw, 0) / 1e3
-    bars = bounds_at(run, "required_suction", "Pa", at, raw)
-    if bars:
+    scene, at = run.scene, found.depth
+    found.required = np.maximum(numbers[design.SUCTION], 0) / 1e3
+    if bars := bounds_of(numbers, "required_suction", "Pa"):
         found.required_bounds = bars.scaled(1e-3, 0.0)
     if weight := scene.get("submerged_weight_N"):
         found.excess = (float(weight) - found.forces["total_force_N"][-1] * 1e3) / 1e3
-    found.gradient = mean(gradient_share(history))
-    found.heave = mean(history["plug_heave_m"])
+    found.gradient, found.heave = numbers[GRADIENT], numbers["plug_heave_m"]
     if length := scene.get("skirt_length_m"):
         found.room = float(length) - at - found.heave
-    boiling = history.get("cavitation_suction_Pa")
-    boils = np.full(len(at), np.nan) if boiling is None else mean(boiling) / 1e3
+    boils = numbers.get("cavitation_suction_Pa", np.full(len(at), np.nan)) / 1e3
     if found.has_suction:
         found.limits = limits_of(run, at, boils)
-    found.rest = rest_of_run(history)
-    if scene.get("diameter_m") and "seepage_flow_m3_s" in history:
-        found.seepage = HOUR * np.maximum(mean(history["seepage_flow_m3_s"]), 0)
+    found.rest = rest_of_run(run.history)
+    if scene.get("diameter_m") and "seepage_flow_m3_s" in numbers:
+        found.seepage = HOUR * np.maximum(numbers["seepage_flow_m3_s"], 0)
         rise = np.gradient(found.heave, at) if len(at) > 1 else np.zeros(len(at))
         speed = rate.meters_per_hour * (1 + rise)
         found.flow = plug_area(scene) * speed + found.seepage
@@ -368,10 +365,12 @@ def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, .
         value = shown.words(found.required[-1], "kPa", ".1f")
         remark = bar_in_words(run, found, found.required_bounds, "kPa")
         cards.append(("Required suction", value, remark))
-        most = int(np.argmax(found.required))
-        if found.required[most] > 1.02 * found.required[-1]:
-            remark = f"at {shown.depth(found.depth[most])}"
-            value = shown.words(found.required[most], "kPa", ".1f")
+        most, depth = largest_of(
+            run, "largest_suction", design.SUCTION, found.depth, found.required
+        )
+        if most > 1.02 * found.required[-1]:
+            remark = f"at {shown.depth(depth)}"
+            value = shown.words(most, "kPa", ".1f")
             cards.append(("Largest required suction", value, remark))
         if found.rest is not None:
             remark = (
@@ -400,10 +399,10 @@ def force_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
 
     name = "Resistance at the end" if len(found.required) else "Force at the end"
     cards: list[tuple[str, ...]] = [(name, words(total[-1]), remark)]
-    most = int(np.argmax(total))
-    if most != len(total) - 1:
-        remark = f"at {found.shown.depth(depth[most])}"
-        cards.append(("Largest force", words(total[most]), remark))
+    most, at = largest_of(run, "largest_force", "total_force_N", depth, total)
+    if depth[-1] - at > 1e-3 * min(1.0, float(depth[-1])):
+        remark = f"at {found.shown.depth(at)}"
+        cards.append(("Largest force", words(most), remark))
     tip, inner, outer = (words(found.forces[k][-1]) for k in design.FORCES[:3])
     cards.append(("Of which tip", tip, f"friction inside {inner}, outside {outer}"))
     if len(found.with_water):
@@ -417,27 +416,48 @@ def force_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
     return [*cards, ("Penetration reached", found.shown.depth(depth[-1]), of_skirt)]
 
 
+def results_of(run: Results) -> dict[str, Any]:
+    """Return the results in run.json; empty of a run that has not ended."""
+    return (run.summary.get("results") or {}) if run.scene else {}
+
+
 def least_margin(run: Results, found: Installation) -> tuple[float, float]:
-    """Return the least margin to piping (a share of 1) and its depth (m): of the
-    records, or, where the run has not said it, of the table."""
-    known = (run.summary.get("results") or {}) if run.scene else {}
-    if piping := (known.get("margins") or {}).get("piping"):
+    """Return the least margin to piping (a share of 1) and its depth (m): of all
+    depths, or, where the run has not said it, of those of the table."""
+    if piping := results_of(run).get("margins", {}).get("piping"):
         return float(piping["least"]), float(piping["penetration_m"])
     worst = int(np.argmax(found.gradient))
     return float(1 - found.gradient[worst]), float(found.depth[worst])
 
 
+def largest_of(
+    run: Results, key: str, column: str, depth: np.ndarray, values: np.ndarray
+) -> tuple[float, float]:
+    """Return the largest value (kN or kPa) of a column and its depth (m): of all
+    depths, or, where the run has not said it, of values [n] at depths [n]."""
+    if most := results_of(run).get(key):
+        if column in most:
+            return most[column] / 1e3, float(most["penetration_m"])
+    i = int(np.argmax(values))
+    return float(values[i]), float(depth[i])
+
+
 def piping_bar(run: Results, least: float, depth: float) -> Bounds | None:
     """Return the error bar of the least margin to piping at its depth (m), [1]."""
-    history, at = run.history, np.array([depth])
+    history, bounds = run.history, run.error_bounds
     names = ("exit_gradient_wall", "exit_gradient_axis")
     i = int(np.argmin(np.abs(history["penetration_m"] - depth)))
     name = max(names, key=lambda key: float(history[key][i]))
-    critical = float(history["critical_gradient"][i])
-    bar = bounds_at(run, name, "", at, (1 - least) * critical * np.ones(1))
-    if bar is None or not np.isfinite([*bar.low, *bar.high]).all():
+    known = bounds.get("penetration_m", np.full(1, np.inf))
+    inside = known[0] - 1e-2 <= depth <= known[-1] + HELD
+    if not inside or f"{name}_low" not in bounds:
         return None
-    return Bounds(1 - bar.high / critical, 1 - bar.low / critical, bar.end)
+    more, less = (
+        np.interp([depth], known, bounds[f"{name}_{side}"] - bounds[name])
+        / history["critical_gradient"][i]
+        for side in ("high", "low")
+    )
+    return Bounds(least - more, least - less, float(known[-1]))
 
 
 def piping_warning(run: Results, found: Installation | None) -> list[str]:

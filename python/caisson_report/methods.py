@@ -166,7 +166,7 @@ def resistance_beside(
     """Return the table of the resistance (kN) under the suction of the run, by the run
     and by the methods for suction, each with what this suction leaves."""
     total = design.compared_at(run.history, at)[design.FORCES[-1]] / 1e3
-    suction = np.maximum(required_at(run, at), 0)
+    suction = np.maximum(design.suction_at(run.history, at), 0)
     columns: dict[str, Any] = {
         "depth (m)": at,
         "suction (kPa)": suction / 1e3,
@@ -205,14 +205,6 @@ def resistance_beside(
     return table("Resistance under the suction of the run (kN)", columns, run.shown)
 
 
-def required_at(run: Results, at: np.ndarray) -> np.ndarray:
-    """Return the required suction of a run (Pa), means over 0.2 m as all numbers of a
-    report, [n]."""
-    depth = run.history["penetration_m"]
-    rows = curves.way_down(depth)
-    return curves.smoothed_at(depth[rows], run.history[design.SUCTION][rows], at)
-
-
 def or_piping(values: np.ndarray) -> list[str]:
     """Return suctions as text; NO_ANSWER below the depth where a method ends, as the
     suction exceeds its critical one."""
@@ -223,7 +215,7 @@ def or_piping(values: np.ndarray) -> list[str]:
 
 def suctions_beside(run: Results, at: np.ndarray, site: theory.Site) -> dict[str, Any]:
     """Return the table of required and critical suctions (kPa)."""
-    computed = np.maximum(required_at(run, at), 0) / 1e3
+    computed = np.maximum(design.suction_at(run.history, at), 0) / 1e3
     answers = suction_methods.answers_of(site, at)
     found, senders = answers.suctions, answers.senders_randolph
     columns: dict[str, Any] = {"depth (m)": at, "computed": computed}
@@ -278,8 +270,8 @@ def compared(run: Results, h: float) -> Compared | None:
     suction, flow, mine = 0.0, STILL, computed.total
     ends = [byrne.forces(h, case).total for case in byrne.cases]
     caisson, _ = byrne.by_name[UNDISTURBED]
-    if needs_suction(run.history):
-        suction = mine = float(required_at(run, at)[0])
+    if needs_suction(run):
+        suction = mine = float(design.suction_at(run.history, at)[0])
         found = suction_methods.answers_of(site, at).suctions
         ends = [float(found[name][0]) for name in suction_methods.RANGE if found]
         flow = installation.seepage(
@@ -315,8 +307,8 @@ def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]
         return []
     computed = Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
     mine, what, left, suctions = computed.total, "force", None, dict[str, Any]()
-    if needs_suction(history):
-        mine, what = float(required_at(run, at)[0]), "suction"
+    if needs_suction(run):
+        mine, what = float(design.suction_at(run.history, at)[0]), "suction"
         suctions = suction_methods.answers_of(theory.site_of(run), at).suctions
         if not suctions:
             return []
@@ -407,11 +399,11 @@ def methods_of(run: Results) -> dict[str, Any]:
     history = run.history
     if penetration(history) is None or not design.goes_down(history):
         return NOTHING
-    rows_down = curves.way_down(history["penetration_m"])
+    rows_down = curves.way_down(history["penetration_m"])[1:]
     site = theory.site_of(run)
     at = depths_of(history["penetration_m"][rows_down], 1.0)
     answers = theory.answers_of(site, at)
-    with_suction, total = needs_suction(history), design.FORCES[-1]
+    with_suction, total = needs_suction(run), design.FORCES[-1]
     computed = None
     if total in history and not with_suction:
         computed = design.compared_at(history, at)[total] / 1e3

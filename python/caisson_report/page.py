@@ -224,6 +224,7 @@ def html(run: Results, rate: Rate) -> str:
         incomplete=incomplete_of(run),
         cards=so_far(cards) if run.is_running or has_ended_early(run) else cards,
         computed=what_was_computed(run, found),
+        averaged=content.averaged(run),
         has_bar=found is not None and found.has_bar,
         rate=rate.words,
         tables=[] if found is None else installation.tables_of(found),

@@ -186,12 +186,13 @@ def caisson_of(run: Results) -> list[Item]:
         Item("Outer diameter", run.shown.length(outer)),
         Item("Wall thickness", f"{1000 * wall:g} mm"),
     ]
-    for name, key in (
-        ("Skirt length", "skirt_length_m"),
-        ("Penetration at the start", "initial_penetration_m"),
+    start = run.summary.get("start_penetration_m", scene.get("initial_penetration_m"))
+    for name, length in (
+        ("Skirt length", scene.get("skirt_length_m")),
+        ("Penetration at the start", start),  # after an installation, where that ended
     ):
-        if scene.get(key) is not None:
-            found.append(Item(name, run.shown.length(float(scene[key]))))
+        if length is not None:
+            found.append(Item(name, run.shown.length(float(length))))
     tip = math.pi / 4 * outer**2 - plug_area(scene)
     found += [
         Item("Area inside, of the lid", f"{plug_area(scene):.4g} m²"),

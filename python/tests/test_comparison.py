@@ -84,8 +84,8 @@ class Files(unittest.TestCase):
     def test_common_depths(self) -> None:
         """A force of 1 MN per meter, empty where a run has not been; the columns of
         a quantity beside each other."""
-        deep = synthetic(self.path / "deep", [0.5, 1.05, 2.3])
-        flat = synthetic(self.path / "flat", [0.75, 1.25])
+        deep = synthetic(self.path / "deep", [0.3, 0.5, 1.05, 2.3])
+        flat = synthetic(self.path / "flat", [0.7, 0.75, 1.25])
         self.assertEqual(self.compare(deep, flat, interval=0.5), 0)
         self.assertGreater((self.path / "both.png").stat().st_size, 1000)
         columns = self.columns()
@@ -108,8 +108,8 @@ class Files(unittest.TestCase):
         self.assertEqual(self.compare(self.path / "pull", interval=1), 0)
         columns = self.columns()
         down, up = columns["total_force_N [pull]"], columns["total_force_N [pull up]"]
-        self.assertEqual(down, ["0", "1", "2", "3"])
-        self.assertEqual(up, ["", "-5", "-2.5", "3"])
+        self.assertEqual(down, ["", "1", "2", "3"])
+        self.assertEqual(up, ["", "-5", "-4", ""])
         self.assertEqual(len(columns), 3, "a force that is 0 throughout")
 
     def test_suction_and_names(self) -> None:
@@ -125,8 +125,8 @@ class Files(unittest.TestCase):
         columns = self.columns()
         self.assertNotIn("required_suction_Pa [a/run]", columns)
         suction = columns["required_suction_Pa [b/run]"]
-        self.assertEqual([suction[0], suction[5], suction[10]], ["0", "50", "100"])
-        self.assertEqual(columns["pushing_force_N [b/run]"][0], "5")
+        self.assertEqual([suction[1], suction[5], suction[10]], ["10", "50", "100"])
+        self.assertEqual(columns["pushing_force_N [b/run]"][1], "5.1")
 
     def test_refused(self) -> None:
         still = synthetic(self.path / "still", [1, 1])

@@ -56,26 +56,34 @@ class WindowMean(unittest.TestCase):
             rms, [np.sqrt(25 / 2), np.sqrt(25 / 3), np.sqrt(16 / 2)]
         )
 
-    def test_means_to_the_ends(self) -> None:
-        """Whole windows, those that shrink at the ends, none outside; and the same of
-        a curve that goes up. Three rows more at the start change nothing."""
-        x = np.array([0.0, 1.0, 2.0, 4.0])
-        f = np.array([0.0, 2.0, 2.0, 8.0])
-        at = np.array([-0.1, 0, 0.5, 1.5, 2.5, 3.5, 4, 4.1])
-        # over 0 to 1, 0.5 to 2.5, 1.5 to 3.5 and 3 to 4
-        means = [1, (0.75 + 2 + 1.375) / 2, (1 + 1.5 * 4.25) / 2, 6.5]
-        expected = [np.nan, 0, *means, 8, np.nan]
+    def test_smoothed(self) -> None:
+        """Of a line all means lie on it, up to both ends, beyond which they stay; those
+        of a zigzag are means within, and the line through the last window at the end.
+        A curve that goes up has the same."""
+        x = np.linspace(1, 3, 201)
+        at = np.array([0.5, 1, 1.03, 2, 2.97, 3, 3.5])
+        line = np.array([2, 2, 2.06, 4, 5.94, 6, 6])
         for order in (slice(None), slice(None, None, -1)):
-            found = curves.means_to_the_ends(x[order], f[order], at, 2)
-            np.testing.assert_allclose(found, expected)
-        dense = np.concatenate([[0.1, 0.2, 0.3], x]), np.concatenate(
-            [[0.2, 0.4, 0.6], f]
-        )
-        rows = np.argsort(dense[0])
-        found = curves.means_to_the_ends(dense[0][rows], dense[1][rows], at, 2)
-        np.testing.assert_allclose(found, expected)
-        few = curves.means_to_the_ends(x[:2], np.array([1.0, np.nan]), at, 2)
-        self.assertTrue(np.isnan(few).all())
+            found = curves.smoothed_at(x[order], 2 * x[order], at)
+            np.testing.assert_allclose(found, line)
+        y = 10 + (-1.0) ** np.arange(201)
+        last = np.polyfit(x[-21:] - 3, y[-21:], 1)[1]
+        found = curves.smoothed_at(x, y, np.array([2, 3.0]))
+        np.testing.assert_allclose(found, [y[90:111].mean(), last])
+        inside = curves.smoothed_within(x, 2 * x, at)
+        np.testing.assert_allclose(inside, [np.nan, *line[1:-1], np.nan])
+
+    def test_smoothed_of_a_short_way(self) -> None:
+        """The window is a quarter of the way, and of few rows between them."""
+        self.assertEqual(curves.window_of(0.04), 0.01)
+        self.assertEqual(curves.window_of(8.0), 0.2)
+        x = np.linspace(0, 0.04, 41)
+        y = np.where(x > 0.0205, 1.0, 0.0)
+        found = curves.smoothed_at(x, y, np.array([0.01, 0.02, 0.03]))
+        np.testing.assert_allclose(found, [0, 5 / 11, 1])
+        few = np.array([0.0, 1.0, np.nan, 4.0])
+        found = curves.smoothed_at(np.array([0.0, 1, 2, 3]), few, np.array([0.5, 2, 3]))
+        np.testing.assert_allclose(found, [0.5, 2.5, 4])
 
     def test_ways(self) -> None:
         """Down with a step back, and up with another."""
@@ -109,6 +117,16 @@ class Shape(unittest.TestCase):
             "external_work_J": np.array([1.0, 10.0, 60.0]),
         }
         self.assertAlmostEqual(curves.largest_energy_ratio(history), 0.1)
+
+    def test_energy_ratio_of_a_pull(self) -> None:
+        """Its work is negative; the release of the tip does not count."""
+        history = {
+            "penetration_m": np.array([2.0, 1.98, 1.96, 1.94]),
+            "kinetic_energy_J": np.array([9.0, 5.0, 1.0, 0.5]),
+            "external_work_J": np.array([0.0, -1.0, -100.0, -50.0]),
+            "total_force_N": np.array([1e6, 1e6, -1e3, -1e3]),
+        }
+        self.assertAlmostEqual(curves.largest_energy_ratio(history), 0.01)
 
     def test_relative_error(self) -> None:
         error = lab_curves.relative_error(np.array([1.1, 1.8]), np.array([1.0, 2.0]))

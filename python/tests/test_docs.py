@@ -36,6 +36,10 @@ end
 GOOD = """# Page
 `Soil/Submerged` and `Soil/Layer 1/Top depth = 2` are entries of `prm/jack.prm`;
 `MaterialPoints` is a class and `MaterialPoints::relocate` a function.
+
+| wall | force |
+|---|---|
+| 0.1 m | 2 kN |
 """
 
 BAD = (
@@ -43,6 +47,7 @@ BAD = (
 `Soil/Sumberged` is in `prm/jakc.prm`, `MaterialDots::relocate` has a colour.
 """
     + "This line is long. " * 6
+    + "\n\n| wall | force |\n|---|---|\n| 0.1 m | 2 kN |\n\n| 0.2 m | 3 kN |\n"
 )
 
 
@@ -87,7 +92,8 @@ class Names(unittest.TestCase):
         found = " ".join(self.faults(BAD))
         for word in "Sumberged jakc.prm MaterialDots colour characters".split():
             self.assertIn(word, found)
-        self.assertEqual(len(self.faults(BAD)), 5)
+        self.assertEqual(len(self.faults(BAD)), 6)
+        self.assertIn("a table without heads: | 0.2 m | 3 kN |", found)
         [comment] = self.faults("The error is 3\n% of the force.\n")
         self.assertIn("percent sign: % of the force", comment)
 

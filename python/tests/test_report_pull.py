@@ -43,6 +43,7 @@ class Pulled(WithPage):
         table["kinetic_energy_J"] = 0.0 * share
         found = {**PULL, **more}
         summary: dict[str, Any] = {**SUMMARY, "results": {"largest_pull": found}}
+        summary["start_penetration_m"] = 1.999
         summary["entries"] = {"Water/Level": "coupled" if sealed else "drained"}
         write_run(self.path, table, summary)
         return Results(self.path)
@@ -64,6 +65,9 @@ class Pulled(WithPage):
         self.assertTrue("h = 2.00 m" in page)
         self.assertTrue("coupled, sealed lid, pulled up" in page)
         self.assertFalse("nan %" in page)
+        # where it begins, and the window of a rise of 0.1 m
+        self.assertTrue("<td>Penetration at the start</td><td>1.999 m</td>" in page)
+        self.assertTrue("Averaged over 0.024 m of penetration. Unit" in page)
 
     def test_no_capacity(self) -> None:
         """A load that the caisson holds is no capacity."""

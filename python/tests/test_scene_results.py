@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The file and the table of the scenes' results."""
+import re
 import unittest
 from dataclasses import replace
 
@@ -15,6 +16,28 @@ class Files(unittest.TestCase):
     def test_page(self) -> None:
         """The table of the manual is that of the file."""
         self.assertTrue(scene_results.page_is_true(scene_results.read()))
+
+    def test_page_with_itself(self) -> None:
+        """Forces beside theory, and the suctions, are those of the table, within 1 %
+        of the deepest."""
+        known = {
+            (n.scene, n.quantity, n.penetration_m): n.value / 1e3
+            for n in scene_results.read()
+            if n.way == WHOLE
+        }
+        text = scene_results.PAGE.read_text(encoding="utf-8")
+        forces = re.findall(r"^\| (\d) m \| (\d+) \|[^|]*\| (\d+) \|", text, re.M)
+        self.assertEqual(len(forces), 4)
+        for depth, *values in forces:
+            for name, value in zip(("total_force_N", "tip_force_N"), values):
+                self.assertAlmostEqual(
+                    float(value), known["jack", name, float(depth)], delta=1
+                )
+        for head, scene in (("required", "suction"), ("the same", "suction_coupled")):
+            (row,) = re.findall(rf"^\| {head}.*?\)`?\)? \|(.*)\|$", text, re.M)[:1]
+            for depth, value in zip(range(2, 7), row.split("|")):
+                expected = known[scene, "required_suction_Pa", float(depth)]
+                self.assertAlmostEqual(float(value), expected, delta=0.6)
 
     def test_scenes(self) -> None:
         """Every number is of a scene of the README, with its commit."""

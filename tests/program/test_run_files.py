@@ -4,8 +4,30 @@
 import re
 import unittest
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+from typing import Any
 
-from program import SUCCESS, ProgramTest, history, scene, summary
+import numpy as np
+from program import (
+    SUCCESS,
+    Entries,
+    ProgramTest,
+    Results,
+    Rows,
+    history,
+    scene,
+    summary,
+)
+
+from caisson.plot import design
+from caisson_design.reasons import text_of
+from caisson_report import installation
+from caisson_report import page as page_module
+
+
+def at_depths(path: Path) -> list[dict[str, Any]]:
+    """Return what run.json has at depths."""
+    return summary(path)["results"]["at_depths"]
 
 
 class Files(ProgramTest):
@@ -62,43 +84,73 @@ class Files(ProgramTest):
                 self.assertGreater(file.stat().st_size, 1000, file)
                 self.assertIn(b"<VTKFile", file.read_bytes()[:500], file)
 
-    def test_forces_at_the_end(self) -> None:
-        """The last lines have the forces of history.csv, with their error."""
+    def test_one_number_everywhere(self) -> None:
+        """Terminal, run.json, report and design.csv have the same forces and the same
+        error bars at each depth, the last one too, and the same largest force."""
         path = self.made_directory()
-        done = self.run_scene("jack", path, entries={"Output/Terminal": "full"})
+        entries: Entries = {"Output/Terminal": "full", "Output/Record interval": 0.05}
+        self.run_scene("jack", path, entries=entries)
         key = summary(path)["fingerprint"]
         (path / "error.csv").write_text(
             f"# fingerprint: {key}\n"
             "penetration_m,tip_below,tip_above,total_below,total_above\n"
-            "0.5,0.2,0.2,0.1,0.01\n0.65,0.2,0.2,0.04,0.04\n"
+            "0.5,0.2,0.2,0.1,0.01\n0.73,0.2,0.2,0.04,0.04\n"
         )
-        rows = history(path)
-        done = self.run_scene(
-            "jack",
-            path,
-            SUCCESS,
-            "--overwrite",
-            entries={"Output/Terminal": "full", "Output/Error bar": path / "error.csv"},
+        entries["Output/Error bar"] = path / "error.csv"
+        said = self.run_scene("jack", path, SUCCESS, "--overwrite", entries=entries)
+        run = Results(path)
+        known = {round(row["penetration_m"], 6): row for row in at_depths(path)}
+        lines = re.findall(r"^at ([\d.]+) m .*total ([-\d.]+) kN(.*)$", said, re.M)
+        self.assertEqual([float(depth) for depth, *_ in lines], list(known))
+        self.assertEqual([*known], [0.6, 0.7, 0.75])
+        page = page_module.html(run, installation.Rate())
+        columns = design.columns_of(run)
+        for depth, force, error in lines:
+            row = known[float(depth)]
+            total = row["total_force_N"]
+            self.assertAlmostEqual(1e3 * float(force) / total, 1, delta=6e-4)
+            x = (float(depth) - 0.5) / 0.23
+            below, above = 0.1 - 0.06 * x, 0.01 + 0.03 * x
+            cell = f"<td>{depth}</td><td>{text_of(total / 1e3)}"
+            if depth == "0.75":
+                self.assertNotIn("total_force_low_N", row)
+                self.assertEqual(error, "")
+                self.assertIn(f"{cell} (about ", page)
+                continue
+            bounds = [row[f"total_force_{side}_N"] for side in ("low", "high")]
+            self.assertAlmostEqual(bounds[0] / total, 1 - below, 6)
+            self.assertAlmostEqual(bounds[1] / total, 1 + above, 6)
+            self.assertRegex(error, rf"^ -{100 * below:.2g} % \+{100 * above:.2g} %$")
+            words = " to ".join(text_of(bound / 1e3) for bound in bounds)
+            self.assertIn(f"{cell} ({words})</td>", page)
+            (i,) = np.flatnonzero(np.isclose(columns["penetration_m"], float(depth)))
+            self.assertAlmostEqual(columns["total_force_N"][i] / total, 1, 6)
+        self.check_largest(summary(path), said)
+        self.check_by_hand(history(path)[1:], known)
+
+    def check_largest(self, found: dict[str, Any], said: str) -> None:
+        """That of the terminal is that of run.json."""
+        most = found["results"]["largest_force"]
+        words_of = re.search(
+            r"^largest force +([\d.]+) kN at a .* ([\d.]+) m$", said, re.M
         )
-        found = re.findall(r"^at ([\d.]+) m .*total ([-\d.]+) kN(.*)$", done, re.M)
-        self.assertEqual([depth for depth, *_ in found], ["0.6", "0.7", "0.75"])
-        # a row is the mean since the row before
-        ends = [row["penetration_m"] for row in rows]
-        depths = [(a + b) / 2 for a, b in zip(ends, ends[1:])]
-        forces = [row["total_force_N"] / 1e3 for row in rows[1:]]
-        self.assertAlmostEqual(float(found[-1][1]) / forces[-1], 1.0, delta=1e-3)
-        for depth, force, error in found[:-1]:
-            (expected,) = [
-                a + (float(depth) - x) / (y - x) * (b - a)
-                for x, y, a, b in zip(depths, depths[1:], forces, forces[1:])
-                if x < float(depth) <= y
-            ]
-            self.assertAlmostEqual(float(force) / expected, 1.0, delta=1e-3)
-            self.assertEqual(error, " -6 % +3 %" if depth == "0.6" else "")
-        largest = max(forces, key=abs)
-        words = re.search(r"^largest force +([-\d.]+) kN", done, re.M)
-        assert words, done
-        self.assertAlmostEqual(float(words[1]) / largest, 1.0, delta=1e-3)
+        assert words_of, said
+        self.assertAlmostEqual(1e3 * float(words_of[1]) / most["total_force_N"], 1, 3)
+        self.assertAlmostEqual(float(words_of[2]), most["penetration_m"], 4)
+
+    def check_by_hand(self, rows: Rows, known: dict[float, dict[str, Any]]) -> None:
+        """A mean over a quarter of the way, and a line at its end."""
+        window = (rows[-1]["penetration_m"] - rows[0]["penetration_m"]) / 4
+        near = [r for r in rows if abs(r["penetration_m"] - 0.6) <= window / 2 + 1e-9]
+        mean = sum(row["tip_force_N"] for row in near) / len(near)
+        self.assertAlmostEqual(known[0.6]["tip_force_N"] / mean, 1, 9)
+        last = [r for r in rows if r["penetration_m"] >= 0.75 - window - 1e-9]
+        line = np.polyfit(
+            [row["penetration_m"] - 0.75 for row in last],
+            [row["tip_force_N"] for row in last],
+            1,
+        )
+        self.assertAlmostEqual(known[0.75]["tip_force_N"] / line[1], 1, 6)
 
     def test_scene_in_run_json(self) -> None:
         """What pictures take from there."""

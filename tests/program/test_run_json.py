@@ -6,17 +6,21 @@ import json
 import unittest
 from typing import Any
 
+import numpy as np
 from program import (
     HERE,
     STOPPED,
     SUCCESS,
     Entries,
     ProgramTest,
+    Results,
     history,
     scene,
     summary,
     user_scene,
 )
+
+from caisson import curves
 
 SCHEMA = HERE.parent / "doc/how_to/run.schema.json"
 SMALL: Entries = {
@@ -75,14 +79,24 @@ class Schema(ProgramTest):
         results = found["results"]
         last = results["at_depths"][-1]
         self.assertAlmostEqual(last["penetration_m"], 1.3, places=6)
-        for name in ("total_force_N", "required_suction_Pa", "plug_heave_m"):
-            self.assertAlmostEqual(last[name] / rows[-1][name], 1, places=6)
-        room = 2 - 1.3 - rows[-1]["plug_heave_m"]
+        # every number is that which Python takes from history.csv
+        run = Results(path)
+        way = curves.way_down(run.history["penetration_m"])[1:]
+        depth = run.history["penetration_m"][way]
+        share = curves.gradient_share(run.history)
+        columns = run.history | {"exit_gradient_over_critical": share}
+        for name, values in run.at_depths.items():
+            if name in columns and name != "penetration_m":
+                own = curves.smoothed_at(
+                    depth, columns[name][way], run.at_depths["penetration_m"]
+                )
+                np.testing.assert_allclose(values, own, rtol=1e-6, atol=1e-9)
+        room = 2 - 1.3 - last["plug_heave_m"]
         self.assertAlmostEqual(last["room_below_lid_m"], room, places=6)
-        near = [r for r in rows if abs(r["penetration_m"] - 1) < 0.1 + 1e-9]
+        near = [r for r in rows[1:] if abs(r["penetration_m"] - 1) < 0.1]
         mean = sum(row["tip_force_N"] for row in near) / len(near)
         (at_1,) = [row for row in results["at_depths"] if row["penetration_m"] == 1]
-        self.assertAlmostEqual(at_1["tip_force_N"] / mean, 1, places=6)
+        self.assertAlmostEqual(at_1["tip_force_N"] / mean, 1, places=2)
         zero = [r["penetration_m"] for r in rows if r["suction_Pa"] <= 0]
         self.assertAlmostEqual(results["rest_penetration_m"], zero[-1], places=6)
         # the terminal, too, says where suction begins, and what margin is left
@@ -92,7 +106,8 @@ class Schema(ProgramTest):
         self.assertRegex(
             said, r"(?m)^at 1\.3 m .* suction [\d.]+ kPa, margin to piping"
         )
-        most = max(row["required_suction_Pa"] for row in rows)
+        most = results["largest_suction"]["required_suction_Pa"]
+        self.assertGreaterEqual(most, max(run.at_depths["required_suction_Pa"]))
         margins = results["margins"]
         self.assertAlmostEqual(margins["pump"]["least"], 1 - most / 200e3, places=6)
         self.assertLess(margins["piping"]["least"], 1)
@@ -123,10 +138,13 @@ class Schema(ProgramTest):
         results = found["results"]
         self.assertFalse({"largest_suction", "margins"} & set(results))
         name = "total_force_with_water_N"
-        largest = max(rows, key=lambda row: row[name])
-        ratio = results["largest_force"][name] / largest[name]
-        self.assertAlmostEqual(ratio, 1, 9)
-        self.assertGreater(largest[name], 3 * largest["total_force_N"])
+        largest = results["largest_force"][name]
+        self.assertGreater(
+            largest, max(row[name] for row in results["at_depths"]) / 1.01
+        )
+        self.assertGreater(
+            largest, 3 * max(row["total_force_N"] for row in results["at_depths"])
+        )
         self.assertRegex(said, r"(?m)^largest force +[\d.]+ kN, with water, at")
         self.assertNotIn("largest tension", said)
         self.assertRegex(said, r"(?m)^largest pull .*not the capacity")

@@ -464,6 +464,7 @@ class Files(SuggestTest):
             (["--penetration", "9"], (SAND,), "length of the skirt"),
             (["--water-depth", "9"], (SAND,), "give --weight"),
             (["--weight", "-1"], (SAND,), "must be positive"),
+            (["--wall-friction", "0.5"], (SAND,), "if this is the tangent write 26.6"),
             (["--tops", "0,3"], (SAND,), "--tops is for a cone test"),
             ([], ("0: Friction angle = 33",), "needs Youngs modulus"),
             ([], ("0: Frction angel = 33",), "did you mean Friction angle"),
@@ -481,7 +482,7 @@ class Files(SuggestTest):
         ]
         for words, layers, said in refusals:
             with self.subTest(said=said):
-                status = 2 if said == "no length" else 1
+                status = 2 if said.startswith(("no length", "if this")) else 1
                 text = self.suggest(path, *words, status=status, layers=layers)
                 self.assertIn(said, text)
                 self.assertFalse(path.exists())

@@ -6,7 +6,8 @@ that begins with the name of a section, such as `Grid/Top`, must be an entry.
 One that looks like the name of a class or a function must occur in the sources.
 "`Grid/Top` is 8 by default" must be true, and the glossary, which readers take
 numbers from, states a default in this form only. A line outside tables and code may
-have at most 100 characters.
+have at most 100 characters. A table begins with its heads and a line below them, so
+that a blank line in it cuts it in two.
 """
 import argparse
 import re
@@ -107,6 +108,18 @@ def is_name(word: str) -> bool:
     )
 
 
+def headless_tables(text: str) -> list[str]:
+    """Return the first lines of tables that have no heads."""
+    lines = ["", *text.splitlines(), ""]
+    return [
+        line
+        for before, line, after in zip(lines, lines[1:], lines[2:])
+        if line.startswith("|")
+        and not before.startswith("|")
+        and not re.fullmatch(r"\|[-:| ]+\|", after)
+    ]
+
+
 def faults_of(page: Path, entries: set[str], names: set[str]) -> list[str]:
     """What is wrong in one page."""
     faults = []
@@ -128,6 +141,7 @@ def faults_of(page: Path, entries: set[str], names: set[str]) -> list[str]:
     own_words = text.split("## References")[0]  # titles of papers stay as they are
     faults += [f"British spelling: {word}" for word in set(BRITISH.findall(own_words))]
     outside = re.sub(NOT_WRAPPED, "", text, flags=re.DOTALL)
+    faults += [f"a table without heads: {x[:40]}" for x in headless_tables(outside)]
     for line in outside.splitlines():
         if len(line) > 100 and "|" not in line and "http" not in line:
             faults.append(f"a line of {len(line)} characters: {line[:40]}...")

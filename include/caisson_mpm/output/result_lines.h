@@ -11,12 +11,11 @@
 namespace CaissonMPM
 {
   /**
-   * Return the largest force on the body, also the largest tension, and the
-   * forces where the body first passed each of some evenly spaced depths (whole
-   * meters, or 0.1, 0.2, 0.5, 2, 5, ... m), on the way down with the error of
-   * the total force where it is known, and on the way up. The records need the
-   * columns of forces and penetration. The units fit the largest force and the
-   * length of the body (m).
+   * Return the largest force on the way down, the largest pull, and the forces
+   * at most ten or so of the depths of ResultTable, on the way down with the
+   * error of the total force where it is known, and on the way up. The records
+   * need the columns of forces and penetration. The units fit the largest force
+   * and the length of the body (m).
    */
   Console::Lines
   result_lines(const Records  &records,

@@ -7,19 +7,12 @@
 
 #include <caisson_mpm/output/error_bar.h>
 #include <caisson_mpm/output/json.h>
-#include <caisson_mpm/output/records.h>
+#include <caisson_mpm/output/result_table.h>
 
 #include <optional>
 
 namespace CaissonMPM
 {
-  /** What the results are compared with, where a scene has it. */
-  struct ResultLimits
-  {
-    std::optional<double> skirt_length; // m
-    std::optional<double> pump;         // largest suction, Pa
-  };
-
   /** Return the penetration by weight alone, from which on there is suction
    * until the end; nothing without a pump. Units: m. */
   std::optional<double>
@@ -29,8 +22,8 @@ namespace CaissonMPM
    * Return the results. Of the way down: the largest force, the forces at each
    * half meter and at the end, with their error bars where they are known, and
    * with suction the penetration by weight, the largest suction, and the
-   * margins to piping, boiling of the water, pump and lid. Values at depths are
-   * means over 0.2 m. Of a way up, the largest pull.
+   * margins to piping, boiling of the water, pump and lid, all by ResultTable.
+   * Of a way up, the largest pull.
    */
   Json::Members
   run_results(const Records      &records,

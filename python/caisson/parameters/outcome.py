@@ -132,17 +132,13 @@ def outcome_of(run: StudyRun) -> Outcome:
 def curve_of(history: Table, column: str) -> tuple[np.ndarray, np.ndarray]:
     """Return depths and values [n] of the way down, of a body that is only pulled of
     the way up."""
-    rows = curves.way_down(history[DEPTH])
-    if len(rows) < 2:
-        rows = curves.way_up(history[DEPTH])
+    rows = curves.main_way(history[DEPTH])
     return history[DEPTH][rows], history[column][rows]
 
 
 def values_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
-    """Return the means over 0.2 m, or less at the ends and in short runs, [n]."""
-    depth, values = curve_of(history, column)
-    width = min(curves.FORCE_WINDOW, float(np.ptp(depth)) / 4)
-    return curves.means_to_the_ends(depth, values, depths, width)
+    """Return the means at depths [n], nan beyond the ends."""
+    return curves.smoothed_within(*curve_of(history, column), depths)
 
 
 def unit_of(column: str) -> tuple[str, float]:

@@ -5,8 +5,8 @@ with all their forces at common depths.
 
 The file has a row for each depth, and a column for each force of each run, as in
 total_force_N [jack]; cells where a run has not been are empty. Where a body goes down
-and up again the way up has columns of its own, total_force_N [jack up]. A value is the
-mean over two intervals of depth, and nearer to the ends of a curve over what fits.
+and up again the way up has columns of its own, total_force_N [jack up]. A value is a
+mean over 0.2 m, as everywhere; see curves.
 """
 import argparse
 import math
@@ -136,11 +136,11 @@ def quantities_of(history: Table) -> Table:
 
 def ways_of(name: str, depth: np.ndarray) -> dict[str, np.ndarray]:
     """Return the rows of the way down and of the way up by the name of the run, the
-    latter marked where there are both."""
-    down, up = curves.way_down(depth), curves.way_up(depth)
-    if len(up) < 2:
+    latter marked where there are both; without those where they begin."""
+    down, up = curves.way_down(depth)[1:], curves.way_up(depth)[1:]
+    if not len(up):
         return {name: down}
-    return {name: up} if len(down) < 2 else {name: down, f"{name} up": up}
+    return {name: down, f"{name} up": up} if len(down) else {name: up}
 
 
 def columns_of(histories: Histories, interval: float) -> Table:
@@ -154,9 +154,7 @@ def columns_of(histories: Histories, interval: float) -> Table:
         for name, rows in ways_of(run, history[DEPTH]).items():
             depth = history[DEPTH][rows]
             for quantity, values in quantities_of(history).items():
-                means = curves.means_to_the_ends(
-                    depth, values[rows], depths, 2 * interval
-                )
+                means = curves.smoothed_within(depth, values[rows], depths)
                 if np.any(np.isfinite(means)):
                     found.setdefault(quantity, {})[f"{quantity} [{name}]"] = means
     columns = {DEPTH: depths}

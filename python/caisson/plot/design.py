@@ -30,9 +30,8 @@ def depths_of(history: Table) -> np.ndarray:
 
 
 def forces_at(history: Table, depth: np.ndarray) -> Table:
-    """Return the forces of a run on its way down at depths [n], as columns [n]: means
-    over 0.2 m, and at both ends values. The first row of a history is zero, as no time
-    has passed, and is left out."""
+    """Return the forces of a run on its way down at depths [n], as columns [n]. The
+    first row of a history is zero, as no time has passed, and is left out."""
     rows = curves.way_down(history["penetration_m"])[1:]
     known = history["penetration_m"][rows]
     return {
@@ -54,10 +53,10 @@ def compared_at(history: Table, depth: np.ndarray) -> Table:
 
 
 def suction_at(history: Table, depth: np.ndarray) -> np.ndarray:
-    """Return the required suction of a run, linear between its records, [n]."""
-    rows = curves.way_down(history["penetration_m"])
-    known = history["penetration_m"][rows], history[SUCTION][rows]
-    return np.interp(depth, *known)
+    """Return the required suction of a run on its way down at depths [n]: [n]."""
+    rows = curves.way_down(history["penetration_m"])[1:]
+    known = history["penetration_m"][rows]
+    return curves.smoothed_at(known, history[SUCTION][rows], depth)
 
 
 def column_of(answer: theory.Answer, case: str, part: str) -> str:

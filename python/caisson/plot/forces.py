@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson import curves
-from caisson.curves import FORCE_WINDOW, path_of, running_mean
+from caisson.curves import path_of, running_mean
 from caisson.plot import theory
 from caisson.plot.small import in_units
 from caisson.results import Results, Table
@@ -51,7 +51,7 @@ def smooth(depth: np.ndarray, force: np.ndarray) -> np.ndarray:
 
 def window_of(depth: np.ndarray) -> float:
     """Return the width of the window in m."""
-    return min(FORCE_WINDOW, float(path_of(depth)[-1]) / 4)
+    return curves.window_of(float(path_of(depth)[-1]))
 
 
 def draw_curve(axes: Axes, depth: np.ndarray, force: np.ndarray, name: str) -> None:
