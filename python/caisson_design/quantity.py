@@ -19,7 +19,7 @@ UNITS: dict[str, Mapping[str, float]] = {
 }
 EVERY = {word for units in UNITS.values() for word in units}
 UNSIGNED = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-LEAST_ANGLE = 1.6  # degrees; a smaller number may be a tangent
+LEAST_ANGLE = 1.0  # degrees; a smaller number may be a tangent
 NUMBER = rf"[+-]?{UNSIGNED}"
 
 

@@ -323,7 +323,7 @@ class Layers(unittest.TestCase):
 
     def test_clay_under_suction(self) -> None:
         """A small angle does not make sand of clay, and the message has the way out."""
-        for text in ("su = 60 kPa", "phi = 1deg, c = 60 kPa, E = 12 MPa"):
+        for text in ("su = 60 kPa", "phi = 1, c = 60 kPa, E = 12 MPa"):
             with self.assertRaisesRegex(
                 SuggestError, r"leave out --weight, .* \(force - weight\) / 19.1 m2$"
             ):

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """caisson suggest: scenes for one's own caisson."""
+import argparse
 import re
 import subprocess
 import sys
@@ -14,6 +15,7 @@ from caisson import density_law
 from caisson.runner import environment, read_parameters
 from caisson.suggest.soil import LAWS
 from caisson_design import cone_file
+from lab.stability import suggested
 
 EXAMPLE = HERE.parent / "prm/cpt_example.csv"
 SAND = "0: Friction angle = 33, Youngs modulus = 20e6"
@@ -57,10 +59,8 @@ class Sizes(SuggestTest):
             ("4", "4", "20mm", "10"),
             ("8", "12", "0.03", "5"),
             ("10", "8", "40mm", "2"),
-            ("15", "6", "50mm", "5"),
             ("20", "20", "5cm", "10"),
-            ("6", "7", "0.1", "5"),
-            ("10", "8", "40mm", "20"),
+            ("150mm", "200mm", "1.6mm", "20"),
         ]
         for number, (diameter, skirt, wall, error) in enumerate(cases):
             with self.subTest(diameter=diameter, wall=wall):
@@ -69,6 +69,16 @@ class Sizes(SuggestTest):
                 text = self.suggest(path, *sizes, "--error", error)
                 self.assertRegex(text, r"duration +about \d")
                 self.run_program(SUCCESS, path, "--validate", "--strict")
+
+    def test_drawn_at_random(self) -> None:
+        """Sand, clay and both, small and large: the first scenes of the laboratory."""
+        options = argparse.Namespace(results=self.made_directory(), validate=True)
+        for number in range(suggested.QUICK):
+            case = suggested.case_of(suggested.SEED, number)
+            with self.subTest(case.soil):
+                file = options.results / f"scene_{number:02d}.prm"
+                self.assertTrue(suggested.write_scene(case, file), case.faults)
+                self.assertEqual(suggested.try_case(case, options).faults, [])
 
 
 class Layers(SuggestTest):

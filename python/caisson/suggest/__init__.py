@@ -26,7 +26,7 @@ import re
 import sys
 import tempfile
 from collections.abc import Sequence
-from math import pi
+from math import inf, pi
 from pathlib import Path
 
 import jinja2
@@ -60,6 +60,7 @@ from caisson.suggest.walls import (
 from caisson_design import InputError, cone_file, interpretation
 from caisson_design.interpretation import Interpretation
 from caisson_design.quantity import angle_of_friction, length, number
+from caisson_design.shown import units_for
 
 # of a study: of the friction angle (degrees), or of the relative density
 CHANGES = (-4, -2, 0, 2, 4)
@@ -347,6 +348,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
     mesh = mesh_of(body, start, end, level, [layer.top for layer in layers])
     how = "by weight and suction" if options.weight else "jacked"
     smallest = body.wall / level.cells
+    size = units_for(inf, inf, body.skirt)
     ramp = to_two_digits(min(0.5, RAMP_SHARE * (end - start) / VELOCITY))
     deep = reached(options, layers)
     if options.weight:
@@ -355,7 +357,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         clay.with_states(layers, end, -mesh.bottom), options.wall_friction, deep
     )
     return template("scene.prm.jinja").render(
-        title=f"a caisson of {body.diameter:g} m with a wall of"
+        title=f"a caisson of {size.length(body.diameter)} with a wall of"
         f" {body.wall * 1e3:g} mm, {how}",
         body=body,
         level=level,
