@@ -5,6 +5,7 @@ import math
 from typing import Any, NamedTuple
 
 from caisson.results import Results
+from caisson_design.shown import Units
 from caisson_report.scene import BODY, end_of, entry_of
 
 LETTER = 7.2  # pixels, the width of a letter
@@ -126,7 +127,9 @@ def about_layer(layer: dict[str, Any], number: int, width: float) -> str:
     return ", ".join(words)
 
 
-def draw_ground(drawing: Drawing, layers: list[dict[str, Any]], radius: float) -> None:
+def draw_ground(
+    drawing: Drawing, layers: list[dict[str, Any]], radius: float, shown: Units
+) -> None:
     """Draw the layers, with their depths at the right and their numbers between the
     walls of the caisson, where no dimension is."""
     side = drawing.half_width
@@ -142,7 +145,7 @@ def draw_ground(drawing: Drawing, layers: list[dict[str, Any]], radius: float) -
         written = drawing.y(top)
         if i:
             x = drawing.x(side)
-            drawing.text(x + 6, written + 4, f"{top:g} m")
+            drawing.text(x + 6, written + 4, shown.length(top))
         if drawing.scale * (low - top) > LEAST_BAND:
             y = drawing.y(low) - 5
             drawing.labels.append(y)
@@ -163,7 +166,7 @@ def of_run(run: Results, depth: float, rest: float | None) -> str:
     planned = end_of(run) or depth
     bottom = max(depth, planned, 0.1 * length) * 1.3
     drawing = Drawing(0.95 * outer, min(lid, 0.0) - 0.06 * length, bottom)
-    draw_ground(drawing, scene.get("layers") or [], radius)
+    draw_ground(drawing, scene.get("layers") or [], radius, shown)
     thick = max(wall, LEAST_WALL / drawing.scale)
     for left in (-radius, radius - thick):
         drawing.wall(left, lid, thick, tip_of(run, depth))

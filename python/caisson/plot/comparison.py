@@ -20,8 +20,10 @@ from matplotlib.figure import Figure
 from caisson import curve, curves
 from caisson.plot import design
 from caisson.plot.forces import penetration
+from caisson.plot.small import in_units
 from caisson.results import Results, ResultsError, Table
 from caisson.table import write_csv
+from caisson_design.shown import USUAL, Units
 
 LINES = ("black", "#c0392b", "#2166ac", "#2e8b57", "#8c510a", "#7b3294")
 STYLES = ("-", "--", ":", "-.")
@@ -29,7 +31,7 @@ PUSHING, TOTAL = "pushing_force_N", "total_force_N"
 # columns of history.csv beside those in N
 MORE = ("required_suction_Pa", "suction_Pa", "cavity_pressure_Pa")
 DEPTH = "penetration_m"
-INTERVAL = 0.1  # m
+INTERVAL, INTERVAL_OF_SMALL = 0.1, 0.001  # m
 PICTURE = Path("comparison.png")
 PICTURES = {".png", ".pdf", ".svg"}  # what a word ends with that is no directory
 
@@ -91,7 +93,13 @@ def panels_of(histories: Histories) -> dict[str, Table]:
     return {"required suction (kPa)": suctions, axis: forces}
 
 
-def draw(picture: Path, histories: Histories) -> Path:
+def units_of_all(directories: Sequence[Path]) -> Units:
+    """Return the units that suit all runs: the smaller ones where all are small."""
+    smaller = [Results(directory).shown.smaller for directory in directories]
+    return Units(frozenset.intersection(*smaller))
+
+
+def draw(picture: Path, histories: Histories, shown: Units = USUAL) -> Path:
     """Write the picture."""
     panels = panels_of(histories)
     figure = Figure(figsize=(7 * len(panels), 7))
@@ -118,6 +126,7 @@ def draw(picture: Path, histories: Histories) -> Path:
         axes.set_xlabel(label)
         axes.set_ylabel("penetration of the tip (m)")
         axes.legend(fontsize=8)
+    in_units(figure, shown)
     figure.tight_layout()
     figure.savefig(picture, dpi=150)
     return picture
@@ -197,9 +206,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         " .csv file of the same name is written",
     )
     text = f"between the depths of the .csv file, in m, default {INTERVAL:g}"
-    parser.add_argument(
-        "--interval", type=positive, default=INTERVAL, metavar="M", help=text
-    )
+    text += f", or {INTERVAL_OF_SMALL:g} of bodies shorter than 1 m"
+    parser.add_argument("--interval", type=positive, metavar="M", help=text)
     text = "print forces at round depths and the roughness of curves, and draw nothing"
     parser.add_argument("--values", action="store_true", help=text)
     text = "depths of --values, in m"
@@ -217,8 +225,10 @@ def main(options: argparse.Namespace) -> int:
         if not directories:
             raise ResultsError("give the output directory of a run")
         histories = read(directories)
-        columns = columns_of(histories, options.interval)
-        print(f"compare: {draw(picture, histories)}")
+        shown = units_of_all(directories)
+        usual = INTERVAL_OF_SMALL if "m" in shown.smaller else INTERVAL
+        columns = columns_of(histories, options.interval or usual)
+        print(f"compare: {draw(picture, histories, shown)}")
         print(f"compare: {write(picture.with_suffix('.csv'), columns)}")
     except (ResultsError, OSError) as error:
         print(f"compare: {error}", file=sys.stderr)
