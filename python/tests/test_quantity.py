@@ -417,6 +417,8 @@ class Layers(unittest.TestCase):
             ("0: su = 20000, E = 4 MPa", "give its unit, as in su = 20 kPa"),
             ("0: su = 20+2*d, E = 4 MPa", r"su = \(20\+2\*d\) kPa"),
             ("0: phi = 0.6, E = 4 MPa", "write 31"),
+            ("0: soft clay", "ENTRY = VALUE; clay is given by its strength, as in su"),
+            ("0: densse sand", "did you mean dense?"),
             ("0: su = 2,5 kPa", "'5 kPa' is not .* decimals have a point"),
             ("0: su = 20 kPa + 2 kPa*h", "'h' is no variable; d, or z"),
             ("0: gama = 8 kN/m3", r"did you mean gamma or Adhesion"),

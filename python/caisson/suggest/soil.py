@@ -151,6 +151,16 @@ def value_of(
     return value
 
 
+def hint_for(part: str) -> str:
+    """Return what may be meant by a part of a layer without an equals sign."""
+    if re.fullmatch(rf"\d+\s*({'|'.join(quantity.EVERY)})?", part):
+        return "; decimals have a point, as 33.5"
+    if "clay" in part.lower():
+        return "; clay is given by its strength, as in su = 20 kPa"
+    near = difflib.get_close_matches(sand.word_of(part), sand.WORDS, n=1)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
 def pair_of(part: str) -> tuple[str, str]:
     """Return the words around the equals sign. Sand may be named by its state alone.
     Raises SuggestError."""
@@ -158,9 +168,9 @@ def pair_of(part: str) -> tuple[str, str]:
     if not equals and sand.word_of(part) in sand.WORDS:
         return sand.SAND, part
     if not equals or not value:
-        is_number = re.fullmatch(rf"\d+\s*({'|'.join(quantity.EVERY)})?", part)
-        comma = "; decimals have a point, as 33.5" if is_number else ""
-        raise SuggestError(f"--layer: {part!r} is not of the form ENTRY = VALUE{comma}")
+        raise SuggestError(
+            f"--layer: {part!r} is not of the form ENTRY = VALUE{hint_for(part)}"
+        )
     return word, value
 
 
