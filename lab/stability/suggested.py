@@ -24,7 +24,7 @@ from pathlib import Path
 from caisson import suggest
 from caisson.paths import RESULTS
 from caisson.results import Results, ResultsError
-from caisson.runner import Run, RunError, Status, query, read_parameters, size_in
+from caisson.runner import Run, RunError, Status, query, read_parameters
 from lab import machine, outcome
 
 NUMBER, QUICK, SEED = 60, 6, 49
@@ -228,8 +228,8 @@ def try_case(case: Case, options: argparse.Namespace) -> Case:
     file = options.results / f"scene_{case.number:02d}.prm"
     run = run_of(file, options.results / f"scene_{case.number:02d}")
     try:
-        said = query([*run.arguments(), "--validate", "--strict"], run.program)
-        case.estimate = size_in(said).seconds
+        query([str(file), "--validate", "--strict"], run.program)
+        case.estimate = run.validate().seconds  # of the way to a tenth
     except RunError as error:
         case.faults.append("refused: " + " ".join(str(error).split()))
         return case
