@@ -36,6 +36,10 @@ GROUPS: Groups = {
     },
     "stability": {
         "stability": (STUDY, "run the hard scenes"),
+        "suggested": (
+            "lab.stability.suggested",
+            "run scenes that caisson suggest writes for caissons drawn at random",
+        ),
     },
     "performance": {
         "speed": (STUDY, "measure the speed of kernels and program, as ratios"),

@@ -125,8 +125,9 @@ def short_way(run: Run) -> Entries | None:
     start = float(run.parameter("Rigid body/Initial penetration", run.program))
     if float(end) < start:  # it is pulled
         return None
-    ramp = 0.03  # m, until the velocity is constant
-    return {"Time/End penetration": start + ramp + SHORT_SHARE * (float(end) - start)}
+    way = float(end) - start
+    ramp = min(0.03, way / 10)  # m, until the velocity is constant
+    return {"Time/End penetration": start + ramp + SHORT_SHARE * way}
 
 
 def run_of(scene: str, way: str, results: Path, program: Path) -> Run | None:

@@ -48,22 +48,25 @@ def suction_words(history: Table, at: np.ndarray) -> list[str]:
 
 def describe(directory: Path, depths: Sequence[float]) -> Iterator[str]:
     """Yield the lines on one run. Raises ResultsError."""
-    history = Results(directory).history
+    run = Results(directory)
+    history, shown = run.history, run.shown
     depth, tip = history["penetration_m"], history["tip_force_N"]
     friction = history["inner_friction_N"] + history["outer_friction_N"]
     at = np.array([x for x in depths if depth.min() <= x])
-    rows = curves.main_way(depth)
+    rows, kilonewton = curves.main_way(depth), 1e-3 * shown.factor("kN")
     tips, frictions = (
-        curves.smoothed_at(depth[rows], force[rows], at) / 1e3
+        kilonewton * curves.smoothed_at(depth[rows], force[rows], at)
         for force in (tip, friction)
     )
     more = suction_words(history, at)
     yield str(directory)
     for x, a, b, words in zip(at, tips, frictions, more):
+        where = shown.depth(x).rjust(7)
         if x > depth.max():
-            yield f"  {x:5.2f} m: not reached (ends at {depth.max():.2f} m)"
+            yield f"  {where}: not reached (ends at {shown.depth(depth.max())})"
         else:
-            yield f"  {x:5.2f} m: tip {a:7.1f}  friction {b:7.1f} kN{words}"
+            unit = shown.name("kN")
+            yield f"  {where}: tip {a:7.1f}  friction {b:7.1f} {unit}{words}"
     if (depth >= curves.FROM).any():
         rough = [
             100 * curves.roughness(depth, force)

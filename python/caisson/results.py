@@ -14,6 +14,7 @@ import numpy as np
 
 from caisson.lock import is_locked
 from caisson_design import InputError, disk
+from caisson_design.shown import Units, units_of
 
 Table = dict[str, np.ndarray]
 
@@ -154,6 +155,11 @@ class Results:
         if not (self.directory / "run.json").is_file():
             return {}
         return self.summary.get("scene") or {}
+
+    @property
+    def shown(self) -> Units:
+        """The units in which pages and pictures show forces, stresses and lengths."""
+        return units_of(self.history, self.scene)
 
     @property
     def body(self) -> str:

@@ -66,6 +66,7 @@ CONE_FACTORS = (18 / 14, 1.0, 10 / 14)  # times N_kt, for low, best and high str
 MODULUS_RATIOS = (2.0, 2.5, 3.5)
 SCATTER_OF_MODULUS = 1.5  # a factor
 ANGLES = 25.0, 50.0  # between which an angle is held
+RESTS_OF_CLAY = 0.4, 1.5  # between which K_0 is held
 ROUNDS = 20
 
 LOW, BEST, HIGH = -1, 0, 1
@@ -216,5 +217,5 @@ def strengths_of(ground: Ground, _: dict[str, str], end: int) -> np.ndarray:
 
 def at_rest_of_clay(ground: Ground) -> np.ndarray:
     """Return K_0 = 0.1 (q_t - sigma_v)/sigma'_v [n] (Kulhawy & Mayne 1990), held
-    within 0.4 and 1.5."""
-    return np.clip(0.1 * ground.net / ground.stress, 0.4, 1.5)
+    within RESTS_OF_CLAY."""
+    return np.clip(0.1 * ground.net / ground.stress, *RESTS_OF_CLAY)

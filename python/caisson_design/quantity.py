@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Numbers with units, as they are typed: 40mm, "45 MPa", 2500kN, "8.5 kN/m3", 85%."""
 import argparse
+import math
 import re
 from collections.abc import Callable, Mapping
 
@@ -17,11 +18,9 @@ UNITS: dict[str, Mapping[str, float]] = {
     "": {"%": 1e-2},
 }
 EVERY = {word for units in UNITS.values() for word in units}
-# a unit behind a number or a parenthesis within an expression
-WITH_UNIT = re.compile(
-    rf"(?<=[\d.)])\s*({'|'.join(map(re.escape, sorted(EVERY, key=len)))})(?![\w/])"
-)
-NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+UNSIGNED = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+LEAST_ANGLE = 1.0  # degrees; a smaller number may be a tangent
+NUMBER = rf"[+-]?{UNSIGNED}"
 
 
 def plain(unit: str) -> str:
@@ -52,20 +51,6 @@ def value_of(text: str, unit: str) -> float:
     return float(f"{float(found[1]) * factor:.12g}")
 
 
-def has_unit(text: str) -> bool:
-    """Return whether a number or an expression ends with a unit."""
-    found = re.fullmatch(r".*?[\d.)]\s*((?![eE][+-]?\d)[A-Za-z%°][^\s(*]*)", text)
-    return found is not None and plain(found[1]) in EVERY
-
-
-def in_parentheses(text: str, body: str, word: str) -> str:
-    """Return how an expression that ends with a unit is to be written."""
-    if {plain(unit) for unit in WITH_UNIT.findall(body)} - {plain(word)}:
-        return f"{text!r}: give all of it in one unit, as in (20 + 2*d) {word}"
-    body = WITH_UNIT.sub("", body)
-    return f"{text!r}: put what the unit belongs to in parentheses: ({body}) {word}"
-
-
 def parts_of(text: str) -> list[str]:
     """Return the parts of a text between commas; those within parentheses, as in
     min(5, d), divide nothing."""
@@ -79,25 +64,24 @@ def parts_of(text: str) -> list[str]:
     return [part.strip() for part in parts if part.strip()]
 
 
-def without_unit(text: str, unit: str) -> str:
-    """Return the value of an entry, a number or an expression, in the unit of the
-    entry. Raises ValueError where the text ends with another unit than one of it."""
-    found = re.fullmatch(r"(.*[\d.)])\s*((?![eE][+-]?\d)[A-Za-z%°].*)", text)
-    if re.fullmatch(NUMBER, text):
-        return text
-    after_word = re.fullmatch(r"(.*[A-Za-z_])\s+(\S+)", text)
-    if unit and after_word and plain(after_word[2]) in EVERY:
-        raise ValueError(in_parentheses(text, after_word[1], after_word[2]))
-    if not found:
-        return text
-    if re.fullmatch(NUMBER, found[1]):
-        return f"{value_of(text, unit):.10g}"
-    if plain(found[2]) not in EVERY:
-        return text
-    if WITH_UNIT.search(found[1]):
-        raise ValueError(in_parentheses(text, found[1], found[2]))
-    whole = found[1] if re.fullmatch(r"\([^()]*\)", found[1]) else f"({found[1]})"
-    return f"{factor_of(text, found[2], unit):g}*{whole}"
+def refuse_tangent(text: str) -> None:
+    """Refuse an angle of friction without a unit that is so small that it may be the
+    tangent. Raises ValueError with what to write."""
+    if re.fullmatch(NUMBER, text) and 0 < (value := float(text)) < LEAST_ANGLE:
+        angle = math.degrees(math.atan(value))
+        raise ValueError(
+            f"{text}: if this is the tangent write {angle:.3g}; if it is an angle"
+            f" append deg, as in {text}deg"
+        )
+
+
+def angle_of_friction(text: str) -> float:
+    """Return an angle of friction (degrees), as an option is read."""
+    try:
+        refuse_tangent(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+    return number("degrees")(text)
 
 
 def number(unit: str) -> Callable[[str], float]:

@@ -8,6 +8,7 @@ import math
 from typing import NamedTuple
 
 from caisson_design.method import Forces
+from caisson_design.shown import units_for
 
 LIKE = (0.8, 1.25)  # computed over method; within it nobody asks why
 RAISED = 1.5  # K tan(delta) over that of undisturbed ground, beyond which a wall grips
@@ -55,8 +56,8 @@ def head(h: float, ends: tuple[float, float, float], what: str, name: str) -> st
     """Return the beginning of a sentence. ends: computed, and both cases."""
     ratio = ratio_in_words(*ends)
     if not ratio:
-        return f"At {h:g} m the run needs a suction, and {name} needs none:"
-    return f"At {h:g} m the run has {ratio} times the {what} of {name}:"
+        return f"At {depth_of(h)} the run needs a suction, and {name} needs none:"
+    return f"At {depth_of(h)} the run has {ratio} times the {what} of {name}:"
 
 
 # ------------------------------------------------------- Houlsby & Byrne
@@ -77,10 +78,19 @@ class Compared(NamedTuple):
     undisturbed: float  # the same of undisturbed ground
 
 
+def depth_of(h: float) -> str:
+    """Return a depth (m) in words."""
+    return units_for(math.inf, math.inf, h).length(float(f"{h:.6g}"))
+
+
 def beside(computed: float, low: float, high: float, mark: str = "") -> str:
-    """Return a force of the run in kN, and that of the method in brackets."""
-    ends = [text_of(end / 1e3) for end in (low, high)]
-    return f"{text_of(computed / 1e3)} kN ({mark}{' to '.join(dict.fromkeys(ends))})"
+    """Return a force of the run, and that of the method in brackets."""
+    largest = max(filter(math.isfinite, (computed, low, high)))
+    shown = units_for(largest, math.inf, math.inf)
+    factor = shown.factor("kN") / 1e3
+    ends = [text_of(factor * end) for end in (low, high)]
+    value = f"{text_of(factor * computed)} {shown.name('kN')}"
+    return f"{value} ({mark}{' to '.join(dict.fromkeys(ends))})"
 
 
 def cause_of_tip(found: Compared) -> str:
@@ -129,9 +139,9 @@ def of_houlsby_byrne(found: Compared) -> str:
         what = "suction"
         tip += f" under its suction of {text_of(found.suction / 1e3)} kPa"
     return (
-        f"At {found.h:g} m the run has {found.ratio} times the {what} of Houlsby &"
-        f" Byrne (2005): its tip bears {tip}{cause_of_tip(found)} and its walls {inner}"
-        f" inside and {outer} outside{state_of_walls(found)}."
+        f"At {depth_of(found.h)} the run has {found.ratio} times the {what}"
+        f" of Houlsby & Byrne (2005): its tip bears {tip}{cause_of_tip(found)} and its"
+        f" walls {inner} inside and {outer} outside{state_of_walls(found)}."
     )
 
 
@@ -224,7 +234,7 @@ def of_cause(cause: str, h: float, walls: Walls | None) -> str:
         for ends in (walls.at_rest, walls.passive)
     )
     return (
-        f"At {h:g} m the mean K on the walls is {walls.outer:.1f} outside and"
+        f"At {depth_of(h)} the mean K on the walls is {walls.outer:.1f} outside and"
         f" {walls.inner:.1f} inside; at rest it is {at_rest}, and at the passive limit"
         f" {passive}; {little}."
     )

@@ -21,6 +21,7 @@ from caisson.plot.forces import (
 from caisson.plot.suction import BLUE, CRITICAL, GREEN, RED, upper_end
 from caisson.plot.suction_methods import CONE_HIGH, CONE_LOW, HIGH, LOW
 from caisson.results import Results, Table
+from caisson_design.shown import Units, units_for
 from caisson_report.installation import (
     BOILING,
     COMPUTED,
@@ -153,7 +154,7 @@ def limit_curves(found: Installation) -> list[Curve]:
     ]
     if found.rest is not None:
         ends = np.array([0.0, found.required.max()])
-        label = f"rests by weight at {found.rest:.2f} m"
+        label = f"rests by weight at {found.shown.depth(found.rest)}"
         curves_of_limits.append(line(label, "#888888", ends, np.full(2, found.rest)))
     return curves_of_limits
 
@@ -177,9 +178,11 @@ def beyond_the_chart(found: Installation, shown: list[Curve]) -> str:
     for name, text in ((BOILING, "water boils below the lid at"), (PUMP, "the pump")):
         limit = found.limits.get(name, np.full(1, np.nan))
         if limit.min() > end:
-            ends = dict.fromkeys(f"{v:.0f}" for v in (limit.min(), limit.max()))
+            factor, unit = found.shown.factor("kPa"), found.shown.name("kPa")
+            limits = (factor * limit.min(), factor * limit.max())
+            ends = dict.fromkeys(f"{v:.0f}" for v in limits)
             can = "" if name == BOILING else " can draw"
-            words.append(f"{text}{can} {' to '.join(ends)} kPa")
+            words.append(f"{text}{can} {' to '.join(ends)} {unit}")
     return f"Beyond the right end of the chart: {', '.join(words)}." if words else ""
 
 
@@ -206,6 +209,25 @@ def with_points(found: list[Curve]) -> list[Curve]:
     ]
 
 
+def in_units(figure: dict[str, Any], shown: Units) -> dict[str, Any]:
+    """Return an interactive figure in the units of a run; that of its depths is its
+    key depth, and a rise is in mm anyway."""
+    is_pull = bool(figure.get("upward"))
+    across = shown.factor_of(figure["axis"])
+    down = 1.0 if is_pull else shown.factor("m")
+
+    def scaled(values: list[float | None], factor: float) -> list[float | None]:
+        return [None if x is None else factor * x for x in values]
+
+    factors = {"x": across, "to": across, "y": down}
+    found = [
+        curve | {k: scaled(curve[k], f) for k, f in factors.items() if k in curve}
+        for curve in figure["curves"]
+    ]
+    axis, depth = shown.named(figure["axis"]), "mm" if is_pull else shown.name("m")
+    return figure | {"axis": axis, "depth": depth, "curves": found}
+
+
 def pull_figure(run: Results) -> dict[str, Any]:
     """Return the interactive figure of a pull: its parts (kN) over the rise (mm)."""
     rise, parts = pull_parts(run)
@@ -229,7 +251,7 @@ def figures_of(run: Results, found: Installation | None) -> list[dict[str, Any]]
     if penetration(run.history) is None:
         return []
     if is_pull(run):
-        return [pull_figure(run)]
+        return [in_units(pull_figure(run), run.shown)]
     figures = []
     if found is not None and found.has_suction:
         suctions = with_points(suction_curves(run, found))
@@ -251,7 +273,7 @@ def figures_of(run: Results, found: Installation | None) -> list[dict[str, Any]]
             "curves": with_points(force_curves(run)),
         }
     )
-    return figures
+    return [in_units(figure, run.shown) for figure in figures]
 
 
 def unit_table(run: Results) -> dict[str, Any]:
@@ -278,14 +300,19 @@ def unit_table(run: Results) -> dict[str, Any]:
     outer, wall = float(scene["diameter_m"]), float(scene["wall_thickness_m"])
     inner = outer - 2 * wall
     tip_area = math.pi / 4 * (outer**2 - inner**2)
-    columns = {"tip depth (m)": at, "tip (kPa)": mean("tip_force_N") / 1e3 / tip_area}
+    tip = mean("tip_force_N") / 1e3 / tip_area
+    columns = {"tip depth (m)": at, "tip (kPa)": tip}
     for side, width in (("inner", inner), ("outer", outer)):
         friction = mean(f"{side}_friction_N") / 1e3
         columns[f"mean {side} friction over the embedded wall (kPa)"] = friction / (
             math.pi * width * at
         )
-    texts = [texts_of(values) for values in columns.values()]
-    return {"heads": list(columns), "rows": [list(row) for row in zip(*texts)]}
+    stress = 1e3 * max(float(np.abs(x).max()) for x in list(columns.values())[1:])
+    of_length = run.shown.smaller & {"m"}
+    shown = Units(units_for(np.inf, stress, np.inf).smaller | of_length)
+    texts = [texts_of(shown.factor_of(head) * x) for head, x in columns.items()]
+    heads = [shown.named(head) for head in columns]
+    return {"heads": heads, "rows": [list(row) for row in zip(*texts)]}
 
 
 def averaged(run: Results) -> str:
@@ -293,7 +320,7 @@ def averaged(run: Results) -> str:
     depth = run.history.get("penetration_m", np.zeros(1))
     way = depth[curves.main_way(depth)]
     window = curves.window_of(float(np.ptp(way))) if len(way) else 0.0
-    return f"Averaged over {window:.2g} m of penetration"
+    return f"Averaged over {run.shown.words(window, 'm', '.2g')} of penetration"
 
 
 def remarks_on_numbers(run: Results) -> list[str]:

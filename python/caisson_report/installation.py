@@ -21,6 +21,7 @@ from caisson.plot.forces import penetration
 from caisson.plot.suction import pump_limit, rest_of_run
 from caisson.results import Results, Table
 from caisson_design.reasons import text_of
+from caisson_design.shown import USUAL, Units
 from caisson_report.scene import plug_area
 
 INTERVAL = 0.5  # m, between the depths of the table
@@ -66,6 +67,7 @@ class Installation:
 
     depth: np.ndarray
     forces: dict[str, np.ndarray]
+    shown: Units = USUAL  # in which tables and cards have them
     force_bounds: Bounds | None = None
     required: np.ndarray = field(default_factory=lambda: np.empty(0))
     required_bounds: Bounds | None = None
@@ -202,7 +204,8 @@ def installation_of(run: Results, rate: Rate) -> Installation | None:
     if not numbers or not set(design.FORCES) <= set(numbers):
         return None
     at = numbers["penetration_m"]
-    found = Installation(at, {name: numbers[name] / 1e3 for name in design.FORCES})
+    forces = {name: numbers[name] / 1e3 for name in design.FORCES}
+    found = Installation(at, forces, run.shown)
     if bars := bounds_of(numbers, "total_force", "N"):
         found.force_bounds = bars.scaled(1e-3)
     if curves.WITH_WATER in numbers:
@@ -248,16 +251,18 @@ def bar_in_words(
     run: Results, found: Installation, bounds: Bounds | None, unit: str
 ) -> str:
     """Return where the end is, and its error bar, or what computes it."""
-    place = f"at {found.depth[-1]:.2f} m"
+    place = f"at {found.shown.depth(found.depth[-1])}"
+    factor, unit = found.shown.factor(unit), found.shown.name(unit)
     if bounds is None:
         return f"{place}; error bar not known, {way_to_an_error(run)} computes it"
-    low, high = bounds.low[-1], bounds.high[-1]
+    low, high = factor * bounds.low[-1], factor * bounds.high[-1]
+    end = found.shown.length(float(f"{bounds.end:.4g}"))
     if not np.isfinite([low, high]).all():
-        return f"{place}; error bar known only to {bounds.end:.4g} m"
+        return f"{place}; error bar known only to {end}"
     if found.depth[-1] <= bounds.end + 1e-2:
         return f"{place}; error bar {text_of(low)} to {text_of(high)} {unit}"
     words = f"about {text_of(low)} to {text_of(high)} {unit}"
-    return f"{place}; {words} (error bar of {bounds.end:.4g} m)"
+    return f"{place}; {words} (error bar of {end})"
 
 
 def three_digits(value: float, bounds: Bounds | None) -> str:
@@ -265,13 +270,20 @@ def three_digits(value: float, bounds: Bounds | None) -> str:
     return f"{value if bounds else float(f'{value:.3g}'):.0f}"
 
 
-def in_range(found: Installation, value: float, bounds: Bounds | None, i: int) -> str:
-    """Return a value with its bounds, where it has any: about, below their end."""
-    if bounds is None or not np.isfinite([bounds.low[i], bounds.high[i]]).all():
-        return text_of(value)
-    about = "about " if found.depth[i] > bounds.end + 1e-2 else ""
-    low, high = text_of(float(bounds.low[i])), text_of(float(bounds.high[i]))
-    return f"{text_of(value)} ({about}{low} to {high})"
+def in_range(
+    found: Installation, values: np.ndarray, bounds: Bounds | None, unit: str
+) -> list[str]:
+    """Return values [n] in the unit shown, with their bounds where they have any:
+    about, below the end of these."""
+    factor, texts = found.shown.factor(unit), list[str]()
+    for i, value in enumerate(values):
+        text = text_of(factor * float(value))
+        if bounds is not None and np.isfinite([bounds.low[i], bounds.high[i]]).all():
+            about = "about " if found.depth[i] > bounds.end + 1e-2 else ""
+            ends = [text_of(factor * float(x[i])) for x in (bounds.low, bounds.high)]
+            text += f" ({about}{ends[0]} to {ends[1]})"
+        texts.append(text)
+    return texts
 
 
 def rows_of(columns: dict[str, list[str]]) -> dict[str, Any]:
@@ -285,9 +297,9 @@ def texts_of(values: np.ndarray) -> list[str]:
     return [text_of(0.0 if abs(v) < NOTHING else float(v)) for v in values]
 
 
-def fixed(value: float) -> str:
-    """Return two digits behind the point, and no negative zero."""
-    return f"{round(float(value), 2) + 0.0:.2f}"
+def trimmed(words: str) -> str:
+    """Return the number of "4.50 m" without its last zeros."""
+    return words.split()[0].rstrip("0").rstrip(".")
 
 
 def flow_head(found: Installation) -> str:
@@ -298,45 +310,47 @@ def flow_head(found: Installation) -> str:
 def tables_of(found: Installation) -> list[dict[str, Any]]:
     """Return the tables of the installation, each with heads and rows of text: what it
     takes and, with suction, what is allowed."""
-    n = range(len(found.depth))
-    depth = [f"{depth:.2f}".rstrip("0").rstrip(".") for depth in found.depth]
+    n, shown = range(len(found.depth)), found.shown
+    depth = [trimmed(shown.depth(float(depth))) for depth in found.depth]
     total = found.forces["total_force_N"]
     takes = {
-        "depth (m)": depth,
-        "resistance (kN)": [
-            in_range(found, total[i], found.force_bounds, i) for i in n
-        ],
+        shown.named("depth (m)"): depth,
+        shown.named("resistance (kN)"): in_range(
+            found, total, found.force_bounds, "kN"
+        ),
     }
+
+    def add(columns: dict[str, list[str]], head: str, values: np.ndarray) -> None:
+        columns[shown.named(head)] = texts_of(shown.factor_of(head) * values)
+
     for name in design.FORCES[:3]:
         words = name.removesuffix("_N").removesuffix("_force").replace("_", " ")
-        takes[f"{words} (kN)"] = texts_of(found.forces[name])
+        add(takes, f"{words} (kN)", found.forces[name])
     if len(found.with_water):
-        takes["with water (kN)"] = texts_of(found.with_water)
+        add(takes, "with water (kN)", found.with_water)
     if found.has_suction:
-        takes["required suction (kPa)"] = [
-            in_range(found, found.required[i], found.required_bounds, i) for i in n
-        ]
+        takes[shown.named("required suction (kPa)")] = in_range(
+            found, found.required, found.required_bounds, "kPa"
+        )
     takes[f"{flow_head(found)} (m³/h)"] = texts_of(found.flow)
     if not found.has_suction:
-        takes["plug heave (m)"] = texts_of(found.heave)
-        takes["room below the lid (m)"] = texts_of(found.room)
+        add(takes, "plug heave (m)", found.heave)
+        add(takes, "room below the lid (m)", found.room)
         return [rows_of(takes)]
     if len(found.flow):
         takes["of which seepage (m³/h)"] = texts_of(found.seepage)
         power = found.flow / HOUR * found.required
         takes["power of the water (kW)"] = texts_of(power)
     allowable = found.allowable
-    margins = {
-        "depth (m)": depth,
-        "required suction (kPa)": texts_of(found.required),
-        "allowable (kPa)": texts_of(allowable),
-        "governed by": [found.governing(i) for i in n],
-        "required / allowable": texts_of(found.required / allowable),
-        "exit gradient / critical": texts_of(found.gradient),
-        "margin to piping (%)": texts_of(100 * (1 - found.gradient)),
-        "plug heave (m)": texts_of(found.heave),
-        "room below the lid (m)": texts_of(found.room),
-    }
+    margins = {shown.named("depth (m)"): depth}
+    add(margins, "required suction (kPa)", found.required)
+    add(margins, "allowable (kPa)", allowable)
+    margins["governed by"] = [found.governing(i) for i in n]
+    add(margins, "required / allowable", found.required / allowable)
+    add(margins, "exit gradient / critical", found.gradient)
+    add(margins, "margin to piping (%)", 100 * (1 - found.gradient))
+    add(margins, "plug heave (m)", found.heave)
+    add(margins, "room below the lid (m)", found.room)
     return [rows_of(takes), rows_of(margins)]
 
 
@@ -346,25 +360,30 @@ def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, .
         return force_cards(run, found)
     cards: list[tuple[str, ...]] = []
     weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
+    shown = found.shown
     if found.has_suction:
-        value = f"{found.required[-1]:.1f} kPa"
+        value = shown.words(found.required[-1], "kPa", ".1f")
         remark = bar_in_words(run, found, found.required_bounds, "kPa")
         cards.append(("Required suction", value, remark))
         most, depth = largest_of(
             run, "largest_suction", design.SUCTION, found.depth, found.required
         )
         if most > 1.02 * found.required[-1]:
-            remark = f"at {depth:.2f} m"
-            cards.append(("Largest required suction", f"{most:.1f} kPa", remark))
+            remark = f"at {shown.depth(depth)}"
+            value = shown.words(most, "kPa", ".1f")
+            cards.append(("Largest required suction", value, remark))
         if found.rest is not None:
-            remark = f"under {weight:.4g} kN in water" if weight else ""
-            value = f"{found.rest:.2f} m"
+            remark = (
+                f"under {shown.words(weight, 'kN', '.4g')} in water" if weight else ""
+            )
+            value = shown.depth(found.rest)
             cards.append(("Self-weight penetration", value, remark))
         return cards + margin_cards(run, found) + pump_cards(run, found, rate)
     remark = "no suction needed to this depth"
     if found.excess is not None:
-        remark = f"the weight exceeds the resistance by {found.excess:.0f} kN: {remark}"
-    value = f"more than {found.depth[-1]:.2f} m"
+        more = shown.words(found.excess, "kN", ".0f")
+        remark = f"the weight exceeds the resistance by {more}: {remark}"
+    value = f"more than {shown.depth(found.depth[-1])}"
     cards.append(("Self-weight penetration", value, remark))
     return cards + force_cards(run, found)[:1] + pump_cards(run, found, rate)
 
@@ -375,23 +394,26 @@ def force_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
     remark = bar_in_words(run, found, found.force_bounds, "kN")
 
     def words(force: float) -> str:
-        return f"{three_digits(float(force), found.force_bounds)} kN"
+        value = found.shown.factor("kN") * float(force)
+        return f"{three_digits(value, found.force_bounds)} {found.shown.name('kN')}"
 
     name = "Resistance at the end" if len(found.required) else "Force at the end"
     cards: list[tuple[str, ...]] = [(name, words(total[-1]), remark)]
     most, at = largest_of(run, "largest_force", "total_force_N", depth, total)
-    if depth[-1] - at > 1e-3:
-        cards.append(("Largest force", words(most), f"at {at:.2f} m"))
+    if depth[-1] - at > 1e-3 * min(1.0, float(depth[-1])):
+        remark = f"at {found.shown.depth(at)}"
+        cards.append(("Largest force", words(most), remark))
     tip, inner, outer = (words(found.forces[k][-1]) for k in design.FORCES[:3])
     cards.append(("Of which tip", tip, f"friction inside {inner}, outside {outer}"))
     if len(found.with_water):
-        force = three_digits(float(found.with_water[-1]), None)
+        value = found.shown.factor("kN") * float(found.with_water[-1])
+        force = f"{three_digits(value, None)} {found.shown.name('kN')}"
         remark = "what the caisson feels: effective force and excess pore pressure"
-        cards.insert(0, ("Force with water", f"{force} kN", remark))
+        cards.insert(0, ("Force with water", force, remark))
         cards[1] = ("Effective " + name[0].lower() + name[1:], *cards[1][1:])
     length = run.scene.get("skirt_length_m")
-    of_skirt = f"of {float(length):g} m of skirt" if length else ""
-    return [*cards, ("Penetration reached", f"{depth[-1]:.2f} m", of_skirt)]
+    of_skirt = f"of {found.shown.length(float(length))} of skirt" if length else ""
+    return [*cards, ("Penetration reached", found.shown.depth(depth[-1]), of_skirt)]
 
 
 def results_of(run: Results) -> dict[str, Any]:
@@ -447,20 +469,23 @@ def piping_warning(run: Results, found: Installation | None) -> list[str]:
     if bar is None or least <= 0 or bar.low[0] > 0:
         return []
     return [
-        f"the margin to piping is {100 * least:.0f} % at {depth:.2f} m, and its error"
-        " bar includes 0: the run does not show that piping stays away"
+        f"the margin to piping is {100 * least:.0f} % at {found.shown.depth(depth)},"
+        " and its error bar includes 0: the run does not show that piping stays away"
     ]
 
 
 def margin_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
     """Return the cards of the margins."""
-    least, depth = least_margin(run, found)
+    (least, depth), shown = least_margin(run, found), found.shown
     remark = (
-        f"least, at {depth:.2f} m: exit gradient {1 - least:.2f} of the critical one"
+        f"least, at {found.shown.depth(depth)}: exit gradient {1 - least:.2f} of the"
+        " critical one"
     )
     if (bar := piping_bar(run, least, depth)) is not None:
         ends = [f"{100 * float(side[0]) + 0.0:.0f}" for side in (bar.low, bar.high)]
-        held = f" of {bar.end:.4g} m" if depth > bar.end + 1e-2 else ""
+        held = (
+            f" of {shown.words(bar.end, 'm', '.4g')}" if depth > bar.end + 1e-2 else ""
+        )
         remark = f"error bar{held} {ends[0]} to {ends[1]} %; {remark}"
     cards: list[tuple[str, ...]] = [
         ("Margin to piping", f"{100 * least:.0f} %", remark)
@@ -472,8 +497,10 @@ def margin_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
             (
                 "Required / allowable",
                 f"{ratio[worst]:.2f}" + (", exceeded" if ratio[worst] > 1 else ""),
-                f"at {found.depth[worst]:.2f} m: {found.required[worst]:.1f} of"
-                f" {found.allowable[worst]:.1f} kPa ({found.governing(worst)})",
+                f"at {shown.depth(found.depth[worst])}:"
+                f" {shown.factor('kPa') * found.required[worst]:.1f} of"
+                f" {shown.words(found.allowable[worst], 'kPa', '.1f')}"
+                f" ({found.governing(worst)})",
             )
         )
     return cards
@@ -487,11 +514,13 @@ def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
         else np.full(len(found.flow), True)
     )
     most = int(np.argmax(np.where(pumped, found.flow, -np.inf)))
-    words = f"at {found.depth[most]:.2f} m and a penetration of {rate.words}"
+    words = (
+        f"at {found.shown.depth(found.depth[most])} and a penetration of {rate.words}"
+    )
     if found.has_suction:
         words += (
             f", of which seepage {found.seepage[most]:.2g} m³/h; against"
-            f" {found.required[most]:.1f} kPa"
+            f" {found.shown.words(found.required[most], 'kPa', '.1f')}"
         )
     name = "Pump" if found.has_suction else "Water to vent"
     return name, f"{found.flow[most]:.3g} m³/h", words
@@ -501,15 +530,19 @@ def room_card(run: Results, found: Installation) -> tuple[str, ...]:
     """Return the room below the lid and, from half the skirt on, where heave would use
     it up if it went on as over the last meter."""
     depth, heave, room = found.depth, found.heave, float(found.room[-1])
-    remark = f"at {depth[-1]:.2f} m; heave of the plug {fixed(heave[-1])} m"
+    shown = found.shown
+    remark = f"at {shown.depth(depth[-1])}; heave of the plug {shown.depth(heave[-1])}"
     last = depth >= depth[-1] - 1.0
     if last.sum() > 1 and room > 0:
         rise = (heave[-1] - heave[last][0]) / (depth[-1] - depth[last][0])
         meets = depth[-1] + room / max(1 + rise, 0.1)
         length = float(run.scene["skirt_length_m"])
         if length / 2 < depth[-1] and meets < length - 5e-3:
-            remark += f"; it would meet the lid at about {meets:.2f} of {length:g} m"
-    return "Room below the lid", f"{fixed(room)} m", remark
+            remark += (
+                f"; it would meet the lid at about {shown.depth(meets).split()[0]} of"
+                f" {shown.length(length)}"
+            )
+    return "Room below the lid", shown.depth(room), remark
 
 
 def pump_cards(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
@@ -518,7 +551,9 @@ def pump_cards(run: Results, found: Installation, rate: Rate) -> list[tuple[str,
     boiling = found.limits.get(BOILING, np.full(1, np.nan))[-1]
     if np.isfinite(boiling):
         pump = found.limits.get(PUMP)
-        words = "no pump limit is set" if pump is None else f"pump: {pump[-1]:.4g} kPa"
-        remark = f"at {found.depth[-1]:.2f} m; {words}"
+        words = "no pump limit is set"
+        if pump is not None:
+            words = f"pump: {found.shown.words(pump[-1], 'kPa', '.4g')}"
+        remark = f"at {found.shown.depth(found.depth[-1])}; {words}"
         cards.append(("Water boils at", f"{boiling:.0f} kPa", remark))
     return [*cards, room_card(run, found)] if len(found.room) else cards

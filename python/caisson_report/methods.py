@@ -28,6 +28,7 @@ from caisson_design.reasons import (
     relieved,
     text_of,
 )
+from caisson_design.shown import SMALLER, USUAL, Units
 from caisson_report import relief
 from caisson_report.installation import depths_of, needs_suction
 
@@ -100,7 +101,7 @@ def beside_the_band(rows: list[tuple[str, str]]) -> str:
     deepest last: "above the band to 4 m, within it deeper"."""
     places = [(depth, place_of(ratio)) for depth, ratio in rows]
     parts = [
-        f"{place} {{}} to {depth} m"
+        f"{place} {{}} to {depth}"
         for (depth, place), (_, after) in zip(places, places[1:])
         if after != place
     ]
@@ -108,21 +109,34 @@ def beside_the_band(rows: list[tuple[str, str]]) -> str:
     return ", ".join(p.format("it" if i else "the band") for i, p in enumerate(parts))
 
 
-def table(title: str, columns: dict[str, Any]) -> dict[str, Any]:
-    """Return title, heads and rows of columns of numbers or words [n]."""
+def table(title: str, columns: dict[str, Any], shown: Units = USUAL) -> dict[str, Any]:
+    """Return title, heads and rows of columns of numbers or words [n], in the units
+    shown. The title has the unit of columns that name none; ratios have none."""
+
+    def factor(head: str) -> float:
+        if RATIO in head or any(f"({unit})" in head for unit in SMALLER):
+            return shown.factor_of(head)
+        return shown.factor_of(title)
+
     texts = [
-        [cell if isinstance(cell, str) else text_of(float(cell)) for cell in values]
-        for values in columns.values()
+        [
+            cell if isinstance(cell, str) else text_of(factor(head) * float(cell))
+            for cell in values
+        ]
+        for head, values in columns.items()
     ]
     return {
-        "title": title,
-        "heads": list(columns),
+        "title": shown.named(title),
+        "heads": [shown.named(head) for head in columns],
         "rows": [list(row) for row in zip(*texts)],
     }
 
 
 def forces_beside(
-    computed: np.ndarray | None, at: np.ndarray, answers: list[theory.Answer]
+    computed: np.ndarray | None,
+    at: np.ndarray,
+    answers: list[theory.Answer],
+    shown: Units = USUAL,
 ) -> dict[str, Any]:
     """Return the table of the total force (kN); computed: of a run without suction."""
     columns: dict[str, Any] = {"depth (m)": at}
@@ -143,7 +157,7 @@ def forces_beside(
         if computed is None
         else "Total force (kN)"
     )
-    return table(title, columns)
+    return table(title, columns, shown)
 
 
 def resistance_beside(
@@ -161,7 +175,7 @@ def resistance_beside(
     try:
         byrne = theory.houlsby_byrne_of(site, float(at.max()))
     except theory.NotApplicable:
-        return table("", {"depth (m)": at})
+        return table("", {"depth (m)": at}, run.shown)
     caisson, _ = byrne.by_name[UNDISTURBED]
     flows = [
         installation.seepage(caisson, float(s), float(h), byrne.permeability_ratio)
@@ -188,7 +202,7 @@ def resistance_beside(
         ends = [np.array([forces.total for forces in case]) / 1e3 for case in cases]
         columns |= {f"{name}, low": ends[0], f"{name}, high": ends[1]}
         columns[f"{RATIO}{name}"] = ratios(total, ends[0], ends[1])
-    return table("Resistance under the suction of the run (kN)", columns)
+    return table("Resistance under the suction of the run (kN)", columns, run.shown)
 
 
 def or_piping(values: np.ndarray) -> list[str]:
@@ -235,7 +249,7 @@ def suctions_beside(run: Results, at: np.ndarray, site: theory.Site) -> dict[str
     ):
         if column in found:
             columns[f"critical, {name}"] = found[column] / 1e3
-    return table("Required and critical suction (kPa)", columns)
+    return table("Required and critical suction (kPa)", columns, run.shown)
 
 
 # ------------------------------------------------------------------ why
@@ -363,7 +377,7 @@ def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
     an assumed cone if possible, else of the lower bound; nothing where none has an
     answer."""
     answers = [
-        (row[0], head.removeprefix(RATIO), cell)
+        (f"{row[0]} {table['heads'][0][7:-1]}", head.removeprefix(RATIO), cell)
         for table in found["tables"][:1]
         for row in reversed(table["rows"])
         for head, cell in zip(table["heads"], row)
@@ -373,7 +387,7 @@ def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
     measured = [answer for answer in fitted if theory.ASSUMED_CONE not in answer[1]]
     for depth, name, value in (measured or fitted or answers)[:1]:
         rows = [(d, v) for d, n, v in reversed(answers) if n == name]
-        words = f"of {name}, at {depth} m; {beside_the_band(rows)}"
+        words = f"of {name}, at {depth}; {beside_the_band(rows)}"
         more = "; other methods below" if len({n for _, n, _ in answers}) > 1 else ""
         return [("Computed / method", value, words + more)]
     return []
@@ -393,10 +407,11 @@ def methods_of(run: Results) -> dict[str, Any]:
     computed = None
     if total in history and not with_suction:
         computed = design.compared_at(history, at)[total] / 1e3
-    tables, meaning = [forces_beside(computed, at, answers)], ""
+    tables, meaning = [forces_beside(computed, at, answers, run.shown)], ""
     if with_suction:
         columns, meaning = relief.table_of(run, at)
-        left = [table("What suction leaves of the forces", columns)] if columns else []
+        title = "What suction leaves of the forces"
+        left = [table(title, columns, run.shown)] if columns else []
         resistance = resistance_beside(run, at, site)
         tables = [suctions_beside(run, at, site), resistance, *left, *tables]
     # the deepest of them that a cone test reaches

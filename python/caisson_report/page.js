@@ -127,8 +127,8 @@
         tickFormatter: tickLabel,
       }],
       yaxes: [{
-        position: "left", axisLabel: figure.upward ? "rise of the caisson (mm)" :
-          "penetration of the skirt tip (m)", font: font,
+        position: "left", axisLabel: (figure.upward ? "rise of the caisson" :
+          "penetration of the skirt tip") + ` (${figure.depth})`, font: font,
         autoScale: "none", min: box.top, max: box.bottom, tickColor: color("--rule"),
         tickFormatter: tickLabel, transform: turn, inverseTransform: turn,
       }],
@@ -202,7 +202,7 @@
     place.on("plothover", (event, position, item) => {
       value.textContent = item
         ? `${item.series.label}: ${number(item.datapoint[0])} at ` +
-          `${number(item.datapoint[1])} ${figure.upward ? "mm" : "m"}`
+          `${number(item.datapoint[1])} ${figure.depth}`
         : "\u00a0";
     });
     section.querySelector(".buttons").onclick = (event) => {

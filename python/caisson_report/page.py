@@ -169,8 +169,11 @@ def incomplete_of(run: Results) -> str:
     if not has_ended_early(run) or depth is None:
         return ""
     wanted = scene.end_of(run)
-    of_end = f" of {wanted:.2f} m" if wanted else ""
-    words = f"Stopped at {depth.max():.2f} m{of_end}: no number below holds for the end"
+    of_end = f" of {run.shown.depth(wanted)}" if wanted else ""
+    words = (
+        f"Stopped at {run.shown.depth(depth.max())}{of_end}: no number below holds for"
+        " the end"
+    )
     failed = not run.is_running and run.summary.get("failure")
     return f"{words}. {LAST_ROWS}" if failed else f"{words}."
 

@@ -38,12 +38,14 @@ def cards_of(run: Results) -> list[tuple[str, ...]]:
         return []
 
     def force(name: str) -> str:
-        return f"{text_of(float(f'{most[name] / 1e3:.3g}'))} kN"
+        value = float(f"{run.shown.factor('kN') * most[name] / 1e3:.3g}")
+        return f"{text_of(value)} {run.shown.name('kN')}"
 
     weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
     remark = f"after a rise of {1e3 * most['rise_m']:.3g} mm"
     if weight:
-        remark += f"; the submerged weight of {weight:.4g} kN adds to it"
+        words = run.shown.words(weight, "kN", ".4g")
+        remark += f"; the submerged weight of {words} adds to it"
     cards: list[tuple[str, ...]] = [
         ("Largest pull", force("pull_N"), remark),
         (

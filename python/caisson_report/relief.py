@@ -25,7 +25,7 @@ SAME = ("diameter_m", "wall_thickness_m", "layers")  # in run.json of both
 PARTS = dict(zip(design.FORCES[:3], ("tip", "inner friction", "outer friction")))
 ONE_RUN = (
     "One run does not know what it would bear at this depth without suction. The tip is"
-    " compared with what it bore at {rest:.2f} m, before there was suction, both over"
+    " compared with what it bore at {rest}, before there was suction, both over"
     " the vertical stress at rest. This ratio changes with depth in jacked runs, too:"
     " in two scenes the estimate was 0.8 to 2 times the true factor. Friction allows"
     " none."
@@ -90,4 +90,4 @@ def table_of(run: Results, at: np.ndarray) -> tuple[dict[str, Any], str]:
     stress = np.array([h * mean_unit_weight(ground, h) for h in map(float, both)])
     ratio = design.forces_at(history, both)["tip_force_N"] / stress
     columns["tip (estimate from one run)"] = ratio[1:] / ratio[0]
-    return columns, ONE_RUN.format(rest=rest) + LINEAR
+    return columns, ONE_RUN.format(rest=run.shown.depth(rest)) + LINEAR

@@ -183,7 +183,7 @@ def caisson_of(run: Results) -> list[Item]:
         return []
     outer, wall = float(scene["diameter_m"]), float(scene["wall_thickness_m"])
     found = [
-        Item("Outer diameter", f"{outer:g} m"),
+        Item("Outer diameter", run.shown.length(outer)),
         Item("Wall thickness", f"{1000 * wall:g} mm"),
     ]
     start = run.summary.get("start_penetration_m", scene.get("initial_penetration_m"))
@@ -192,7 +192,7 @@ def caisson_of(run: Results) -> list[Item]:
         ("Penetration at the start", start),  # after an installation, where that ended
     ):
         if length is not None:
-            found.append(Item(name, f"{float(length):g} m"))
+            found.append(Item(name, run.shown.length(float(length))))
     tip = math.pi / 4 * outer**2 - plug_area(scene)
     found += [
         Item("Area inside, of the lid", f"{plug_area(scene):.4g} m²"),
@@ -234,7 +234,7 @@ def installation_of(run: Results) -> list[Item]:
     found, weight = [], run.scene.get("submerged_weight_N")
     if weight is not None:
         entry = f"{BODY}/Submerged weight"
-        text = f"{float(weight) / 1e3:.4g} kN"
+        text = run.shown.words(float(weight) / 1e3, "kN", ".4g")
         found.append(Item("Weight in water", text, is_assumed(run, entry)))
     for name, path, unit in (
         ("Pore water", "Water/Level", ""),
@@ -249,6 +249,8 @@ def installation_of(run: Results) -> list[Item]:
             continue
         if value := entry_of(run, path):
             text = entry_with_unit(value, unit)
+            if path == "Time/End penetration" and end_of(run) is not None:
+                text = run.shown.length(float(value))
             found.append(Item(name, text, is_assumed(run, path)))
     return found
 
@@ -297,7 +299,10 @@ def layers_table(run: Results) -> dict[str, Any]:
     layers = run.scene.get("layers", [])
     columns: dict[str, list[tuple[str, bool]]] = {
         "layer": [(str(e.get("layer", i)), False) for i, e in enumerate(layers, 1)],
-        "from (m)": [(f"{float(e.get('top_depth_m') or 0):g}", False) for e in layers],
+        run.shown.named("from (m)"): [
+            (f"{run.shown.factor('m') * float(e.get('top_depth_m') or 0):.6g}", False)
+            for e in layers
+        ],
         "law": [(str(e.get("law", "")), False) for e in layers],
     }
     for column in columns_of(run):

@@ -5,6 +5,7 @@ import math
 from typing import Any, NamedTuple
 
 from caisson.results import Results
+from caisson_design.shown import Units
 from caisson_report.scene import BODY, end_of, entry_of
 
 LETTER = 7.2  # pixels, the width of a letter
@@ -126,7 +127,9 @@ def about_layer(layer: dict[str, Any], number: int, width: float) -> str:
     return ", ".join(words)
 
 
-def draw_ground(drawing: Drawing, layers: list[dict[str, Any]], radius: float) -> None:
+def draw_ground(
+    drawing: Drawing, layers: list[dict[str, Any]], radius: float, shown: Units
+) -> None:
     """Draw the layers, with their depths at the right and their numbers between the
     walls of the caisson, where no dimension is."""
     side = drawing.half_width
@@ -142,7 +145,7 @@ def draw_ground(drawing: Drawing, layers: list[dict[str, Any]], radius: float) -
         written = drawing.y(top)
         if i:
             x = drawing.x(side)
-            drawing.text(x + 6, written + 4, f"{top:g} m")
+            drawing.text(x + 6, written + 4, shown.length(top))
         if drawing.scale * (low - top) > LEAST_BAND:
             y = drawing.y(low) - 5
             drawing.labels.append(y)
@@ -154,33 +157,33 @@ def draw_ground(drawing: Drawing, layers: list[dict[str, Any]], radius: float) -
 def of_run(run: Results, depth: float, rest: float | None) -> str:
     """Return the section with the tip at a depth (m), and where the caisson rests by
     its weight (m); nothing for other bodies than caissons."""
-    scene = run.scene
+    scene, shown = run.scene, run.shown
     if not scene.get("diameter_m") or not scene.get("wall_thickness_m"):
         return ""
     outer, wall = float(scene["diameter_m"]), float(scene["wall_thickness_m"])
     length = float(scene.get("skirt_length_m") or depth)
     radius, lid = outer / 2, depth - length
     planned = end_of(run) or depth
-    bottom = max(depth, planned, 0.1) * 1.3
+    bottom = max(depth, planned, 0.1 * length) * 1.3
     drawing = Drawing(0.95 * outer, min(lid, 0.0) - 0.06 * length, bottom)
-    draw_ground(drawing, scene.get("layers") or [], radius)
-    shown = max(wall, LEAST_WALL / drawing.scale)
-    for left in (-radius, radius - shown):
-        drawing.wall(left, lid, shown, tip_of(run, depth))
-    drawing.box("steel", -radius, lid - shown, radius, lid)
-    y, x = drawing.y(lid - shown) - 8, (drawing.x(-radius), drawing.x(radius))
+    draw_ground(drawing, scene.get("layers") or [], radius, shown)
+    thick = max(wall, LEAST_WALL / drawing.scale)
+    for left in (-radius, radius - thick):
+        drawing.wall(left, lid, thick, tip_of(run, depth))
+    drawing.box("steel", -radius, lid - thick, radius, lid)
+    y, x = drawing.y(lid - thick) - 8, (drawing.x(-radius), drawing.x(radius))
     drawing.line("dimension", x[0], y, x[1], y)
     for end in x:
         drawing.line("dimension", end, y - 4, end, y + 4)
-    drawing.text(WIDTH / 2, y - 5, f"D = {outer:g} m", "middle")
-    drawing.height(drawing.x(-radius) - 14, lid, depth, f"L = {length:g} m")
-    drawing.height(drawing.x(radius) + 14, 0, depth, f"h = {depth:.2f} m")
+    drawing.text(WIDTH / 2, y - 5, f"D = {shown.length(outer)}", "middle")
+    drawing.height(drawing.x(-radius) - 14, lid, depth, f"L = {shown.length(length)}")
+    drawing.height(drawing.x(radius) + 14, 0, depth, f"h = {shown.depth(depth)}")
     words = f"t = {1000 * wall:g} mm"
     drawing.text(drawing.x(radius) + 4, drawing.y(depth) + 15, words)
     axis = WIDTH / 2
     drawing.line("axis", axis, drawing.y(lid), axis, drawing.y(bottom))
     if rest is not None and 0 < rest < depth:
-        drawing.rest(radius, rest, f"rests by weight at {rest:.2f} m")
-    if planned > depth + 0.01:
-        drawing.rest(radius, planned, f"end of the scene at {planned:.2f} m")
+        drawing.rest(radius, rest, f"rests by weight at {shown.depth(rest)}")
+    if planned > depth + 0.01 * min(length, 1.0):
+        drawing.rest(radius, planned, f"end of the scene at {shown.depth(planned)}")
     return drawing.svg("section through caisson and ground, to scale")

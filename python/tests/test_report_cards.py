@@ -8,7 +8,7 @@ import unittest.mock
 from typing import Any
 
 import numpy as np
-from synthetic import write_columns
+from synthetic import write_columns, write_run
 from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson_report as report
@@ -100,6 +100,43 @@ class Cards(WithPage):
             self.assertNotIn(f'<th scope="col">{words}', text)
             self.assertNotIn(f"<h3>{words}", text)
 
+    def test_small_body(self) -> None:
+        """A model of 1/50 of the size in N, Pa and mm: cards, tables and charts."""
+        leave_run(self.path, SUMMARY)
+        history = dict(Results(self.path).history)
+        factors = {"_m": 0.02, "_N": 2e-5, "_Pa": 0.02, "_m3": 8e-6}
+        for name in history:
+            end = name[name.rfind("_") :]
+            history[name] = factors.get(end, 1.0) * history[name]
+        sizes = {k: 0.02 * v for k, v in SCENE.items() if k.endswith("_m") and v}
+        summary = {**SUMMARY, "scene": {**SCENE, **sizes, "submerged_weight_N": 20.0}}
+        write_run(self.path, history, summary)
+        run = Results(self.path)
+        self.assertEqual(run.shown.smaller, {"kN", "kPa", "m"})
+        text = html.unescape(report.write(self.path).read_text(encoding="utf-8"))
+        words = text.split("<script")[0]
+        for expected in (
+            "600.0 Pa <small>at 90.0 mm",
+            "resistance (N)",
+            "depth (mm)",
+            "required suction (Pa)",
+            "plug heave (mm)",
+            "D = 200 mm",
+            "h = 90.0 mm",
+        ):
+            self.assertTrue(expected in words, expected)
+        for wrong in ("(kN)", "(m)", " kN", "0.09 m"):
+            found = re.findall(".{40}" + re.escape(wrong), words.replace("kN/m³", ""))
+            self.assertEqual(found, [], wrong)
+        titles = [table["title"] for table in methods.methods_of(run)["tables"]]
+        self.assertIn("Required and critical suction (Pa)", titles)
+        charts = content.figures_of(run, self.installation())
+        self.assertEqual([c["axis"] for c in charts], ["suction (Pa)", "force (N)"])
+        self.assertEqual({c["depth"] for c in charts}, {"mm"})
+        total = [c for c in charts[1]["curves"] if c["label"] == "total"][0]
+        self.assertAlmostEqual(total["y"][-1], 90.0, delta=1)
+        self.assertAlmostEqual(total["x"][len(total["x"]) // 2], 50.0, delta=2)
+
     def test_run_that_was_stopped(self) -> None:
         """At 4.5 of 6 m; of one that failed the last rows are not to be used."""
         entries = {"Time/End penetration": "6"}
@@ -174,7 +211,7 @@ class Cards(WithPage):
             ("0.70 to 0.90", "below"),
         ):
             self.assertEqual(methods.place_of(ratio), place, ratio)
-        rows = [("1", "2"), ("2", "0.9 to 2"), ("3", "0.9 to 2"), ("4", "0.5")]
+        rows = [("1 m", "2"), ("2 m", "0.9 to 2"), ("3 m", "0.9 to 2"), ("4 m", "0.5")]
         words = "above the band to 1 m, within it to 3 m, below it deeper"
         self.assertEqual(methods.beside_the_band(rows), words)
 

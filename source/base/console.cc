@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <caisson_mpm/base/console.h>
+#include <caisson_mpm/base/shown_unit.h>
 #include <caisson_mpm/base/text.h>
 
 #include <algorithm>
@@ -84,22 +85,32 @@ namespace CaissonMPM
                       line.kinetic_energy,
                       line.max_speed) +
                rest;
+      const double    water   = line.with_water.value_or(0.);
+      const ShownUnit suction = unit_of_stresses(std::abs(line.suction)),
+                      length  = unit_of_lengths(line.length),
+                      force   = unit_of_forces(std::max({std::abs(line.total),
+                                                         std::abs(line.tip),
+                                                         std::abs(water)}));
+      const int n_digits      = length.factor > 1. ? 1 : 3;
       if (line.has_suction)
-        rest = format(" | suction %5.1f kPa, gradient %3.0f %% of critical",
-                      1e-3 * line.suction,
+        rest = format(" | suction %5.1f %s, gradient %3.0f %% of critical",
+                      suction.factor * line.suction,
+                      suction.name.c_str(),
                       100. * line.gradient_ratio) +
                rest;
-      const double kN = 1e-3;
       if (line.with_water)
-        rest = format(", with water %7.1f kN", kN * *line.with_water) + rest;
-      return format("pen %6.3f m | tip %7.1f inner %7.1f outer %7.1f "
-                    "total %7.1f kN",
-                    line.penetration,
-                    kN * line.tip,
-                    kN * line.inner,
-                    kN * line.outer,
-                    kN * line.total) +
-             rest;
+        rest = format(", with water %7.1f ", force.factor * water) +
+               force.name + rest;
+      return format("pen %6.*f %s | tip %7.1f inner %7.1f outer %7.1f "
+                    "total %7.1f ",
+                    n_digits,
+                    length.factor * line.penetration,
+                    length.name.c_str(),
+                    force.factor * line.tip,
+                    force.factor * line.inner,
+                    force.factor * line.outer,
+                    force.factor * line.total) +
+             force.name + rest;
     }
 
     /** Of the longest key in the summary of a scene, "material points", so that

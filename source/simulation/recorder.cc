@@ -526,7 +526,10 @@ namespace CaissonMPM
                                " s"}};
     if (parts.grid.is_first_rank() && parts.body.shape().exists() &&
         !parts.body.shape().expands())
-      for (const auto &line : result_lines(*records, error_bar))
+      for (const auto &line :
+           result_lines(*records,
+                        error_bar,
+                        parts.body.shape().top() - parts.body.shape().bottom()))
         lines.push_back(line);
     if (const auto n_warnings = console->warnings().size())
       lines.emplace_back("warnings",

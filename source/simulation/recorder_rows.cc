@@ -261,10 +261,13 @@ namespace CaissonMPM
     line.time        = row.time;
     line.has_body    = parts.body.shape().exists();
     line.penetration = row.penetration;
-    line.tip         = row.tip;
-    line.inner       = row.inner;
-    line.outer       = row.outer;
-    line.total       = row.total;
+    if (const BodyShape &shape = parts.body.shape();
+        line.has_body && !shape.expands())
+      line.length = shape.top() - shape.bottom();
+    line.tip   = row.tip;
+    line.inner = row.inner;
+    line.outer = row.outer;
+    line.total = row.total;
     if (scene_parts().water_on_body)
       line.with_water = row.with_water;
     line.kinetic_energy = row.kinetic_energy;

@@ -12,9 +12,6 @@ namespace CaissonMPM
   {
     // What lies outside of these is hardly meant in SI units, where a body goes
     // into the ground; tests of the method take other numbers.
-    constexpr double least_modulus = 1e4, largest_modulus = 1e12,
-                     least_hardness = 1e7, least_reference_stress = 1e3,
-                     largest_strength      = 1e9;   // Pa
     constexpr double least_solid_density   = 1000., // kg/m3
       largest_solid_density                = 6000.; // kg/m3
     constexpr double least_fluid_density   = 500.,  // kg/m3
@@ -67,6 +64,7 @@ namespace CaissonMPM
     gravity();
     if (scene.body.shape().exists() && !is_block())
       {
+        stresses();
         layers();
         fluid();
       }
@@ -80,6 +78,7 @@ namespace CaissonMPM
         friction();
         boundaries();
         suction();
+        seepage();
       }
     length_of_run();
   }
@@ -117,18 +116,6 @@ namespace CaissonMPM
   void
   SceneReview::stiffness_and_strength(const SoilMaterial &soil)
   {
-    const std::pair<std::string, double> moduli[] = {
-      {"Youngs modulus", least_modulus},
-      {"Granulate hardness", least_hardness},
-      {"Reference stress", least_reference_stress}};
-    for (const auto &[name, least] : moduli)
-      if (const auto value = soil.law_value(name))
-        if (*value < least || *value > largest_modulus)
-          doubt(soil.section() + "/" + name,
-                *value,
-                "Pa",
-                "is not that of a soil. Check the unit, Pa: 1 kPa is 1000 Pa, "
-                "and 1 MPa is 1e6 Pa.");
     constexpr double stiff_volume = .4;
     if (const auto nu = soil.law_value("Poisson ratio"))
       if (*nu > stiff_volume && !scene.method.uses_mean_volume())
@@ -137,14 +124,6 @@ namespace CaissonMPM
               "",
               "with Method/Mean volume change = false locks, or loses strength "
               "to vibrations of the volume. Set Mean volume change = true.");
-    for (const std::string name :
-         {"Cohesion", "Residual cohesion", "Active strength"})
-      if (const auto value = soil.law_value(name))
-        if (*value > largest_strength)
-          doubt(soil.section() + "/" + name,
-                *value,
-                "Pa",
-                "is not the strength of a soil. Check the unit, Pa.");
     undrained_volume(soil);
     if (soil.law_value("Yield stress ratio") == 1. &&
         origins.is_set(soil.section() + "/Overconsolidation ratio"))
@@ -532,6 +511,33 @@ namespace CaissonMPM
     };
     check("Water/Suction table", lid->settings().largest_of_table());
     check("Water/Largest suction", lid->settings().largest.value_or(0.));
+  }
+
+  void
+  SceneReview::seepage()
+  {
+    if (!scene.water.uses_permeability || scene.water.follows_soil)
+      return;
+    // drained soil has more friction, or a cohesion that is not the larger part
+    constexpr double least_angle = 10., usual_angle = 20., part = 4.;
+    for (const unsigned int i : scene.soil.uppermost_materials())
+      {
+        const SoilMaterial &soil     = scene.soil.material(i);
+        const double        cohesion = soil.shear_strength().value_or(0.);
+        const double        angle    = soil.friction_angle().value_or(0.);
+        const double friction = std::tan(angle * pi / 180.) * weight_above();
+        if (soil.top_depth < depth_of_skirt() && cohesion > 0. &&
+            (angle < least_angle ||
+             (angle < usual_angle && cohesion > part * friction)))
+          origins.add_warning(
+            soil.section() + " has the strength of undrained clay, " +
+            to_text(cohesion, 4) + " Pa with a friction angle of " +
+            to_text(angle, 4) +
+            " degrees, but with Water/Level = seepage water flows through it "
+            "as through sand, and takes its stress away. Set Water/Level = "
+            "drained and a Velocity instead of suction, or give the clay its "
+            "drained strength.");
+      }
   }
 
   // ------------------------------------------------------------ time

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/shown_unit.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/water/lid_compartment.h>
 
@@ -303,11 +304,14 @@ namespace CaissonMPM
   std::string
   LidCompartment::description() const
   {
-    const double weight = scene.body.submerged_weight();
+    const double weight   = scene.body.submerged_weight(),
+                 stress   = weight / area();
+    const ShownUnit force = unit_of_forces(weight),
+                    unit  = unit_of_stresses(stress);
     return "on a lid of " + to_text(area(), 4) + " m2; the weight is " +
-           to_text(1e-3 * weight, 4) + " kN, equal to " +
-           to_text(1e-3 * weight / area(), 3) +
-           " kPa on it; water cavitates there at a suction of " +
+           to_text(force.factor * weight, 4) + " " + force.name +
+           ", equal to " + to_text(unit.factor * stress, 3) + " " + unit.name +
+           " on it; water cavitates there at a suction of " +
            to_text(1e-3 * suction_.cavitation(height_of_lid()), 3) + " kPa";
   }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """caisson suggest: scenes for one's own caisson."""
+import argparse
 import re
 import subprocess
 import sys
@@ -14,6 +15,7 @@ from caisson import density_law
 from caisson.runner import environment, read_parameters
 from caisson.suggest.soil import LAWS
 from caisson_design import cone_file
+from lab.stability import suggested
 
 EXAMPLE = HERE.parent / "prm/cpt_example.csv"
 SAND = "0: Friction angle = 33, Youngs modulus = 20e6"
@@ -57,10 +59,8 @@ class Sizes(SuggestTest):
             ("4", "4", "20mm", "10"),
             ("8", "12", "0.03", "5"),
             ("10", "8", "40mm", "2"),
-            ("15", "6", "50mm", "5"),
             ("20", "20", "5cm", "10"),
-            ("6", "7", "0.1", "5"),
-            ("10", "8", "40mm", "20"),
+            ("150mm", "200mm", "1.6mm", "20"),
         ]
         for number, (diameter, skirt, wall, error) in enumerate(cases):
             with self.subTest(diameter=diameter, wall=wall):
@@ -69,6 +69,16 @@ class Sizes(SuggestTest):
                 text = self.suggest(path, *sizes, "--error", error)
                 self.assertRegex(text, r"duration +about \d")
                 self.run_program(SUCCESS, path, "--validate", "--strict")
+
+    def test_drawn_at_random(self) -> None:
+        """Sand, clay and both, small and large: the first scenes of the laboratory."""
+        options = argparse.Namespace(results=self.made_directory(), validate=True)
+        for number in range(suggested.QUICK):
+            case = suggested.case_of(suggested.SEED, number)
+            with self.subTest(case.soil):
+                file = options.results / f"scene_{number:02d}.prm"
+                self.assertTrue(suggested.write_scene(case, file), case.faults)
+                self.assertEqual(suggested.try_case(case, options).faults, [])
 
 
 class Layers(SuggestTest):
@@ -264,7 +274,7 @@ class Words(SuggestTest):
         words = ["--study", str(path / "s.toml")]
         wrong = SAND + ", nu = 0.7"
         said = self.suggest(path / "own.prm", *words, status=1, layers=(wrong,))
-        self.assertIn("the program refuses the scene", said)
+        self.assertIn("the program refuses the scene, which is not written:", said)
         self.assertEqual(list(path.iterdir()), [])
         self.suggest(path / "own.prm", *words, layers=(SAND,))
 
@@ -358,7 +368,7 @@ class SandByDensity(SuggestTest):
         for words, said in (
             (["--sand", "dens"], "did you mean dense?"),
             (["--density", "85"], "Did you mean 0.85?"),
-            (["--sand", "clay"], "clay is given by --layer"),
+            (["--sand", "clay"], "clay is given by its strength"),
         ):
             text = self.suggest(path, *words, status=1, layers=())
             self.assertIn(said, text)
@@ -475,7 +485,7 @@ class Files(SuggestTest):
             (["--penetration", "9"], (SAND,), "length of the skirt"),
             (["--water-depth", "9"], (SAND,), "give --weight"),
             (["--weight", "-1"], (SAND,), "must be positive"),
-            (["--wall-friction", "0.5"], (SAND,), "26.6 where this is its tangent"),
+            (["--wall-friction", "0.5"], (SAND,), "if this is the tangent write 26.6"),
             (["--tops", "0,3"], (SAND,), "--tops is for a cone test"),
             ([], ("0: Friction angle = 33",), "needs Youngs modulus"),
             ([], ("0: Frction angel = 33",), "did you mean Friction angle"),
@@ -483,6 +493,8 @@ class Files(SuggestTest):
             ([], (SAND, SAND), "deeper than the one before"),
             ([], ("Friction angle = 33",), "must begin with the depth"),
             ([], ("0: Friction angle",), "ENTRY = VALUE"),
+            (["--embedment", "0", "--weight", "1MN"], (SAND,), "without --weight"),
+            (["--embedment", "9"], (SAND,), "less than 7.5 m"),
             (
                 ["--weight", "1e6"],
                 (SAND, "2: " + SAND[3:] + ", Permeability=1e-5"),
@@ -491,7 +503,7 @@ class Files(SuggestTest):
         ]
         for words, layers, said in refusals:
             with self.subTest(said=said):
-                status = 2 if said == "no length" else 1
+                status = 2 if said.startswith(("no length", "if this")) else 1
                 text = self.suggest(path, *words, status=status, layers=layers)
                 self.assertIn(said, text)
                 self.assertFalse(path.exists())

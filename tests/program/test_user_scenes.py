@@ -17,7 +17,7 @@ from program import (
 
 from lab.paths import LAB
 
-WITHOUT_A_WARNING = ("jack", "jack_coarse", "jack_dense_sand", "column")
+WITHOUT_A_WARNING = ("jack", "jack_coarse", "jack_dense_sand", "jack_model", "column")
 VERTICAL_STRESS = "8829*z"
 AT_REST = {
     "Time/Inertia tolerance": "none",

@@ -27,6 +27,13 @@ CLAY: Entries = {
     f"{BODY}/Friction angle of the tip": 0,
 }
 HYPOPLASTIC: Entries = {f"{LAYER}/Law": "hypoplastic sand", f"{LAYER}/Porosity": 0.36}
+SEEPS: Entries = {
+    "Water/Level": "seepage",
+    f"{LAYER}/Dilatancy angle": 0,
+    f"{LAYER}/Friction angle of the walls": 0,
+    f"{BODY}/Friction angle of the tip": 0,
+}
+NGI_ADP: Entries = {f"{LAYER}/Law": "NGI-ADP", f"{LAYER}/Poisson ratio": 0.49}
 UNIFORM: Entries = {"Soil/Gravity": "0, 0", "Soil/Initial stress": "uniform"}
 STIFFENING: Entries = {f"{LAYER}/Law": "Mohr-Coulomb with stiffness by stress"}
 
@@ -39,7 +46,44 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
         {**STIFFENING, f"{LAYER}/Reference stress": 100},
         {**STIFFENING, f"{LAYER}/Reference stress": 1e5},
     ),
-    (["Cohesion", "strength"], {f"{LAYER}/Cohesion": 1e10}, {}),
+    # in kPa or MPa; small numbers that help a computation are no doubt
+    (["Cohesion = 6e+07 Pa is not the strength"], {f"{LAYER}/Cohesion": 6e7}, {}),
+    (["is it in kPa"], {f"{LAYER}/Cohesion": 60}, {f"{LAYER}/Cohesion": 100}),
+    (["Cohesion = 500 Pa"], {**CLAY, f"{LAYER}/Cohesion": 500}, CLAY),
+    (
+        ["Cohesion = 28", "is not the strength of a soil: is it in kPa"],
+        {**CLAY, f"{LAYER}/Cohesion": "2 + 1.5*d"},
+        {**CLAY, f"{LAYER}/Cohesion": "1500*d"},
+    ),
+    (
+        ["Active strength = 60 Pa"],
+        {**NGI_ADP, f"{LAYER}/Active strength": 60},
+        {},
+    ),
+    (
+        ["strength of undrained clay, 6e+04 Pa with a friction angle of 1 degrees"],
+        {**SEEPS, f"{LAYER}/Friction angle": 1, f"{LAYER}/Cohesion": 60e3},
+        {**SEEPS, f"{LAYER}/Friction angle": 25, f"{LAYER}/Cohesion": 10e3},
+    ),
+    (["Surcharge = 20 Pa"], {"Soil/Surcharge": 20}, {"Soil/Surcharge": 2e3}),
+    (
+        ["cut-off = 12 Pa"],
+        {f"{LAYER}/Tension cut-off": 12},
+        {f"{LAYER}/Tension cut-off": 1e9},
+    ),
+    (
+        ["Adhesion of the outer wall = 5 Pa"],
+        {f"{BODY}/Adhesion of the outer wall": 5},
+        {f"{BODY}/Adhesion of the outer wall": 2e3},
+    ),
+    (
+        ["Uniform stress is 50 Pa", "the weight of the soil above is"],
+        {"Soil/Initial stress": "uniform", "Soil/Uniform stress": "-50, -50, -50, 0"},
+        {
+            "Soil/Initial stress": "uniform",
+            "Soil/Uniform stress": "-5e4, -5e4, -5e4, 0",
+        },
+    ),
     (
         ["Solid density = 2.65", "t/m3"],
         {f"{LAYER}/Solid density": 2.65, "Soil/Fluid density": 1},

@@ -20,6 +20,7 @@ namespace CaissonMPM
      * time, the kinetic energy and the largest speed are shown. */
     bool   has_body    = false;
     double penetration = 0.;
+    double length      = 1.; // of the body, in m: of a small one lengths are mm
     double tip         = 0.;
     double inner       = 0.;
     double outer       = 0.;

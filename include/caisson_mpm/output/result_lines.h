@@ -14,10 +14,13 @@ namespace CaissonMPM
    * Return the largest force on the way down, the largest pull, and the forces
    * at most ten or so of the depths of ResultTable, on the way down with the
    * error of the total force where it is known, and on the way up. The records
-   * need the columns of forces and penetration.
+   * need the columns of forces and penetration. The units fit the largest force
+   * and the length of the body (m).
    */
   Console::Lines
-  result_lines(const Records &records, const ErrorBar &error_bar);
+  result_lines(const Records  &records,
+               const ErrorBar &error_bar,
+               const double    length);
 } // namespace CaissonMPM
 
 #endif

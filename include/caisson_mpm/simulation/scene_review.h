@@ -4,6 +4,7 @@
 #ifndef caisson_mpm_simulation_scene_review_h
 #define caisson_mpm_simulation_scene_review_h
 
+#include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/bodies/rigid_body.h>
 #include <caisson_mpm/domain/grid_lines.h>
@@ -14,6 +15,7 @@
 #include <caisson_mpm/simulation/schedule.h>
 #include <caisson_mpm/water/lid_compartment.h>
 
+#include <optional>
 #include <string>
 
 namespace CaissonMPM
@@ -52,6 +54,26 @@ namespace CaissonMPM
     all();
 
   private:
+    /** Warn of entries in Pa that are no stress, strength or stiffness of soil.
+     */
+    void
+    stresses();
+    /** The material of a layer in which an entry of its law is largest. */
+    std::optional<unsigned int>
+    strongest(const DeclaredEntry &entry) const;
+    void
+    stress(const DeclaredEntry         &entry,
+           const double                 value,
+           const std::optional<double> &friction_angle);
+    void
+    stress_at_start();
+    /** The depth to which the body is long or goes, within the mesh. Units: m.
+     */
+    double
+    depth_of_skirt() const;
+    /** The effective weight of the soil above that depth. Units: Pa. */
+    double
+    weight_above() const;
     void
     layers();
     void
@@ -104,6 +126,9 @@ namespace CaissonMPM
     is_pushed_in() const;
     void
     suction();
+    /** Warn of undrained strength in soil through which water flows. */
+    void
+    seepage();
     void
     length_of_run();
 

@@ -21,9 +21,11 @@ from caisson import curve, curves
 from caisson.plot import design
 from caisson.plot.forces import penetration
 from caisson.paths import RESULTS, short
+from caisson.plot.small import in_units
 from caisson.results import Results, ResultsError, Table
 from caisson.table import write_csv
 from caisson_design import InputError, disk
+from caisson_design.shown import USUAL, Units
 
 LINES = ("black", "#c0392b", "#2166ac", "#2e8b57", "#8c510a", "#7b3294")
 STYLES = ("-", "--", ":", "-.")
@@ -31,7 +33,7 @@ PUSHING, TOTAL = "pushing_force_N", "total_force_N"
 # columns of history.csv beside those in N
 MORE = ("required_suction_Pa", "suction_Pa", "cavity_pressure_Pa")
 DEPTH = "penetration_m"
-INTERVAL = 0.1  # m
+INTERVAL, INTERVAL_OF_SMALL = 0.1, 0.001  # m
 PICTURE = RESULTS / "comparison.png"
 PICTURES = {".png", ".pdf", ".svg"}  # what a word ends with that is no directory
 
@@ -93,7 +95,13 @@ def panels_of(histories: Histories) -> dict[str, Table]:
     return {"required suction (kPa)": suctions, axis: forces}
 
 
-def draw(picture: Path, histories: Histories) -> Path:
+def units_of_all(directories: Sequence[Path]) -> Units:
+    """Return the units that suit all runs: the smaller ones where all are small."""
+    smaller = [Results(directory).shown.smaller for directory in directories]
+    return Units(frozenset.intersection(*smaller))
+
+
+def draw(picture: Path, histories: Histories, shown: Units = USUAL) -> Path:
     """Write the picture."""
     panels = panels_of(histories)
     figure = Figure(figsize=(7 * len(panels), 7))
@@ -120,6 +128,7 @@ def draw(picture: Path, histories: Histories) -> Path:
         axes.set_xlabel(label)
         axes.set_ylabel("penetration of the tip (m)")
         axes.legend(fontsize=8)
+    in_units(figure, shown)
     figure.tight_layout()
     return disk.save(figure, picture)
 
@@ -198,9 +207,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         " the .csv file of the same name is written",
     )
     text = f"between the depths of the .csv file, in m, default {INTERVAL:g}"
-    parser.add_argument(
-        "--interval", type=positive, default=INTERVAL, metavar="M", help=text
-    )
+    text += f", or {INTERVAL_OF_SMALL:g} of bodies shorter than 1 m"
+    parser.add_argument("--interval", type=positive, metavar="M", help=text)
     text = "replace picture and .csv file if they are there"
     parser.add_argument("--overwrite", action="store_true", help=text)
     text = "print forces at round depths and the roughness of curves, and draw nothing"
@@ -220,11 +228,13 @@ def main(options: argparse.Namespace) -> int:
         if not directories:
             raise ResultsError("give the output directory of a run")
         histories = read(directories)
-        columns = columns_of(histories, options.interval)
+        shown = units_of_all(directories)
+        usual = INTERVAL_OF_SMALL if "m" in shown.smaller else INTERVAL
+        columns = columns_of(histories, options.interval or usual)
         if picture == PICTURE:
             picture.parent.mkdir(parents=True, exist_ok=True)
         with disk.all_or_none(options.overwrite):
-            written = [draw(picture, histories)]
+            written = [draw(picture, histories, shown)]
             written.append(write(picture.with_suffix(".csv"), columns))
         for path in written:
             print(f"compare: {short(path)}")

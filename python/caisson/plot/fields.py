@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from caisson.curves import depth_at
 from caisson.plot.cells import CellMeans
 from caisson.plot.forces import penetration
+from caisson.plot.small import in_units
 from caisson.plot.vtu import read_cells, read_points
 from caisson.results import Results, ResultsError, Table
 from caisson_design import disk
@@ -58,10 +59,10 @@ class Frame:
         )
         self.ratio = cells[RATIO][self.means.used].astype(float)
         self.tops = tops_of(run.scene)
-        self.time = time
+        self.time, self.shown = time, run.shown
         self.label = f"t = {time:.3g} s"
         if penetration(history) is not None:
-            self.label = f"penetration {depth_at(time, history):.2f} m"
+            self.label = f"penetration {self.shown.depth(depth_at(time, history))}"
 
 
 def chosen(series: Series, history: Table, wanted: Sequence[float]) -> Series:
@@ -283,6 +284,7 @@ def figure_of(
         colors = figure.colorbar(artist, ax=place, extend=extend, **bar)
         if "norm" in style:
             colors.set_ticks(steps := [0.1, 0.2, 0.5, 1, 2, 5, 10], labels=steps)
+    in_units(figure, frames[0].shown)
     return figure, axes
 
 
@@ -386,6 +388,7 @@ def draw_displacement(
     labels = ["displacement (m), mean of each cell", *[label for label, *_ in fields]]
     for panel, artist, label in zip(axes, painted, labels):
         figure.colorbar(artist, ax=panel, extend="max", shrink=0.8, label=label)
+    in_units(figure, frame.shown)
     return disk.save(figure, path)
 
 

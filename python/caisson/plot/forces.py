@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from caisson import curves
 from caisson.curves import path_of, running_mean
 from caisson.plot import theory
+from caisson.plot.small import in_units
 from caisson.results import Results, Table
 from caisson_design import disk
 
@@ -225,12 +226,14 @@ def draw_over_time(axes: Axes, history: Table) -> None:
     axes.legend(fontsize=8)
 
 
-def caption(depth: np.ndarray, site: theory.Site, answers: list[theory.Answer]) -> str:
+def caption(run: Results, site: theory.Site, answers: list[theory.Answer]) -> str:
     """Return what the lines mean, and which methods have none."""
+    depth = run.history["penetration_m"]
     window = window_of(depth)
+    whole, half = (run.shown.words(x, "m", ".3g") for x in (window, window / 2))
     text = (
-        f"thin: raw, thick: mean over {window:.3g} m, which ends {window / 2:.3g} m"
-        " before the ends of the curve"
+        f"thin: raw, thick: mean over {whole}, which ends {half} before the ends of the"
+        " curve"
     )
     if answers[0].forces:
         text += f"; {theory.assumptions_in_words(site.scene)}: dashed low, dotted high"
@@ -263,7 +266,7 @@ def draw_over_depth(run: Results, depth: np.ndarray) -> Figure:
     draw_panel(panels[1], run, FRICTION, answers[0])
     if with_methods:
         draw_methods(panels[2], run, answers)
-    text = caption(depth, site, answers)
+    text = caption(run, site, answers)
     figure.text(0.5, 0.008, text, ha="center", fontsize=8, color="0.3")
     figure.tight_layout(rect=(0, 0.015 + 0.02 * len(text.splitlines()), 1, 1))
     return figure
@@ -283,4 +286,5 @@ def draw(path: Path, run: Results) -> Path | None:
         figure.tight_layout()
     else:
         figure = draw_over_depth(run, depth)
+    in_units(figure, run.shown)
     return disk.save(figure, path)

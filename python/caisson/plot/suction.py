@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from caisson.plot import suction_methods as methods
 from caisson.plot import theory
 from caisson.plot.forces import COLORS, draw_error_bar, error_band, penetration
+from caisson.plot.small import in_units
 from caisson.results import Results, Table
 from caisson_design import disk
 
@@ -298,4 +299,5 @@ def draw(directory: Path, run: Results) -> list[Path]:
     figure.text(0.5, 0.008, text, ha="center", fontsize=8, color="0.3")
     figure.tight_layout(rect=(0, 0.015 + 0.02 * len(text.splitlines()), 1, 1))
     picture = directory / "suction.png"
+    in_units(figure, run.shown)
     return [disk.save(figure, picture)]

@@ -10,8 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson.plot.fields import MOST_FRAMES
+from caisson.plot.small import in_units
 from caisson.results import Results, Table
 from caisson_design import disk
+from caisson_design.shown import Units
 
 # part of the name of a column: its label, and the column of what stands beside it
 STRESSES = {
@@ -43,13 +45,14 @@ def draw_panel(
     times: np.ndarray,
     column: str,
     beside: tuple[float, str],
+    shown: Units,
 ) -> None:
     """Draw a column over depth at times, and a multiple of the horizontal stress at
     rest with its label."""
     factor, label = beside
     for time, share in zip(times, np.linspace(0.85, 0, len(times))):
         rows = walls["time_s"] == time
-        name = f"{walls['penetration_m'][rows][0]:.2f} m"
+        name = shown.depth(float(walls["penetration_m"][rows][0]))
         style = {"color": colormaps["viridis"](share), "label": name}
         axes.plot(walls[column][rows] / 1e3, walls["depth_m"][rows], **style)
     # the rows of the last time, which are the deepest in an installation
@@ -72,10 +75,11 @@ def draw(path: Path, run: Results) -> Path | None:
             angle = run.scene.get(f"{name}_wall_friction_angle_deg", np.nan)
             factor = 1.0 if stress == "normal_stress" else np.tan(np.radians(angle))
             column = f"{name}_{stress}_Pa"
-            draw_panel(panel, walls, times, column, (factor, beside))
+            draw_panel(panel, walls, times, column, (factor, beside), run.shown)
             panel.set_xlabel(f"{label} (kPa)")
             panel.set_title(f"{name} wall", fontsize=10)
         row[0].set_ylabel("depth (m)")
         row[0].legend(title="penetration", fontsize=8)
     axes[0, 0].invert_yaxis()  # that of all
+    in_units(figure, run.shown)
     return disk.save(figure, path)

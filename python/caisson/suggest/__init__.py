@@ -20,12 +20,13 @@ or, of sand, no more than its density:
     caisson suggest --diameter 4 --skirt 2.5 --wall 20mm --sand dense own.prm
 """
 import argparse
-import math
+import functools
 import os
 import re
 import sys
 import tempfile
 from collections.abc import Sequence
+from math import inf, pi
 from pathlib import Path
 
 import jinja2
@@ -34,17 +35,39 @@ from caisson import density_law
 from caisson.cpt import tables
 from caisson.paths import INSTALLED
 from caisson.runner import RunError, query
-from caisson.suggest import cone, sand
+from caisson.suggest import clay, cone, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson.suggest.sizes import LEVELS, Body, Level, frames_of, mesh_of, start_of
-from caisson.suggest.soil import CAM_CLAY, NGI_ADP, layers_of
+from caisson.suggest.sizes import (
+    DEFAULT_ROW,
+    LEVELS,
+    Body,
+    Level,
+    frames_of,
+    mesh_of,
+    start_of,
+    to_two_digits,
+)
+from caisson.suggest.soil import CAM_CLAY, layers_of
+from caisson.suggest.walls import (
+    angle_entry,
+    angle_of,
+    is_by_density,
+    is_clay,
+    is_quick_clay,
+    wall_friction_of,
+    with_walls,
+)
 from caisson_design import InputError, cone_file, cone_options, disk, interpretation
 from caisson_design.interpretation import Interpretation
-from caisson_design.quantity import length, number
+from caisson_design.quantity import angle_of_friction, length, number
+from caisson_design.shown import units_for
 
 # of a study: of the friction angle (degrees), or of the relative density
 CHANGES = (-4, -2, 0, 2, 4)
 CHANGES_OF_DENSITY = (-0.2, -0.1, 0, 0.1, 0.2)
+VELOCITY = 0.1  # m/s
+RAMP_SHARE = 0.05  # of the way, at most, until the velocity is reached
+LEAST_RECORDS = 100
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -84,11 +107,13 @@ def add_caisson_arguments(parser: argparse.ArgumentParser, required: bool) -> No
         add(f"--{name}", type=length, required=required, metavar="M", help=what)
     add(
         "--wall-friction",
-        type=number("degrees"),
+        type=angle_of_friction,
         metavar="DEGREES",
-        help="on both sides",
+        help="of sand, on both sides",
     )
     add("--penetration", type=length, metavar="M", help="where the run ends")
+    text = "where it begins (default: at 6 %% of the skirt)"
+    add("--embedment", type=number("m"), metavar="M", help=text)
     add(
         "--weight",
         type=number("N"),
@@ -138,10 +163,18 @@ def check(options: argparse.Namespace) -> None:
             f"--skirt {body.skirt:g} m does not go with --diameter"
             f" {body.diameter:g} m: their ratio must be between 0.1 and 10"
         )
-    if end is not None and not start_of(body.skirt) < end <= body.skirt:
+    begin, most = begin_of(options), end_of(options)
+    if begin < 0 or end is None and begin >= most:
+        raise SuggestError(f"--embedment must be from 0 to less than {most:g} m")
+    if options.weight and begin == 0:
         raise SuggestError(
-            f"--penetration must be between {start_of(body.skirt):g} m, where the"
-            f" caisson begins, and the length of the skirt, {body.skirt:g} m"
+            "--embedment 0 goes without --weight: suction needs a skirt that is in the"
+            " soil; begin at some wall thicknesses"
+        )
+    if end is not None and not begin < end <= body.skirt:
+        raise SuggestError(
+            f"--penetration must be between {begin:g} m, where the caisson begins, and"
+            f" the length of the skirt, {body.skirt:g} m"
         )
     for name in ("weight", "water_depth"):
         if (value := getattr(options, name)) is not None and value <= 0:
@@ -150,12 +183,6 @@ def check(options: argparse.Namespace) -> None:
         raise SuggestError("--water-depth bounds the suction: give --weight, too")
     if options.wall_friction is not None and not 0 <= options.wall_friction < 89:
         raise SuggestError("--wall-friction must be between 0 and 89 degrees")
-    if options.wall_friction and options.wall_friction < 1:
-        degrees = math.degrees(math.atan(options.wall_friction))
-        raise SuggestError(
-            f"--wall-friction {options.wall_friction:g} is less than a degree: give the"
-            f" angle, {degrees:.3g} where this is its tangent, or 0 of a smooth wall"
-        )
     files: list[Path] = [f for f in (options.file, options.study) if f]
     for file in files:
         if not file.parent.is_dir():
@@ -166,75 +193,20 @@ def check(options: argparse.Namespace) -> None:
         raise SuggestError(f"--study {options.study}: its name must end with .toml")
 
 
-def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
-    """Return the friction angle of the walls where a layer has none of its own.
+def refuse_clay(layers: Sequence[Layer], area: float) -> None:
+    """Refuse clay that the skirt reaches under suction. area: inside the skirt (m2).
     Raises SuggestError."""
-    layers = [x for x in layers if not x.value("Friction angle of the walls")]
-    if given is not None or not layers:
-        return Entry("", f"{given or 0:g}")
-    others = [layer for layer in layers if not is_by_density(layer)]
-    angles = [angle_of(layer) for layer in others]
-    try:
-        least = min(map(float, angles), default=90.0)
-    except ValueError as error:
-        raise SuggestError(
-            "not all layers have a number as friction angle: give --wall-friction"
-        ) from error
-    if least == 0 and (len(others) < len(layers) or max(map(float, angles)) > 0):
-        raise SuggestError(
-            "clay and sand have no common wall friction: give each layer 'Friction"
-            " angle of the walls' and 'Adhesion factor of the walls', or all of them"
-            " --wall-friction"
-        )
-    if len(others) < len(layers) and 2 / 3 * least > float(sand.WALL_FRICTION.value):
-        return sand.WALL_FRICTION
-    return Entry(
-        "", f"{2 / 3 * least:.3g}", " # ASSUMED: 2/3 of the smallest of the soil"
-    )
-
-
-def is_by_density(layer: Layer) -> bool:
-    """Return whether the strength of a layer follows from its density."""
-    return layer.value("Law") in sand.LAWS.values()
-
-
-def angle_entry(layer: Layer) -> str:
-    """Return the entry with the friction angle of a layer."""
-    is_critical = layer.value("Law") in (CAM_CLAY, density_law.NOR_SAND)
-    return density_law.CRITICAL_ANGLE if is_critical else "Friction angle"
-
-
-def angle_of(layer: Layer) -> str:
-    """Return the friction angle of a layer (degrees); 0 of undrained clay."""
-    return "0" if layer.value("Law") == NGI_ADP else layer.value(angle_entry(layer))
-
-
-def is_clay(layer: Layer) -> bool:
-    """Return whether a layer is undrained clay."""
-    return angle_of(layer) == "0"
-
-
-def refuse_clay(layers: Sequence[Layer]) -> None:
-    """Refuse clay that the skirt reaches under suction. Raises SuggestError."""
     for i, layer in enumerate(layers, 1):
-        if is_clay(layer):
+        if is_clay(layer) or is_quick_clay(layer):
+            what = "undrained clay"
+            if not is_clay(layer):
+                angle = angle_of(layer)
+                what += f" (phi = {angle} beside a cohesion is no drained strength)"
             raise SuggestError(
-                f"layer {i} is undrained clay, and in a scene with suction water"
-                " flows steadily through all soil. Leave out --weight: the jacked"
-                " caisson gives the resistance, and the suction is resistance less"
-                " weight over the area inside the skirt"
+                f"layer {i} is {what}, and with --weight water would seep through it"
+                " as through sand: leave out --weight, and take the suction from the"
+                f" jacked force, (force - weight) / {area:.3g} m2"
             )
-
-
-def with_adhesion(layers: Sequence[Layer]) -> list[Layer]:
-    """Return the layers, where clay whose walls have no friction of their own has an
-    adhesion."""
-    found = []
-    for layer in layers:
-        has_wall = any("of the walls" in entry.name for entry in layer.entries)
-        adhesion = [cone.ADHESION_OF_CLAY] if is_clay(layer) and not has_wall else []
-        found.append(Layer(layer.top, [*layer.entries, *adhesion]))
-    return found
 
 
 def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
@@ -275,8 +247,15 @@ def template(name: str) -> jinja2.Template:
     return environment_of_text.get_template(name)
 
 
+def begin_of(options: argparse.Namespace) -> float:
+    """Return where the run begins (m)."""
+    given = options.embedment
+    return start_of(options.skirt) if given is None else float(given)
+
+
 def end_of(options: argparse.Namespace) -> float:
-    """Return where the run ends (m)."""
+    """Return where the run ends (m): without --penetration where there is room left
+    for the soil that rises inside."""
     return float(options.penetration or options.skirt - start_of(options.skirt))
 
 
@@ -370,16 +349,20 @@ def density_after(layer: Layer, change: float) -> float:
 def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level) -> str:
     """Return the text of the scene."""
     body = Body(options.diameter, options.skirt, options.wall)
-    start = start_of(body.skirt)
-    end = end_of(options)
-    mesh = mesh_of(body, end, level, [layer.top for layer in layers])
+    start, end = begin_of(options), end_of(options)
+    mesh = mesh_of(body, start, end, level, [layer.top for layer in layers])
     how = "by weight and suction" if options.weight else "jacked"
     smallest = body.wall / level.cells
-    soil = with_adhesion(layers) if options.wall_friction is None else layers
+    size = units_for(inf, inf, body.skirt)
+    ramp = to_two_digits(min(0.5, RAMP_SHARE * (end - start) / VELOCITY))
+    deep = reached(options, layers)
     if options.weight:
-        refuse_clay(reached(options, layers))
+        refuse_clay(deep, area_inside(options))
+    soil = with_walls(
+        clay.with_states(layers, end, -mesh.bottom), options.wall_friction, deep
+    )
     return template("scene.prm.jinja").render(
-        title=f"a caisson of {body.diameter:g} m with a wall of"
+        title=f"a caisson of {size.length(body.diameter)} with a wall of"
         f" {body.wall * 1e3:g} mm, {how}",
         body=body,
         level=level,
@@ -387,9 +370,14 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         smallest_mm=f"{smallest * 1e3:.3g}",
         start=start,
         end=end,
-        wall_friction=wall_friction_of(options.wall_friction, reached(options, layers)),
+        ramp=ramp,
+        record=to_two_digits(min(0.1, (end - start) / VELOCITY / LEAST_RECORDS)),
+        velocity=VELOCITY,
+        wall_friction=wall_friction_of(options.wall_friction, deep),
         layers=with_permeability(soil) if options.weight else soil,
-        is_clay=all(map(is_clay, reached(options, layers))),
+        is_clay=all(map(is_clay, deep)),
+        smooth_tip=all(map(is_clay, deep)) or options.wall_friction == 0,
+        default_row=DEFAULT_ROW,
         weight=options.weight,
         water_depth=options.water_depth,
         directory=f"results/{options.file.stem}",
@@ -397,6 +385,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
     )
 
 
+@functools.lru_cache
 def entries_of_layers() -> dict[str, str]:
     """Return the units of all entries of a layer by their names, "" for none, as the
     program knows them. Raises RunError."""
@@ -415,8 +404,14 @@ def entries_of_layers() -> dict[str, str]:
     return found
 
 
-def remarks_on(options: argparse.Namespace) -> list[str]:
-    """Return what the scene leaves out: a part of the skirt, and the suction."""
+def area_inside(options: argparse.Namespace) -> float:
+    """Return the area inside the skirt (m2)."""
+    return float(pi / 4 * (options.diameter - 2 * options.wall) ** 2)
+
+
+def remarks_on(options: argparse.Namespace, layers: Sequence[Layer]) -> list[str]:
+    """Return what the scene leaves out: a part of the skirt, and the suction. layers:
+    those that the skirt reaches."""
     end, skirt, found = end_of(options), options.skirt, list[str]()
     if end < skirt - 1e-9:
         found.append(
@@ -424,12 +419,29 @@ def remarks_on(options: argparse.Namespace) -> list[str]:
             f" --penetration {skirt:g} pushes all of it in, until the lid may press on"
             " the plug"
         )
-    if not options.weight:
+    if not options.weight and any(map(is_clay, layers)):
+        found.append(
+            "The caisson is jacked, without suction. In clay the suction is (force -"
+            f" weight) / {area_inside(options):.3g} m2, the area inside the skirt"
+        )
+    elif not options.weight:
         found.append(
             "Without --weight the caisson is jacked, without suction. For suction add"
             " --weight and --water-depth"
         )
     return found
+
+
+def said_of(text: str, file: Path, copy: Path, said: str) -> str:
+    """Return what the program says of a refused scene, of which no file is left: its
+    lines in the place of their numbers."""
+    lines = text.splitlines()
+
+    def line(match: re.Match[str]) -> str:
+        return f"“{lines[int(match[1]) - 1].strip()}”"
+
+    said = re.sub(rf"(?:in )?{re.escape(str(copy))}:(\d+)", line, said)
+    return said.replace("is set in “", "is “").replace(str(copy), str(file))
 
 
 def cost_of(file: Path, text: str) -> str:
@@ -441,8 +453,10 @@ def cost_of(file: Path, text: str) -> str:
         try:
             return query([str(copy), "--validate"]).replace(str(copy), str(file))
         except RunError as error:
-            said = str(error).replace(str(copy), str(file))
-            raise SuggestError(f"the program refuses the scene:\n{said}") from error
+            said = said_of(text, file, copy, str(error))
+            raise SuggestError(
+                f"the program refuses the scene, which is not written:\n{said}"
+            ) from error
 
 
 def write(options: argparse.Namespace) -> None:
@@ -480,7 +494,7 @@ def write(options: argparse.Namespace) -> None:
     print(cost)
     assumed = texts[options.file].count(ASSUMPTION)
     print(f"assumed: {assumed} lines of {options.file} are marked ASSUMED: check them")
-    for remark in remarks_on(options):
+    for remark in remarks_on(options, reached(options, layers)):
         print(remark)
 
 

@@ -4,9 +4,10 @@ from typing import Any
 
 from caisson import density_law
 from caisson.cpt.tables import SHOWN, text_of
-from caisson.suggest import sand
+from caisson.suggest import clay, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson.suggest.soil import ASSUMED, BY_STRESS, POISSON_OF_CLAY
+from caisson.suggest.soil import ASSUMED, BY_STRESS
+from caisson.suggest.walls import ADHESION_OF_CLAY
 from caisson_design.cone_estimates import (
     ENDS,
     K0,
@@ -21,10 +22,6 @@ from caisson_design.ground import CLAY, SAND, SILT
 from caisson_design.interpretation import Interpretation
 
 REACH = 1.5  # times the skirt: the test counts to this depth
-# of walls in clay, over its strength
-ADHESION_OF_CLAY = Entry(
-    "Adhesion factor of the walls", "0.5", f"{ASSUMPTION}: remoulded"
-)
 
 
 def refuse_silt(found: Interpretation, end: float, flows: bool) -> None:
@@ -146,7 +143,7 @@ def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
         Entry("Friction angle", "0", f" # {e.layer.kind}, undrained"),
         Entry("Cohesion", number(e.values[STRENGTH].best), remark(found, e, STRENGTH)),
         Entry("Youngs modulus", modulus, f"{ASSUMPTION}: a multiple of s_u"),
-        Entry("Poisson ratio", POISSON_OF_CLAY, ASSUMPTION),
+        Entry("Poisson ratio", clay.POISSON, ASSUMPTION),
         Entry("K0", number(e.values[K0].best), " # FROM CPT"),
         Entry("Friction angle of the walls", "0"),
         ADHESION_OF_CLAY,

@@ -7,6 +7,7 @@ density (caisson_design.density), so that scene and methods have the same sand.
 """
 import difflib
 import math
+import re
 from collections.abc import Iterable, Mapping
 
 from caisson import density_law as names
@@ -16,8 +17,9 @@ from caisson_design.density import ATMOSPHERE, CRITICAL_ANGLE, cone_resistance
 
 # relative density in the middle of a class, and its ends in % (ISO 14688-2)
 WORDS = {
+    "very loose": (0.075, "0 to 15 %"),
     "loose": (0.25, "15 to 35 %"),
-    "medium": (0.5, "35 to 65 %"),
+    "medium dense": (0.5, "35 to 65 %"),
     "dense": (0.75, "65 to 85 %"),
     "very dense": (0.925, "85 to 100 %"),
 }
@@ -38,15 +40,22 @@ WALL_FRICTION = Entry("", "29", f"{ASSUMPTION}: steel in sand, UWA-05, any densi
 FOREIGN = ("Friction angle", "Dilatancy angle", "Cohesion", "Porosity")
 
 
+def word_of(text: str) -> str:
+    """Return a word of WORDS as it may be written: "Medium-dense sand" or "medium";
+    other texts as they are."""
+    word = " ".join(re.sub(r"[-_]", " ", text.lower()).removesuffix("sand").split())
+    return "medium dense" if word == "medium" else word
+
+
 def density_of_word(text: str) -> Entry:
     """Return the relative density of a word. Raises SuggestError."""
-    word = " ".join(text.lower().split())
+    word = word_of(text)
     if word not in WORDS:
         near = difflib.get_close_matches(word, WORDS, n=1)
         hint = f"; did you mean {near[0]}?" if near else ""
         raise SuggestError(
             f"{text!r} is no density of sand, which is one of {', '.join(WORDS)}{hint}"
-            ' (clay is given by --layer "0: Friction angle = 0, Cohesion = ...")'
+            ' (clay is given by its strength, --layer "0: su = 20 kPa")'
         )
     density, ends = WORDS[word]
     remark = f"{ASSUMPTION}: middle of {word!r}, {ends} (ISO 14688-2)"

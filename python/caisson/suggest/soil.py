@@ -7,9 +7,9 @@ import re
 from collections.abc import Collection, Iterable, Mapping
 
 from caisson import density_law as names
-from caisson.suggest import sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson_design import quantity
+from caisson.suggest import clay, sand
+from caisson_design import expression, quantity
 from caisson_design.ground import porosity_of
 
 MOHR_COULOMB = "Mohr-Coulomb"
@@ -30,7 +30,6 @@ REPLACED = {
     names.DENSITY: "Porosity",
     "Dry density": "Solid density",
 }
-POISSON_OF_CLAY = "0.45"  # hardly any change of volume, as without drainage
 
 # how engineers write them
 WRITTEN = {
@@ -67,7 +66,7 @@ LAWS = {
         "Direct shear failure strain": ("gamma_fD", "0.04"),
         "Passive failure strain": ("gamma_fP", "0.06"),
         "Unloading shear modulus ratio": ("Gur/suA", "500"),
-        "Poisson ratio": ("nu ν", POISSON_OF_CLAY),
+        "Poisson ratio": ("nu ν", clay.POISSON),
     },
     names.NOR_SAND: {
         "Critical void ratio at 1 kPa": ("Gamma Γ", "0.816"),
@@ -90,6 +89,11 @@ DERIVED = {
     **dict.fromkeys((WEIGHT, "gamma'", "γ", "γ'", "unit weight"), WEIGHT),
 }
 UNITS_OF_DERIVED = {STRENGTH: "Pa", WEIGHT: "kN/m3"}
+ANGLES_OF_FRICTION = (
+    "Friction angle",
+    names.CRITICAL_ANGLE,
+    "Friction angle of the walls",
+)
 LIGHTEST_WET = 13.0  # kN/m3; a smaller unit weight is that in water
 DOUBTFUL = 11.5, 14.0  # kN/m3; between them it may be either
 POROSITIES = (0.1, 0.9)
@@ -125,40 +129,68 @@ def name_of(word: str, known: Collection[str], law: str) -> str:
     raise SuggestError(f"--layer: a layer of {law} has no entry {word!r}{hint}")
 
 
-def value_of(name: str, text: str, known: Mapping[str, str]) -> str:
+def value_of(
+    name: str, text: str, known: Mapping[str, str], symbols: Mapping[str, str]
+) -> str:
     """Return the value of an entry in its own unit. Raises SuggestError."""
+    unit = (known | UNITS_OF_DERIVED).get(name, "")
     try:
-        return quantity.without_unit(text, (known | UNITS_OF_DERIVED).get(name, ""))
+        value = expression.without_unit(text, unit, symbols if unit == "Pa" else {})
+        if name in UNITS_OF_DERIVED and not expression.gives_unit(text):
+            number, of_it = ("8.5", "kN/m3") if name == WEIGHT else ("20", "kPa")
+            is_number = re.fullmatch(quantity.NUMBER, text)
+            example = number if is_number else f"({text})"
+            raise ValueError(f"{text}: give its unit, as in {name} = {example} {of_it}")
+        if name in ANGLES_OF_FRICTION:
+            quantity.refuse_tangent(text)
     except ValueError as error:
         raise SuggestError(f"--layer: {name} = {error}") from error
+    if name in ANGLES_OF_FRICTION:
+        if re.fullmatch(quantity.NUMBER, value) and float(value) == 0:
+            return "0"  # which is asked for where clay is told from sand
+    return value
+
+
+def hint_for(part: str) -> str:
+    """Return what may be meant by a part of a layer without an equals sign."""
+    if re.fullmatch(rf"\d+\s*({'|'.join(quantity.EVERY)})?", part):
+        return "; decimals have a point, as 33.5"
+    if "clay" in part.lower():
+        return "; clay is given by its strength, as in su = 20 kPa"
+    near = difflib.get_close_matches(sand.word_of(part), sand.WORDS, n=1)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
+def pair_of(part: str) -> tuple[str, str]:
+    """Return the words around the equals sign. Sand may be named by its state alone.
+    Raises SuggestError."""
+    word, equals, value = map(str.strip, part.partition("="))
+    if not equals and sand.word_of(part) in sand.WORDS:
+        return sand.SAND, part
+    if not equals or not value:
+        raise SuggestError(
+            f"--layer: {part!r} is not of the form ENTRY = VALUE{hint_for(part)}"
+        )
+    return word, value
 
 
 def given_in(text: str, known: Mapping[str, str]) -> dict[str, str]:
     """Return what is given of a layer, by names of entries. Raises SuggestError."""
-    given: dict[str, str] = {}
     found = re.search(r"(?:^|,)\s*law\s*=\s*([^,]+)", text, re.I)
     law = law_named(found[1].strip()) if found else MOHR_COULOMB
-    for part in quantity.parts_of(text):
-        word, equals, value = map(str.strip, part.partition("="))
-        if not equals or not value:
-            comma = "; decimals have a point, as 33.5" if part.isdecimal() else ""
-            raise SuggestError(
-                f"--layer: {part!r} is not of the form ENTRY = VALUE{comma}"
-            )
+    texts: dict[str, str] = {}
+    for word, value in map(pair_of, quantity.parts_of(text)):
         name = name_of(word, known, law)
-        if name in given:
+        if name in texts:
             raise SuggestError(f"--layer {text!r} gives {name} twice")
         if law in LAWS and name in (*sand.FOREIGN[:3], STRENGTH):
             raise SuggestError(f"--layer: {law} takes no {word}; give {INSTEAD[law]}")
-        given[name] = law if name == "Law" else value_of(name, value, known)
-        if name in UNITS_OF_DERIVED and not quantity.has_unit(value):
-            number, unit = ("8.5", "kN/m3") if name == WEIGHT else ("20", "kPa")
-            is_number = re.fullmatch(quantity.NUMBER, value)
-            raise SuggestError(
-                f"--layer: give the unit of {part!r}, as in {word} ="
-                f" {number if is_number else f'({value})'} {unit}"
-            )
-    return given
+        texts[name] = law if name == "Law" else value
+    symbols: dict[str, str] = {}
+    if STRENGTH in texts:  # other entries may be multiples of it
+        strength = value_of(STRENGTH, texts[STRENGTH], known, {})
+        symbols = {s: strength for s, n in DERIVED.items() if n == STRENGTH}
+    return {n: value_of(n, value, known, symbols) for n, value in texts.items()}
 
 
 def layer_of(text: str, known: Mapping[str, str], law: str) -> Layer:
@@ -176,6 +208,9 @@ def layer_of(text: str, known: Mapping[str, str], law: str) -> Layer:
         )
     given = given_in(rest, known)
     weight, strength = given.pop(WEIGHT, ""), given.pop(STRENGTH, "")
+    if is_clay_by_angle(given):
+        strength = given.pop("Cohesion")
+        del given["Friction angle"]
     derived = (undrained(strength, given) if strength else []) + (
         weight_of(weight, given) if weight else []
     )
@@ -193,6 +228,12 @@ def layer_of(text: str, known: Mapping[str, str], law: str) -> Layer:
     return Layer(top, [remarks.get(e.name, e) for e in entries], warning)
 
 
+def is_clay_by_angle(given: Mapping[str, str]) -> bool:
+    """Return whether Mohr-Coulomb soil is undrained clay because its angle is 0."""
+    is_plain = given.get("Law", MOHR_COULOMB) == MOHR_COULOMB
+    return is_plain and given.get("Friction angle") == "0" and "Cohesion" in given
+
+
 def undrained(strength: str, given: Mapping[str, str]) -> list[Entry]:
     """Return the entries of clay with an undrained strength (Pa), beside those given.
     Raises SuggestError."""
@@ -204,7 +245,8 @@ def undrained(strength: str, given: Mapping[str, str]) -> list[Entry]:
     found = [
         Entry("Friction angle", "0", " # undrained"),
         Entry("Cohesion", strength, " # s_u"),
-        Entry("Poisson ratio", POISSON_OF_CLAY, f"{ASSUMPTION}: undrained"),
+        Entry("Poisson ratio", clay.POISSON, f"{ASSUMPTION}: undrained"),
+        clay.modulus_of(strength),
     ]
     return [entry for entry in found if entry.name not in given]
 
@@ -262,6 +304,8 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
         usual = {name: ASSUMED[name] for name in OF_EACH}
         usual |= {name: value for name, (_, value) in LAWS[law].items()}
     known = {*given, *(REPLACED.get(name, name) for name in given)}
+    if is_clay_by_angle(given):  # follow from the strength: clay.with_states
+        known |= {"Porosity", "K0"}
     assumed = {n: v for n, v in usual.items() if n not in known}
     if missing := [name for name, value in assumed.items() if not value]:
         or_sand = f'; or, of sand, "{sand.SAND} = dense"' if is_plain else ""
@@ -271,7 +315,7 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
     if YIELD_RATIO in assumed and (ratio := given.get("Overconsolidation ratio")):
         assumed[YIELD_RATIO] = ratio
         remarks[YIELD_RATIO] = f"{ASSUMPTION}: Overconsolidation ratio"
-    if not {"K0", "Overconsolidation ratio"} & given.keys():
+    if not {"K0", "Overconsolidation ratio"} & known:
         assumed["K0"] = "auto"
     return [
         *(Entry(n, v, remarks.get(n, ASSUMPTION)) for n, v in assumed.items()),

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is assumed of undrained clay from its strength s_u.
+
+Youngs modulus is that of `caisson cpt`, a multiple of s_u. The rest follows from s_u
+and the vertical effective stress sigma'_v in the middle of the layer, as far as the
+skirt reaches into it:
+
+    OCR = (s_u/sigma'_v / 0.22)^(1/0.8), at least 1
+        Ladd (1991), J. Geotech. Eng. 117
+    K0 = (1 - sin phi') OCR^(sin phi'), phi' = 24 degrees, at most 1.5
+        Mayne & Kulhawy (1982), J. Geotech. Eng. Div. 108
+    gamma of Robertson & Cabal (2010) for q_t = sigma_v + 14 s_u and a sleeve friction
+        of s_u/2, the adhesion; at least 15 kN/m3
+
+so that soft clay has 5 to 7 kN/m3 in water and a K0 of about 0.6, and stiff clay more.
+SI units.
+"""
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from caisson import density_law as names
+from caisson.suggest.entry import ASSUMPTION, Entry, Layer
+from caisson_design.cone_estimates import CLAY_RATIOS
+from caisson_design.correlations import CONE_FACTORS, RESTS_OF_CLAY
+from caisson_design.expression import value_at
+from caisson_design.ground import GRAVITY, WATER, porosity_of, unit_weight_of
+
+POISSON = "0.45"  # hardly any change of volume, as without drainage
+ADHESION_FACTOR = "0.5"
+NORMAL_RATIO, EXPONENT = 0.22, 0.8  # s_u/sigma'_v at OCR 1, and of OCR
+SINE = math.sin(math.radians(24))
+LIGHTEST = 15e3  # N/m3, of the wet clay
+GRAINS = 2650.0  # kg/m3
+MOBILIZED = 0.95  # of the strength, at most, by K0
+USUAL_WEIGHT = 9.7e3  # N/m3 in water, of a layer above whose weight is no number
+RATIO = "Overconsolidation ratio"
+STATES = ("Porosity", "Void ratio", names.DENSITY, "Dry density")
+ROUNDS = 5
+
+
+def is_undrained(layer: Layer) -> bool:
+    """Return whether a layer has an undrained strength as its cohesion."""
+    return bool(layer.value("Cohesion")) and layer.value("Friction angle") == "0"
+
+
+def modulus_of(strength: str) -> Entry:
+    """Return Youngs modulus for a strength (Pa)."""
+    ratio = CLAY_RATIOS[1]
+    try:
+        value = f"{ratio * float(strength):.10g}"
+    except ValueError:
+        value = f"{ratio:g}*({strength})"
+    return Entry(
+        "Youngs modulus", value, f"{ASSUMPTION}: {ratio:g} s_u, as caisson cpt"
+    )
+
+
+def number_of(layer: Layer, name: str, depth: float) -> float | None:
+    """Return an entry at a depth, None where it is not known."""
+    text = layer.value(name)
+    return value_at(text, depth, USUAL_WEIGHT * depth) if text else None
+
+
+def weight_of(layer: Layer, depth: float) -> float:
+    """Return the unit weight in water (N/m3) at a depth."""
+    grains = number_of(layer, "Solid density", depth) or GRAINS
+    porosity = number_of(layer, "Porosity", depth)
+    void_ratio = number_of(layer, "Void ratio", depth)
+    density = number_of(layer, names.DENSITY, depth)
+    densest = number_of(layer, names.DENSEST, depth)
+    loosest = number_of(layer, names.LOOSEST, depth)
+    if density is not None and densest is not None and loosest is not None:
+        void_ratio = loosest - density * (loosest - densest)
+    if void_ratio is not None:
+        porosity = void_ratio / (1 + void_ratio)
+    if porosity is None:
+        return USUAL_WEIGHT
+    return (1 - porosity) * (grains * GRAVITY - WATER)
+
+
+def wet_weight_of(strength: float, total_stress: float) -> float:
+    """Return the unit weight of wet clay (N/m3)."""
+    tip = np.array([CONE_FACTORS[1] * strength + total_stress])
+    friction = np.array([float(ADHESION_FACTOR) * strength])
+    return max(float(unit_weight_of(tip, friction)[0]), LIGHTEST)
+
+
+@dataclass(frozen=True)
+class Reach:
+    """Where a layer counts: depths of its top, of the middle of what the skirt reaches,
+    and of its bottom (m); above: sigma'_v at its top (Pa)."""
+
+    top: float
+    middle: float
+    bottom: float
+    above: float
+
+    def stress(self, depth: float, weight: float) -> float:
+        """Return sigma'_v (Pa) for a unit weight in water (N/m3)."""
+        return self.above + (depth - self.top) * weight
+
+
+def strength_of(layer: Layer, depth: float, stress: float) -> float:
+    """Return s_u (Pa); 0 where the form of an expression is not known."""
+    return value_at(layer.value("Cohesion"), depth, stress) or 0.0
+
+
+def unit_weight_of_clay(layer: Layer, reach: Reach) -> tuple[float, list[Entry]]:
+    """Return the unit weight in water (N/m3), and the porosity if it is not given."""
+    weight = weight_of(layer, reach.middle)
+    if any(map(layer.value, STATES)):
+        return weight, []
+    for _ in range(ROUNDS):
+        stress = reach.stress(reach.middle, weight)
+        strength = strength_of(layer, reach.middle, stress)
+        weight = wet_weight_of(strength, stress + WATER * reach.middle) - WATER
+    grains = number_of(layer, "Solid density", reach.middle) or GRAINS
+    porosity = porosity_of(weight / 1e3, grains, False)
+    why = f"{weight / 1e3:.2g} kN/m3 in water by s_u (Robertson & Cabal 2010)"
+    return weight, [Entry("Porosity", f"{porosity:.3f}", f"{ASSUMPTION}: {why}")]
+
+
+def at_rest(layer: Layer, reach: Reach, weight: float) -> Entry:
+    """Return K0, within what the strength bears in all of the layer."""
+    stress = reach.stress(reach.middle, weight)
+    ratio = strength_of(layer, reach.middle, stress) / max(stress, 1.0)
+    given = number_of(layer, RATIO, reach.middle)
+    ocr = given or max(ratio / NORMAL_RATIO, 1.0) ** (1 / EXPONENT)
+    k0 = float(np.clip((1 - SINE) * ocr**SINE, *RESTS_OF_CLAY))
+    by = "" if given else f" by s_u/sigma'_v = {ratio:.2g} (Ladd 1991)"
+    text, why = f"{k0:.2g}", f"OCR {ocr:.2g}{by}, Mayne & Kulhawy (1982)"
+    for depth in (reach.top, reach.bottom):
+        stress = reach.stress(depth, weight)
+        if abs(1 - k0) * stress > MOBILIZED * 2 * strength_of(layer, depth, stress):
+            bound = f"{2 * MOBILIZED:g}*({layer.value('Cohesion')})/s"
+            text = (
+                f"max({k0:.2g}, 1 - {bound})"
+                if k0 < 1
+                else f"min({k0:.2g}, 1 + {bound})"
+            )
+    return Entry("K0", text, f"{ASSUMPTION}: {why}")
+
+
+def with_states(layers: Sequence[Layer], end: float, floor: float) -> list[Layer]:
+    """Return the layers, where undrained clay has porosity and K0. end: of the skirt,
+    floor: of the mesh (m)."""
+    found, above = list[Layer](), 0.0
+    bottoms = [layer.top for layer in layers[1:]] + [max(floor, layers[-1].top)]
+    for layer, bottom in zip(layers, bottoms):
+        deepest = min(bottom, end) if layer.top < end else bottom
+        reach = Reach(layer.top, (layer.top + deepest) / 2, bottom, above)
+        weight = weight_of(layer, reach.middle)
+        if is_undrained(layer):
+            weight, added = unit_weight_of_clay(layer, reach)
+            entries = list(layer.entries)
+            if not layer.value("K0"):
+                entries = [entry for entry in entries if entry.name != RATIO]
+                added.append(at_rest(layer, reach, weight))
+            layer = Layer(layer.top, [*entries, *added], layer.warning)
+        found.append(layer)
+        above = reach.stress(bottom, weight)
+    return found

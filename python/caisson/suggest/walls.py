@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Friction and adhesion of the walls: of all sand the same friction, and where clay and
+sand lie above each other those of each layer."""
+from collections.abc import Sequence
+
+from caisson import density_law
+from caisson.suggest import clay, sand
+from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
+from caisson.suggest.soil import CAM_CLAY, NGI_ADP
+
+LEAST_DRAINED = 10.0  # degrees
+FRICTION, ADHESION = "Friction angle of the walls", "Adhesion factor of the walls"
+ADHESION_OF_CLAY = Entry(ADHESION, clay.ADHESION_FACTOR, f"{ASSUMPTION}: remoulded")
+
+
+def is_by_density(layer: Layer) -> bool:
+    """Return whether the strength of a layer follows from its density."""
+    return layer.value("Law") in sand.LAWS.values()
+
+
+def angle_entry(layer: Layer) -> str:
+    """Return the entry with the friction angle of a layer."""
+    is_critical = layer.value("Law") in (CAM_CLAY, density_law.NOR_SAND)
+    return density_law.CRITICAL_ANGLE if is_critical else "Friction angle"
+
+
+def angle_of(layer: Layer) -> str:
+    """Return the friction angle of a layer (degrees); 0 of undrained clay."""
+    return "0" if layer.value("Law") == NGI_ADP else layer.value(angle_entry(layer))
+
+
+def is_clay(layer: Layer) -> bool:
+    """Return whether a layer is undrained clay."""
+    return angle_of(layer) == "0"
+
+
+def is_quick_clay(layer: Layer) -> bool:
+    """Return whether strength is that of clay in a quick test, a cohesion with a small
+    angle: drained soil has a larger one."""
+    try:
+        angle, cohesion = float(angle_of(layer)), layer.value("Cohesion")
+    except ValueError:
+        return False
+    return 0 < angle < LEAST_DRAINED and cohesion not in ("", "0")
+
+
+def friction_of(layer: Layer) -> Entry:
+    """Return the friction angle between the walls and a layer. Raises SuggestError
+    where the soil has no angle."""
+    if is_clay(layer):
+        return Entry(FRICTION, "0", " # clay adheres")
+    if is_by_density(layer):
+        return Entry(FRICTION, sand.WALL_FRICTION.value, sand.WALL_FRICTION.remark)
+    if not (angle := angle_of(layer)):
+        raise SuggestError(
+            f"the soil from {layer.top:g} m has no friction angle from which that of"
+            " the walls would follow: give --wall-friction"
+        )
+    try:
+        value = f"{2 / 3 * float(angle):.3g}"
+    except ValueError:
+        value = f"2/3*({angle})"
+    return Entry(FRICTION, value, f"{ASSUMPTION}: 2/3 of the friction angle")
+
+
+def without_friction(layers: Sequence[Layer]) -> list[Layer]:
+    """Return the layers whose wall friction is not given with them."""
+    return [layer for layer in layers if not layer.value(FRICTION)]
+
+
+def have_own(layers: Sequence[Layer]) -> bool:
+    """Return whether each layer needs a wall friction of its own: clay adheres and
+    sand rubs, or an angle changes with depth."""
+    values = [friction_of(layer).value for layer in without_friction(layers)]
+    return len({value == "0" for value in values}) > 1 or any("*" in v for v in values)
+
+
+def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
+    """Return the friction angle of the walls where a layer has none of its own. given:
+    that of sand. Raises SuggestError."""
+    layers = without_friction(layers)
+    if given and layers and all(map(is_clay, layers)):
+        raise SuggestError(
+            "--wall-friction is for sand, and all of the soil is undrained clay, which"
+            " adheres: give alpha in its --layer, as in alpha = 0.5"
+        )
+    if given is not None or not layers:
+        return Entry("", f"{given or 0:g}")
+    if have_own(layers):
+        return Entry("", "0", " # each layer has its own")
+    least = min(map(friction_of, layers), key=lambda entry: float(entry.value))
+    if least.value == "0":
+        return Entry("", "0")
+    why = least.remark.replace("of the friction angle", "of the smallest of the soil")
+    return Entry("", least.value, why)
+
+
+def with_walls(
+    layers: Sequence[Layer], given: float | None, reached: Sequence[Layer]
+) -> list[Layer]:
+    """Return the layers with the friction angle and the adhesion factor of the walls
+    that they need beside those of the body. reached: by the skirt; given: the friction
+    angle of sand, with 0 of all soil. Raises SuggestError."""
+    if given == 0:
+        return list(layers)
+    own = have_own(reached) if given is None else False
+    found = []
+    for layer in layers:
+        added, has_wall = list[Entry](), layer.value(FRICTION) or layer.value(ADHESION)
+        adheres = is_clay(layer) and bool(given)
+        if (own or adheres) and not layer.value(FRICTION):
+            added.append(friction_of(layer))
+        if is_clay(layer) and not has_wall:
+            added.append(ADHESION_OF_CLAY)
+        found.append(Layer(layer.top, [*layer.entries, *added], layer.warning))
+    return found
