@@ -377,7 +377,7 @@ def error_remark(run: Results) -> str:
             "This scene has no error bar of its own. Those of the reference scenes are"
             " in the manual; caisson error-bar computes its own."
         )
-    force = bounds["total_force_N"]
+    force = np.where(bounds["total_force_N"] == 0, np.nan, bounds["total_force_N"])
     below, above = [
         100
         * np.nanmean(np.abs(bounds[f"total_force_{side}_N"] - force) / np.abs(force))

@@ -23,7 +23,7 @@ namespace CaissonMPM
       const std::size_t begin =
         down ? 0 : std::max_element(depth.begin(), depth.end()) - depth.begin();
       std::vector<std::size_t> rows;
-      double                   last = depth.at(begin);
+      double                   last = depth.empty() ? 0. : depth[begin];
       for (std::size_t i = begin + 1; i < depth.size(); ++i)
         if (down ? depth[i] > last : depth[i] < last)
           {
