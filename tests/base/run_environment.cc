@@ -223,6 +223,14 @@ test_console()
   body.total         = body.tip + body.inner + body.outer;
   body.fraction_done = 0.2345678;
   body.eta_seconds   = 83.4;
+  RecordLine model; // in N, Pa and mm
+  model.has_body    = true;
+  model.has_suction = true;
+  model.length      = .2;
+  model.penetration = .0123456;
+  model.tip         = 12.3456;
+  model.total       = 999.9;
+  model.suction     = 456.7;
   RecordLine column;
   column.time           = 0.0123456789;
   column.kinetic_energy = 1.23456789e-5;
@@ -238,6 +246,7 @@ test_console()
       console.header({{"version", "1.2.3"}, {"output", "results"}});
       console.summary({{"cells", "12"}, {"material points", "108"}});
       console.record(body);
+      console.record(model);
       console.record(column);
       console.message("checkpoint written");
       console.warning("two points left their cell by more than a cell");
