@@ -202,15 +202,18 @@ def run_of(file: Path, directory: Path) -> Run:
 
 def look_at(case: Case, run: Run) -> None:
     """Take what a run did into its case."""
-    status = Status.FAILURE
-    if record := run.completion_record():
-        status, case.used = Status(record["status"]), record["cpu_s"]
-        if case.used > SLOWEST * case.estimate:
-            times = case.used / case.estimate
-            case.faults.append(f"took {times:.2g} times its estimate")
-    if status != Status.SUCCESS or record is None:
-        lines = (run.directory / "log").read_text("utf-8").strip().splitlines()
-        case.faults.append(f"status {int(status)}: {lines[-1] if lines else 'no log'}")
+    lines = (run.directory / "log").read_text("utf-8").strip().splitlines()
+    last = lines[-1] if lines else "no log"
+    record = run.completion_record()
+    if record is None:
+        case.faults.append(f"did not end in time: {last}")
+        return
+    case.used = record["cpu_s"]
+    if case.used > SLOWEST * case.estimate:
+        times = case.used / case.estimate
+        case.faults.append(f"took {times:.2g} times its estimate")
+    if record["status"] != Status.SUCCESS:
+        case.faults.append(f"status {record['status']}: {last}")
         return
     try:
         summary = Results(run.directory).summary
