@@ -340,9 +340,12 @@ namespace CaissonMPM
   void
   SceneReview::points_at_tip()
   {
+    constexpr double   widths = 5.; // of the wall, for which the points last
     const unsigned int enough = scene.water.least_points,
                        n      = scene.generator.points_per_direction_in_path();
-    if (is_pushed_in() && !scene.generator.splits_and_merges() && n < enough)
+    const BodyShape &shape    = scene.body.shape();
+    if (is_pushed_in() && !scene.generator.splits_and_merges() && n < enough &&
+        scene.lines.total_travel() > widths * (shape.right() - shape.left()))
       throw BadInput(
         "Material points/Per direction in path = " + to_text(n) +
         " without Split and merge lets cells beneath the tip run out of "

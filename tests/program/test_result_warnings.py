@@ -59,7 +59,7 @@ class RunReview(ProgramTest):
     def test_sound_run(self) -> None:
         """A run without a fault has none of these warnings."""
         text = self.words_of_run({**SMALL, "Time/Mass scaling": 25})
-        for words in (FALL, JUMP, LOST, ONE_CELL, FEW_POINTS):
+        for words in (FALL, LOST, ONE_CELL, FEW_POINTS):
             self.assertNotIn(words, text)
 
     def test_fall_of_tip(self) -> None:

@@ -256,9 +256,8 @@ class States(UserMaterialTest):
         path = self.directory("pieces")
         first = {**entries, "Time/End penetration": 0.55}
         self.run_scene("jack", path, entries=first)
-        steps = summary(path)["steps"]
         self.run_scene("jack", path, SUCCESS, "--restart", entries=entries)
-        self.assert_counted(path, steps + summary(path)["steps"])
+        self.assert_counted(path, summary(path)["steps"])
         self.compiled("elastic.f90", COUNT + "  ddsdde = 1.01d0 * ddsdde\n")
         later = {**entries, "Time/End penetration": 0.61}
         text = self.run_scene("jack", path, BAD_INPUT, "--restart", entries=later)
@@ -422,7 +421,9 @@ class Input(UserMaterialTest):
 
     def test_layers(self) -> None:
         """A user material above a law of the program, stopped and resumed."""
-        entries = {**self.above_elastic(), "Time/End penetration": 0.52}
+        # a stop waits for the 400th step
+        short = {"Time/End penetration": 0.52, "Time/Courant number": 0.3}
+        entries = {**self.above_elastic(), **short}
         path = self.directory()
         self.run_scene("jack", path, entries=entries)
         stopped = self.directory("stopped")

@@ -15,13 +15,13 @@ import sys
 from pathlib import Path
 
 from caisson import suggest
-from caisson.cpt import page, picture, tables
+from caisson.cpt import page, tables
 from caisson.paths import RESULTS, scene_or_study, short
 from caisson.runner import RunError
 from caisson.study import StudyError, check_is_own, file_name
 from caisson.suggest.cone import REACH
 from caisson.suggest.entry import SuggestError
-from caisson_design import InputError, disk, interpretation
+from caisson_design import InputError, cone_picture, disk, interpretation
 from caisson_design.correlations import EVERY
 from caisson_design.interpretation import Interpretation
 
@@ -81,7 +81,7 @@ def write(
     title = f"Cone test {found.file.name} {location}".rstrip()
     return [
         tables.write(directory / "layers.csv", found.layers),
-        picture.draw(
+        cone_picture.draw(
             directory / "cpt.png", title, found.ground, found.layers, found.names, tip
         ),
     ]

@@ -71,6 +71,8 @@ def answers_of(outcomes: Outcomes) -> Answers:
     histories = [run.history for run in runs if run.history is not None]
     deepest = max(float(history[DEPTH].max()) for history in histories)
     depth = np.arange(int(deepest / INTERVAL + 1e-6) + 1) * INTERVAL
+    if deepest - depth[-1] > 1e-6:  # a short way may lie between two of them
+        depth = np.append(depth, deepest)
     computed = np.array([values_at(history, TOTAL, depth) for history in histories])
     sites = [theory.site_of(run.run.results) for run in runs]
     answers = [theory.answers_of(site, depth) for site in sites]
@@ -79,7 +81,8 @@ def answers_of(outcomes: Outcomes) -> Answers:
 
 def write(path: Path, found: Answers) -> Path:
     """Write the total force (N) of each run, and by each case of each method with the
-    soil of each run, at each 0.1 m; cells without an answer are empty."""
+    soil of each run, at each 0.1 m
+    and the last depth; cells without an answer are empty."""
     columns: dict[str, np.ndarray] = {DEPTH: found.depth}
     for name, force in zip(found.names, found.computed):
         columns[f"{TOTAL} [{name}]"] = force

@@ -24,9 +24,15 @@ import numpy as np
 from caisson import density_law as names
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer
 from caisson_design.cone_estimates import CLAY_RATIOS
-from caisson_design.correlations import CONE_FACTORS, RESTS_OF_CLAY
+from caisson_design.correlations import RESTS_OF_CLAY
 from caisson_design.expression import value_at
-from caisson_design.ground import GRAVITY, WATER, porosity_of, unit_weight_of
+from caisson_design.ground import (
+    CONE_FACTOR,
+    GRAVITY,
+    WATER,
+    porosity_of,
+    unit_weight_of,
+)
 
 POISSON = "0.45"  # hardly any change of volume, as without drainage
 ADHESION_FACTOR = "0.5"
@@ -83,7 +89,7 @@ def weight_of(layer: Layer, depth: float) -> float:
 
 def wet_weight_of(strength: float, total_stress: float) -> float:
     """Return the unit weight of wet clay (N/m3)."""
-    tip = np.array([CONE_FACTORS[1] * strength + total_stress])
+    tip = np.array([CONE_FACTOR * strength + total_stress])
     friction = np.array([float(ADHESION_FACTOR) * strength])
     return max(float(unit_weight_of(tip, friction)[0]), LIGHTEST)
 
