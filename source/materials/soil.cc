@@ -180,6 +180,17 @@ namespace CaissonMPM
     }
   } // namespace
 
+  bool
+  Soil::has_friction() const
+  {
+    return std::any_of(materials.begin(),
+                       materials.end(),
+                       [](const SoilMaterial &m) {
+                         return m.friction_angle().value_or(0.) > 0. ||
+                                m.shear_strength().value_or(0.) <= 0.;
+                       });
+  }
+
   void
   Soil::divide(const std::vector<double> &row_lines)
   {

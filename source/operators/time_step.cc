@@ -42,7 +42,8 @@ namespace CaissonMPM
       "The inertia of the smallest cells, mass scaling times "
       "density times the square of the velocity of the body, "
       "is this share of the initial vertical effective stress "
-      "at the tip, 0.1 to 0.4 as a rule. The scaling follows the "
+      "at the tip, or of half the strength there if no soil has friction, "
+      "0.1 to 0.4 as a rule. The scaling follows the "
       "penetration. Larger cells get less of it, and cells that the tip "
       "bends get more. Mass scaling must then be 1. "
       "Units: none.",

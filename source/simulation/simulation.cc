@@ -136,14 +136,20 @@ namespace CaissonMPM
   {
     const double   depth = body.penetration() + travel - body.motion().travel();
     const Point<2> tip(0., -std::max(depth, 0.));
-    const double   density =
-                   soil.inertial_density(soil.material_at(tip[vertical])),
-                 speed = body.motion().usual_velocity();
+    const unsigned int at_tip  = soil.material_at(tip[vertical]);
+    const double       density = soil.inertial_density(at_tip),
+                 speed         = body.motion().usual_velocity();
+    // Soil without friction bears what its strength does, and not its weight.
+    constexpr double share_of_strength = .5;
+    const double     stress =
+      soil.has_friction() ?
+            -soil.initial_stress(tip)[zz] :
+            share_of_strength * *soil.material(at_tip).shear_strength();
     // The waves of the start must decay before the soil gets heavy.
     constexpr double first_share = .15;
     const double     way         = body.shape().right() / 3.,
                  share = std::clamp(std::abs(travel) / way, first_share, 1.);
-    return -share * soil.initial_stress(tip)[zz] / (density * speed * speed);
+    return share * stress / (density * speed * speed);
   }
 
   void

@@ -422,7 +422,7 @@ class Input(UserMaterialTest):
     def test_layers(self) -> None:
         """A user material above a law of the program, stopped and resumed."""
         # a stop waits for the 400th step
-        short = {"Time/End penetration": 0.52, "Time/Courant number": 0.3}
+        short = {"Time/End penetration": 0.52, "Time/Courant number": 0.2}
         entries = {**self.above_elastic(), **short}
         path = self.directory()
         self.run_scene("jack", path, entries=entries)

@@ -95,6 +95,11 @@ namespace CaissonMPM
     name_unused_permeability(ParameterOrigins  &origins,
                              const std::string &why) const;
 
+    /** Whether the strength of any material depends on its pressure, or is not
+     * known. */
+    bool
+    has_friction() const;
+
     unsigned int
     n_layers() const
     {
