@@ -15,7 +15,7 @@ namespace CaissonMPM
 
     // Within so many widths of the start, or of an interface between layers,
     // forces change for a reason.
-    constexpr double start_takes = 2., interface_takes = 4.;
+    constexpr double start_takes = 2., interface_takes = 8.;
 
     // Without a fault, falls are below 2 % of the tip force
     // (doc/limitations.md).
@@ -23,7 +23,7 @@ namespace CaissonMPM
 
     // Clay that stays at the wall bears 0.93 of adhesion times area and more
     // from this depth on, in widths of the tip.
-    constexpr double least_share_of_adhesion = .9, adhesion_from = 10.;
+    constexpr double least_share_of_adhesion = .9, adhesion_from = 3.;
 
     // More work than this is lost only where the results suffer.
     constexpr double largest_lost_share = .1;
@@ -200,6 +200,19 @@ namespace CaissonMPM
            "see doc/limitations.md, Snaps at the tip";
   }
 
+  bool
+  RunReview::has_cut_off() const
+  {
+    for (unsigned int i = 0; i < parts.soil.n_materials(); ++i)
+      {
+        const SoilMaterial         &m       = parts.soil.material(i);
+        const std::optional<double> cut_off = m.law_value("Tension cut-off");
+        if (cut_off && *cut_off > 0.)
+          return true;
+      }
+    return false;
+  }
+
   double
   RunReview::adhesion_down_to(const double depth, const unsigned int wall) const
   {
@@ -222,7 +235,7 @@ namespace CaissonMPM
   std::optional<std::string>
   RunReview::bare_wall(const unsigned int wall) const
   {
-    if (!parts.grid.lines().axisymmetric())
+    if (!parts.grid.lines().axisymmetric() || !has_cut_off())
       return {};
     // the shape of the tip takes up to a width of the wall
     double borne = 0., due = 0.;

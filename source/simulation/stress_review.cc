@@ -37,15 +37,15 @@ namespace CaissonMPM
     constexpr double least_angle = 10.; // degrees, of drained soil
 
     constexpr StressRange ranges[] = {
-      {"Youngs modulus", "that of a soil", 1e4, any, 1e12},
+      {"Youngs modulus", "that of a soil", 1e5, 10., 1e11},
       {"Granulate hardness", "that of a soil", 1e7, any, 1e12},
       {"Reference stress", "that of a soil", 1e3, any, 1e12},
       {"Active strength", undrained.of, 1e3, .1, 1e7},
       {"Residual cohesion", with_friction.of, 100., .01, 1e7},
-      {"Tension cut-off", "the tension that a soil bears", 100., .01, any},
+      {"Tension cut-off", "the tension that a soil bears", 250., .01, any},
       {"Smallest stress of strength", "that of a soil", 1e3, any, 1e8},
       {"Smallest stress of stiffness", "that of a soil", 10., any, 1e7},
-      {"Surcharge", "a load on the soil", 250., .01, 1e7},
+      {"Surcharge", "a load on the soil", 1e3, .02, 1e7},
       {"Adhesion of", "the adhesion of a soil", 250., .01, 1e7},
       {"Bulk modulus", "that of water", 1e5, any, 1e12},
       {"Lid water modulus", "that of water", 1e5, any, 1e12},

@@ -65,6 +65,10 @@ namespace CaissonMPM
     std::optional<std::string>
     lost_work() const;
 
+    /** Whether a layer has a tension cut-off, so that it may come off a wall. */
+    bool
+    has_cut_off() const;
+
     /** Return adhesion times area of a wall (0 inner, 1 outer) down to a depth
      * in m, for the whole circumference. Units: N. */
     double
