@@ -65,8 +65,11 @@ namespace CaissonMPM
             files_named(result_names, directory).size())
         return false;
       std::ifstream history(directory / "history.csv");
-      unsigned int  n_lines = 0;
-      for (std::string line; n_lines < 3 && std::getline(history, line);)
+      std::string   line;
+      if (std::getline(history, line) && line.rfind("time_s", 0) != 0)
+        return false; // it is not ours
+      unsigned int n_lines = 1;
+      while (n_lines < 3 && std::getline(history, line))
         ++n_lines;
       return n_lines < 3;
     }

@@ -117,8 +117,7 @@ namespace CaissonMPM
   {
     const ResultTable down(records, ResultTable::Direction::down),
       up(records, ResultTable::Direction::up);
-    constexpr double least_rise = 1e-3; // m, of which there is something to say
-    double           most_force = 0.;
+    double most_force = 0.;
     for (const ResultTable *const table : {&down, &up})
       if (!table->is_empty())
         for (const double force : table->values(table->total()))
@@ -139,7 +138,8 @@ namespace CaissonMPM
     if (const auto depth = self_weight_penetration(records))
       lines.emplace_back("rests by weight", "at " + units.depth(*depth, 4));
     for (const ResultTable *const table : {&down, &up})
-      if (!table->is_empty() && (table == &down || up.length() > least_rise))
+      if (!table->is_empty() &&
+          (table == &down || up.length() > ResultTable::least_rise))
         for (const auto &line :
              lines_at_depths(*table, error_bar, units, table == &down))
           lines.push_back(line);

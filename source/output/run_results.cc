@@ -9,19 +9,31 @@ namespace CaissonMPM
   namespace
   {
     std::string
-    row_at(const ResultTable &table,
-           const ErrorBar    &error_bar,
-           const double       depth)
+    row_at(const ResultTable    &table,
+           const ErrorBar *const error_bar,
+           const double          depth)
     {
       Json::Members result = {{"penetration_m", Json::number(depth)}};
       for (const auto &[name, value] : table.at(depth))
         {
           result.emplace_back(name, Json::number(value));
-          for (const auto &[bound, number] :
-               error_bar.bounds(name, depth, value))
-            result.emplace_back(bound, Json::number(number));
+          if (error_bar != nullptr)
+            for (const auto &[bound, number] :
+                 error_bar->bounds(name, depth, value))
+              result.emplace_back(bound, Json::number(number));
         }
       return Json::flat_object(result);
+    }
+
+    /** The rows at all depths of a table; without bounds if there is no bar. */
+    std::string
+    rows_of(const ResultTable &table, const ErrorBar *const error_bar)
+    {
+      std::string rows;
+      for (const double depth : table.depths())
+        rows += (rows.empty() ? "\n      " : ",\n      ") +
+                row_at(table, error_bar, depth);
+      return "[" + rows + "\n    ]";
     }
 
     /** The largest value of a column, and where. */
@@ -103,10 +115,6 @@ namespace CaissonMPM
                 const ErrorBar     &error_bar,
                 const ResultLimits &limits)
     {
-      std::string rows;
-      for (const double depth : table.depths())
-        rows += (rows.empty() ? "\n      " : ",\n      ") +
-                row_at(table, error_bar, depth);
       Json::Members result = {{"penetration_m", Json::number(table.end())},
                               {"largest_force", largest(table, table.total())}};
       if (table.has("required_suction_Pa"))
@@ -118,7 +126,7 @@ namespace CaissonMPM
           result.emplace_back("margins",
                               Json::object(margins(table, limits), 4));
         }
-      result.emplace_back("at_depths", "[" + rows + "\n    ]");
+      result.emplace_back("at_depths", rows_of(table, &error_bar));
       return result;
     }
   } // namespace
@@ -137,6 +145,9 @@ namespace CaissonMPM
       result = of_way_down(table, records, error_bar, limits);
     if (const auto pull = largest_pull(records))
       result.emplace_back("largest_pull", Json::flat_object(pull->json()));
+    if (const ResultTable up(records, ResultTable::Direction::up);
+        !up.is_empty() && up.length() > ResultTable::least_rise)
+      result.emplace_back("at_depths_up", rows_of(up, nullptr));
     return result;
   }
 } // namespace CaissonMPM

@@ -254,7 +254,10 @@ class SealedLid(ProgramTest):
         }
         self.run_scene("jack", path, entries=entries)
         rows = history(path)
-        most = summary(path)["results"]["largest_pull"]
+        results = summary(path)["results"]
+        most = results["largest_pull"]
+        up = [row["penetration_m"] for row in results["at_depths_up"]]
+        self.assertAlmostEqual(up[-1], min(row["penetration_m"] for row in rows[20:]))
         self.assertFalse(most["is_capacity"])
         self.assertNotIn("mechanism", most)
         depths = [row["penetration_m"] for row in rows]

@@ -42,6 +42,9 @@ namespace CaissonMPM
       up
     };
 
+    /** A shorter way up says nothing. Units: m. */
+    static constexpr double least_rise = 1e-3;
+
     /** The records need the columns of forces and penetration. */
     ResultTable(const Records      &records,
                 const Direction     direction,
