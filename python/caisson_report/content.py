@@ -331,12 +331,10 @@ def remarks_on_numbers(run: Results) -> list[str]:
     residual = (summary.get("energies") or {}).get("energy_residual")
     if residual is not None:
         share = 100 * abs(residual)
-        verdict = (
-            "below 1 %: acceptable"
-            if share <= 1
-            else "above 1 %: read the limitations on energy"
+        found.append(
+            f"Energy error: {share:.2g} % of the work; the forces are uncertain by"
+            " about as much."
         )
-        found.append(f"Energy error: {share:.2g} % of the work ({verdict}).")
     if "plug_balance_error" in history:
         share = 100 * abs(history["plug_balance_error"][-1])
         if share > 5:

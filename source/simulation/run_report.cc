@@ -365,10 +365,13 @@ namespace CaissonMPM
                       {"energy residual",
                        joule(energy.residual) + ", " +
                          percent(energy.relative, 3) + " of the work"}});
-      if (std::abs(energy.relative) > .01)
+      // 1.6 % in prm/jack_coarse.prm, whose mesh makes an error of 6 %
+      constexpr double largest_residual = .02;
+      if (std::abs(energy.relative) > largest_residual)
         console.warning("the energy residual is " +
                         percent(energy.relative, 3) +
-                        " of the work: see doc/limitations.md, Energy");
+                        " of the work, and forces are uncertain by about as "
+                        "much: see doc/limitations.md, Energy");
     }
   } // namespace
 
