@@ -278,6 +278,8 @@ class Rules(WithFiles):
             ("fs = 20 kPa", "qc is missing"),
             ("qc = 1 MPa, fr = 1", "'fr' is neither qc nor fs"),
             ("qc = 1 m", "no unit of it"),
+            ("qc = 2", "'2' has no unit: 2 MPa[?]; write --above"),
+            ("qc = 2 MPa, fs = 20", "'20' has no unit"),
             ("qc = -1 MPa", "is no cone resistance"),
         ):
             with self.assertRaisesRegex(InputError, said):
