@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from typing import Any
 
-NUMBER = int, float
-OR_NONE = *NUMBER, type(None)  # where there is no finite one
+NUMBER: Any = (int, float)
+OR_NONE: Any = (*NUMBER, type(None))  # where there is no finite one
 ANY = "*"  # every other name
 NUMBERS = {ANY: NUMBER}
 TEXTS = {ANY: str}
