@@ -8,12 +8,12 @@ OR_NONE: Any = (*NUMBER, type(None))  # where there is no finite one
 ANY = "*"  # every other name
 NUMBERS = {ANY: NUMBER}
 TEXTS = {ANY: str}
-LAYER = {
+LAYER: dict[str, Any] = {
     **dict.fromkeys(("law", "library_checksum"), str),
     "law_entries": [{"entry": str, "value": OR_NONE, "unit": str}],
     ANY: NUMBER,
 }
-RESULTS = {
+RESULTS: dict[str, Any] = {
     **dict.fromkeys(("penetration_m", "rest_penetration_m"), NUMBER),
     **dict.fromkeys(("largest_force", "largest_suction"), NUMBERS),
     "largest_pull": {"mechanism": str, ANY: NUMBER},
@@ -21,7 +21,7 @@ RESULTS = {
     "at_depths": [{ANY: OR_NONE}],
     "warnings": [{"rank": str, "text": str}],
 }
-RUN = {
+RUN: dict[str, Any] = {
     **dict.fromkeys(("version", "dealii_version", "scene_file", "title"), str),
     **dict.fromkeys(("command", "written", "status", "failure", "installation"), str),
     **dict.fromkeys(("fingerprint", "time_step_limit"), str),
