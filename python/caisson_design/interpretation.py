@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson_design import InputError
+from caisson_design import InputError, printable
 from caisson_design import cone_file, cone_options
 from caisson_design import cone_layers as layers
 from caisson_design import correlations
@@ -37,6 +37,11 @@ class Interpretation:
     names: dict[str, str]
     layers: list[Estimates]
     weight: str
+
+    @property
+    def name(self) -> str:
+        """The name of the file, for terminal, picture and page."""
+        return printable(self.file.name)
 
 
 def depths(text: str) -> list[float]:
