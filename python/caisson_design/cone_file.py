@@ -21,7 +21,7 @@ from caisson_design.cone_words import NEEDED, QUANTITIES
 from caisson_design.quantity import NUMBER, parts_of
 from caisson_design.quantity import value_of as quantity_of
 
-EVERY = ("depth", "qc", "fs", "u2")
+EVERY = ("depth", "qc", "fs", "u2", "rf")  # the last in place of fs
 ARCHIVE = b"PK\x03\x04"  # a workbook begins with
 
 
@@ -232,6 +232,8 @@ def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
     found = numbers_of(path, table)
     found.check_units()
     found.make_depths()
+    found.turn_round()
+    found.make_friction()
     found.join_pushes()
     found.leave_out_hole()
     found.leave_out_no_load()

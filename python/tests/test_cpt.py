@@ -526,7 +526,7 @@ class Command(WithFiles):
         self.assertTrue(low < best < high)
 
     def test_refusals(self) -> None:
-        wrong = self.written(HEAD + "0,1,1,0\n0,2,1,0\n1,2,1,0\n")
+        wrong = self.written(HEAD + "0.1,1,1,0\n0,2,1,0\n1,2,1,0\n")
         for words, said in (
             ([str(wrong)], "row 3: the depth of 0 m"),
             (list[str](), "give the file"),
