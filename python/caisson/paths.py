@@ -51,6 +51,11 @@ def short(path: Path) -> str:
     return str(path)
 
 
+def seen(path: Path) -> str:
+    """Return the path from the current folder, or the whole one where it is shorter."""
+    return min(os.path.relpath(path), str(path.resolve()), key=len)
+
+
 def scene_or_study(name: str) -> Path:
     """Return the file of this name, or that of the project where there is none here:
     jack.prm and prm/jack.prm both name prm/jack.prm of the project."""

@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from caisson import run_shape
 from caisson.lock import is_locked
 from caisson_design import InputError, disk
 from caisson_design.shown import Units, units_of
@@ -92,7 +93,19 @@ class Results:
             if not np.isfinite(found.get(name, 0.0)).all():
                 path = self.directory / "history.csv"
                 raise ResultsError(f"{path} has a {name} that is no number")
+        self._check_end(found)
         return found
+
+    def _check_end(self, history: Table) -> None:
+        """Refuse a history that ends before its run did. Raises ResultsError."""
+        steps = 0 if self.is_running else self.summary.get("steps")
+        last = history["step"][-1] if "step" in history else math.inf
+        if steps and last < steps and self.summary.get("status") == "finished":
+            raise ResultsError(
+                f"{self.directory / 'history.csv'} is cut off: its last whole row is of"
+                f" step {last:.0f}, and the run finished with step {steps:.0f}; bring"
+                " the whole file, or run the scene again"
+            )
 
     @functools.cached_property
     def observations(self) -> Table:
@@ -136,6 +149,10 @@ class Results:
         found = self._json("run.json")
         if not isinstance(found, Read):
             raise ResultsError(f"{self.directory / 'run.json'} is no list of results")
+        for fault in run_shape.faults(found):
+            raise ResultsError(f"{found.path}: {disk.one_line(fault)}")
+        for name in run_shape.missing(found):
+            raise ResultsError(f"{found.path} has no {name}")
         return found
 
     @property

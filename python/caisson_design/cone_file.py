@@ -18,10 +18,10 @@ from caisson_design.cone_rules import RANGES, Readings
 from caisson_design.cone_table import Rows, Table, cell_of, refuse, value_of
 from caisson_design.cone_table import COMMA
 from caisson_design.cone_words import NEEDED, QUANTITIES
-from caisson_design.quantity import parts_of
+from caisson_design.quantity import NUMBER, parts_of
 from caisson_design.quantity import value_of as quantity_of
 
-EVERY = ("depth", "qc", "fs", "u2")
+EVERY = ("depth", "qc", "fs", "u2", "rf")  # the last in place of fs
 ARCHIVE = b"PK\x03\x04"  # a workbook begins with
 
 
@@ -211,6 +211,9 @@ def above_of(text: str) -> dict[str, float]:
             if name not in ("qc", "fs") or name in found:
                 raise ValueError(f"{name!r} is neither qc nor fs")
             found[name] = quantity_of(value, "Pa")
+            if found[name] and re.fullmatch(NUMBER, value):
+                unit = "MPa" if name == "qc" else "kPa"
+                raise ValueError(f"{value!r} has no unit: {value} {unit}?")
             if not 0 <= found[name] <= RANGES[name][1]:
                 raise ValueError(f"{value!r} is no {QUANTITIES[name].name}")
         if text and "qc" not in found:
@@ -229,6 +232,8 @@ def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
     found = numbers_of(path, table)
     found.check_units()
     found.make_depths()
+    found.turn_round()
+    found.make_friction()
     found.join_pushes()
     found.leave_out_hole()
     found.leave_out_no_load()

@@ -10,6 +10,7 @@ are empty or begin with "#" are left out, but count.
 import csv
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 from caisson_design import InputError, printable
 from caisson_design.cone_options import EXAMPLE
@@ -85,6 +86,20 @@ def rows_of(sheet: Iterable[Sequence[object]]) -> Rows:
     return [(row, cells) for row, cells in rows if any(cells)]
 
 
+def first_without_value(values: Any, formulas: Any) -> int:
+    """Return the first row of a sheet with a formula where no formula has a stored
+    value, else 0. formulas: the same sheet, read with them."""
+    found = 0
+    sheets = (sheet.iter_rows(values_only=True) for sheet in (values, formulas))
+    for row, (stored, written) in enumerate(zip(*sheets), 1):
+        for value, text in zip(stored, written):
+            if isinstance(text, str) and text.startswith("="):
+                if value is not None:
+                    return 0
+                found = found or row
+    return found
+
+
 def grid_of_workbook(path: Path, sheet: str, has_names: bool) -> Rows:
     """Return the rows of a sheet, "" for the only one that has the heads of a test, or
     of numbers if the columns have names. Raises InputError."""
@@ -103,6 +118,10 @@ def grid_of_workbook(path: Path, sheet: str, has_names: bool) -> Rows:
                 name: rows_of(book[name].iter_rows(values_only=True)) for name in names
             }
             every = list(map(printable, book.sheetnames))
+            formulas = openpyxl.load_workbook(file, read_only=True)
+            empty = {
+                name: first_without_value(book[name], formulas[name]) for name in names
+            }
     except Exception as error:  # openpyxl hands on whatever its parts raise
         raise InputError(
             f"{path} is no workbook that can be read (.xlsx), but another archive or a"
@@ -121,7 +140,13 @@ def grid_of_workbook(path: Path, sheet: str, has_names: bool) -> Rows:
             f"{path}: {len(some)} sheets may be the test, {', '.join(names)}; choose"
             " one by --sheet"
         )
-    return next(iter(some.values()))
+    name, rows = next(iter(some.items()))
+    if empty[name]:
+        raise InputError(
+            f"{path}, row {empty[name]} of sheet {printable(name)}: a formula without a"
+            " stored value; open the workbook in a spreadsheet program and save it"
+        )
+    return rows
 
 
 def with_units(row: int, texts: Sequence[str], below: Sequence[str]) -> list[Head]:

@@ -151,6 +151,22 @@ class Readings:
         self.remarks.append("depths are negative downward: taken by their amount")
         return -depth
 
+    def turn_round(self) -> None:
+        """Begin at the top where the deepest row comes first."""
+        steps = np.diff(self.values["depth"])
+        if self.table.is_sorted and not self.table.pushes and (steps <= 0).all():
+            if steps.any() and len(steps) > 1:
+                self.remarks.append("the deepest row comes first: turned round")
+                self.keep(np.arange(len(self.row))[::-1])
+
+    def make_friction(self) -> None:
+        """Take the sleeve friction from the friction ratio where there is none."""
+        ratio = self.values.pop("rf", None)
+        if ratio is not None and "fs" not in self.values and np.isfinite(ratio).any():
+            self.values["fs"] = ratio * np.maximum(self.values[self.tip], 0.0)
+            text = self.table.columns["rf"].text
+            self.remarks.append(f"sleeve friction: from {text!r}, f_s = R_f q_c / 100")
+
     def join_pushes(self) -> None:
         """Put the pushes of a borehole below each other, and name the gaps; rows that
         have no order are sorted."""
@@ -222,7 +238,12 @@ class Readings:
         )
 
     def check_order(self) -> None:
-        """Leave out few rows that repeat a depth, and refuse others."""
+        """Leave out rows that repeat the depth of the row before, and few that go
+        back, and refuse others."""
+        depth = self.values["depth"]
+        above = np.maximum.accumulate(depth)
+        same = np.concatenate([[False], depth[1:] == above[:-1]])
+        self.leave_out(same, "rows that repeat the depth of the row before")
         depth = self.values["depth"]
         above = np.maximum.accumulate(depth)
         back = np.concatenate([[False], depth[1:] <= above[:-1]])

@@ -139,6 +139,8 @@ def columns_of(
         some = filled or some or other
         known = [h for h in some if unit_in(h.unit) in QUANTITIES[h.quantity].units]
         some = known or some
+        if name == "rf":  # only where it is needed, and can be read
+            some = [] if "fs" in found else known[:1]
         if len(some) > 1:
             raise InputError(
                 f"{path}, row {some[1].row}: two columns are the"

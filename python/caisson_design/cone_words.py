@@ -18,7 +18,8 @@ STRESS = {
     **dict.fromkeys(("mpa", "mn/m2", "n/mm2"), 1e6),
     "bar": 1e5,
 }
-EVERY_UNIT = LENGTH | STRESS
+RATIO = {"%": 1e-2}
+EVERY_UNIT = LENGTH | STRESS | RATIO
 
 
 class Quantity(NamedTuple):
@@ -50,7 +51,7 @@ QUANTITIES = {
         " tiefeuntergelandeoberkante tiefeuntermeeresboden"
         " diepte sondeerdiepte gecorrigeerdediepte dieptetovmaaiveld dieptetovmv"
         " diepteondermaaiveld dieptebenedenmaaiveld"
-        " profondeur profondeursouslesol profondeursoustn",
+        " prof profondeur profondeursouslesol profondeursoustn",
     ),
     "rods": Quantity(
         "penetration length",
@@ -100,6 +101,15 @@ QUANTITIES = {
         " mantelreibung lokalemantelreibung ortlichemantelreibung"
         " plaatselijkewrijving plaatselijkekleef lokalewrijving mantelwrijving kleef"
         " frottementlateral frottementlateralunitaire frottementlaterallocal",
+    ),
+    "rf": Quantity(
+        "friction ratio",
+        RATIO,
+        "SCPT_FRR",
+        4,
+        24,
+        "%",
+        "rf frictionratio reibungsverhaltnis wrijvingsgetal rapportdefrottement",
     ),
     "u2": Quantity(
         "pore pressure",

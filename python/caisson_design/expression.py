@@ -39,7 +39,7 @@ OF_TERMS = ("min", "max", "abs", "if")  # their arguments have the same unit
 UNITS = "|".join(map(re.escape, sorted(EVERY, key=len, reverse=True)))
 TOKEN = re.compile(
     rf"(\s*)(?:(?P<number>{UNSIGNED})"
-    rf"|(?P<unit>{UNITS})(?!\w)(?P<rate>/m(?=\s*\*?\s*[dz(]))?"
+    rf"|(?P<unit>{UNITS})(?!\w)(?P<rate>/m(?!\w))?"
     r"|(?P<name>[^\W\d]\w*)|(?P<sign>\S))"
 )
 
@@ -71,7 +71,9 @@ def tokens_of(text: str, symbols: Mapping[str, str] = {}) -> list[Token]:
     is_call = False
     while match := TOKEN.match(text, place):
         kind, place = str(match.lastgroup), match.end()
-        kind = "unit" if kind == "rate" else kind
+        if kind == "rate":
+            check_gradient(text, match.start(), place)
+            kind = "unit"
         token = Token(kind, match[kind], match[1])
         if kind == "unit" and not (found and found[-1].ends_value):
             token = replace(token, kind="name")
@@ -83,6 +85,14 @@ def tokens_of(text: str, symbols: Mapping[str, str] = {}) -> list[Token]:
         is_call = token.kind == "name" and token.text in FUNCTIONS
         found.append(token)
     return found
+
+
+def check_gradient(text: str, start: int, end: int) -> None:
+    """Refuse a unit per m, at a place of a text, whose term does not have the depth.
+    Raises ValueError."""
+    term = re.split(r"[+-]", text[:start])[-1] + re.split(r"[+-]", text[end:])[0]
+    if not re.search(r"(?<![A-Za-z])[dz]\b|[()]", term):
+        raise ValueError(f"{text!r}: {text[start:end].strip()} needs *z, the depth")
 
 
 def named(token: Token, text: str, symbols: Mapping[str, str]) -> Token:
@@ -166,11 +176,28 @@ def has_unit(token: Token) -> bool:
     return token.kind in ("unit", "symbol") or token.text in STRESSES
 
 
+def refuse_no_expression(text: str, tokens: Sequence[Token]) -> None:
+    """Refuse parentheses without their other one, signs without a value and numbers
+    without an end. Raises ValueError."""
+    body = "".join(t.text for t in tokens if t.kind != "unit")
+    if re.search(r"[?&|!=]", body):  # forms that only the program reads
+        return
+    nodes = list(ast.walk(tree)) if (tree := tree_of(body)) else []
+    if not nodes or any(isinstance(node, ast.Tuple) for node in nodes):
+        raise ValueError(f"{text!r} is no expression: check parentheses and signs")
+    for node in nodes:
+        if isinstance(node, ast.Constant) and not abs(float(node.value)) < math.inf:
+            raise ValueError(f"{text!r} has a number that is too large")
+
+
 def in_unit(text: str, unit: str, symbols: Mapping[str, str] = {}) -> str:
     """Return an expression in the unit of its entry. A unit that is the only one and
     the last word counts for all of it. symbols: {name: expression in this unit}. Raises
     ValueError with what is wrong."""
+    if unit == "Pa":  # a unit weight is a gradient of stress
+        text = re.sub(r"N/m[3³](?!\w)", "N/m2/m", text)
     tokens = tokens_of(text, symbols)
+    refuse_no_expression(text, tokens)
     if all(token.kind not in ("unit", "symbol") for token in tokens):
         return text_of(tokens, unit, symbols)
     last = tokens[-1]
@@ -205,7 +232,12 @@ def without_unit(text: str, unit: str, symbols: Mapping[str, str] = {}) -> str:
     if not re.search(r"\d|[*^(]", text) and text not in (*DEPTHS, *STRESSES, *symbols):
         return text
     try:
-        return in_unit(text, unit, symbols)
+        found = in_unit(text, unit, symbols)
+        words = set(re.findall(r"[^\W\d]\w*", text)) & set(symbols)
+        if words or re.search(r"[A-Za-z]", re.sub(NUMBER, "", found)):
+            return found
+        value = value_at(found, 0.0, 0.0)  # no variable: a number
+        return found if value is None else f"{value:.10g}"
     except ValueError:
         if unit in UNITS_OF_NUMBERS:
             raise

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson_design import InputError
+from caisson_design import InputError, printable
 from caisson_design import cone_file, cone_options
 from caisson_design import cone_layers as layers
 from caisson_design import correlations
@@ -37,6 +37,11 @@ class Interpretation:
     names: dict[str, str]
     layers: list[Estimates]
     weight: str
+
+    @property
+    def name(self) -> str:
+        """The name of the file, for terminal, picture and page."""
+        return printable(self.file.name)
 
 
 def depths(text: str) -> list[float]:
@@ -170,6 +175,7 @@ def check(file: Path, test: Test, options: argparse.Namespace) -> None:
             f"--tops {options.tops[-1]:g}: the test ends at {test.depth[-1]:g} m; give"
             " tops above it"
         )
+    check_soil(options.soil, float(test.depth[-1]))
     if options.area_ratio is not None and not 0 < options.area_ratio <= 1:
         raise InputError(f"--area-ratio {options.area_ratio:g} is not from 0 to 1")
 
@@ -235,6 +241,25 @@ def tops_for(ground: Ground, options: argparse.Namespace) -> list[float]:
         return layers.with_edges([t for t in options.tops if t < last], edges, 0, last)
     found = layers.tops_of(ground, options.thinnest)
     return layers.with_edges(found, edges, options.thinnest, last)
+
+
+def check_soil(given: Sequence[Soil], end: float) -> None:
+    """Refuse depths below the end of the test (m), and those that are given two kinds.
+    Raises InputError."""
+    above = Soil("", 0, 0.0, 0.0)
+    parts = [soil for soil in given if soil.bottom < inf]
+    for soil in sorted(parts, key=lambda soil: soil.top):
+        text = f"--soil {soil.top:g}-{soil.bottom:g}={soil.kind}"
+        if soil.top >= end:
+            raise InputError(
+                f"{text}: the test ends at {end:g} m; give depths above it"
+            )
+        if soil.top < above.bottom:
+            raise InputError(
+                f"{text} overlaps --soil {above.top:g}-{above.bottom:g}={above.kind};"
+                " give each depth one kind"
+            )
+        above = soil
 
 
 def given_kinds(ground: Ground, tops: list[float], given: Sequence[Soil]) -> np.ndarray:

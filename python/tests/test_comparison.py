@@ -64,6 +64,26 @@ class Files(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.path = Path(temporary.name)
 
+    def test_picture_without_a_name(self) -> None:
+        """It stands beside the runs, as said; other runs have another one, and what a
+        user has changed stays."""
+        runs = [synthetic(self.path / name, [0, 1, 2]) for name in ("a", "b", "c")]
+        parser = argparse.ArgumentParser()
+        comparison.add_arguments(parser)
+        for pair in (runs[:2], runs[1:], runs[:2]):
+            with contextlib.redirect_stdout(io.StringIO()) as said:
+                self.assertEqual(
+                    comparison.main(parser.parse_args([*map(str, pair)])), 0
+                )
+            for line in said.getvalue().splitlines():
+                self.assertTrue(Path(line.removeprefix("compare: ")).is_file(), line)
+            self.assertEqual(Path(line.removeprefix("compare: ")).parent, self.path)
+        (self.path / "comparison_a_b.csv").write_text("mine")
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            words = parser.parse_args([*map(str, runs[:2])])
+            self.assertEqual(comparison.main(words), 1)
+        self.assertIn("comparison_a_b.csv exists", said.getvalue())
+
     def compare(self, *words: object, interval: float = 0.1) -> int:
         """Run the command; a picture is given, so that none is left elsewhere."""
         parser = argparse.ArgumentParser(prog="caisson compare")

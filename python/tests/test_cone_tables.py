@@ -29,6 +29,25 @@ class Tables(WithFiles):
         for rows in ("0.5;712.5\n1;99\n", "0.5;712\n1;815.125\n"):
             self.assertEqual(self.read(f"depth_m;qc_kPa\n{rows}").remarks, ())
 
+    def test_friction_ratio(self) -> None:
+        """It stands for a friction that is not there, in any format."""
+        for head in (
+            "prof. (m)\tqc (MPa)\tRf (%)",
+            "Tiefe [m]\tqc [MPa]\tFriction ratio (%)",
+        ):
+            test = self.read(head + "\n0,1\t2\t0,5\n0,2\t4\t1\n")
+            assert test.friction is not None
+            np.testing.assert_allclose(test.friction, [10e3, 40e3])
+            self.assertIn("f_s = R_f q_c / 100", str(test.remarks))
+        test = self.read("depth_m,qc_MPa,fs_kPa,Rf (%)\n0.1,2,20,9\n0.2,4,20,9\n")
+        assert test.friction is not None
+        np.testing.assert_allclose(test.friction, [20e3, 20e3])
+        ratio = GEF.replace("MPa, Plaatselijke wrijving, 3", "%, Wrijvingsgetal, 4")
+        ratio = ratio.replace(";0.005;", ";0.5;").replace("2.0E-002", "2")
+        test = self.read(ratio)
+        assert test.friction is not None
+        np.testing.assert_allclose(test.friction, [5e3, 80e3])
+
     def test_depths(self) -> None:
         """Below the ground; not a level, and not below a hole."""
         rows = "0.5;1\n1;4\n"
@@ -185,6 +204,10 @@ class Workbooks(WithFiles):
             len(cone_file.read(self.path, how=How(sheet="CPT 1")).depth), 2
         )
         self.assertFalse(cone_file.is_plain(self.path))
+        book["CPT 1"]["B4"] = "=1+1"  # whose value no spreadsheet program has stored
+        book.save(self.path)
+        with self.assertRaisesRegex(InputError, "row 4 of sheet CPT 1: a formula"):
+            cone_file.read(self.path, how=How(sheet="CPT 1"))
 
 
 class Rules(WithFiles):
@@ -243,13 +266,21 @@ class Rules(WithFiles):
         self.assertIn("friction has values in only 20 of 200 rows", str(test.remarks))
 
     def test_depths(self) -> None:
-        """All of them negative; a few that repeat; a corrected one that is a level."""
+        """All of them negative; some that repeat; the deepest first; a corrected one
+        that is a level."""
         rows = self.rows()
+        test = self.of([row for row in rows for _ in range(2)][::-1])
+        np.testing.assert_allclose(test.depth, [z for z, *_ in rows])
+        self.assertIn("the deepest row comes first", str(test.remarks))
+        self.assertIn("the row before, left out: 200, ", str(test.remarks))
         test = self.of([[-z, *rest] for z, *rest in rows])
         np.testing.assert_allclose(test.depth, [z for z, *_ in rows])
         self.assertIn("negative downward: taken by their amount", str(test.remarks))
         rows[50][0] = rows[49][0]
-        self.assertIn("repeat a depth, left out: 1, tho", str(self.of(rows).remarks))
+        self.assertIn(
+            "repeat the depth of the row before, left out: 1, ",
+            str(self.of(rows).remarks),
+        )
         rows[50][0] -= 1
         with self.assertRaisesRegex(InputError, "row 52: the depth of 0 m is not bel"):
             self.of(rows)
@@ -278,6 +309,8 @@ class Rules(WithFiles):
             ("fs = 20 kPa", "qc is missing"),
             ("qc = 1 MPa, fr = 1", "'fr' is neither qc nor fs"),
             ("qc = 1 m", "no unit of it"),
+            ("qc = 2", "'2' has no unit: 2 MPa[?]; write --above"),
+            ("qc = 2 MPa, fs = 20", "'20' has no unit"),
             ("qc = -1 MPa", "is no cone resistance"),
         ):
             with self.assertRaisesRegex(InputError, said):

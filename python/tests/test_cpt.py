@@ -7,6 +7,7 @@ import csv
 import io
 import itertools
 import unittest
+import warnings
 from math import inf, log10
 
 import numpy as np
@@ -504,8 +505,14 @@ class Command(WithFiles):
 
     def test_files(self) -> None:
         out = self.path.parent / "out"
-        status, said = self.call(str(EXAMPLE), "--out", str(out))
+        named = self.path.parent / "a\x1b[31m.csv"  # which would color the terminal
+        named.write_bytes(EXAMPLE.read_bytes())
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # as of letters that no picture has
+            status, said = self.call(str(named), "--out", str(out))
         self.assertEqual(status, 0, said)
+        self.assertIn(r"a\x1b[31m.csv: low", said)
+        self.assertNotIn("\x1b", said + self.call("none\x1b[31m.csv")[1])
         self.assertIn("bolton-1986-tip", said)
         self.assertIn("layer 1 has silt from", said)
         self.assertGreater((out / "cpt.png").stat().st_size, 20000)
@@ -519,7 +526,7 @@ class Command(WithFiles):
         self.assertTrue(low < best < high)
 
     def test_refusals(self) -> None:
-        wrong = self.written(HEAD + "0,1,1,0\n0,2,1,0\n1,2,1,0\n")
+        wrong = self.written(HEAD + "0.1,1,1,0\n0,2,1,0\n1,2,1,0\n")
         for words, said in (
             ([str(wrong)], "row 3: the depth of 0 m"),
             (list[str](), "give the file"),

@@ -112,6 +112,13 @@ class Kinds(WithFiles):
         self.assertFalse([top for top in tops_found if 4.8 < top < 5.3])
         with self.assertRaisesRegex(InputError, "--soil 4=clay: the test has 3 layers"):
             self.kinds(*tops, "--soil", "4=clay")
+        for first, second, refusal in (
+            ("20-30=clay", "sand", "20-30=clay: the test ends at "),
+            ("4-7=sand", "3-6=clay", "4-7=sand overlaps --soil 3-6=clay"),
+        ):
+            with self.assertRaisesRegex(InputError, refusal):
+                self.kinds("--soil", first, "--soil", second)
+        self.kinds("--soil", "3-5=clay", "--soil", "5-20=sand")
         for word in ("mud", "0=clay", "2=", "6-3=clay", "x=clay"):
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 with self.assertRaises(SystemExit):

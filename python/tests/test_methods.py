@@ -153,7 +153,7 @@ class Files(unittest.TestCase):
         head = "# comment\ndepth_m,qc_MPa\n0,1\n\n"
         for rows, row, words in (
             ("1,x\n2,3", 5, "'x' is no number"),
-            ("1,2\n1,3", 6, "not below that of the row before"),
+            ("1,2\n0.5,3", 6, "not below that of the row before"),
             ("1,2\n2,-0.1", 6, "-0.1 MPa is below 0"),
             ("1,2\n2,5000", 6, "5000 MPa.* check the unit"),
         ):

@@ -95,6 +95,11 @@ class Numbers(unittest.TestCase):
             ("20 kN/m² + 1.5 kN/m2 * z", "20000 + 1500 * d"),
             ("2 kPa + 1.5 kPa/m z", "2000 + 1500*d"),
             ("(2 + 1.5z) kPa", "1000*(2 + 1.5*d)"),
+            ("2 kPa + 1.5*z kPa/m", "2000 + 1.5*d*1000"),
+            ("1.5 kN/m3*z", "1500*d"),
+            ("2 kPa + z * 1.5 kN/m³", "2000 + d * 1500"),
+            ("2 kPa + 3 kPa", "5000"),
+            ("(2 + 3) kPa", "5000"),
             ("5 kPa + max(0, z - 2)*1.5 kPa", "5000 + max(0, d - 2)*1500"),
             ("max(5 kPa, 0.25 s)", "max(5000, 0.25*s)"),
             ("200 su", "200*(1000*(2+1.5*d))"),
@@ -106,6 +111,11 @@ class Numbers(unittest.TestCase):
             ("20 kPa + 2*d", "2[*]d has no unit"),
             ("(2 + 0.25*s) kPa", "2 has no unit"),
             ("su*su", "once in each term"),
+            ("(d^() kPa", r"'\(d\^\(\) kPa' is no expression"),
+            ("2 kPa + (3 kPa", "is no expression"),
+            ("2 kPa + d*", "is no expression"),
+            ("(1e999) kPa", "has a number that is too large"),
+            ("2 kPa + 1.5 kPa/m", "kPa/m needs [*]z"),
             ("2 kPa + 1.5 kPa*h", "'h' is no variable; d, or z, is the depth below"),
         ):
             with self.assertRaisesRegex(ValueError, said):

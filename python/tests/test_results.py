@@ -66,6 +66,41 @@ class Files(Directory):
         with self.assertRaisesRegex(ResultsError, "run.json cannot be read"):
             Results(self.path).summary
 
+    def test_history_that_is_cut_off(self) -> None:
+        """A finished run knows its last step; a row that is not whole is none."""
+        self.write('{"status": "finished", "steps": 20}', "run.json")
+        for end in ("", "20,2", "20,2,\n"):
+            self.write(f"time_s,step,b\n0,0,1\n1,10,1\n{end}")
+            with self.assertRaisesRegex(ResultsError, "history.csv is cut .*10, .* 20"):
+                Results(self.path).history
+        self.write("time_s,step,b\n0,0,1\n1,20,1\n")
+        self.assertEqual(len(Results(self.path).history["step"]), 2)
+        self.write('{"status": "running", "steps": 30}', "run.json")
+        self.assertEqual(len(Results(self.path).history["step"]), 2)
+
+    def test_values_of_another_type(self) -> None:
+        """The file and the key are named, and what stands there."""
+        for text, words in (
+            ('{"entries": [1]}', r"entries is \[1\], and no object"),
+            ('{"defaults": null}', "defaults is None, and no object"),
+            ('{"energies": {"a_J": "x"}}', "energies/a_J is 'x', and no number"),
+            ('{"results": {"at_depths": 5}}', "results/at_depths is 5, and no list"),
+            ('{"results": {"at_depths": [{}, 1]}}', "at_depths/2 is 1, and no object"),
+            ('{"scene": {"diameter_m": "a"}}', "diameter_m is 'a', and no number"),
+            ('{"scene": {"layers": [{"law": 2}]}}', "layers/1/law is 2, and no text"),
+        ):
+            self.write(text, "run.json")
+            with self.assertRaisesRegex(ResultsError, f"run.json: .*{words}"):
+                Results(self.path).summary
+
+    def test_keys_that_are_missing(self) -> None:
+        """Of a finished run, unless an earlier version wrote the file."""
+        self.write('{"status": "finished", "written": "", "entries": {}}', "run.json")
+        with self.assertRaisesRegex(ResultsError, "run.json has no units"):
+            Results(self.path).summary
+        self.write('{"status": "finished"}', "run.json")
+        self.assertEqual(len(Results(self.path).summary), 1)
+
     def test_checks_by_their_head(self) -> None:
         self.write('[{"check": "max speed", "pass": true}]', "verification.json")
         self.assertTrue(Results(self.path).checks["max speed"]["pass"])

@@ -22,6 +22,7 @@ from caisson.study import StudyError, check_is_own, file_name
 from caisson.suggest.cone import REACH
 from caisson.suggest.entry import SuggestError
 from caisson_design import InputError, cone_picture, disk, interpretation
+from caisson_design import printable
 from caisson_design.correlations import EVERY
 from caisson_design.interpretation import Interpretation
 
@@ -78,7 +79,7 @@ def write(
     """Write table and picture into a directory; return the files. tip: the depth to
     which a skirt goes (m); location: of the test, in a file of several."""
     directory.mkdir(parents=True, exist_ok=True)
-    title = f"Cone test {found.file.name} {location}".rstrip()
+    title = f"Cone test {found.name} {printable(location)}".rstrip()
     return [
         tables.write(directory / "layers.csv", found.layers),
         cone_picture.draw(
@@ -90,7 +91,7 @@ def write(
 def report(files: list[Path]) -> None:
     """Say what has been written."""
     for file in files:
-        print(f"cpt: {short(file)}")
+        print(f"cpt: {printable(short(file))}")
 
 
 def work(options: argparse.Namespace) -> int:
@@ -117,7 +118,7 @@ def work(options: argparse.Namespace) -> int:
     study = page.study_of(options.study, directory)
     check_is_own(directory, study, [page.NAME])
     status = page.run_study(options.study, directory, options.jobs)
-    name = f"{found.file.name} {options.location}".rstrip()
+    name = f"{found.name} {printable(options.location)}".rstrip()
     facts = [("Caisson", caisson_of(options)), ("Ground", f"cone test {name}")]
     report([page.write(found, options.study, directory, facts)])
     return status
@@ -133,5 +134,6 @@ def main(options: argparse.Namespace) -> int:
     except BrokenPipeError:  # as of `| head`
         raise
     except (InputError, SuggestError, StudyError, RunError, OSError) as error:
-        print(f"cpt: {error}", file=sys.stderr)
+        lines = f"cpt: {error}".split("\n")
+        print("\n".join(map(printable, lines)), file=sys.stderr)
         return 1

@@ -161,7 +161,7 @@ def write(
         environment.get_template("page.html.jinja").render(
             title=study.title,
             job=job_of(facts, outcomes),
-            test=test.file.name,
+            test=test.name,
             troubles=troubles_of(outcomes),
             soil=by_layer(*tables.cells_of(test.layers)),
             remarks=tables.remarks(test),

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from caisson.table import markdown, write_csv
+from caisson_design import printable
 from caisson_design.cone_estimates import (
     CAN,
     ENDS,
@@ -84,7 +85,9 @@ def cells_of(every: Sequence[Estimates]) -> tuple[list[str], list[list[str]]]:
 def text_of_test(test: Interpretation) -> str:
     """Return table and remarks for the terminal."""
     text = markdown(*cells_of(test.layers))
-    return "\n".join([f"{test.file}: low / best / high", text, *remarks(test)])
+    return "\n".join(
+        [f"{printable(str(test.file))}: low / best / high", text, *remarks(test)]
+    )
 
 
 def signs(ground: Ground, number: int, layer: Layer) -> list[str]:

@@ -20,7 +20,7 @@ from matplotlib.figure import Figure
 from caisson import curve, curves
 from caisson.plot import design
 from caisson.plot.forces import penetration
-from caisson.paths import RESULTS, short
+from caisson.paths import seen
 from caisson.plot.small import in_units
 from caisson.results import Results, ResultsError, Table
 from caisson.table import write_csv
@@ -34,7 +34,7 @@ PUSHING, TOTAL = "pushing_force_N", "total_force_N"
 MORE = ("required_suction_Pa", "suction_Pa", "cavity_pressure_Pa")
 DEPTH = "penetration_m"
 INTERVAL, INTERVAL_OF_SMALL = 0.1, 0.001  # m
-PICTURE = RESULTS / "comparison.png"
+LONGEST = 100  # letters of the names of runs in the name of the picture
 PICTURES = {".png", ".pdf", ".svg"}  # what a word ends with that is no directory
 
 Histories = dict[str, Table]  # by the name of the run
@@ -58,6 +58,14 @@ def names_of(directories: Sequence[Path]) -> list[str]:
         if len(set(names)) == len(names):
             return names
     raise ResultsError("the same directory is given twice")
+
+
+def default_picture(directories: Sequence[Path]) -> Path:
+    """Return the picture beside the first run, with the names of all: other runs have
+    another one."""
+    names = "_".join(name.replace("/", "-") for name in names_of(directories))
+    folder = directories[0].resolve().parent
+    return folder / f"comparison_{names[:LONGEST]}.png"
 
 
 def read(directories: Sequence[Path]) -> Histories:
@@ -203,8 +211,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="DIR",
         help="the output directory of a run, whose name is its label; before the first"
-        f" one the picture may stand, default {short(PICTURE)}, beside which"
-        " the .csv file of the same name is written",
+        " one the picture may stand, default comparison_DIR_DIR.png beside the first"
+        " run; the .csv file of the same name is written beside it",
     )
     text = f"between the depths of the .csv file, in m, default {INTERVAL:g}"
     text += f", or {INTERVAL_OF_SMALL:g} of bodies shorter than 1 m"
@@ -221,7 +229,8 @@ def main(options: argparse.Namespace) -> int:
     """Draw the picture and write the file, or print."""
     if options.values:
         return curve.print_all(options.words, options.at)
-    picture, directories = PICTURE, options.words
+    picture: Path | None = None
+    directories = options.words
     if directories[0].suffix in PICTURES and not directories[0].is_dir():
         picture, directories = directories[0], directories[1:]
     try:
@@ -231,13 +240,12 @@ def main(options: argparse.Namespace) -> int:
         shown = units_of_all(directories)
         usual = INTERVAL_OF_SMALL if "m" in shown.smaller else INTERVAL
         columns = columns_of(histories, options.interval or usual)
-        if picture == PICTURE:
-            picture.parent.mkdir(parents=True, exist_ok=True)
+        picture = picture or default_picture(directories)
         with disk.all_or_none(options.overwrite):
             written = [draw(picture, histories, shown)]
             written.append(write(picture.with_suffix(".csv"), columns))
         for path in written:
-            print(f"compare: {short(path)}")
+            print(f"compare: {seen(path)}")
     except (InputError, OSError) as error:
         print(f"compare: {error}", file=sys.stderr)
         return 1

@@ -44,7 +44,7 @@ def refuse_silt(found: Interpretation, end: float, flows: bool) -> None:
         )
         undrained = f"{clay} if it does not" + (", without --weight" if flows else "")
         raise SuggestError(
-            f"{found.file}: {'; '.join(where)}, is silt, of which a cone test does not"
+            f"{found.name}: {'; '.join(where)}, is silt, of which a cone test does not"
             f" tell how far it drains while the skirt passes. Say it: {sand} if it"
             f" drains, {undrained}"
         )
@@ -55,7 +55,7 @@ def refuse_no_strength(found: Interpretation) -> None:
     for number, e in enumerate(found.layers, 1):
         if e.layer.kind != SAND and e.values[STRENGTH].low <= 0:
             raise SuggestError(
-                f"{found.file}: layer {number}, {e.layer.top:g} to"
+                f"{found.name}: layer {number}, {e.layer.top:g} to"
                 f" {e.layer.bottom:g} m, has no strength: its cone resistance does not"
                 " exceed the total vertical stress. Check the zero of the test,"
                 f" --unit-weight and the kind of soil, as --soil {number}={SAND}"
@@ -68,7 +68,7 @@ def end_of_test(found: Interpretation, end: float) -> str:
     if deepest >= end:
         return ""
     return (
-        f"warning: {found.file} ends at {deepest:g} m, and the tip goes to {end:g} m:"
+        f"warning: {found.name} ends at {deepest:g} m, and the tip goes to {end:g} m:"
         " the last layer is taken to go on"
     )
 

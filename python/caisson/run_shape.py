@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What run.json has, as far as it is read: doc/how_to/run.schema.json in short."""
+from collections.abc import Iterator
+from typing import Any
+
+NUMBER: Any = (int, float)
+OR_NONE: Any = (*NUMBER, type(None))  # where there is no finite one
+ANY = "*"  # every other name
+NUMBERS = {ANY: NUMBER}
+TEXTS = {ANY: str}
+LAYER: dict[str, Any] = {
+    **dict.fromkeys(("law", "library_checksum"), str),
+    "law_entries": [{"entry": str, "value": OR_NONE, "unit": str}],
+    ANY: NUMBER,
+}
+RESULTS: dict[str, Any] = {
+    **dict.fromkeys(("penetration_m", "rest_penetration_m"), NUMBER),
+    **dict.fromkeys(("largest_force", "largest_suction"), NUMBERS),
+    "largest_pull": {"mechanism": str, ANY: NUMBER},
+    "margins": {"room_below_lid_m": NUMBER, ANY: NUMBERS},
+    "at_depths": [{ANY: OR_NONE}],
+    "warnings": [{"rank": str, "text": str}],
+}
+RUN: dict[str, Any] = {
+    **dict.fromkeys(("version", "dealii_version", "scene_file", "title"), str),
+    **dict.fromkeys(("command", "written", "status", "failure", "installation"), str),
+    **dict.fromkeys(("fingerprint", "time_step_limit"), str),
+    **dict.fromkeys(("entries", "units", "defaults"), TEXTS),
+    **dict.fromkeys(("assumed", "warnings"), [str]),
+    **dict.fromkeys(("energies", "progress"), {ANY: OR_NONE}),
+    **dict.fromkeys(("ranks", "cells", "steps", "material_points"), NUMBER),
+    **dict.fromkeys(("wall_time_s", "time_step_s", "start_penetration_m"), NUMBER),
+    **dict.fromkeys(("peak_memory_bytes", "max_points_in_body"), NUMBER),
+    "mass_scaling": [NUMBER],
+    "results": RESULTS,
+    "scene": {
+        "end_reason": str,
+        "design_methods": {"load_spread": OR_NONE},
+        "frame_penetrations_m": [NUMBER],
+        "layers": [LAYER],
+        ANY: OR_NONE,
+    },
+}
+# of a run that finished; earlier versions wrote neither "written" nor all of these
+NEEDED = "entries", "units", "defaults", "assumed", "results", "energies", "scene"
+
+
+def missing(found: dict[str, Any]) -> list[str]:
+    """Return the keys that the run.json of a finished run lacks."""
+    is_whole = found.get("status") == "finished" and "written" in found
+    return [name for name in NEEDED if is_whole and name not in found]
+
+
+def faults(found: Any, shape: Any = RUN, key: str = "") -> Iterator[str]:
+    """Yield the keys whose values are of another type, and what they should be."""
+    if isinstance(shape, dict):
+        if not isinstance(found, dict):
+            yield f"{key} is {found!r:.60}, and no object {{...}}"
+            return
+        for name, value in found.items():
+            if (inner := shape.get(name, shape.get(ANY))) is not None:
+                yield from faults(value, inner, f"{key}/{name}".lstrip("/"))
+    elif isinstance(shape, list):
+        if not isinstance(found, list):
+            yield f"{key} is {found!r:.60}, and no list [...]"
+            return
+        for number, value in enumerate(found, 1):
+            yield from faults(value, shape[0], f"{key}/{number}")
+    elif not isinstance(found, shape):
+        what = "text" if shape is str else "number"
+        yield f"{key} is {found!r:.60}, and no {what}"
