@@ -425,10 +425,10 @@ class Evaluation(WithFiles):
 
     def test_a_wrong_cone_test_stops_the_study(self) -> None:
         """Before the first run, with its row."""
-        (self.path / "cone.csv").write_text("depth_m,qc_MPa\n0,0\n0,20\n")
+        (self.path / "cone.csv").write_text("depth_m,qc_MPa\n0,1\n2,20\n1,20\n3,20\n")
         found = self.outcomes(PHI + "values = [30]", "d", {})
         found.study.keys["cone"] = "cone.csv"
-        with self.assertRaisesRegex(StudyError, "cone.csv, row 3: the depth of 0 m"):
+        with self.assertRaisesRegex(StudyError, "cone.csv, row 4: the depth of 1 m"):
             parameters.check([found.study], 1)
         (self.path / "cone.csv").write_text("0,1\n1,20\n")  # asks for an option
         with self.assertRaisesRegex(
