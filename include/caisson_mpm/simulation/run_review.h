@@ -65,7 +65,8 @@ namespace CaissonMPM
     std::optional<std::string>
     lost_work() const;
 
-    /** Whether a layer has a tension cut-off, so that it may come off a wall. */
+    /** Whether a layer has a tension cut-off, so that it may come off a wall.
+     */
     bool
     has_cut_off() const;
 
