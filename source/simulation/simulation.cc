@@ -139,12 +139,10 @@ namespace CaissonMPM
     const unsigned int at_tip  = soil.material_at(tip[vertical]);
     const double       density = soil.inertial_density(at_tip),
                  speed         = body.motion().usual_velocity();
-    // Soil without friction bears what its strength does, and not its weight.
-    constexpr double share_of_strength = .5;
-    const double     stress =
-      soil.has_friction() ?
-            -soil.initial_stress(tip)[zz] :
-            share_of_strength * *soil.material(at_tip).shear_strength();
+    // soil without friction bears what its strength does, and not its weight
+    const double stress = soil.has_friction() ?
+                            -soil.initial_stress(tip)[zz] :
+                            .5 * *soil.material(at_tip).shear_strength();
     // The waves of the start must decay before the soil gets heavy.
     constexpr double first_share = .15;
     const double     way         = body.shape().right() / 3.,

@@ -54,8 +54,12 @@ def state_of(directory: Path) -> str:
     if not info.exists():
         return ""
     lines = info.read_text(encoding="utf-8", errors="replace").splitlines()
-    # not which of the two files it is, nor what stands in other files
-    ours = re.compile(r"(?!file |checksum_of_text |bytes |fingerprint_of_)")
+    # not which of the two files it is, nor what stands in other files, nor times, nor
+    # the warning of a file that was changed
+    ours = re.compile(
+        r"(?!file |checksum_of_text |bytes |fingerprint_of_|wall_time |seconds_of_"
+        r"|.* has been changed since the checkpoint)"
+    )
     return "\n".join(line for line in lines if ours.match(line))
 
 
