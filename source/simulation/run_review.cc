@@ -245,7 +245,7 @@ namespace CaissonMPM
           borne += s.friction[wall];
           due += adhesion_down_to(s.penetration - width, wall);
         }
-    if (borne >= least_share_of_adhesion * due)
+    if (due <= 0. || borne >= least_share_of_adhesion * due)
       return {};
     return std::string("the friction on the ") +
            (wall == 0 ? "inner" : "outer") + " wall is " +
