@@ -191,6 +191,18 @@ namespace CaissonMPM
                        });
   }
 
+  double
+  Soil::stress_borne_above(const double z, const double height) const
+  {
+    if (has_friction())
+      return -initial_stress(Point<2>(0., z))[zz];
+    // without friction it bears what its strength does, and not its weight
+    double least = std::numeric_limits<double>::infinity();
+    for (unsigned int i = material_at(z + height); i <= material_at(z); ++i)
+      least = std::min(least, .5 * *materials[i].shear_strength());
+    return least;
+  }
+
   void
   Soil::divide(const std::vector<double> &row_lines)
   {
@@ -381,12 +393,12 @@ namespace CaissonMPM
   }
 
   bool
-  Soil::yields_by_friction() const
+  Soil::is_elastic_until_it_yields() const
   {
     return std::all_of(materials.begin(),
                        materials.end(),
                        [](const SoilMaterial &m) {
-                         return m.yields_by_friction();
+                         return m.is_elastic_until_it_yields();
                        });
   }
 

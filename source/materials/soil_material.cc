@@ -69,10 +69,10 @@ namespace CaissonMPM
   }
 
   bool
-  SoilMaterial::yields_by_friction() const
+  SoilMaterial::is_elastic_until_it_yields() const
   {
-    return law_value("Youngs modulus").has_value() &&
-           friction_angle().value_or(0.) > 0.;
+    return law_value("Youngs modulus") &&
+           (friction_angle() || shear_strength());
   }
 
   std::optional<double>

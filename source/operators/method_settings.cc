@@ -62,8 +62,8 @@ namespace CaissonMPM
                        "Courant number of 0.8, and XPIC the rest; in shorter "
                        "steps the share of XPIC is smaller, in proportion. "
                        "With auto it is 0.99 where all layers are "
-                       "Mohr-Coulomb soil with friction, the water is neither "
-                       "undrained nor coupled, and no loads move the body. "
+                       "Mohr-Coulomb soil, the water is neither undrained nor "
+                       "coupled, and no loads move the body. "
                        "Elsewhere it is 0.95. "
                        "Units: none.",
                        Patterns::Double(0., 1.));

@@ -47,13 +47,6 @@ namespace CaissonMPM
       return std::abs(a.speed - b.speed) <= tolerance * a.speed;
     }
 
-    double
-    width_of_tip(const BodyShape &shape)
-    {
-      return shape.exists() && !shape.expands() ? shape.right() - shape.left() :
-                                                  0.;
-    }
-
     /** Adds up what becomes the mean of a stretch. */
     class Mean
     {
@@ -131,7 +124,7 @@ namespace CaissonMPM
 
   RunReview::RunReview(const RecordedParts &parts, const Records &records)
     : parts(parts)
-    , width(width_of_tip(parts.body.shape()))
+    , width(parts.body.shape().width_of_tip())
   {
     if (width > 0.)
       way = find_way(records, short_way * width / parts_of_short_way);

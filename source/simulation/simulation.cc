@@ -135,14 +135,13 @@ namespace CaissonMPM
   Simulation::stress_over_inertia_at_tip(const double travel) const
   {
     const double   depth = body.penetration() + travel - body.motion().travel();
-    const Point<2> tip(0., -std::max(depth, 0.));
-    const unsigned int at_tip  = soil.material_at(tip[vertical]);
-    const double       density = soil.inertial_density(at_tip),
-                 speed         = body.motion().usual_velocity();
-    // soil without friction bears what its strength does, and not its weight
-    const double stress = soil.has_friction() ?
-                            -soil.initial_stress(tip)[zz] :
-                            .5 * *soil.material(at_tip).shear_strength();
+    const double   tip   = -std::max(depth, 0.);
+    const double   density = soil.inertial_density(soil.material_at(tip)),
+                 speed     = body.motion().usual_velocity();
+    // a stiff layer must not make the weak one above it heavy
+    constexpr double widths = 4.;
+    const double     stress =
+      soil.stress_borne_above(tip, widths * body.shape().width_of_tip());
     // The waves of the start must decay before the soil gets heavy.
     constexpr double first_share = .15;
     const double     way         = body.shape().right() / 3.,

@@ -105,10 +105,9 @@ namespace CaissonMPM
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");
     place_lines();
-    // water that follows the soil, and a body that the soil carries, vibrate
-    nodal_motion.choose_flip_fraction(soil.yields_by_friction() &&
-                                      !strains_water &&
-                                      !body.motion().follows_loads());
+    nodal_motion.choose_flip_fraction(!soil.is_elastic_until_it_yields() ||
+                                      strains_water ||
+                                      body.motion().follows_loads());
     if (body.shape().expands() && soil.has_walls())
       throw BadInput(
         "the expanding cylinder takes its friction from Rigid body/"

@@ -73,6 +73,13 @@ namespace CaissonMPM
     virtual double
     top() const = 0;
 
+    /** Return the width of what goes down, 0 without any. Units: m. */
+    double
+    width_of_tip() const
+    {
+      return exists() && !expands() ? right() - left() : 0.;
+    }
+
     /** Return the depth of the body's lowest point, 0 where the body does not
      * penetrate. Units: m. */
     virtual double

@@ -100,6 +100,12 @@ namespace CaissonMPM
     bool
     has_friction() const;
 
+    /** What the soil between z and a height above it can bear: the initial
+     * vertical effective stress at z or, where no soil has friction, half the
+     * least strength. Units: m, Pa. */
+    double
+    stress_borne_above(const double z, const double height) const;
+
     unsigned int
     n_layers() const
     {
@@ -123,9 +129,9 @@ namespace CaissonMPM
     bool
     has_walls() const;
 
-    /** Whether all laws are elastic up to a yield surface with friction. */
+    /** Whether all laws are elastic up to a yield surface. */
     bool
-    yields_by_friction() const;
+    is_elastic_until_it_yields() const;
 
     /** Return the uppermost material of each layer. */
     std::vector<unsigned int>

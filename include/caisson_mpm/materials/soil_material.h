@@ -86,9 +86,9 @@ namespace CaissonMPM
     std::string
     law_name() const;
 
-    /** Whether the law is elastic up to a yield surface with friction. */
+    /** Whether the law is elastic up to a yield surface. */
     bool
-    yields_by_friction() const;
+    is_elastic_until_it_yields() const;
 
     /** The friction angle of the law (peak, critical) if it has one. Units:
      * degrees. */

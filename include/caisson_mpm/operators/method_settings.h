@@ -73,15 +73,14 @@ namespace CaissonMPM
     void
     name_unused_entries(ParameterOrigins &origins) const;
 
-    /** Choose the share of FLIP where it is not set. In drained soil that
-     * yields by friction, @p drained_friction, the lost work of the blend is the
-     * larger error. Elsewhere vibrations are: of hypoplastic sand, of water
-     * that follows the soil, of a body that the soil carries; and clay with
-     * adhesion may be thrown off. */
+    /** Choose the share of FLIP where it is not set. As a rule the lost work of
+     * the blend is the larger error. In a scene that @p vibrates it is the
+     * vibrations: of hypoplastic sand, of water that follows the soil, of a body
+     * that the soil carries. */
     void
-    choose_flip_fraction(const bool drained_friction)
+    choose_flip_fraction(const bool vibrates)
     {
-      flip_fraction_of_scene = drained_friction ? 0.99 : 0.95;
+      flip_fraction_of_scene = vibrates ? 0.95 : 0.99;
     }
 
     /** Share of a point's own velocity that it keeps (FLIP: 1). */

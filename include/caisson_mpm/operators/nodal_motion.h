@@ -103,9 +103,9 @@ namespace CaissonMPM
                   Kernels::UpdateResult   &result);
 
     void
-    choose_flip_fraction(const bool drained_friction)
+    choose_flip_fraction(const bool vibrates)
     {
-      settings_.choose_flip_fraction(drained_friction);
+      settings_.choose_flip_fraction(vibrates);
     }
 
     const MethodSettings &

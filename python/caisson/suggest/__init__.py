@@ -375,6 +375,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         velocity=VELOCITY,
         wall_friction=wall_friction_of(options.wall_friction, deep),
         layers=with_permeability(soil) if options.weight else soil,
+        interfaces=len(deep) > 1,
         is_clay=all(map(is_clay, deep)),
         smooth_tip=all(map(is_clay, deep)) or options.wall_friction == 0,
         default_row=DEFAULT_ROW,
