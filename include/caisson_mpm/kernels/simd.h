@@ -106,7 +106,10 @@ namespace CaissonMPM
               {
                 unsigned int result = 0;
                 for (int i = 0; i < n; ++i)
-                  result |= (a.bits[i] != 0 ? 1u : 0u) << i;
+                  {
+                    const auto bit = a.bits[i];
+                    result |= (bit != 0 ? 1u : 0u) << i;
+                  }
                 return result;
               }
           }
