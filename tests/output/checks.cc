@@ -82,6 +82,8 @@ fit(const double w, const double g, const double phase, const double offset)
 void
 refuse(const std::string &entry, const std::string &text)
 {
+  // not while objects that registered themselves are alive
+  dealii::ParameterAcceptor::clear();
   Observations observations;
   Verification verification;
   auto        &prm = dealii::ParameterAcceptor::prm;
@@ -104,7 +106,6 @@ refuse(const std::string &entry, const std::string &text)
         what = what.substr(0, 120) + " ...";
       std::printf("%s\n", what.c_str());
     }
-  dealii::ParameterAcceptor::clear();
 }
 
 int
