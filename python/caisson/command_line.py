@@ -19,6 +19,7 @@ from typing import NoReturn
 
 from caisson import needed, paths
 from caisson_design import InputError, disk
+from caisson_design.terminal import PlainText
 
 # group: subcommand: its module, and what it does
 Groups = Mapping[str, Mapping[str, tuple[str, str]]]
@@ -136,6 +137,7 @@ def run_command(
 
 def end_process(main: Callable[[Sequence[str]], int]) -> NoReturn:
     """Run the command of this process, and end it."""
+    sys.stdout, sys.stderr = PlainText(sys.stdout), PlainText(sys.stderr)
     try:
         sys.exit(main(sys.argv[1:]))
     except (BrokenPipeError, KeyboardInterrupt):  # as of `| head`

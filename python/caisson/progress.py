@@ -9,6 +9,8 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Self, TextIO
 
+from caisson_design.terminal import CLEAR
+
 INTERVAL = 1.0  # s
 # of lines in a log file: the least time (s), and the least part of the work
 SILENCE, STEP = 10.0, 0.05
@@ -133,7 +135,7 @@ class Progress:
     def _clear(self) -> None:
         """Remove the bar from a terminal."""
         if self.has_bar and self.thread.is_alive():
-            self.stream.write("\r\x1b[K")
+            self.stream.write(CLEAR)
             self.stream.flush()
 
     def _draw(self) -> None:
@@ -147,7 +149,7 @@ class Progress:
                 print(text, file=self.stream, flush=True)
             return
         width = shutil.get_terminal_size().columns
-        self.stream.write(f"\r\x1b[K{self.line(width)}")
+        self.stream.write(f"{CLEAR}{self.line(width)}")
         self.stream.flush()
 
     def _draw_repeatedly(self) -> None:

@@ -14,6 +14,7 @@ from made_up_state import Temporary
 from caisson import command_line
 from caisson.__main__ import GROUPS
 from caisson_design import InputError, disk
+from caisson_design.terminal import CLEAR, PlainText
 
 FULL = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
@@ -45,6 +46,20 @@ class Reading(Temporary):
         name = 'O"Brien\\1\n.prm'
         said = tomllib.loads(f"a = {disk.quoted(name)}")["a"]
         self.assertEqual(said, name)
+
+
+class Terminal(unittest.TestCase):
+    """What is written there is no command to it."""
+
+    def test_commands(self) -> None:
+        for text, written in (
+            ("plot: a\x1b[2J.csv\n", "plot: a\\x1b[2J.csv\n"),
+            ("a\tb\n\x07\n", "a\tb\n\\x07\n"),
+            (f"{CLEAR}10 % {CLEAR}", f"{CLEAR}10 % \\r\\x1b[K"),
+        ):
+            stream = io.StringIO()
+            print(text, end="", file=PlainText(stream))
+            self.assertEqual(stream.getvalue(), written)
 
 
 class Writing(Temporary):

@@ -134,10 +134,10 @@ namespace CaissonMPM
   double
   Simulation::stress_over_inertia_at_tip(const double travel) const
   {
-    const double   depth = body.penetration() + travel - body.motion().travel();
-    const double   tip   = -std::max(depth, 0.);
-    const double   density = soil.inertial_density(soil.material_at(tip)),
-                 speed     = body.motion().usual_velocity();
+    const double depth   = body.penetration() + travel - body.motion().travel();
+    const double tip     = -std::max(depth, 0.);
+    const double density = soil.inertial_density(soil.material_at(tip)),
+                 speed   = body.motion().usual_velocity();
     // a stiff layer must not make the weak one above it heavy
     constexpr double widths = 4.;
     const double     stress =
