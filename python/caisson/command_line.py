@@ -15,7 +15,7 @@ import sys
 import traceback
 from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
-from typing import NoReturn
+from typing import NoReturn, TextIO, cast
 
 from caisson import needed, paths
 from caisson_design import InputError, disk
@@ -137,7 +137,8 @@ def run_command(
 
 def end_process(main: Callable[[Sequence[str]], int]) -> NoReturn:
     """Run the command of this process, and end it."""
-    sys.stdout, sys.stderr = PlainText(sys.stdout), PlainText(sys.stderr)
+    sys.stdout = cast(TextIO, PlainText(sys.stdout))
+    sys.stderr = cast(TextIO, PlainText(sys.stderr))
     try:
         sys.exit(main(sys.argv[1:]))
     except (BrokenPipeError, KeyboardInterrupt):  # as of `| head`

@@ -56,6 +56,7 @@ namespace CaissonMPM
     friction_heat += nodes.friction;
     damping += nodes.damping;
     floor += nodes.mass_floor;
+    deformation_inertia += nodes.deformation_inertia;
     stress_work += stress;
   }
 
@@ -66,7 +67,7 @@ namespace CaissonMPM
     gravity_work = initial_potential - points.potential;
     // the points have gained what the nodes were given, less this
     dissipation = force_work + work_of_body - friction_heat - damping - floor -
-                  kinetic_gain;
+                  deformation_inertia - kinetic_gain;
     residual = gravity_work + load_work - force_work - stress_work;
     largest  = std::max({largest,
                          std::abs(work_of_body),
@@ -86,6 +87,7 @@ namespace CaissonMPM
     totals.sum("friction_heat", friction_heat);
     totals.sum("damping", damping);
     totals.sum("mass_floor", floor);
+    totals.sum("deformation_inertia", deformation_inertia);
     totals.keep("initial_kinetic_energy", initial_kinetic);
     totals.keep("initial_potential_energy", initial_potential);
     totals.keep("largest_work", largest);
@@ -102,6 +104,7 @@ namespace CaissonMPM
       {"friction_heat_J", &E::friction_heat},
       {"damping_J", &E::damping},
       {"mass_floor_J", &E::floor},
+      {"deformation_inertia_J", &E::deformation_inertia},
       {"numerical_dissipation_J", &E::dissipation},
       {"energy_residual_J", &E::residual},
       {"energy_residual", &E::relative}};

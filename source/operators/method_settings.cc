@@ -73,7 +73,8 @@ namespace CaissonMPM
                stress_updates,
                "MUSL strains the points with the velocities that the updated "
                "points bring back to the nodes, and USL with the new nodal "
-               "velocities. Units: none.");
+               "velocities. With USL, an inertia tolerance scales the mass "
+               "selectively. Units: none.");
   }
 
   void

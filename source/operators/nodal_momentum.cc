@@ -23,6 +23,8 @@ namespace CaissonMPM
     grid.reinit(change, 2);
     mass_.assign(grid.n_nodes(), 0.);
     raised_mass_.assign(grid.n_nodes(), 0.);
+    scaled_mass_.assign(grid.n_nodes(), 0.);
+    selective_mass_.initialize(grid);
     n_owned_nodes_ = grid.n_owned_nodes();
     hanging_nodes  = &grid.hanging_nodes();
 
@@ -62,7 +64,9 @@ namespace CaissonMPM
   }
 
   void
-  NodalMomentum::collect(const ForceContext &context, NodalForces &forces)
+  NodalMomentum::collect(const ForceContext &context,
+                         const double       *deformation_inertia,
+                         NodalForces        &forces)
   {
     update_filled(context.step);
     sums_ = 0.;
@@ -70,6 +74,7 @@ namespace CaissonMPM
     auto *const nodes = reinterpret_cast<NodalSums *>(sums_.begin());
     context.kernels.points_to_grid(context.step, nodes);
     forces.collect(context, nodes);
+    selective_mass_.collect(context.step, deformation_inertia, nodes);
     hanging_nodes->distribute(sums_, sizeof(NodalSums) / sizeof(double));
     sums_.compress(dealii::VectorOperation::add);
     sums_.update_ghost_values();
@@ -94,7 +99,8 @@ namespace CaissonMPM
   NodalMomentum::accelerate(const double   dt,
                             const double   damping,
                             const Vector2 &body_velocity,
-                            Contact       &contact)
+                            Contact       &contact,
+                            const bool     is_corrected)
   {
     const NodalSums   *node = sums();
     NodalVector *const v    = nodal_vectors(old_velocity_),
@@ -105,14 +111,17 @@ namespace CaissonMPM
       {
         if (node->mass <= 0.)
           {
-            mass_[i] = raised_mass_[i] = 0.;
+            mass_[i] = raised_mass_[i] = scaled_mass_[i] = 0.;
             v[i] = u[i] = NodalVector();
             continue;
           }
         // 1. M_I = max(m_I, dt^2 K_I / 4), with which the node would be stable;
-        //    MinimumNodalMass acts on those nodes where it exceeds m_I
-        mass_[i]        = node->mass;
-        raised_mass_[i] = std::max(node->mass, .25 * dt * dt * node->stiffness);
+        //    MinimumNodalMass acts on those nodes where it exceeds m_I, which
+        //    count with the inertia of deformation
+        const double scaled = lumped_mass(*node);
+        mass_[i]            = node->mass;
+        scaled_mass_[i]     = std::max(scaled, .25 * dt * dt * node->stiffness);
+        raised_mass_[i] = node->mass * std::max(1., scaled_mass_[i] / scaled);
         if (i < n_owned_nodes_)
           added_inertia_ += raised_mass_[i] - node->mass;
         // 2. v_I = p_I / m_I, and v_I+ = v_I + dt f_I / m_I with the force less
@@ -129,7 +138,12 @@ namespace CaissonMPM
             sum += u[i].value[d];
           }
       }
-    // 3. one sum finds all values that are not finite
+    // 3. with the inertia of the deformation of cells
+    if (is_corrected)
+      selective_mass_.correct(sums(), v, u);
+    else
+      selective_mass_.accelerate(sums(), v, u);
+    // 4. one sum finds all values that are not finite
     is_finite_ = std::isfinite(sum);
     accelerate_corners(dt, body_velocity, contact);
   }

@@ -47,7 +47,9 @@ namespace CaissonMPM
                0,
                soil.pore_pressure,
                soil.inertia};
-    momentum.collect({*kernels, step, soil.points, soil.grid, time}, forces);
+    momentum.collect({*kernels, step, soil.points, soil.grid, time},
+                     soil.deformation_inertia,
+                     forces);
   }
 
   void
@@ -63,16 +65,19 @@ namespace CaissonMPM
                               step,
                               settings_.keep_velocity(size),
                               forces);
-    accelerate(body_velocity, contact);
+    accelerate(body_velocity, contact, false);
   }
 
   void
-  NodalMotion::accelerate(const Vector2 &body_velocity, Contact &contact)
+  NodalMotion::accelerate(const Vector2 &body_velocity,
+                          Contact       &contact,
+                          const bool     is_corrected)
   {
     momentum.accelerate(size.seconds,
                         settings_.local_damping(),
                         body_velocity,
-                        contact);
+                        contact,
+                        is_corrected);
     velocity_of_body = body_velocity;
     show_corners(contact);
   }
@@ -101,11 +106,11 @@ namespace CaissonMPM
     // 2. compute the forces that follow from it
     forces.solve(nodal_vectors(predicted),
                  contact.corners().views(),
-                 momentum.raised_mass());
+                 momentum.scaled_mass());
     // 3. correct v+ by their change
     momentum.correct({*kernels, step, soil.points, soil.grid, time}, forces);
     contact.corners().add_forces(step, forces);
-    accelerate(body_velocity, contact);
+    accelerate(body_velocity, contact, true);
   }
 
   Contact::Response

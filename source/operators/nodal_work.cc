@@ -62,8 +62,14 @@ namespace CaissonMPM
     for (std::size_t k = 0; k < n; ++k)
       h[k] = .5 * (h[k] + v[k]);
     result.mass_floor = minimum_nodal_mass.work(nodal_vectors(constrained_old));
-    for (double *sum :
-         {&result.forces, &result.load, &result.mass_floor, &result.damping})
+    result.deformation_inertia =
+      momentum.selective_mass().work(nodal_vectors(constrained_old),
+                                     momentum.n_owned_nodes());
+    for (double *sum : {&result.forces,
+                        &result.load,
+                        &result.mass_floor,
+                        &result.deformation_inertia,
+                        &result.damping})
       *sum *= circumference;
     if (!constraints.contact.empty())
       result.friction =

@@ -4,6 +4,7 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/kernels/cells.h>
 #include <caisson_mpm/kernels/views.h>
+#include <caisson_mpm/operators/selective_mass.h>
 #include <caisson_mpm/operators/time_step.h>
 
 #include <deal.II/base/mpi.h>
@@ -46,7 +47,9 @@ namespace CaissonMPM
       "from there to four wall thicknesses above, "
       "0.1 to 0.4 as a rule. The scaling follows the "
       "penetration. Larger cells get less of it, and cells that the tip "
-      "bends get more. Mass scaling must then be 1. "
+      "bends get more. With Method/Stress update = USL it resists the "
+      "deformation of cells, and hardly their translation. Mass scaling must "
+      "then be 1. "
       "Units: none.",
       Patterns::Double(1e-6, 10.));
   }
@@ -269,6 +272,8 @@ namespace CaissonMPM
     // 2. cells with points: of the fastest wave in them
     for (const unsigned int cell : points.cells_with_points())
       set(cell, largest_in(points, cell, squares));
+    translation =
+      is_selective ? factors_of_translation(grid, inertia_) : inertia_;
   }
 
   void

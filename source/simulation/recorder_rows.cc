@@ -172,8 +172,11 @@ namespace CaissonMPM
     row.points_in_body = Utilities::MPI::sum(row.points_in_body, communicator);
     max_in_body        = std::max(max_in_body, row.points_in_body);
 
-    const PointEnergies energies = compute_point_energies(
-      parts.points, parts.materials, parts.grid, parts.time_step.inertia());
+    const PointEnergies energies =
+      compute_point_energies(parts.points,
+                             parts.materials,
+                             parts.grid,
+                             parts.time_step.inertia_of_translation());
     parts.energy.close(energies);
     row.kinetic_energy = energies.kinetic;
     row.external_work  = parts.energy.work_of_body;

@@ -296,7 +296,8 @@ namespace CaissonMPM
             grid,
             materials,
             water->cell_pressure(),
-            time_step.inertia()};
+            time_step.inertia_of_translation(),
+            time_step.inertia_of_deformation()};
   }
 
   void

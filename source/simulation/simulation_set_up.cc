@@ -105,6 +105,8 @@ namespace CaissonMPM
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");
     place_lines();
+    // MUSL is unstable beside cells whose inertia is lumped
+    time_step.scale_selectively(!nodal_motion.settings().uses_musl());
     nodal_motion.choose_flip_fraction(!soil.is_elastic_until_it_yields() ||
                                       strains_water ||
                                       body.motion().follows_loads());

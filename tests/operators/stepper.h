@@ -27,6 +27,8 @@ struct Stepper
   Contact                        contact;
   NodalConstraints               constraints;
   std::vector<Kernels::Material> materials;
+  // of the inertia in the cells, of translation and of deformation
+  std::vector<double> translation, deformation;
 
   Stepper(const std::string &soil, const std::string &method)
     : scene(soil)
@@ -58,7 +60,8 @@ struct Stepper
             scene.grid,
             materials,
             nullptr,
-            nullptr};
+            translation.empty() ? nullptr : translation.data(),
+            deformation.empty() ? nullptr : deformation.data()};
   }
 
   void

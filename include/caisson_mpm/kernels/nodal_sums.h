@@ -11,12 +11,13 @@ namespace CaissonMPM
     /** The nodal sums of points_to_grid, interleaved per node. */
     struct alignas(64) NodalSums
     {
-      double mass;        // kg per radian
-      double momentum[2]; // kg m/s per radian
-      double force[2];    // internal + body force, N per radian
-      double stiffness;   // bound of sum_J |K_IJ| over partly
-                          // filled cells, N/m per radian
-      double padding[2];
+      double mass;             // kg per radian
+      double momentum[2];      // kg m/s per radian
+      double force[2];         // internal + body force, N per radian
+      double stiffness;        // bound of sum_J |K_IJ| over partly
+                               // filled cells, N/m per radian
+      double deformation_mass; // of selective mass scaling, kg per radian
+      double padding;
     };
 
     /** A nodal vector field (r, z), interleaved per node. */

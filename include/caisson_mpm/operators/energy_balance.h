@@ -3,7 +3,7 @@
 // Where the work that is put into the soil goes, from the start of a run.
 //
 //   body + prescribed + gravity + load = kinetic + stress + friction + damping
-//                    + floor + dissipation + residual
+//                    + floor + inertia of deformation + dissipation + residual
 // The dissipation is what the transfer between points and nodes loses; it is
 // found from the identity of the nodal works. The residual is what the scheme
 // creates (negative) or loses because it integrates the nodal forces and the
@@ -76,18 +76,19 @@ namespace CaissonMPM
     std::vector<std::pair<std::string, double>>
     entries() const;
 
-    double work_of_body  = 0.; // on the soil, prescribed nodes included
-    double work_on_water = 0.; // of the body; not a part of the balance
-    double gravity_work  = 0.;
-    double load_work     = 0.; // of the nodal forces of section Loads
-    double kinetic_gain  = 0.;
-    double stress_work   = 0.; // elastic energy and plastic work
-    double friction_heat = 0.;
-    double damping       = 0.;
-    double floor         = 0.;
-    double dissipation   = 0.;
-    double residual      = 0.;
-    double relative      = 0.; // of the largest work so far
+    double work_of_body        = 0.; // on the soil, prescribed nodes included
+    double work_on_water       = 0.; // of the body; not a part of the balance
+    double gravity_work        = 0.;
+    double load_work           = 0.; // of the nodal forces of section Loads
+    double kinetic_gain        = 0.;
+    double stress_work         = 0.; // elastic energy and plastic work
+    double friction_heat       = 0.;
+    double damping             = 0.;
+    double floor               = 0.;
+    double deformation_inertia = 0.; // of selective mass scaling
+    double dissipation         = 0.;
+    double residual            = 0.;
+    double relative            = 0.; // of the largest work so far
 
   private:
     double force_work = 0., initial_kinetic = 0., initial_potential = 0.,

@@ -75,8 +75,8 @@ namespace CaissonMPM
 
     /** Choose the share of FLIP where it is not set. As a rule the lost work of
      * the blend is the larger error. In a scene that @p vibrates it is the
-     * vibrations: of hypoplastic sand, of water that follows the soil, of a body
-     * that the soil carries. */
+     * vibrations: of hypoplastic sand, of water that follows the soil, of a
+     * body that the soil carries. */
     void
     choose_flip_fraction(const bool vibrates)
     {

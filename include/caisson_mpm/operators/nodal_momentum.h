@@ -15,6 +15,7 @@
 #include <caisson_mpm/operators/nodal_constraints.h>
 #include <caisson_mpm/operators/nodal_data.h>
 #include <caisson_mpm/operators/nodal_forces.h>
+#include <caisson_mpm/operators/selective_mass.h>
 
 #include <vector>
 
@@ -33,9 +34,12 @@ namespace CaissonMPM
     void
     initialize(const BackgroundGrid &grid);
 
-    /** Sum mass, momentum and force of the points, @p forces included. */
+    /** Sum mass, momentum and force of the points, @p forces included; with
+     * the factors of SelectiveMass. */
     void
-    collect(const ForceContext &context, NodalForces &forces);
+    collect(const ForceContext &context,
+            const double       *deformation_inertia,
+            NodalForces        &forces);
 
     /** Find those @p forces again that are corrected within the step. */
     void
@@ -51,12 +55,14 @@ namespace CaissonMPM
 
     /** Set the velocities before the step and, but for the constraints, after
      * it. Of the out-of-balance force away from the body, the share @p damping
-     * acts against the velocity. */
+     * acts against the velocity. @p is_corrected says whether correct() has
+     * changed the forces since this was called. */
     void
     accelerate(const double   dt,
                const double   damping,
                const Vector2 &body_velocity,
-               Contact       &contact);
+               Contact       &contact,
+               const bool     is_corrected);
 
     /** Replace both velocities at the corners of the body by those of a body
      * that has the given velocity. */
@@ -98,6 +104,21 @@ namespace CaissonMPM
     raised_mass() const
     {
       return raised_mass_;
+    }
+
+    /** raised_mass() with the inertia of deformation, lumped, with which nodes
+     * answer to the forces that correct() changes [n_nodes]. */
+    const std::vector<double> &
+    scaled_mass() const
+    {
+      return scaled_mass_;
+    }
+
+    /** The inertia of the deformation of cells. */
+    const SelectiveMass &
+    selective_mass() const
+    {
+      return selective_mass_;
     }
 
     /** The velocities that the points brought. */
@@ -150,7 +171,8 @@ namespace CaissonMPM
     unsigned int        n_owned_nodes_ = 0;
     double              added_inertia_ = 0.;
     bool                is_finite_     = true;
-    std::vector<double> mass_, raised_mass_;
+    std::vector<double> mass_, raised_mass_, scaled_mass_;
+    SelectiveMass       selective_mass_;
     NodalData           sums_, old_velocity_, new_velocity_, filled_, change;
     // of soil cells at a node, those at hanging nodes by their masters
     NodalData n_soil_cells;

@@ -27,6 +27,7 @@ namespace CaissonMPM
     const std::vector<Kernels::Material> &materials;
     const double                         *pore_pressure; // see StepContext
     const double                         *inertia;       // see StepContext
+    const double *deformation_inertia;                   // see SelectiveMass
   };
 
   /**
@@ -160,7 +161,9 @@ namespace CaissonMPM
     enter(const Stage next);
 
     void
-    accelerate(const Vector2 &body_velocity, Contact &contact);
+    accelerate(const Vector2 &body_velocity,
+               Contact       &contact,
+               const bool     is_corrected);
     /** Give the kernels how cells see the corners of the body. */
     void
     show_corners(const Contact &contact);

@@ -29,6 +29,7 @@ namespace CaissonMPM
     double friction   = 0.; // heat at the body's surface
     double damping    = 0.; // taken by local damping
     double mass_floor = 0.; // taken by the mass floor
+    double deformation_inertia = 0.; // and by that inertia
   };
 
   /**

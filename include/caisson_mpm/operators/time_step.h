@@ -51,6 +51,14 @@ namespace CaissonMPM
       return tolerance.has_value();
     }
 
+    /** Give the scaling to the deformation of cells alone; see SelectiveMass.
+     */
+    void
+    scale_selectively(const bool on)
+    {
+      is_selective = on;
+    }
+
     /** Let the tolerance refer to this: the initial stress at the tip over
      * density times the square of the speed of the body. It is asked for
      * whenever the limit is found, and is the same on all ranks. */
@@ -81,12 +89,20 @@ namespace CaissonMPM
       totals.keep("largest_inertia", largest_inertia);
     }
 
-    /** The factor of the inertia in each cell of this rank [n_cells], or null
-     * if all of them are 1. */
+    /** The factor with which the points of each cell of this rank bring mass
+     * and momentum to its nodes [n_cells], or null if all of them are 1. */
     const double *
-    inertia() const
+    inertia_of_translation() const
     {
-      return inertia_.empty() ? nullptr : inertia_.data();
+      return translation.empty() ? nullptr : translation.data();
+    }
+
+    /** The factor of the inertia of each cell's deformation, see
+     * SelectiveMass. */
+    const double *
+    inertia_of_deformation() const
+    {
+      return is_selective && !inertia_.empty() ? inertia_.data() : nullptr;
     }
 
     /** Find the step at the start or after a restart. Throws BadInput where a
@@ -196,13 +212,14 @@ namespace CaissonMPM
     double                limit = 0., limit_of_soil = 0.; // s
     // of all ranks; infinite where a zone has no points
     std::array<double, GridLines::n_zones> limit_of_zone;
-    int                     age = 0; // steps since the limit was found
+    int                     age          = 0; // steps since the limit was found
+    bool                    is_selective = false;
     std::string             limiting_cell;
     std::function<double()> stress_over_inertia_at_tip;
     double                  inertia_at_tip_ = 1.;
     double                  least_inertia   = 0.; // 0: not yet found
     double                  largest_inertia = 1.;
-    std::vector<double>     inertia_;
+    std::vector<double>     inertia_, translation; // of deformation; see there
   };
 } // namespace CaissonMPM
 
