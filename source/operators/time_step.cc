@@ -272,8 +272,8 @@ namespace CaissonMPM
     // 2. cells with points: of the fastest wave in them
     for (const unsigned int cell : points.cells_with_points())
       set(cell, largest_in(points, cell, squares));
-    translation =
-      is_selective ? factors_of_translation(grid, inertia_) : inertia_;
+    if (is_selective)
+      translation = factors_of_translation(grid, inertia_);
   }
 
   void

@@ -94,7 +94,9 @@ namespace CaissonMPM
     const double *
     inertia_of_translation() const
     {
-      return translation.empty() ? nullptr : translation.data();
+      const std::vector<double> &factors =
+        is_selective ? translation : inertia_;
+      return factors.empty() ? nullptr : factors.data();
     }
 
     /** The factor of the inertia of each cell's deformation, see
