@@ -36,13 +36,7 @@ const std::string disc = R"(
     set Region           = 1 - (r - 1.5)^2 - (z + 1.5)^2
     set Random positions = 1
   end
-  subsection Boundary conditions
-    set Axis   = free
-    set Side   = free
-    set Bottom = free
-    set Top    = free
-  end
-  )";
+  )" + free_sides;
 
 /** A bar between two rollers, whose points swing. */
 const std::string bar = R"(

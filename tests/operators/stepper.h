@@ -16,6 +16,16 @@
 
 constexpr double dt = 1e-3;
 
+/** Sides that hold nothing. */
+const std::string free_sides = R"(
+  subsection Boundary conditions
+    set Axis   = free
+    set Side   = free
+    set Bottom = free
+    set Top    = free
+  end
+  )";
+
 
 
 /** A scene that can take steps. */
