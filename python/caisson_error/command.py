@@ -12,6 +12,7 @@ import math
 import os
 import re
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -23,9 +24,10 @@ from caisson.study import Options, Study, StudyError, StudyRun, execute
 from caisson.study_command import shares_of, to_do_of
 from caisson_design import disk
 from caisson_error import error_bar
+from caisson_error.windows import Window, WindowedRun, windows_of
 
 UNITS = {"s": 1, "min": 60, "h": 3600}
-TIMES_THE_SCENE = 3  # the budget, if none is given
+TIMES_THE_SCENE = 2  # the budget, if none is given
 CELLS = [2, 3, 4, 6, 8, 12, 16, 24]  # across the wall
 PLAIN = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0]  # of a body without cells across
 QUIET = {
@@ -65,8 +67,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson error-bar`."""
     add = parser.add_argument
     add("scene", type=scene_or_study, metavar="FILE.prm")
-    text = "time of all runs on one core, such as 30min or 2h; default: three times"
+    text = "time of all runs on one core, such as 30min or 2h; default: twice"
     add("--budget", type=seconds_of, metavar="TIME", help=f"{text} that of the scene")
+    text = "run the whole way of the scene, also where windows at some depths would do"
+    add("--whole", action="store_true", help=text)
     text = "the file to write, default: that of Output/Error bar, or FILE_error_bar.csv"
     add("--output", type=Path, metavar="CSV", help=text)
     add("--overwrite", action="store_true", help="replace the file if it is there")
@@ -86,13 +90,14 @@ def refinements(cells: int, even: bool) -> list[float]:
     return [n / cells for n in wanted if n == cells or n >= 2 and not (even and n % 2)]
 
 
-def chosen_meshes(known: list[float], seconds: float, budget: float) -> list[float]:
+def chosen_meshes(
+    known: list[float], seconds: float, budget: float, changes: float
+) -> list[float]:
     """Return the refinements that the budget (s) allows, where a run of the scene takes
-    some seconds: a run costs the cube of its refinement."""
+    some seconds: a run costs the cube of its refinement; changes: the cost of those
+    with other numerics over that of the coarsest."""
     chosen = [r for r in known if r <= 1]
-    left = budget - seconds * (
-        sum(r**3 for r in chosen) + COST_OF_CHANGES * min(chosen) ** 3
-    )
+    left = budget - seconds * (sum(r**3 for r in chosen) + changes * min(chosen) ** 3)
     for r in (r for r in known if r > 1):
         left -= seconds * r**3
         if left < 0:
@@ -142,18 +147,36 @@ class Plan:
         self.check_way()
         self.check_output()
         self.size = self.size_of_scene()
-        self.seconds = self.size.seconds
-        self.budget = arguments.budget or TIMES_THE_SCENE * self.seconds
+        self.budget = arguments.budget or TIMES_THE_SCENE * self.size.seconds
+        self.windows = [] if arguments.whole else windows_of(self.entries)
+        self.seconds = self.size.seconds * self.share_of_way()
         known = self.meshes()
-        self.chosen = chosen_meshes(known, self.seconds, self.budget)
+        changes = self.cost_of_changes
+        self.chosen = chosen_meshes(known, self.seconds, self.budget, changes)
         self.next = next((r for r in known if r not in self.chosen), 0.0)
         if len(self.chosen) < 2:
-            needed = self.seconds * (1 + COST_OF_CHANGES + self.next**3)
+            needed = self.seconds * (1 + self.cost_of_changes + self.next**3)
             raise StudyError(
                 f"{duration(self.budget)} is not enough for a second mesh. Set --budget"
                 f" {in_units(needed)}, or more cells across the wall: the coarser"
                 " meshes then cost little."
             )
+
+    def share_of_way(self) -> float:
+        """Return the share of the way of the scene that a run takes."""
+        if not self.windows:
+            return 1.0
+        last, length = self.windows[-1].depth, self.windows[0].length
+        start = float(self.entries["Rigid body/Initial penetration"])
+        return len(self.windows) * length / (last - start)
+
+    @property
+    def cost_of_changes(self) -> float:
+        """The cost of all runs with other numerics over that of one without. Windows
+        have them at one depth, and there the run without once more."""
+        if not self.windows:
+            return COST_OF_CHANGES
+        return (1 + COST_OF_CHANGES) / len(self.windows)
 
     def check_way(self) -> None:
         """Raise StudyError where the body is not pushed far enough."""
@@ -195,13 +218,20 @@ class Plan:
         """Return the size of a run on a mesh, where a step costs more by a factor."""
         return Size(round(self.size.points * r**2), cost * self.seconds * r**3)
 
-    def run(self, name: str, entries: dict[str, Any]) -> StudyRun:
-        """Return a run of the scene."""
-        directory = self.results / name.replace(" ", "_")
-        of_scene = Run(
-            self.scene, {**QUIET, **entries}, directory.resolve(), program=self.program
-        )
-        return StudyRun(self.scene.stem, name, "", "", 0, {}, of_scene)
+    def run(
+        self, name: str, entries: dict[str, Any], windows: Sequence[Window] = ()
+    ) -> StudyRun:
+        """Return a run of the scene, in windows if there are any."""
+        directory = (self.results / name.replace(" ", "_")).resolve()
+        changed = {**QUIET, **entries}
+        if not windows:
+            run = Run(self.scene, changed, directory, program=self.program)
+        else:
+            depths = [window.depth for window in self.windows]
+            run = WindowedRun(
+                self.scene, changed, directory, windows, depths, self.program
+            )
+        return StudyRun(self.scene.stem, name, "", "", 0, {}, run)
 
     def meshes(self) -> list[float]:
         """Return the refinements that fit the body and that the program accepts."""
@@ -248,7 +278,7 @@ class Plan:
 
     def run_on(self, r: float, name: str) -> StudyRun:
         """Return the run of a mesh."""
-        run = self.run(name, self.mesh(r))
+        run = self.run(name, self.mesh(r), self.windows)
         run.size = self.sized(r)
         return run
 
@@ -256,9 +286,15 @@ class Plan:
         """Return the runs with other numerics on a mesh, and their terms of the error
         bar; of: the name of the run of the mesh itself."""
         runs, terms = [], []
+        one = self.windows[len(self.windows) // 2 : len(self.windows) // 2 + 1]
+        share = 1 / max(1, len(self.windows))
+        if one:
+            of = "one window"
+            runs.append(self.run(of, self.mesh(r), one))
+            runs[-1].size = self.sized(r, share)
         for name, (entries, factor) in changes_of(self.entries).items():
-            runs.append(self.run(name, {**entries, **self.mesh(r)}))
-            runs[-1].size = self.sized(r, COST[name])
+            runs.append(self.run(name, {**entries, **self.mesh(r)}, one))
+            runs[-1].size = self.sized(r, COST[name] * share)
             terms.append({"name": name, "from": of, "to": name, "factor": factor})
         return runs, terms
 
@@ -280,9 +316,14 @@ class Plan:
             raise StudyError(f"{missing[0].name}: {missing[0].trouble}")
 
 
-def set_depths(study: Study) -> None:
-    """Set the depths of the bar: all that the run of the scene passes on its way down,
-    without half a window at both ends and without the first 0.3 m."""
+def set_depths(study: Study, windows: Sequence[Window]) -> None:
+    """Set the depths of the bar: those of the windows, or all that the run of the scene
+    passes on its way down, without half a window at both ends and without the first
+    0.3 m."""
+    if windows:
+        first, second, last = windows[0].depth, windows[1].depth, windows[-1].depth
+        study.keys["depths"] = [first, last, second - first]
+        return
     depth = study.run("default").results.history["penetration_m"]
     first, last = depth[0] + 0.3, depth.max() - 0.1
     if last < first:
@@ -326,7 +367,7 @@ def main(arguments: argparse.Namespace) -> int:
         if not arguments.overwrite:
             plan.check_free(study.runs)
         plan.execute(study.runs, arguments.again)
-        set_depths(study)
+        set_depths(study, plan.windows)
         with disk.all_or_none(arguments.overwrite):
             error_bar.evaluate([study], Options(), 0)
         advise(plan, study)

@@ -18,7 +18,6 @@ from caisson.progress import duration
 from caisson.study import Options, Study, StudyError, StudyRun
 from caisson_error import error_bar
 from caisson_error.command import (
-    COST_OF_CHANGES,
     INERTIA,
     POINTS,
     SIDES,
@@ -64,6 +63,7 @@ class Search:
                 results=directory,
                 output=directory.parent / f"{directory.name}.csv",
                 budget=np.inf,
+                whole=False,
             )
         )
         self.left = budget
@@ -73,7 +73,11 @@ class Search:
 
     def cost(self, r: float) -> float:
         """Return how long the next mesh takes on one core (s)."""
-        return self.plan.seconds * r**3 * (1 if self.runs else 1 + COST_OF_CHANGES)
+        return (
+            self.plan.seconds
+            * r**3
+            * (1 if self.runs else 1 + self.plan.cost_of_changes)
+        )
 
     def add_mesh(self, r: float) -> None:
         """Run a mesh; the first one also with other numerics. Raises StudyError."""
@@ -99,7 +103,7 @@ class Search:
         ]
         keys = {"errors": self.errors, "output": str(self.bar_file)}
         study = Study(plan.scene.stem, plan.scene.stem, plan.scene, runs, keys)
-        set_depths(study)
+        set_depths(study, plan.windows)
         return study
 
     @property

@@ -11,9 +11,11 @@ from pathlib import Path
 import numpy as np
 from synthetic import write_run
 
-from caisson.results import ResultsError, Table, read_table
+from caisson import curves
+from caisson.results import Results, ResultsError, Table, read_table
+from caisson.runner import Entries
 from caisson.study import Options, Reader, Study, StudyError
-from caisson_error import command, error_bar
+from caisson_error import command, error_bar, windows
 from caisson_error.mesh_error import mesh_error
 from lab import verification
 
@@ -237,11 +239,12 @@ class Plan(unittest.TestCase):
     def test_budget(self) -> None:
         """The mesh of the scene, then all coarser ones, then finer ones while the cube
         of the refinement is paid for."""
-        chosen = command.chosen_meshes([0.5, 1.0, 1.5, 2.0], 100.0, 300.0)
-        self.assertEqual(chosen, [0.5, 1.0])
-        chosen = command.chosen_meshes([0.5, 1.0, 1.5, 2.0], 100.0, 700.0)
-        self.assertEqual(chosen, [0.5, 1.0, 1.5])
-        self.assertEqual(command.chosen_meshes([1.0, 2.0], 100.0, 300.0), [1.0])
+        meshes, changes = [0.5, 1.0, 1.5, 2.0], 6.3
+        for budget, number in (300, 2), (700, 3):
+            chosen = command.chosen_meshes(meshes, 100.0, budget, changes)
+            self.assertEqual(chosen, meshes[:number])
+        chosen = command.chosen_meshes([1.0, 2.0], 100.0, 300.0, changes)
+        self.assertEqual(chosen, [1.0])
 
     def test_durations(self) -> None:
         for text, seconds in {
@@ -254,6 +257,69 @@ class Plan(unittest.TestCase):
         for text in ("30", "1.2.3min", "0s"):
             with self.assertRaises(argparse.ArgumentTypeError):
                 command.seconds_of(text)
+
+
+class Windows(unittest.TestCase):
+    """Short ways instead of a long one."""
+
+    THIN: Entries = {
+        "Rigid body/Kind": "caisson",
+        "Rigid body/Motion": "prescribed",
+        "Rigid body/Outer diameter": "8",
+        "Rigid body/Wall thickness": "0.03",
+        "Rigid body/Velocity": "0.1",
+        "Rigid body/Initial penetration": "0.5",
+        "Time/End penetration": "7.5",
+        "Time/Inertia tolerance": "0.8",
+    }
+
+    def test_choice(self) -> None:
+        """At four depths, the last of them the end; none where they are no shorter
+        than the way, without a wall, or without a known speed."""
+        found = windows.windows_of(self.THIN)
+        depths = [window.depth for window in found]
+        np.testing.assert_allclose(depths, [2.25, 4, 5.75, 7.5])
+        np.testing.assert_allclose(found[0].length, 0.36)
+        for other in (
+            {"Rigid body/Wall thickness": "0.2"},
+            {"Rigid body/Kind": "box"},
+            {"Rigid body/Motion": "by loads"},
+            {"Rigid body/Velocity": "0.1, 0.2"},
+            {"Time/End penetration": "never"},
+        ):
+            self.assertEqual(windows.windows_of({**self.THIN, **other}), [])
+
+    def test_inertia(self) -> None:
+        """In the middle of the mean it is that of the scene: the program gives a share
+        of the way over a third of the radius, at least 0.15."""
+        (window, *_) = windows.windows_of(self.THIN)
+        changed = window.entries(self.THIN)
+        share = 0.3 / (4 / 3)
+        self.assertAlmostEqual(changed["Time/Inertia tolerance"], 0.8 / share)
+        short = windows.Window(1.0, 1.12).entries(self.THIN)
+        self.assertAlmostEqual(short["Time/Inertia tolerance"], 0.8 / 0.15)
+
+    def test_history(self) -> None:
+        """Each depth has the means over the last third of its window."""
+        with tempfile.TemporaryDirectory() as folder:
+            results = []
+            for i, force in enumerate((100.0, 300.0)):
+                depth = np.linspace(0.64, 1.0, 37) + i
+                rising = np.where(depth > depth[-1] - 0.1201, force, 0)
+                history = {"time_s": depth, "penetration_m": depth, "F": rising}
+                place = Path(folder, str(i))
+                write_run(place, history, {"entries": {}, "wall_time_s": 2.0})
+                results.append(Results(place))
+            run = windows.WindowedRun.__new__(windows.WindowedRun)
+            run.directory, run.entries = Path(folder), {}
+            run.windows = [windows.Window(0.64 + i, 1.0 + i) for i in (0, 1)]
+            run.depths = [1.0, 2.0, 3.0]
+            run.write(results, "f00d")
+            found = Results(run.directory)
+            means = curves.forces_at(found.history, "F", np.array(run.depths))
+            np.testing.assert_allclose(means, [100, 300, 300])
+            self.assertEqual(found.summary["wall_time_s"], 4.0)
+            self.assertEqual(found.summary["fingerprint"], "f00d")
 
 
 if __name__ == "__main__":

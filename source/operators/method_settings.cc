@@ -19,11 +19,13 @@ namespace CaissonMPM
       {"PIC", VelocityTransfer::pic},
       {"FLIP", VelocityTransfer::flip},
       {"blend", VelocityTransfer::blend}};
-    const Choices<StressUpdate> stress_updates = {{"MUSL", StressUpdate::musl},
-                                                  {"USL", StressUpdate::usl}};
-    const Choices<ForceIntegration> integrations = {
-      {"Gauss in full cells", ForceIntegration::gauss_in_full_cells},
-      {"material points", ForceIntegration::material_points}};
+    const Choices<StressUpdate>     stress_updates = {{"auto",
+                                                       StressUpdate::automatic},
+                                                      {"MUSL", StressUpdate::musl},
+                                                      {"USL", StressUpdate::usl}};
+    const Choices<ForceIntegration> integrations   = {
+        {"Gauss in full cells", ForceIntegration::gauss_in_full_cells},
+        {"material points", ForceIntegration::material_points}};
     const Choices<Kernels::PressureSlope> pressure_fits = {
       {"auto", Kernels::PressureSlope::by_dilation},
       {"affine", Kernels::PressureSlope::acts},
@@ -67,14 +69,15 @@ namespace CaissonMPM
                        "Elsewhere it is 0.95. "
                        "Units: none.",
                        Patterns::Double(0., 1.));
-    add_choice(*this,
-               "Stress update",
-               stress_update,
-               stress_updates,
-               "MUSL strains the points with the velocities that the updated "
-               "points bring back to the nodes, and USL with the new nodal "
-               "velocities. With USL, an inertia tolerance scales the mass "
-               "selectively. Units: none.");
+    add_choice(
+      *this,
+      "Stress update",
+      stress_update,
+      stress_updates,
+      "MUSL strains the points with the velocities that the updated "
+      "points bring back to the nodes, and USL with the new nodal "
+      "velocities; auto is USL with an inertia tolerance, and else MUSL. "
+      "Units: none.");
   }
 
   void
@@ -150,6 +153,18 @@ namespace CaissonMPM
                   "Units: none.",
                   prm,
                   Patterns::Double(0.01, 1.));
+  }
+
+  void
+  MethodSettings::choose_stress_update(const bool scales_selectively)
+  {
+    if (stress_update == StressUpdate::automatic)
+      stress_update =
+        scales_selectively ? StressUpdate::usl : StressUpdate::musl;
+    if (scales_selectively && uses_musl())
+      throw BadInput("Method/Stress update = MUSL is unstable with "
+                     "Time/Inertia tolerance. Set it to auto, or the tolerance "
+                     "to none.");
   }
 
   void

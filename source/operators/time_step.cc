@@ -45,11 +45,10 @@ namespace CaissonMPM
       "is this share of the initial vertical effective stress "
       "at the tip or, if no soil has friction, of half the least strength "
       "from there to four wall thicknesses above, "
-      "0.1 to 0.4 as a rule. The scaling follows the "
+      "0.4 to 1.6 as a rule. The scaling follows the "
       "penetration. Larger cells get less of it, and cells that the tip "
-      "bends get more. With Method/Stress update = USL it resists the "
-      "deformation of cells, and hardly their translation. Mass scaling must "
-      "then be 1. "
+      "bends get more. The scaled inertia resists the deformation of cells, "
+      "and hardly their translation. Mass scaling must then be 1. "
       "Units: none.",
       Patterns::Double(1e-6, 10.));
   }
@@ -99,12 +98,12 @@ namespace CaissonMPM
   std::vector<std::string>
   TimeStep::known_limits() const
   {
-    constexpr double usual = 1.;
+    constexpr double usual = 2.;
     if (!tolerance || *tolerance <= usual)
       return {};
     return {"Time/Inertia tolerance above " + to_text(usual) +
-            " was found to raise the tip force by 8 % with 2 and by 30 to 70 % "
-            "with 10; 0.1 to 0.4 are usual"};
+            " was found to raise the total force by 4 to 8 % with 6; 0.4 to "
+            "1.6 are usual"};
   }
 
   double
@@ -272,8 +271,7 @@ namespace CaissonMPM
     // 2. cells with points: of the fastest wave in them
     for (const unsigned int cell : points.cells_with_points())
       set(cell, largest_in(points, cell, squares));
-    if (is_selective)
-      translation = factors_of_translation(grid, inertia_);
+    translation = factors_of_translation(grid, inertia_);
   }
 
   void

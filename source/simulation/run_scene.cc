@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/fingerprint.h>
 #include <caisson_mpm/base/parameter_file.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/materials/like_layer.h>
+#include <caisson_mpm/simulation/physics_text.h>
 #include <caisson_mpm/simulation/run_scene.h>
 #include <caisson_mpm/simulation/simulation.h>
 
@@ -26,6 +28,9 @@ namespace CaissonMPM
       for (const std::string &text : origins.warnings())
         out << "# warning: " << printable(text) << '\n';
       out << entries;
+      if (word.empty())
+        out << "# fingerprint: " << fingerprint_of(changed_physics(prm))
+            << '\n';
     }
 
     /** Print the warnings, each with the places of the entries that it names.

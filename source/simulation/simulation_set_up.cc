@@ -84,6 +84,7 @@ namespace CaissonMPM
     boundary_conditions.check_parameters(lines);
     water->check_parameters();
     nodal_forces.check_parameters();
+    nodal_motion.choose_stress_update(time_step.has_inertia_tolerance());
     nodal_motion.settings().check_parameters();
     check_inertia_tolerance();
     const WaterTraits &traits = water->traits();
@@ -105,8 +106,6 @@ namespace CaissonMPM
       throw BadInput("Method/Instruction set = " + instruction_set +
                      ": this CPU does not have it. Set auto.");
     place_lines();
-    // MUSL is unstable beside cells whose inertia is lumped
-    time_step.scale_selectively(!nodal_motion.settings().uses_musl());
     nodal_motion.choose_flip_fraction(!soil.is_elastic_until_it_yields() ||
                                       strains_water ||
                                       body.motion().follows_loads());

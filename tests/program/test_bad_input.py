@@ -98,6 +98,10 @@ CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
     (["Tip angle", "Reduce"], {f"{BODY}/Skirt length": 0.05}),
     (["End penetration", "0.4"], {"Time/End penetration": 0.4}),
     (["no end"], {"Time/End penetration": 0, "Time/End time": 0}),
+    (
+        ["Stress update = MUSL is unstable", "Set it to auto, or the tolerance"],
+        {"Method/Stress update": "MUSL", "Time/Inertia tolerance": 0.4},
+    ),
     (["no end"], {f"{BODY}/Velocity": 0}),
     (
         ["moves up", "0.375 m", "stretch"],

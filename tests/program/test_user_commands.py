@@ -210,7 +210,7 @@ class Suggest(CommandTest):
         self.assertIn("Adhesion factor of the walls = 0.5 # ASSUMED", text)
 
     def test_inertia_tolerance(self) -> None:
-        """It is smaller for a smaller error, and warned of above 1. A large mass
+        """It is smaller for a smaller error, and warned of above 2. A large mass
         scaling instead of it is warned of, and a larger one where the stiffness of all
         soil grows with its stress."""
         path = self.made_directory()
@@ -218,13 +218,13 @@ class Suggest(CommandTest):
         stiff = soft.replace(" with stiffness by stress", "")
         self.assertNotIn("warning", "".join(self.suggest(path / "soft.prm", soft)))
         text = (path / "soft.prm").read_text(encoding="utf-8")
-        self.assertRegex(text, r"Inertia tolerance *= 0.4\b")
+        self.assertRegex(text, r"Inertia tolerance *= 1.6\b")
         self.suggest(path / "fine.prm", soft, error=5)
         fine = (path / "fine.prm").read_text(encoding="utf-8")
-        self.assertRegex(fine, r"Inertia tolerance *= 0.2\b")
-        large = ["--validate", "--set", "Time/Inertia tolerance=2"]
+        self.assertRegex(fine, r"Inertia tolerance *= 0.4\b")
+        large = ["--validate", "--set", "Time/Inertia tolerance=6"]
         said = query([str(path / "soft.prm"), *large], PROGRAM)
-        self.assertIn("Inertia tolerance above 1", said)
+        self.assertIn("Inertia tolerance above 2", said)
         self.assertIn("above 400", self.said(path / "soft.prm", 401))
         self.suggest(path / "stiff.prm", stiff)
         self.assertIn("above 100", self.said(path / "stiff.prm", 400))

@@ -46,8 +46,9 @@ namespace CaissonMPM
   /** Which nodal velocities strain the points. */
   enum class StressUpdate
   {
-    musl, // those that the updated points bring back
-    usl   // the new nodal velocities
+    automatic, // usl with an inertia tolerance, else musl
+    musl,      // those that the updated points bring back
+    usl        // the new nodal velocities
   };
 
   /** Where the internal force is integrated. */
@@ -73,6 +74,12 @@ namespace CaissonMPM
     void
     name_unused_entries(ParameterOrigins &origins) const;
 
+    /** Choose the velocities that strain the points. MUSL is unstable beside
+     * cells whose inertia is lumped: where masses are scaled selectively, it is
+     * no choice. Throws BadInput. */
+    void
+    choose_stress_update(const bool scales_selectively);
+
     /** Choose the share of FLIP where it is not set. As a rule the lost work of
      * the blend is the larger error. In a scene that @p vibrates it is the
      * vibrations: of hypoplastic sand, of water that follows the soil, of a
@@ -94,7 +101,7 @@ namespace CaissonMPM
     bool
     uses_musl() const
     {
-      return stress_update == StressUpdate::musl;
+      return stress_update != StressUpdate::usl;
     }
 
     bool
@@ -134,7 +141,7 @@ namespace CaissonMPM
     declare_stability();
 
     VelocityTransfer transfer           = VelocityTransfer::blend;
-    StressUpdate     stress_update      = StressUpdate::musl;
+    StressUpdate     stress_update      = StressUpdate::automatic;
     ForceIntegration force_integration  = ForceIntegration::gauss_in_full_cells;
     Kernels::PressureSlope pressure_fit = Kernels::PressureSlope::by_dilation;
     unsigned int           xpic_order   = 2;

@@ -104,6 +104,12 @@ namespace CaissonMPM
                   Kernels::UpdateResult   &result);
 
     void
+    choose_stress_update(const bool scales_selectively)
+    {
+      settings_.choose_stress_update(scales_selectively);
+    }
+
+    void
     choose_flip_fraction(const bool vibrates)
     {
       settings_.choose_flip_fraction(vibrates);

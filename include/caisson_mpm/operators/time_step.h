@@ -51,14 +51,6 @@ namespace CaissonMPM
       return tolerance.has_value();
     }
 
-    /** Give the scaling to the deformation of cells alone; see SelectiveMass.
-     */
-    void
-    scale_selectively(const bool on)
-    {
-      is_selective = on;
-    }
-
     /** Let the tolerance refer to this: the initial stress at the tip over
      * density times the square of the speed of the body. It is asked for
      * whenever the limit is found, and is the same on all ranks. */
@@ -94,9 +86,7 @@ namespace CaissonMPM
     const double *
     inertia_of_translation() const
     {
-      const std::vector<double> &factors =
-        is_selective ? translation : inertia_;
-      return factors.empty() ? nullptr : factors.data();
+      return translation.empty() ? nullptr : translation.data();
     }
 
     /** The factor of the inertia of each cell's deformation, see
@@ -104,7 +94,7 @@ namespace CaissonMPM
     const double *
     inertia_of_deformation() const
     {
-      return is_selective && !inertia_.empty() ? inertia_.data() : nullptr;
+      return inertia_.empty() ? nullptr : inertia_.data();
     }
 
     /** Find the step at the start or after a restart. Throws BadInput where a
@@ -214,8 +204,7 @@ namespace CaissonMPM
     double                limit = 0., limit_of_soil = 0.; // s
     // of all ranks; infinite where a zone has no points
     std::array<double, GridLines::n_zones> limit_of_zone;
-    int                     age          = 0; // steps since the limit was found
-    bool                    is_selective = false;
+    int                     age = 0; // steps since the limit was found
     std::string             limiting_cell;
     std::function<double()> stress_over_inertia_at_tip;
     double                  inertia_at_tip_ = 1.;

@@ -33,10 +33,10 @@ class Level:
 LEVELS = {
     level.error: level
     for level in (
-        Level(20, cells=2, levels=1, inertia_tolerance=0.4, far=1, growth=1.2),
-        Level(10, cells=4, levels=2, inertia_tolerance=0.4, far=1, growth=1.2),
-        Level(5, cells=8, levels=3, inertia_tolerance=0.2, far=0.5, growth=1.1),
-        Level(2, cells=16, levels=4, inertia_tolerance=0.1, far=0.25, growth=1.05),
+        Level(20, cells=2, levels=1, inertia_tolerance=1.6, far=1, growth=1.2),
+        Level(10, cells=4, levels=2, inertia_tolerance=0.8, far=1, growth=1.2),
+        Level(5, cells=8, levels=3, inertia_tolerance=0.4, far=0.5, growth=1.1),
+        Level(2, cells=16, levels=4, inertia_tolerance=0.2, far=0.25, growth=1.05),
     )
 }
 
