@@ -123,7 +123,7 @@ class Progress:
         text = f"{n_done} of {len(self.expected)} runs, {100 * share:.0f} %"
         if n_done or is_told:  # else it is not known how good the expectations are
             left = (time.monotonic() - self.begin) * (1 - share) / share
-            text += f", about {duration(left)} left"
+            text += f", about {duration(max(left, 0))} left"
         return share, text
 
     def line(self, width: int) -> str:

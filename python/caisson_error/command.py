@@ -24,7 +24,7 @@ from caisson.study import Options, Study, StudyError, StudyRun, execute
 from caisson.study_command import shares_of, to_do_of
 from caisson_design import disk
 from caisson_error import error_bar
-from caisson_error.windows import Window, WindowedRun, windows_of
+from caisson_error.windows import NUMBERS, Window, WindowedRun, windows_of
 
 UNITS = {"s": 1, "min": 60, "h": 3600}
 TIMES_THE_SCENE = 2  # the budget, if none is given
@@ -148,11 +148,8 @@ class Plan:
         self.check_output()
         self.size = self.size_of_scene()
         self.budget = arguments.budget or TIMES_THE_SCENE * self.size.seconds
-        self.windows = [] if arguments.whole else windows_of(self.entries)
-        self.seconds = self.size.seconds * self.share_of_way()
         known = self.meshes()
-        changes = self.cost_of_changes
-        self.chosen = chosen_meshes(known, self.seconds, self.budget, changes)
+        self.choose(known, (0,) if arguments.whole else NUMBERS)
         self.next = next((r for r in known if r not in self.chosen), 0.0)
         if len(self.chosen) < 2:
             needed = self.seconds * (1 + self.cost_of_changes + self.next**3)
@@ -161,6 +158,17 @@ class Plan:
                 f" {in_units(needed)}, or more cells across the wall: the coarser"
                 " meshes then cost little."
             )
+
+    def choose(self, known: list[float], numbers: Sequence[int]) -> None:
+        """Choose the first of these numbers of windows that leaves a part of the budget
+        for a second mesh, the last one where none does, and the meshes."""
+        for number in numbers:
+            self.windows = windows_of(self.entries, number)
+            self.seconds = self.size.seconds * self.share_of_way()
+            changes = self.cost_of_changes
+            self.chosen = chosen_meshes(known, self.seconds, self.budget, changes)
+            if len(self.chosen) > 1:
+                break
 
     def share_of_way(self) -> float:
         """Return the share of the way of the scene that a run takes."""

@@ -352,7 +352,7 @@ def chosen_depths(depths: np.ndarray) -> list[int]:
     """Return the numbers of some round depths [n] for a table."""
     wanted = curves.round_depths(depths)
     wanted = wanted[:: max(1, round(len(wanted) / 6))]
-    return [int(np.argmin(abs(depths - depth))) for depth in wanted]
+    return sorted({int(np.argmin(abs(depths - depth))) for depth in wanted})
 
 
 def depths_of(study: Study) -> np.ndarray:

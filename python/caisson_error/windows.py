@@ -26,7 +26,7 @@ from caisson.runner import Entries, Run, Status, query, read_parameters, set_opt
 from caisson_design import disk
 
 WIDTHS, SHARE_OF_MEAN = 12.0, 1 / 3
-NUMBER = 4
+NUMBERS = 4, 3, 2  # of windows, the first as a rule
 MOST = 0.5  # of the way of the scene: else its whole way costs little more
 ROWS = 20  # of history.csv in a mean
 # Simulation::stress_over_inertia_at_tip(): the tolerance over the way in radii
@@ -74,10 +74,10 @@ class Window:
         return changed
 
 
-def windows_of(scene: Entries) -> list[Window]:
-    """Return the windows of a scene by its entries: none of a body without a wall or
-    with another way than one down to a depth at one speed, and of a way that is hardly
-    longer than they are."""
+def windows_of(scene: Entries, number: int) -> list[Window]:
+    """Return so many windows of a scene by its entries: none of a body without a wall
+    or with another way than one down to a depth at one speed, and of a way that is
+    hardly longer than they are."""
     names = ["Rigid body/Wall thickness", "Rigid body/Velocity"]
     names += ["Rigid body/Initial penetration", "Time/End penetration"]
     try:
@@ -87,9 +87,9 @@ def windows_of(scene: Entries) -> list[Window]:
     length = WIDTHS * thickness
     prescribed = scene["Rigid body/Motion"] == "prescribed" and speed > 0
     hollow = scene["Rigid body/Kind"] == "caisson"
-    if not (hollow and prescribed) or NUMBER * length > MOST * (end - start):
+    if not (hollow and prescribed) or number * length > MOST * (end - start):
         return []
-    depths = start + (end - start) * np.arange(1, NUMBER + 1) / NUMBER
+    depths = start + (end - start) * np.arange(1, number + 1) / max(number, 1)
     return [Window(float(depth) - length, float(depth)) for depth in depths]
 
 

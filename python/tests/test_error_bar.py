@@ -276,7 +276,7 @@ class Windows(unittest.TestCase):
     def test_choice(self) -> None:
         """At four depths, the last of them the end; none where they are no shorter
         than the way, without a wall, or without a known speed."""
-        found = windows.windows_of(self.THIN)
+        found = windows.windows_of(self.THIN, 4)
         depths = [window.depth for window in found]
         np.testing.assert_allclose(depths, [2.25, 4, 5.75, 7.5])
         np.testing.assert_allclose(found[0].length, 0.36)
@@ -287,12 +287,12 @@ class Windows(unittest.TestCase):
             {"Rigid body/Velocity": "0.1, 0.2"},
             {"Time/End penetration": "never"},
         ):
-            self.assertEqual(windows.windows_of({**self.THIN, **other}), [])
+            self.assertEqual(windows.windows_of({**self.THIN, **other}, 4), [])
 
     def test_inertia(self) -> None:
         """In the middle of the mean it is that of the scene: the program gives a share
         of the way over a third of the radius, at least 0.15."""
-        (window, *_) = windows.windows_of(self.THIN)
+        (window, *_) = windows.windows_of(self.THIN, 2)
         changed = window.entries(self.THIN)
         share = 0.3 / (4 / 3)
         self.assertAlmostEqual(changed["Time/Inertia tolerance"], 0.8 / share)
