@@ -8,6 +8,8 @@ its further keys:
 
     must_fail = true          it must not pass
     largest_residual = 0.05   the known limit of the residual, as a share
+    largest_lean = 0.1        by how much the normal stress on the inner wall near the
+                              tip may differ from that on the outer one, as a share
     why = "limitations.md"    where that is explained
 """
 import math
@@ -25,7 +27,7 @@ from caisson.study import Options, Study, StudyRun
 from caisson_design import disk
 
 NAME = "stability"
-STUDY_KEYS = {"must_fail", "largest_residual", "why"}
+STUDY_KEYS = {"must_fail", "largest_residual", "largest_lean", "why"}
 RUN_KEYS = set[str]()
 TIME_LIMIT = 600.0  # s, of a run
 RESIDUAL = 0.01
@@ -82,6 +84,22 @@ def reason_in(log: Path) -> str:
     return match.group() if match else ""
 
 
+def lean_of(results: Results) -> float:
+    """Return the mean normal stress on the inner wall over that on the outer one, less
+    1, from 0.05 to 0.25 m above the tip and over the last 0.15 m of the way."""
+    walls = results.walls
+    above_tip = walls["penetration_m"] - walls["depth_m"]
+    used = (above_tip > 0.05) & (above_tip < 0.25)
+    used &= walls["penetration_m"] > walls["penetration_m"].max() - 0.15
+    inner, outer = (
+        np.average(
+            walls[f"{side}_normal_stress_Pa"], weights=used * walls[f"{side}_area_m2"]
+        )
+        for side in ("inner", "outer")
+    )
+    return float(inner / outer - 1)
+
+
 def faults_of(run: StudyRun, seen: Seen | None) -> list[str]:
     """Return all that does not pass."""
     reason = reason_in(run.run.directory / "log")
@@ -96,6 +114,10 @@ def faults_of(run: StudyRun, seen: Seen | None) -> list[str]:
         faults.append("points in the body")
     if not abs(seen.residual) <= run.settings.get("largest_residual", RESIDUAL):
         faults.append("energy")
+    if "largest_lean" in run.settings:
+        lean = lean_of(run.results)
+        if not abs(lean) <= run.settings["largest_lean"]:
+            faults.append(f"leans by {100 * lean:.0f} %")
     return faults
 
 
