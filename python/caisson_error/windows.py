@@ -86,6 +86,7 @@ def windows_of(scene: Entries, number: int) -> list[Window]:
         return []
     length = WIDTHS * thickness
     prescribed = scene["Rigid body/Motion"] == "prescribed" and speed > 0
+    prescribed &= scene["Rigid body/Velocity table"] == ""
     hollow = scene["Rigid body/Kind"] == "caisson"
     if not (hollow and prescribed) or number * length > MOST * (end - start):
         return []

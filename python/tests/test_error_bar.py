@@ -268,6 +268,7 @@ class Windows(unittest.TestCase):
         "Rigid body/Outer diameter": "8",
         "Rigid body/Wall thickness": "0.03",
         "Rigid body/Velocity": "0.1",
+        "Rigid body/Velocity table": "",
         "Rigid body/Initial penetration": "0.5",
         "Time/End penetration": "7.5",
         "Time/Inertia tolerance": "0.8",
@@ -284,7 +285,7 @@ class Windows(unittest.TestCase):
             {"Rigid body/Wall thickness": "0.2"},
             {"Rigid body/Kind": "box"},
             {"Rigid body/Motion": "by loads"},
-            {"Rigid body/Velocity": "0.1, 0.2"},
+            {"Rigid body/Velocity table": "0, 0.1 ; 5, 0.2"},
             {"Time/End penetration": "never"},
         ):
             self.assertEqual(windows.windows_of({**self.THIN, **other}, 4), [])
