@@ -77,7 +77,8 @@ class Files(unittest.TestCase):
                 )
             for line in said.getvalue().splitlines():
                 self.assertTrue(Path(line.removeprefix("compare: ")).is_file(), line)
-            self.assertEqual(Path(line.removeprefix("compare: ")).parent, self.path)
+            where = Path(line.removeprefix("compare: ")).resolve().parent
+            self.assertEqual(where, self.path.resolve())
         (self.path / "comparison_a_b.csv").write_text("mine")
         with contextlib.redirect_stderr(io.StringIO()) as said:
             words = parser.parse_args([*map(str, runs[:2])])
