@@ -73,7 +73,7 @@ def see(results: Results) -> Seen:
         residual=last(history, "energy_residual"),
         limiter=last(history, "limiter_count"),
         added_mass=float(history["added_mass_kg"].max()) / mass,
-        in_body=int(history["points_in_body"].max()),
+        in_body=int(np.max(history.get("points_in_body", 0))),  # a scene without one
         finite=all(bool(np.isfinite(column).all()) for column in history.values()),
     )
 
