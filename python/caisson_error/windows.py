@@ -28,6 +28,7 @@ from caisson_design import disk
 WIDTHS, SHARE_OF_MEAN = 12.0, 1 / 3
 NUMBERS = 4, 3, 2  # of windows, the first as a rule
 MOST = 0.5  # of the way of the scene: else its whole way costs little more
+LEAST_WAY = 6 * curves.FORCE_WINDOW  # m: the means of two depths must not overlap
 ROWS = 20  # of history.csv in a mean
 # Simulation::stress_over_inertia_at_tip(): the tolerance over the way in radii
 FIRST_SHARE, WHOLE_AFTER = 0.15, 1 / 3
@@ -77,7 +78,7 @@ class Window:
 def windows_of(scene: Entries, number: int) -> list[Window]:
     """Return so many windows of a scene by its entries: none of a body without a wall
     or with another way than one down to a depth at one speed, and of a way that is
-    hardly longer than they are."""
+    short or hardly longer than they are."""
     names = ["Rigid body/Wall thickness", "Rigid body/Velocity"]
     names += ["Rigid body/Initial penetration", "Time/End penetration"]
     try:
@@ -88,7 +89,8 @@ def windows_of(scene: Entries, number: int) -> list[Window]:
     prescribed = scene["Rigid body/Motion"] == "prescribed" and speed > 0
     prescribed &= scene["Rigid body/Velocity table"] == ""
     hollow = scene["Rigid body/Kind"] == "caisson"
-    if not (hollow and prescribed) or number * length > MOST * (end - start):
+    is_long = end - start >= max(LEAST_WAY, number * length / MOST)
+    if not (hollow and prescribed and is_long):
         return []
     depths = start + (end - start) * np.arange(1, number + 1) / max(number, 1)
     return [Window(float(depth) - length, float(depth)) for depth in depths]

@@ -287,6 +287,7 @@ class Windows(unittest.TestCase):
             {"Rigid body/Motion": "by loads"},
             {"Rigid body/Velocity table": "0, 0.1 ; 5, 0.2"},
             {"Time/End penetration": "never"},
+            {"Rigid body/Wall thickness": "0.003", "Time/End penetration": "1.5"},
         ):
             self.assertEqual(windows.windows_of({**self.THIN, **other}, 4), [])
 
