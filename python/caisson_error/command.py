@@ -233,9 +233,8 @@ class Plan:
         """Return a run of the scene, in windows if there are any."""
         directory = (self.results / name.replace(" ", "_")).resolve()
         changed = {**QUIET, **entries}
-        if not windows:
-            run = Run(self.scene, changed, directory, program=self.program)
-        else:
+        run = Run(self.scene, changed, directory, program=self.program)
+        if windows:
             depths = [window.depth for window in self.windows]
             run = WindowedRun(
                 self.scene, changed, directory, windows, depths, self.program
@@ -295,7 +294,8 @@ class Plan:
         """Return the runs with other numerics on a mesh, and their terms of the error
         bar; of: the name of the run of the mesh itself."""
         runs, terms = [], []
-        one = self.windows[len(self.windows) // 2 : len(self.windows) // 2 + 1]
+        middle = len(self.windows) // 2
+        one = self.windows[middle : middle + 1]
         share = 1 / max(1, len(self.windows))
         if one:
             of = "one window"

@@ -20,7 +20,6 @@ from typing import Any
 import numpy as np
 
 from caisson import curves, table
-from caisson.ranks import Size
 from caisson.results import Results, Table
 from caisson.runner import Entries, Run, Status, query, read_parameters, set_options
 from caisson_design import disk
@@ -127,13 +126,6 @@ class WindowedRun(Run):
         """A hash of what the results depend on."""
         text = json.dumps([self.depths, *(part.key for part in self.parts)])
         return hashlib.sha256(text.encode()).hexdigest()
-
-    def validate(self) -> Size:
-        """Return the size of all parts; see Run."""
-        sizes = [part.validate() for part in self.parts]
-        return Size(
-            max(size.points for size in sizes), sum(size.seconds for size in sizes)
-        )
 
     def share_done(self, elapsed: float) -> float:
         """Return what part is over."""
