@@ -339,8 +339,7 @@ namespace CaissonMPM
                    node_z[n[2]] - left,
                    node_z[n[3]] - right};
       }
-    is_prepared          = true;
-    vertices_are_current = false;
+    is_prepared = true;
   }
 
   void
@@ -349,6 +348,8 @@ namespace CaissonMPM
     Assert(is_prepared, ExcMessage("prepare_motion() must come first"));
     is_prepared = false;
     current     = 1 - current;
+    for (const auto &[node, vertex] : vertices)
+      *vertex = Point<dim>(node_r[node], node_z[node]);
   }
 
   void
@@ -356,24 +357,6 @@ namespace CaissonMPM
   {
     prepare_motion(travel);
     advance();
-  }
-
-  void
-  BackgroundGrid::write_vertices()
-  {
-    Assert(!is_prepared, ExcMessage("advance() must follow prepare_motion()"));
-    for (const auto &vertex : vertices)
-      *vertex.second = Point<dim>(node_r[vertex.first], node_z[vertex.first]);
-    vertices_are_current = true;
-  }
-
-  const Mapping<BackgroundGrid::dim> &
-  BackgroundGrid::mapping() const
-  {
-    Assert(vertices_are_current,
-           ExcMessage("write_vertices() must be called before deal.II reads "
-                      "the geometry"));
-    return mapping_;
   }
 
   Kernels::GridView

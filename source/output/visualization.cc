@@ -118,14 +118,13 @@ namespace CaissonMPM
   }
 
   void
-  Visualization::write_frame(BackgroundGrid       &grid,
+  Visualization::write_frame(const BackgroundGrid &grid,
                              const MaterialPoints &points,
                              const RigidBody      &body,
                              const Soil           &soil,
                              const bool            with_pore_pressure,
                              const double          time)
   {
-    grid.write_vertices();
     // after a restart the frame of this time may be there already
     drop_frames_from(time);
     const unsigned int number       = next_number();

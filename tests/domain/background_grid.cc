@@ -41,7 +41,6 @@ check_mesh(const std::string &upper, const bool fixed_top)
 
   s.grid.prepare_motion(d);
   s.grid.advance();
-  s.grid.write_vertices();
   double        motion = 0., vertices = 0., smallest = 1e9;
   std::set<int> zones;
   const double  zone_bottom = -2.5;
@@ -227,7 +226,6 @@ check_cylinder()
           1e-12);
   s.grid.prepare_motion(d);
   s.grid.advance();
-  s.grid.write_vertices();
   double motion = 0., vertices = 0., finest = 1e9, next = 0.;
   for (unsigned int c = 0; c < s.grid.n_cells(); ++c)
     for (unsigned int k = 0; k < 4; ++k)

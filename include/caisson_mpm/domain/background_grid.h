@@ -37,10 +37,9 @@ namespace CaissonMPM
    * Where a function takes a plain number of a cell, it is the local one; a
    * GlobalCell is the number of a cell for all ranks.
    *
-   * deal.II owns the mesh; the geometry that the kernels read is kept here and
-   * is current after advance(), while the triangulation's own vertices follow
-   * only when write_vertices() is called. deal.II may read the geometry only
-   * after that, and only through mapping(), which asserts it.
+   * deal.II owns the mesh: advance() moves the vertices of the triangulation,
+   * so that mapping() is always the moving mesh. The kernels read a copy of the
+   * geometry by cells.
    */
   class BackgroundGrid
   {
@@ -86,17 +85,14 @@ namespace CaissonMPM
     void
     prepare_motion(const double travel);
 
-    /** Make the geometry of prepare_motion() the current one. */
+    /** Make the geometry of prepare_motion() the current one, also in the
+     * triangulation. */
     void
     advance();
 
     /** Compute the geometry at @p travel and make it the current one. */
     void
     move_to(const double travel);
-
-    /** Write the current node positions into the triangulation. */
-    void
-    write_vertices();
 
     /** Return a kernel view of the current geometry. Valid until
      * prepare_motion() is called a second time, or the parts change. */
@@ -126,10 +122,12 @@ namespace CaissonMPM
     {
       return dof_handler_;
     }
-    /** Return the mapping of the current geometry, which must have been
-     * written to the vertices. */
+    /** Return the mapping of the current geometry. */
     const dealii::Mapping<dim> &
-    mapping() const;
+    mapping() const
+    {
+      return mapping_;
+    }
 
     MPI_Comm
     communicator() const
@@ -341,7 +339,6 @@ namespace CaissonMPM
     std::vector<dealii::Tensor<1, dim>>                        node_rate;
     std::vector<unsigned int>                                  node_sides;
     std::vector<std::pair<unsigned int, dealii::Point<dim> *>> vertices;
-    bool vertices_are_current = false;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     mutable std::map<unsigned int,

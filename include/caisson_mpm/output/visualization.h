@@ -47,7 +47,7 @@ namespace CaissonMPM
      * RunFailure naming the file that cannot be written. Collective.
      */
     void
-    write_frame(BackgroundGrid       &grid,
+    write_frame(const BackgroundGrid &grid,
                 const MaterialPoints &points,
                 const RigidBody      &body,
                 const Soil           &soil,
