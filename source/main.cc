@@ -9,6 +9,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/revision.h>
 
+#include <malloc.h>
+
 #include <iostream>
 #include <new>
 #include <string>
@@ -40,6 +42,9 @@ int
 main(int argc, char *argv[])
 {
   set_up_single_process();
+  // Large arrays get pages of their own, whatever was freed before: the blocks
+  // of points then begin at cache lines (MaterialPoints::Place).
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
   // PETSc, which deal.II starts, sees the program's name alone: version 3.22
   // complains on stdout of options that it does not know.
   int                                      n_names = 1;

@@ -31,11 +31,8 @@ namespace CaissonMPM
         in_point(p) = in_block(blocks[block], histories[block])[lane];
       });
     if (n_user_state_ > 0)
-      {
-        const double *const begin =
-          user_state.data() + place_of_user_state(block, lane);
-        p.user_state.assign(begin, begin + n_user_state_);
-      }
+      p.user_state.assign(user_state_of(block, lane),
+                          user_state_of(block, lane) + n_user_state_);
     return p;
   }
 
@@ -49,7 +46,7 @@ namespace CaissonMPM
     AssertDimension(p.user_state.size(), n_user_state_);
     std::copy(p.user_state.begin(),
               p.user_state.end(),
-              user_state.begin() + place_of_user_state(block, lane));
+              user_state_of(block, lane));
   }
 
   // ------------------------------------------------------------ blocks
@@ -79,9 +76,9 @@ namespace CaissonMPM
   {
     copy_fields(blocks[from], from_lane, blocks[to], lane);
     copy_fields(histories[from], from_lane, histories[to], lane);
-    std::copy_n(user_state.begin() + place_of_user_state(from, from_lane),
+    std::copy_n(user_state_of(from, from_lane),
                 n_user_state_,
-                user_state.begin() + place_of_user_state(to, lane));
+                user_state_of(to, lane));
   }
 
   void
@@ -108,14 +105,10 @@ namespace CaissonMPM
   void
   MaterialPoints::prefetch(const int block) const
   {
-    using Field = double[block_size];
     if (block < 0)
       return;
-    for (unsigned int i = 0; i < sizeof(PointBlock) / sizeof(Field); ++i)
-      __builtin_prefetch(reinterpret_cast<const Field *>(&blocks[block]) + i);
-    for (unsigned int i = 0; i < sizeof(PointHistory) / sizeof(Field); ++i)
-      __builtin_prefetch(reinterpret_cast<const Field *>(&histories[block]) +
-                         i);
+    for (int i = Place::block; i < Place::user_state; i += block_size)
+      __builtin_prefetch(blocks[block].r + i - Place::block);
   }
 
   int
@@ -123,25 +116,37 @@ namespace CaissonMPM
                             const int          after,
                             const short        material)
   {
-    if (free_blocks.empty())
+    const auto &pool = handler->get_property_pool();
+    if (pool.n_registered_slots() == n_reserved)
       {
-        if (blocks.size() == blocks.capacity())
-          {
-            // by a quarter: a million points take gigabytes
-            reserve(blocks.size() + blocks.size() / 4 + 64);
-          }
-        free_blocks.push_back(blocks.size());
-        blocks.emplace_back();
-        histories.emplace_back();
-        user_state.resize(place_of_user_state(blocks.size(), 0));
-        headers.push_back({-1, 0, 0});
+        // by a quarter: a million points take gigabytes
+        n_reserved += n_reserved / 4 + 64;
+        handler->reserve(n_reserved);
       }
-    const int block = free_blocks.back();
-    free_blocks.pop_back();
+    const auto &iterator = grid.cell_iterator(cell);
+    const int   block    = handler
+                        ->insert_particle(iterator->center(),
+                                          Point<2>(.5, .5),
+                                          0, // its points have numbers
+                                          iterator)
+                        ->get_local_index();
+    find_blocks();
+    if (headers.size() < pool.n_slots())
+      headers.resize(pool.n_slots());
     int &link      = after >= 0 ? headers[after].next : first_block[cell];
     headers[block] = {link, 0, material};
     link           = block;
     return block;
+  }
+
+  void
+  MaterialPoints::remove_block(const unsigned int cell, const int block)
+  {
+    auto particle =
+      handler->particles_in_cell(grid.cell_iterator(cell)).begin();
+    while (static_cast<int>(particle->get_local_index()) != block)
+      ++particle;
+    handler->remove_particle(particle);
   }
 
   void
@@ -201,7 +206,7 @@ namespace CaissonMPM
       {
         (before >= 0 ? headers[before].next : first_block[cell]) =
           headers[last].next;
-        free_blocks.push_back(last);
+        remove_block(cell, last);
         active_cells_changed |= first_block[cell] < 0;
       }
     else // the padding repeats lane 0
@@ -225,8 +230,8 @@ namespace CaissonMPM
   MaterialPoints::view()
   {
     assert_settled();
-    return {blocks.data(),
-            histories.data(),
+    return {blocks,
+            histories,
             headers.data(),
             first_block.data(),
             active_cells.data(),
@@ -234,7 +239,7 @@ namespace CaissonMPM
             filled_volume.data(),
             changed.data(),
             n_yielding.data(),
-            user_state.data(),
+            user_state,
             static_cast<int>(n_user_state_)};
   }
 
@@ -249,7 +254,7 @@ namespace CaissonMPM
   MaterialPoints::assert_settled() const
   {
     Assert(is_settled && !active_cells_changed,
-           ExcMessage("settle() must follow add() and extract_points()"));
+           ExcMessage("settle() must follow add()"));
   }
 
   // ------------------------------------------------------------ relocation
@@ -363,24 +368,46 @@ namespace CaissonMPM
     return costs;
   }
 
-  std::vector<TravelingPoint>
-  MaterialPoints::extract_points()
+  void
+  MaterialPoints::prepare_for_repartition()
   {
-    std::vector<TravelingPoint> result;
-    result.reserve(n_points_);
-    for_each([&](const MaterialPoint &point, const unsigned int cell) {
-      result.push_back({grid.global_number(cell), point});
-    });
-    clear_blocks();
-    return result;
+    // the blocks of a cell travel in the order that the handler has
+    put_blocks_in_order();
+    for (unsigned int block = 0; block < headers.size(); ++block)
+      {
+        double *const properties    = blocks[block].r - Place::block;
+        properties[Place::material] = headers[block].material;
+        properties[Place::count]    = headers[block].count;
+      }
+    handler->prepare_for_coarsening_and_refinement();
   }
 
   void
-  MaterialPoints::insert_points(const std::vector<TravelingPoint> &traveling)
+  MaterialPoints::unpack_after_repartition()
   {
-    clear_blocks();
-    for (const TravelingPoint &p : send_to_owners(grid, traveling))
-      add(grid.local_number(p.cell), p.point);
+    handler->unpack_after_coarsening_and_refinement();
+    n_reserved = handler->get_property_pool().n_slots();
+    headers.assign(n_reserved, {-1, 0, 0});
+    find_blocks();
+    clear_lists();
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (grid.is_owned(cell))
+        {
+          int *link = &first_block[cell];
+          for (const auto &particle :
+               handler->particles_in_cell(grid.cell_iterator(cell)))
+            {
+              const auto properties = particle.get_properties();
+              *link                 = particle.get_local_index();
+              headers[*link]        = {-1,
+                                       static_cast<short>(properties[Place::count]),
+                                       static_cast<short>(
+                                  properties[Place::material])};
+              n_points_ += headers[*link].count;
+              link = &headers[*link].next;
+            }
+        }
+    rebuild_sums();
     settle();
   }
 
@@ -520,13 +547,16 @@ namespace CaissonMPM
   // ------------------------------------------------------------ all points
 
   void
-  MaterialPoints::clear_blocks()
+  MaterialPoints::clear_blocks(const unsigned long n_blocks)
   {
-    blocks.clear();
-    histories.clear();
-    user_state.clear();
+    handler = make_handler(n_blocks);
     headers.clear();
-    free_blocks.clear();
+    clear_lists();
+  }
+
+  void
+  MaterialPoints::clear_lists()
+  {
     first_block.assign(grid.n_cells(), -1);
     clear_sums();
     n_yielding.assign(grid.n_cells(), 0);
@@ -541,7 +571,7 @@ namespace CaissonMPM
   MaterialPoints::keep_user_state(const unsigned int       n,
                                   const std::vector<bool> &user_materials)
   {
-    AssertThrow(blocks.empty(), ExcInternalError());
+    AssertThrow(n_points_ == 0, ExcInternalError());
     n_user_state_        = n;
     this->user_materials = user_materials;
   }
@@ -549,14 +579,13 @@ namespace CaissonMPM
   void
   MaterialPoints::reset(const std::vector<unsigned int> &n_in_cell)
   {
-    clear_blocks();
     unsigned long n_blocks = 0;
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       if (grid.is_owned(cell))
         n_blocks +=
           (n_in_cell[index_of(grid.global_number(cell))] + block_size - 1) /
           block_size;
-    reserve(n_blocks + n_blocks / 16);
+    clear_blocks(n_blocks + n_blocks / 16);
   }
 
   void
@@ -580,6 +609,7 @@ namespace CaissonMPM
   MaterialPoints::settle()
   {
     collect_active_cells();
+    use_large_pages();
     is_settled = true;
     if (grid.n_ranks() == 1)
       return;

@@ -9,59 +9,52 @@
 
 namespace CaissonMPM
 {
+  using namespace dealii;
   using namespace Kernels;
 
-  namespace
+  void
+  MaterialPoints::use_large_pages() const
   {
-    /** Ask for pages of 2 MiB inside the storage; only a hint. */
-    template <typename Block>
-    void
-    use_large_pages(std::vector<Block> &storage)
-    {
 #ifdef MADV_HUGEPAGE
-      constexpr std::uintptr_t page = 1u << 21;
-      const auto begin = reinterpret_cast<std::uintptr_t>(storage.data()),
-                 end   = begin + storage.capacity() * sizeof(Block),
-                 first = (begin + page - 1) / page * page,
-                 last  = end / page * page;
-      if (first < last)
-        madvise(reinterpret_cast<void *>(first), last - first, MADV_HUGEPAGE);
+    constexpr std::uintptr_t page = 1u << 21;
+    const auto begin = reinterpret_cast<std::uintptr_t>(blocks.begin),
+               end   = begin + headers.size() * blocks.distance,
+               first = (begin + page - 1) / page * page,
+               last  = end / page * page;
+    if (first < last)
+      madvise(reinterpret_cast<void *>(first), last - first, MADV_HUGEPAGE);
 #endif
-    }
+  }
 
-    /** Bring storage[source[i]] to i, for a permutation. */
-    template <typename Block>
-    void
-    permute(std::vector<Block> &storage, std::vector<int> source)
-    {
-      // cycle by cycle, with room for one
-      for (unsigned int start = 0; start < storage.size(); ++start)
-        {
-          if (source[start] == static_cast<int>(start))
-            continue;
-          const Block  first = storage[start];
-          unsigned int i     = start;
-          for (unsigned int next = source[i]; next != start; next = source[i])
-            {
-              storage[i] = storage[next];
-              source[i]  = i;
-              i          = next;
-            }
-          storage[i] = first;
-          source[i]  = i;
-        }
-    }
-  } // namespace
+  std::unique_ptr<MaterialPoints::ParticleHandler>
+  MaterialPoints::make_handler(const unsigned long n_blocks)
+  {
+    // rows of whole cache lines
+    constexpr unsigned int line = 64 / sizeof(double);
+    const unsigned int     n_properties =
+      Place::user_state + block_size * n_user_state_;
+    auto result = std::make_unique<ParticleHandler>(grid.triangulation(),
+                                                    grid.mapping(),
+                                                    (n_properties + line - 1) /
+                                                      line * line);
+    n_reserved  = n_blocks;
+    result->reserve(n_reserved);
+    return result;
+  }
 
   void
-  MaterialPoints::reserve(const unsigned long n_blocks)
+  MaterialPoints::find_blocks()
   {
-    blocks.reserve(n_blocks);
-    histories.reserve(n_blocks);
-    user_state.reserve(place_of_user_state(n_blocks, 0));
-    headers.reserve(n_blocks);
-    use_large_pages(blocks);
-    use_large_pages(histories);
+    auto &pool = handler->get_property_pool();
+    if (pool.n_slots() == 0)
+      return;
+    double *const begin    = pool.get_properties(0).data();
+    const long    distance = pool.n_properties_per_slot() * sizeof(double);
+    const auto    at       = [&](const int place) { return begin + place; };
+    blocks     = {reinterpret_cast<PointBlock *>(at(Place::block)), distance};
+    histories  = {reinterpret_cast<PointHistory *>(at(Place::history)),
+                  distance};
+    user_state = {at(Place::user_state), distance};
   }
 
   void
@@ -69,46 +62,30 @@ namespace CaissonMPM
   {
     if (active_cells_changed)
       collect_active_cells();
-    // block i is to be the one that is now source[i]
-    std::vector<int> source;
-    source.reserve(blocks.size());
+    // The sort of ParticleHandler would search for the cell of each particle.
+    auto                     ordered = make_handler(headers.size());
+    std::vector<BlockHeader> ordered_headers;
     for (const unsigned int cell : active_cells)
       {
         int block         = first_block[cell];
-        first_block[cell] = source.size();
+        first_block[cell] = ordered_headers.size();
         for (; block >= 0; block = headers[block].next)
-          source.push_back(block);
+          {
+            auto &pool = handler->get_property_pool();
+            ordered->insert_particle(pool.get_location(block),
+                                     pool.get_reference_location(block),
+                                     pool.get_id(block),
+                                     grid.cell_iterator(cell),
+                                     pool.get_properties(block));
+            ordered_headers.push_back(headers[block]);
+            if (headers[block].next >= 0)
+              ordered_headers.back().next = ordered_headers.size();
+          }
       }
-    const unsigned int       n = source.size();
-    std::vector<BlockHeader> ordered(n);
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        ordered[i] = headers[source[i]];
-        if (ordered[i].next >= 0)
-          ordered[i].next = i + 1;
-      }
-    std::copy(ordered.begin(), ordered.end(), headers.begin());
-    // the free blocks are the rest
-    std::vector<bool> used(blocks.size(), false);
-    for (const int block : source)
-      used[block] = true;
-    for (unsigned int block = 0; block < blocks.size(); ++block)
-      if (!used[block])
-        source.push_back(block);
-    free_blocks.clear();
-    for (unsigned int i = blocks.size(); i-- > n;)
-      free_blocks.push_back(i);
-    permute(blocks, source);
-    permute(histories, source);
-    if (n_user_state_ == 0)
-      return;
-    std::vector<double> state;
-    state.reserve(user_state.capacity());
-    for (const int block : source)
-      state.insert(state.end(),
-                   user_state.begin() + place_of_user_state(block, 0),
-                   user_state.begin() + place_of_user_state(block + 1, 0));
-    user_state.swap(state);
+    handler = std::move(ordered);
+    headers.swap(ordered_headers);
+    find_blocks();
+    use_large_pages();
   }
 
   void

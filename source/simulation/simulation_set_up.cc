@@ -436,10 +436,10 @@ namespace CaissonMPM
   {
     std::vector<unsigned int> of_all_cells(costs.size());
     Utilities::MPI::sum(costs, grid.communicator(), of_all_cells);
-    const auto traveling = points.extract_points();
+    points.prepare_for_repartition();
     grid.repartition(costs);
     grid.move_to(body.motion().travel());
-    points.insert_points(traveling);
+    points.unpack_after_repartition();
     ++recorder.n_repartitions;
     // the points forget what moved and yielded: not by their costs now
     least_imbalance = imbalance(of_all_cells);

@@ -82,10 +82,19 @@ inline void
 generate(Scene &s)
 {
   s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
-  auto all = s.points.extract_points();
+  std::vector<TravelingPoint> all;
+  std::vector<unsigned int>   n_in_cell(s.grid.n_global_cells(), 0);
+  s.points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
+    all.push_back({s.grid.global_number(cell), p});
+    ++n_in_cell[index_of(all.back().cell)];
+  });
+  s.points.reset(n_in_cell);
   for (TravelingPoint &p : all)
-    fill(p.point);
-  s.points.insert_points(all);
+    {
+      fill(p.point);
+      s.points.add(s.grid.local_number(p.cell), p.point);
+    }
+  s.points.settle();
 }
 
 #endif

@@ -12,9 +12,13 @@
 #include <caisson_mpm/kernels/blocks.h>
 #include <caisson_mpm/kernels/forward.h>
 #include <caisson_mpm/kernels/update_result.h>
+#include <caisson_mpm/kernels/views.h>
+
+#include <deal.II/particles/particle_handler.h>
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -23,9 +27,12 @@ namespace CaissonMPM
   /**
    * All material points of the soil.
    *
-   * They lie in blocks of eight per cell and material (kernels/layout.h), whose
+   * They lie in blocks of eight per cell and material (kernels/blocks.h), whose
    * lists only this class and the kernels follow; others see one point at a
-   * time as a MaterialPoint.
+   * time as a MaterialPoint. A ParticleHandler owns the blocks: each is a
+   * particle of the cell, as MatrixFree makes batches of cells, and its slot in
+   * the PropertyPool is the number of the block. A point that leaves its cell
+   * is copied into a block of the next one.
    *
    * Invariants: of the blocks of one cell and material all but the last are
    * full; every point lies in the cell that owns its block, up to round-off,
@@ -119,14 +126,15 @@ namespace CaissonMPM
     std::vector<unsigned int>
     cell_costs() const;
 
-    /** Take all points out, before the parts of the mesh change. */
-    std::vector<TravelingPoint>
-    extract_points();
-
-    /** Bring the points of extract_points() to the ranks that own their cells
-     * now. Collective. */
+    /** Let the points travel with their cells when these change their ranks in
+     * BackgroundGrid::repartition(); unpack_after_repartition() must follow.
+     * Collective. */
     void
-    insert_points(const std::vector<TravelingPoint> &traveling);
+    prepare_for_repartition();
+
+    /** Take the points of the cells that this rank owns now. Collective. */
+    void
+    unpack_after_repartition();
 
     /** Register the counts of what this rank did with points. */
     void
@@ -229,6 +237,22 @@ namespace CaissonMPM
     // points to come whose blocks are asked for: the memory takes that long
     static constexpr unsigned int steps_ahead = 3;
 
+    using ParticleHandler = dealii::Particles::ParticleHandler<2>;
+
+    /** Where the properties of a block begin. Its first number fills a cache
+     * line, as large arrays begin 16 bytes behind one (main.cc). */
+    struct Place
+    {
+      enum : int
+      {
+        material,
+        count,
+        block      = 6,
+        history    = block + sizeof(Kernels::PointBlock) / sizeof(double),
+        user_state = history + sizeof(Kernels::PointHistory) / sizeof(double)
+      };
+    };
+
     // with a cell in or near which it lies
     using PlacedPoint = std::pair<unsigned int, MaterialPoint>;
 
@@ -249,11 +273,11 @@ namespace CaissonMPM
     /** Add a point, while the points may be settled. */
     void
     insert(const unsigned int cell, const MaterialPoint &point);
-    /** Where the numbers of a point begin that a user's law keeps. */
-    std::size_t
-    place_of_user_state(const int block, const int lane) const
+    /** The numbers of a point that a user's law keeps. */
+    double *
+    user_state_of(const int block, const int lane) const
     {
-      return (std::size_t(block) * Kernels::block_size + lane) * n_user_state_;
+      return &user_state[block] + lane * n_user_state_;
     }
     MaterialPoint
     get(const int block, const int lane) const;
@@ -277,6 +301,17 @@ namespace CaissonMPM
     int
     new_block(const unsigned int cell, const int after, const short material);
     void
+    remove_block(const unsigned int cell, const int block);
+    /** Return a handler with room for so many blocks. */
+    std::unique_ptr<ParticleHandler>
+    make_handler(const unsigned long n_blocks);
+    /** Find the blocks in the memory of the handler. */
+    void
+    find_blocks();
+    /** Ask for pages of 2 MiB for the blocks; only a hint. */
+    void
+    use_large_pages() const;
+    void
     remove(const unsigned int cell, const int block, const int lane);
     std::vector<PlacedPoint>
     take_out_of_size(const unsigned int           cell,
@@ -295,8 +330,12 @@ namespace CaissonMPM
     is_in_soil(const unsigned int cell, const dealii::Point<2> &position) const;
     unsigned int
     find_cell(unsigned int cell, MaterialPoint &point);
+    /** Begin with room for so many blocks. */
     void
-    clear_blocks();
+    clear_blocks(const unsigned long n_blocks);
+    /** Forget the lists of the blocks, and what is kept of the cells. */
+    void
+    clear_lists();
     /** Begin the sums of all cells with nothing. */
     void
     clear_sums();
@@ -316,19 +355,18 @@ namespace CaissonMPM
     void
     collect_active_cells();
     void
-    reserve(const unsigned long n_blocks);
-    void
     put_blocks_in_order();
 
-    BackgroundGrid                    &grid;
-    PointExchange                      point_exchange;
-    std::vector<Kernels::PointBlock>   blocks;
-    std::vector<Kernels::PointHistory> histories; // of the blocks
-    std::vector<Kernels::BlockHeader>  headers;
-    unsigned int                       n_user_state_ = 0;
-    std::vector<bool>                  user_materials; // [n_materials]
-    std::vector<double>                user_state; // of the lanes of the blocks
-    std::vector<int>                   free_blocks;
+    BackgroundGrid                      &grid;
+    PointExchange                        point_exchange;
+    std::unique_ptr<ParticleHandler>     handler;        // of the blocks
+    unsigned int                         n_reserved = 0; // blocks
+    Kernels::Rows<Kernels::PointBlock>   blocks;
+    Kernels::Rows<Kernels::PointHistory> histories;
+    Kernels::Rows<double>             user_state; // [block_size][n_user_state]
+    std::vector<Kernels::BlockHeader> headers;
+    unsigned int                      n_user_state_ = 0;
+    std::vector<bool>                 user_materials; // [n_materials]
     // [n_cells], -1: none. For a ghost cell it is only a flag and leads to no
     // block: 0 = its owner has points there, -1 = none
     std::vector<int>          first_block;

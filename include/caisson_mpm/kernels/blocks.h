@@ -7,8 +7,9 @@
 // one cell and one material, and the blocks of a cell form a singly linked
 // list. Lanes beyond the count of a block are padding: they repeat a valid
 // point with mass and volume zero, so that kernels may compute on all lanes.
-// What a step of most laws leaves alone lies apart, in the PointHistory of the
-// same number.
+// A block is a particle of deal.II, with these properties: what every step
+// needs, the PointBlock; what a step of most laws leaves alone, the
+// PointHistory; and what a user's law keeps.
 #ifndef caisson_mpm_kernels_blocks_h
 #define caisson_mpm_kernels_blocks_h
 
@@ -26,14 +27,14 @@ namespace CaissonMPM
 #define CAISSON_LISTED_LANES(name, n, ...) double name[n][block_size];
 
     /** The state of up to eight MPs. SI units; volume and mass per radian. */
-    struct alignas(64) PointBlock
+    struct PointBlock
     {
       CAISSON_BLOCK_FIELDS(CAISSON_LANES, CAISSON_LISTED_LANES, CAISSON_LANES)
     };
 
     /** What a block keeps of the past of its MPs. SI units, volume per
      * radian. */
-    struct alignas(64) PointHistory
+    struct PointHistory
     {
       CAISSON_HISTORY_FIELDS(CAISSON_LANES, CAISSON_LISTED_LANES, CAISSON_LANES)
     };

@@ -106,8 +106,7 @@ namespace CaissonMPM
           if (block < 0)
             return;
           constexpr int       n_fields = sizeof(PointBlock) / sizeof(double[8]);
-          const double *const fields =
-            reinterpret_cast<const double *>(points.blocks + block);
+          const double *const fields   = points.blocks[block].r;
           for (int i = 0; i < n_fields; ++i)
             __builtin_prefetch(fields + i * block_size);
           block = points.headers[block].next;

@@ -16,9 +16,7 @@ namespace CaissonMPM
       [[gnu::always_inline]] inline double *
       user_state_of(const PointsView &points, const int block, const int lane)
       {
-        return points.user_state +
-               (static_cast<long>(block) * block_size + lane) *
-                 points.n_user_state;
+        return &points.user_state[block] + lane * points.n_user_state;
       }
 
       /** What the law takes and gives, in memory. */

@@ -11,14 +11,34 @@ namespace CaissonMPM
 {
   namespace Kernels
   {
+    /** Objects at equal distances in memory. */
+    template <typename Object>
+    struct Rows
+    {
+      char *begin    = nullptr;
+      long  distance = 0; // bytes
+
+      Rows() = default;
+      Rows(Object *const array, const long distance = sizeof(Object))
+        : begin(reinterpret_cast<char *>(array))
+        , distance(distance)
+      {}
+
+      Object &
+      operator[](const int i) const
+      {
+        return *reinterpret_cast<Object *>(begin + i * distance);
+      }
+    };
+
     /**
      * All MPs of a rank. The view belongs to MaterialPoints::view() and is out
      * of date as soon as points are added, taken out or moved to other cells.
      */
     struct PointsView
     {
-      PointBlock        *blocks;
-      PointHistory      *histories; // of the blocks
+      Rows<PointBlock>   blocks;
+      Rows<PointHistory> histories; // of the blocks
       const BlockHeader *headers;
       // [n_cells], -1: none. For a ghost cell this is only a flag: 0 = its
       // owner has MPs there, -1 = none
@@ -31,10 +51,10 @@ namespace CaissonMPM
       // [n_cells], blocks that the return to a yield surface took time for in
       // the last step
       unsigned short *n_yielding;
-      // [blocks][block_size][n_user_state], what the user's law keeps
+      // of the blocks [block_size][n_user_state]: what the user's law keeps
       // (user_point.h), if there is one
-      double *user_state   = nullptr;
-      int     n_user_state = 0;
+      Rows<double> user_state   = {};
+      int          n_user_state = 0;
     };
 
     /** The cells that a rank knows, at one position of the moving grid. */
