@@ -114,12 +114,10 @@ namespace CaissonMPM
               {"warnings", Json::list(warnings)}};
     }
 
-    /** The results, and the warnings by their rank, the most important first.
-     */
+    /** The warnings by their rank, the most important first. */
     Json::Members
     about_results(const RunFacts &facts)
     {
-      Json::Members            members = facts.results;
       std::vector<std::string> ranked;
       for (const auto &[rank, name] :
            {std::make_pair(WarningRank::result, "result"),
@@ -130,8 +128,7 @@ namespace CaissonMPM
             ranked.push_back(
               Json::flat_object({{"rank", Json::text(name)},
                                  {"text", Json::text(warning.text)}}));
-      members.emplace_back("warnings", Json::list(ranked));
-      return {{"results", Json::object(members, 2)}};
+      return {{"results", Json::object({{"warnings", Json::list(ranked)}}, 2)}};
     }
 
     Json::Members
@@ -268,7 +265,7 @@ namespace CaissonMPM
 
     /** The lengths and angles that pictures show. */
     Json::Members
-    about_scene(const RecordedParts &parts, const RunFacts &facts)
+    about_scene(const RecordedParts &parts)
     {
       Json::Members members = Json::numbers(parts.body.shape().dimensions());
       if (members.empty())
@@ -291,8 +288,7 @@ namespace CaissonMPM
         frames += (frames.empty() ? "" : ", ") + Json::number(depth);
       append(members,
              {{"layers", "[" + layers + "]"},
-              {"frame_penetrations_m", "[" + frames + "]"},
-              {"design_methods", Json::flat_object(facts.design_methods)}});
+              {"frame_penetrations_m", "[" + frames + "]"}});
       if (parts.water->traits().uses_permeability) // design methods need it
         append(members,
                {{"submerged_weight_N",
@@ -395,7 +391,7 @@ namespace CaissonMPM
            {{"energies",
              Json::object(Json::numbers(energies(parts.energy)), 2)},
             {"sections", Json::object(Json::numbers(parts.timer.seconds()), 2)},
-            {"scene", Json::object(about_scene(parts, facts), 2)}});
+            {"scene", Json::object(about_scene(parts), 2)}});
     if (parts.grid.is_first_rank())
       write_atomically(path, Json::object(members) + "\n");
   }
@@ -421,7 +417,7 @@ namespace CaissonMPM
             {"steps", Json::integer(facts.n_steps)},
             {"wall_time_s", Json::number(facts.wall_time)}});
     append(members, about_step(parts));
-    append(members, {{"scene", Json::object(about_scene(parts, facts), 2)}});
+    append(members, {{"scene", Json::object(about_scene(parts), 2)}});
     // several ranks may fail at once: each writes a file of its own first
     const std::string own =
       path + ".of_rank_" +
