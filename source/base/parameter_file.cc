@@ -22,6 +22,14 @@ namespace CaissonMPM
 
     /** Entries of earlier versions, and what to do instead. */
     const std::map<std::string, std::string> removed_entries = {
+      {"Method/Velocity transfer",
+       "Set FLIP fraction: 1 is FLIP, 0 is XPIC, which with XPIC order = 1 is "
+       "PIC, and auto is the blend."},
+      {"Method/Integration",
+       "Gauss in full cells is what the program does; for material points, set "
+       "Full cell fraction = 2 and Full cell fraction inside = 2."},
+      {"Method/Velocity limiter",
+       "Set Limiter factor = none in the place of false."},
       {"Output/Error bar",
        "The report finds the error bar of FILE.prm in FILE_error_bar.csv; for "
        "another one, call scripts/caisson report --error-bar CSV DIR."},

@@ -53,8 +53,8 @@ class Unused(ProgramTest):
 
     def test_entries_of_another_method(self) -> None:
         self.warning(
-            ["XPIC order", "Velocity transfer is FLIP"],
-            {"Method/Velocity transfer": "FLIP", "Method/XPIC order": 3},
+            ["XPIC order", "FLIP fraction is 1"],
+            {"Method/FLIP fraction": 1, "Method/XPIC order": 3},
         )
 
     def test_entries_without_their_condition(self) -> None:
