@@ -3,6 +3,7 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/base/version.h>
+#include <caisson_mpm/materials/umat_law.h>
 #include <caisson_mpm/output/json.h>
 #include <caisson_mpm/simulation/run_report.h>
 
