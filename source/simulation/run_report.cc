@@ -71,21 +71,6 @@ namespace CaissonMPM
                             parts.body.motion().beginning().travel)}};
     }
 
-    /** The unit that the text of an entry ends with, empty where it has none.
-     */
-    std::string
-    unit_of(const DeclaredEntry &entry)
-    {
-      const std::string mark = "Units: ";
-      const std::size_t at   = entry.documentation.rfind(mark);
-      if (at == std::string::npos)
-        return "";
-      const std::size_t begin = at + mark.size(),
-                        end   = entry.documentation.find('.', begin);
-      const std::string unit  = entry.documentation.substr(begin, end - begin);
-      return unit == "none" ? "" : unit;
-    }
-
     /** What the scene sets to another value than the default, what has its
      * default, and what the program warned of. Layers have their numbers in
      * the scene. */
@@ -98,8 +83,8 @@ namespace CaissonMPM
         if (entry.alias_of.empty() && entry.value != entry.default_value)
           {
             entries.emplace_back(entry.path, Json::text(entry.value));
-            if (const std::string unit = unit_of(entry); !unit.empty())
-              units.emplace_back(entry.path, Json::text(unit));
+            if (!entry.unit.empty())
+              units.emplace_back(entry.path, Json::text(entry.unit));
           }
         else if (entry.alias_of.empty() && entry.path.find("Soil/Layer ") != 0)
           defaults.emplace_back(entry.path, Json::text(entry.value));
