@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
+from caisson import evaluation
 from caisson.results import ResultsError
 from caisson.study import Options, Study, StudyError, StudyRun
 from lab import outcome
@@ -23,7 +24,7 @@ from .drainage import group_of
 NAME = "tension"
 STUDY_KEYS = set("width velocity".split())
 RUN_KEYS = set[str]()
-PARTS = {  # name: member of largest_pull in run.json
+PARTS = {  # name: member of the largest pull
     "water beneath lid and tip": "water_N",
     "outer friction": "outer_friction_N",
     "inner friction": "inner_friction_N",
@@ -56,10 +57,10 @@ def largest_pull(study: Study, run: StudyRun) -> Pull:
     if run.status is None or run.trouble:
         raise StudyError(f"{study.id} {run.name}: {run.trouble}")
     try:
-        history, summary = run.results.history, run.results.summary
+        history = run.results.history
     except ResultsError as error:
         raise StudyError(str(error)) from error
-    found = summary["results"].get("largest_pull")
+    found = evaluation.results_of(run.results).get("largest_pull")
     if not found:
         raise StudyError(f"{study.id} {run.name}: the caisson is not pulled")
     return Pull(

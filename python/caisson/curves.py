@@ -3,8 +3,6 @@
 
 The rows of history.csv are means since the row before, so a number is averaged over a
 window of penetration before it is shown or compared. smoothed_at() has the definition.
-The program takes the numbers at depths of its terminal and of run.json in the same way
-(ResultTable), and a test compares them.
 
 Positions are metres of penetration or of travelled path.
 """
@@ -193,7 +191,9 @@ def largest_energy_ratio(history: Table) -> float:
 def gradient_share(history: Table) -> np.ndarray:
     """Return the larger exit gradient over the critical one, [n_rows]."""
     larger = np.maximum(history["exit_gradient_wall"], history["exit_gradient_axis"])
-    return np.maximum(larger, 0) / history["critical_gradient"]
+    critical = history["critical_gradient"]
+    nothing = np.zeros(len(critical))
+    return np.divide(np.maximum(larger, 0), critical, out=nothing, where=critical > 0)
 
 
 def forces_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:

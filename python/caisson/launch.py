@@ -84,10 +84,12 @@ def choose_ranks(arguments: list[str]) -> int:
     return chosen
 
 
-def options_for_error(options: argparse.Namespace, directory: Path) -> list[str]:
+def options_for_error(
+    options: argparse.Namespace, directory: Path
+) -> tuple[list[str], Path]:
     """Return the options of the program with which the scene has the error that is
-    wanted. The runs for it go beside the output directory. Raises RunError, StudyError
-    and ArgumentTypeError."""
+    wanted, and its error bar. The runs for it go beside the output directory. Raises
+    RunError, StudyError and ArgumentTypeError."""
     from caisson_error import wanted
     from caisson_error.command import seconds_of
 
@@ -100,15 +102,20 @@ def options_for_error(options: argparse.Namespace, directory: Path) -> list[str]
     budget = seconds_of(options.budget) if options.budget else wanted.BUDGET
     error = wanted.error_of(options.error)
     meshes = directory.with_name(f"{directory.name}_meshes")
-    entries = wanted.entries_for(scene_or_study(scene), error, budget, meshes)
-    return [w for k, v in entries.items() for w in ("--set", f"{k}={v}")]
+    entries, bar = wanted.mesh_for(scene_or_study(scene), error, budget, meshes)
+    return [w for k, v in entries.items() for w in ("--set", f"{k}={v}")], bar
 
 
-def draw(directory: Path) -> None:
-    """Draw the pictures and write the report; the results do not need them."""
+def draw(directory: Path, error_bar: Path | None) -> None:
+    """Say what came out, draw the pictures and write the report; the results do not
+    need them. error_bar: of the run, None for that beside the scene."""
     import caisson_report
-    from caisson import plot
+    from caisson import error_bounds, evaluation, plot
+    from caisson.results import Results
 
+    error_bounds.adopt(directory, error_bar)
+    for line in evaluation.lines_of(Results(directory)):
+        print(f"run: {line}")
     for picture in plot.draw(directory):
         print(f"plot: {picture}")
     print(f"report: {caisson_report.write(directory)}")
@@ -207,9 +214,11 @@ def main(options: argparse.Namespace) -> int:
         print("run: --budget belongs to --error", file=sys.stderr)
         return 1
     directory, stop_file = places_of(arguments)
+    error_bar = None
     if options.error and directory:  # else the program says what is wrong
         try:
-            arguments += options_for_error(options, directory)
+            more, error_bar = options_for_error(options, directory)
+            arguments += more
         except (RunError, StudyError, OSError, argparse.ArgumentTypeError) as error:
             print(f"run: {error}", file=sys.stderr)
             return 1
@@ -234,7 +243,7 @@ def main(options: argparse.Namespace) -> int:
     # only what this run wrote is drawn: --validate, say, writes nothing
     if directory and history and history.exists() and history.stat().st_mtime >= begin:
         try:
-            draw(directory)
+            draw(directory, error_bar)
         except Exception as error:  # whatever it is, the run was good
             print(
                 f"run: no pictures of {directory}: {error}; the results are not"

@@ -5,7 +5,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from caisson import needed
+from caisson import evaluation, needed
 from caisson.curves import depth_at
 from caisson.frame import Frame, choose
 from caisson.lock import is_locked
@@ -90,6 +90,13 @@ class LoadedRun:
                 " there before"
             )
         return self.results.summary
+
+    @property
+    def outcome(self) -> dict[str, Any]:
+        """The largest force, the margins, the largest pull and the numbers at depths,
+        by names; of a run that goes on those so far. The manual lists them
+        (doc/how_to/results.md)."""
+        return evaluation.results_of(self.results)
 
     @functools.cached_property
     def frames(self) -> list[Frame]:

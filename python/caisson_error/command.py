@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Computes the error bar of a scene: runs it on similar meshes, and with other mass
-scaling, steps, points and boundaries, and writes the file that Output/Error bar reads.
+scaling, steps, points and boundaries, and writes the file beside it that the
+report reads.
 
 The budget is the time of all runs on one core. The coarsest mesh, with two cells across
 the wall, costs little: it has the runs with other numerics. The error by the mesh comes
@@ -16,7 +17,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from caisson.paths import PROGRAM, RESULTS, scene_or_study, short
+from caisson import error_bounds
+from caisson.paths import PROGRAM, RESULTS, scene_or_study
 from caisson.progress import duration
 from caisson.ranks import Size
 from caisson.runner import Run, RunError, read_parameters
@@ -34,7 +36,6 @@ PLAIN = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0]  # of a body without cells across
 QUIET = {
     "Output/Frame interval": "never",
     "Output/Frame penetrations": "",
-    "Output/Error bar": "",
 }
 # runs with other numerics on the coarsest mesh, and their cost over one without
 INERTIA, STEP, POINTS, SIDES = "inertia", "time step", "points", "boundaries"
@@ -72,7 +73,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--budget", type=seconds_of, metavar="TIME", help=f"{text} that of the scene")
     text = "run the whole way of the scene, also where windows at some depths would do"
     add("--whole", action="store_true", help=text)
-    text = "the file to write, default: that of Output/Error bar, or FILE_error_bar.csv"
+    text = "the file to write, default: FILE_error_bar.csv, which the report finds"
     add("--output", type=Path, metavar="CSV", help=text)
     add("--overwrite", action="store_true", help="replace the file if it is there")
     add("--list", action="store_true", help="print the runs, and run nothing")
@@ -142,9 +143,7 @@ class Plan:
         self.program: Path = arguments.program.resolve()
         self.results = arguments.results or RESULTS / "error_bar" / self.scene.stem
         self.entries = read_parameters([str(self.scene)], self.program)
-        self.output: Path = arguments.output or self.scene.parent / (
-            self.entries["Output/Error bar"] or f"{self.scene.stem}_error_bar.csv"
-        )
+        self.output: Path = arguments.output or error_bounds.beside(self.scene)
         self.check_way()
         self.check_output()
         self.size = self.size_of_scene()
@@ -341,10 +340,9 @@ def set_depths(study: Study, windows: Sequence[Window]) -> None:
 
 
 def advise(plan: Plan, study: Study) -> None:
-    """Print how the scene finds the bar, and what the next finer mesh would cost."""
-    if plan.entries["Output/Error bar"] == "":
-        path = os.path.relpath(plan.output.resolve(), plan.scene.parent)
-        print(f"Set Output/Error bar = {path} in {short(plan.scene)}.")
+    """Print how the report finds the bar, and what the next finer mesh would cost."""
+    if plan.output.resolve() != error_bounds.beside(plan.scene).resolve():
+        print(f"Give it to the report: caisson report --error-bar {plan.output} DIR.")
     if plan.next:
         cost = duration(plan.seconds * plan.next**3)
         what = (

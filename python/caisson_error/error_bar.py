@@ -4,7 +4,7 @@ where it has one, from runs with changed numerics.
 
 Keys of the study beside the usual ones:
 
-    output    the file to write, relative to the study: Output/Error bar of the scene
+    output    the file to write, relative to the study
     depths    first, last, step (m of penetration)
     [[errors]]
     name = "mesh"
@@ -234,7 +234,7 @@ def file_columns(
 def write_file(
     path: Path, study: Study, depths: np.ndarray, bars: Errors, terms: list[Errors]
 ) -> None:
-    """Write the file that the program reads."""
+    """Write the file that caisson.error_bounds reads."""
     base = study.run("default")
     columns = file_columns(study, depths, bars, terms)
     of = "forces and suction" if len(bars) > len(FORCES) else "forces"

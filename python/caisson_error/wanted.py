@@ -144,11 +144,11 @@ def check_mesh_matters(errors: dict[str, float], wanted: float) -> None:
     )
 
 
-def entries_for(
+def mesh_for(
     scene: Path, wanted: float, budget: float, directory: Path
-) -> dict[str, Any]:
-    """Return what to change in a scene so that its error is at most the one that is
-    wanted: the mesh, and where its error bar is. Prints the errors of the meshes, whose
+) -> tuple[dict[str, Any], Path]:
+    """Return the entries of the mesh with which the error of a scene is at most the one
+    that is wanted, and its error bar. Prints the errors of the meshes, whose
     runs go to the directory. Raises RunError and StudyError, also where the budget (s)
     ends before."""
     search = Search(scene, budget, directory)
@@ -168,7 +168,7 @@ def entries_for(
         print(f"refinement {r:g}: error of the total force {in_percent(errors[ALL])}")
         if errors[ALL] <= wanted:
             error_bar.evaluate([search.study()], Options(), 0)
-            return {**search.plan.mesh(r), "Output/Error bar": str(search.bar_file)}
+            return search.plan.mesh(r), search.bar_file
         check_mesh_matters(errors, wanted)
         reached = f"; {in_percent(errors[ALL])} are reached"
     raise StudyError(f"no finer mesh is known here{reached}")

@@ -9,7 +9,8 @@ import sys
 import time
 from pathlib import Path
 
-from caisson.plot import add_cone_arguments, draw, keep_cone
+from caisson import error_bounds
+from caisson.plot import add_method_arguments, draw, keep_methods
 from caisson.results import Results, ResultsError
 from caisson_design import InputError
 from caisson_design import disk
@@ -27,6 +28,7 @@ def write(directory: Path, rate: float | None = None) -> Path:
 
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
+    error_bounds.adopt(directory)
     text = page.html(Results(directory), Rate() if rate is None else Rate(rate, False))
     return disk.write(directory / NAME, text)
 
@@ -79,7 +81,7 @@ def print_pdf(path: Path) -> Path:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson report`."""
-    add_cone_arguments(parser)
+    add_method_arguments(parser)
     parser.add_argument(
         "--jacked",
         type=Path,
@@ -88,6 +90,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         " tip and friction; its history is kept as jacked.csv",
     )
     parser.add_argument("directories", nargs="+", type=Path, metavar="DIR")
+    parser.add_argument(
+        "--error-bar",
+        type=Path,
+        metavar="CSV",
+        help="the error bar of the scene, by caisson error-bar; default: that beside"
+        " FILE.prm, FILE_error_bar.csv",
+    )
     parser.add_argument(
         "--rate",
         type=float,
@@ -107,11 +116,12 @@ def main(options: argparse.Namespace) -> int:
     status = 0
     for directory in options.directories:
         try:
-            keep_cone(options, directory)
-            if options.cpt is not None:
+            if keep_methods(options, directory):
                 draw(directory)
             if options.jacked is not None:
                 relief.adopt(options.jacked, directory)
+            if options.error_bar is not None:
+                error_bounds.adopt(directory, options.error_bar)
             if options.rate is not None and not options.rate > 0:
                 raise ResultsError(f"--rate {options.rate:g}: give m/h above 0")
             if options.follow:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from caisson import curves
+from caisson.evaluation import depths_of
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import (
     COLORS,
@@ -27,7 +28,6 @@ from caisson_report.installation import (
     COMPUTED,
     PUMP,
     Installation,
-    depths_of,
     texts_of,
 )
 from caisson_report.pull import PULL, is_pull, pull_parts

@@ -15,20 +15,25 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson import curves
+from caisson.evaluation import (
+    GRADIENT,
+    at_depths,
+    pump_limit,
+    rest_of_run,
+    results_of,
+    way_down,
+)
 from caisson.paths import INSTALLED
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import penetration
-from caisson.plot.suction import pump_limit, rest_of_run
 from caisson.results import Results, Table
 from caisson_design.reasons import text_of
 from caisson_design.shown import USUAL, Units
 from caisson_report.scene import plug_area
 
-INTERVAL = 0.5  # m, between the depths of the table
 HOUR = 3600.0
 LEAST_SHARE = 0.02  # of the critical gradient, below which the gradient is noise
 COMPUTED = "exit gradient computed"
-GRADIENT = "exit_gradient_over_critical"
 PIPING, BOILING, PUMP = "piping, Houlsby & Byrne", "water boils", "pump"
 NOTHING = 5e-4  # of a unit of the tables
 HELD = 0.7  # m, below the error bar, over which its last width still stands
@@ -104,52 +109,15 @@ class Installation:
         return min(known, key=lambda name: known[name]) if known else ""
 
 
-def depths_of(position: np.ndarray, interval: float = INTERVAL) -> np.ndarray:
-    """Return the multiples of the interval (m) that a curve passes, and its end; the
-    rounder ones of curves.round_depths() where it is shorter than two of them."""
-    if np.ptp(position) < 2 * interval:
-        found = curves.round_depths(position)
-    else:
-        found = curves.common_depths([position], interval)
-        found = found[found > position.min() + 1e-6 * interval]
-    end = float(position.max())
-    near = 2e-3 * (found[1] - found[0] if len(found) > 1 else interval)
-    if len(found) and end - found[-1] <= near:
-        return found
-    return np.append(found, end)
-
-
-def numbers_of(run: Results) -> Table:
-    """Return the numbers of the way down at the depths of the tables: columns [n] by
-    their names in run.json, which has them at the end of a run. Before, they are taken
-    from what there is of history.csv; empty where that has no way down."""
-    if known := run.at_depths:
-        return known
-    history = run.history
-    rows = curves.way_down(history["penetration_m"])[1:]
-    depth = history["penetration_m"][rows]
-    if len(rows) < 2:
-        return {}
-    more = {}
-    if design.SUCTION in history:
-        more[GRADIENT] = curves.gradient_share(history)
-    at = depths_of(depth)
-    means = {
-        name: curves.smoothed_at(depth, values[rows], at)
-        for name, values in (history | more).items()
-    }
-    return means | {"penetration_m": at}
-
-
 def needs_suction(run: Results) -> bool:
     """Return whether the weight of a caisson does not suffice at any depth of the
     tables; False without suction."""
-    required = numbers_of(run).get(design.SUCTION, np.empty(0))
+    required = at_depths(run).get(design.SUCTION, np.empty(0))
     return bool((required > 1e3 * NOTHING).any())
 
 
 def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
-    """Return the bounds of a column of numbers_of() in its unit, [n]; below the error
+    """Return the bounds of a column of at_depths() in its unit, [n]; below the error
     bar, up to HELD, those of the same width; None without an error bar."""
     name, sides = f"{quantity}_{unit}", [
         f"{quantity}_{s}_{unit}" for s in ("low", "high")
@@ -200,7 +168,7 @@ def installation_of(run: Results, rate: Rate) -> Installation | None:
     history = run.history
     if penetration(history) is None or not design.goes_down(history):
         return None
-    numbers = numbers_of(run)
+    numbers = at_depths(run)
     if not numbers or not set(design.FORCES) <= set(numbers):
         return None
     at = numbers["penetration_m"]
@@ -365,9 +333,7 @@ def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, .
         value = shown.words(found.required[-1], "kPa", ".1f")
         remark = bar_in_words(run, found, found.required_bounds, "kPa")
         cards.append(("Required suction", value, remark))
-        most, depth = largest_of(
-            run, "largest_suction", design.SUCTION, found.depth, found.required
-        )
+        most, depth = largest_of(run, design.SUCTION)
         if most > 1.02 * found.required[-1]:
             remark = f"at {shown.depth(depth)}"
             value = shown.words(most, "kPa", ".1f")
@@ -399,7 +365,7 @@ def force_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
 
     name = "Resistance at the end" if len(found.required) else "Force at the end"
     cards: list[tuple[str, ...]] = [(name, words(total[-1]), remark)]
-    most, at = largest_of(run, "largest_force", "total_force_N", depth, total)
+    most, at = largest_of(run, "total_force_N")
     if depth[-1] - at > 1e-3 * min(1.0, float(depth[-1])):
         remark = f"at {found.shown.depth(at)}"
         cards.append(("Largest force", words(most), remark))
@@ -416,30 +382,17 @@ def force_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
     return [*cards, ("Penetration reached", found.shown.depth(depth[-1]), of_skirt)]
 
 
-def results_of(run: Results) -> dict[str, Any]:
-    """Return the results in run.json; empty of a run that has not ended."""
-    return (run.summary.get("results") or {}) if run.scene else {}
+def least_margin(run: Results) -> tuple[float, float]:
+    """Return the least margin to piping (a share of 1) and its depth (m)."""
+    piping = results_of(run)["margins"]["piping"]
+    return float(piping["least"]), float(piping["penetration_m"])
 
 
-def least_margin(run: Results, found: Installation) -> tuple[float, float]:
-    """Return the least margin to piping (a share of 1) and its depth (m): of all
-    depths, or, where the run has not said it, of those of the table."""
-    if piping := results_of(run).get("margins", {}).get("piping"):
-        return float(piping["least"]), float(piping["penetration_m"])
-    worst = int(np.argmax(found.gradient))
-    return float(1 - found.gradient[worst]), float(found.depth[worst])
-
-
-def largest_of(
-    run: Results, key: str, column: str, depth: np.ndarray, values: np.ndarray
-) -> tuple[float, float]:
-    """Return the largest value (kN or kPa) of a column and its depth (m): of all
-    depths, or, where the run has not said it, of values [n] at depths [n]."""
-    if most := results_of(run).get(key):
-        if column in most:
-            return most[column] / 1e3, float(most["penetration_m"])
-    i = int(np.argmax(values))
-    return float(values[i]), float(depth[i])
+def largest_of(run: Results, column: str) -> tuple[float, float]:
+    """Return the largest value (kN or kPa) of a column and its depth (m)."""
+    way = way_down(run)
+    most, depth = way.largest(way.columns[column])
+    return most / 1e3, depth
 
 
 def piping_bar(run: Results, least: float, depth: float) -> Bounds | None:
@@ -464,7 +417,7 @@ def piping_warning(run: Results, found: Installation | None) -> list[str]:
     """Return a warning where the error bar of the margin to piping includes 0."""
     if found is None or not found.has_suction:
         return []
-    least, depth = least_margin(run, found)
+    least, depth = least_margin(run)
     bar = piping_bar(run, least, depth)
     if bar is None or least <= 0 or bar.low[0] > 0:
         return []
@@ -476,7 +429,7 @@ def piping_warning(run: Results, found: Installation | None) -> list[str]:
 
 def margin_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
     """Return the cards of the margins."""
-    (least, depth), shown = least_margin(run, found), found.shown
+    (least, depth), shown = least_margin(run), found.shown
     remark = (
         f"least, at {found.shown.depth(depth)}: exit gradient {1 - least:.2f} of the"
         " critical one"

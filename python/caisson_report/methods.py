@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from caisson import curves
+from caisson.evaluation import depths_of
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import penetration
 from caisson.results import Results
@@ -30,7 +31,7 @@ from caisson_design.reasons import (
 )
 from caisson_design.shown import SMALLER, USUAL, Units
 from caisson_report import relief
-from caisson_report.installation import depths_of, needs_suction
+from caisson_report.installation import needs_suction
 
 RATIO = "computed / "  # before the name of a method
 # the lower case of a method: the upper one

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from caisson import curves
+from caisson.evaluation import NO_CAPACITY, results_of
 from caisson.plot.forces import COLORS, WATER_COLOR, column_of
 from caisson.results import Results
 from caisson_design.reasons import text_of
 from caisson_report.scene import is_sealed
 
-NO_CAPACITY = "the pull neither fell nor levelled off: it is not the capacity"
 PULL, WATER = "pull", "water beneath lid and tip"
 
 
@@ -25,10 +25,8 @@ def is_pull(run: Results) -> bool:
 
 
 def largest_pull(run: Results) -> Mapping[str, Any]:
-    """Return the largest pull of run.json; nothing of another run, or of one that has
-    not ended."""
-    results = (run.summary.get("results") or {}) if run.scene else {}
-    return results.get("largest_pull") or {} if is_pull(run) else {}
+    """Return the largest pull; nothing of another run."""
+    return results_of(run).get("largest_pull", {}) if is_pull(run) else {}
 
 
 def cards_of(run: Results) -> list[tuple[str, ...]]:

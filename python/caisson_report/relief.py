@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from caisson.evaluation import rest_of_run
 from caisson.plot import design, suction_methods, theory
-from caisson.plot.suction import rest_of_run
 from caisson.results import Results, ResultsError
 from caisson_design import disk
 from caisson_design.houlsby_byrne import UNDISTURBED

@@ -16,7 +16,7 @@ from unittest import mock
 import numpy as np
 from synthetic import write_run
 
-from caisson import parameters, progress, study_command
+from caisson import error_bounds, parameters, progress, study_command
 from caisson.parameters import effects, pictures, tables
 from caisson.parameters.outcome import Outcomes
 from caisson.ranks import cores
@@ -361,17 +361,17 @@ class Evaluation(WithFiles):
 
     def test_error_bar(self) -> None:
         """That of the scene, relative to the force."""
-        (self.path / "bar.csv").write_text(
+        found = self.outcomes(PHI + "values = [30]", "1e3 * d", {})
+        bar = error_bounds.beside(found.study.runs[0].run.scene)
+        bar.write_text(
             "# fingerprint: x\npenetration_m,total_below,total_above\n"
             "1,0.1,0\n3,0.2,0.1\n"
         )
-        named: dict[str, object] = {"entries": {"Output/Error bar": "bar.csv"}}
-        found = self.outcomes(PHI + "values = [30]", "1e3 * d", named)
         depths = np.array([1.0, 2.0, 4.0])
         error = found.error(depths, np.array([10.0, -10.0, 10.0]))
         assert error is not None
         np.testing.assert_allclose(error, [[1, 1.5, np.nan], [0, 0.5, np.nan]])
-        found = self.outcomes(PHI + "values = [31]", "1e3 * d", {"entries": {}})
+        bar.unlink()
         self.assertIsNone(found.error(depths, depths))
 
     def test_suction(self) -> None:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cards, error bars and ends of runs in report.html of made-up runs."""
 import html
-import json
 import re
 import unittest
 import unittest.mock
@@ -12,11 +11,10 @@ from synthetic import write_columns, write_run
 from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson_report as report
+from caisson import error_bounds
 from caisson.results import Results
 from caisson_report import content, installation, methods, sketch
 from caisson_report import page as page_module
-
-SIDES = {"low": -2e3, "high": 2e3}  # Pa, of the bar of the suction
 
 
 class Cards(WithPage):
@@ -30,25 +28,13 @@ class Cards(WithPage):
 
     def leave_bar(self, end: float, half: float) -> None:
         """Leave an error bar of the suction and the exit gradient down to a depth."""
-        depth = np.linspace(1, end, 101)
-        bounds = {"penetration_m": depth}
-        for name, unit in (("required_suction", "_Pa"), ("exit_gradient_axis", "")):
-            value, width = (1e4, 2e3) if unit else (0.3, half)
-            bounds[f"{name}{unit}"] = np.full(101, value)
-            bounds[f"{name}_low{unit}"] = np.full(101, value - width)
-            bounds[f"{name}_high{unit}"] = np.full(101, value + width)
-        write_columns(self.path / "history_error.csv", bounds)
-        file = self.path / "run.json"
-        summary = json.loads(file.read_text(encoding="utf-8"))
-        summary.setdefault("results", {}).pop("at_depths", None)
-        file.write_text(json.dumps(summary), encoding="utf-8")
-        columns = installation.numbers_of(Results(self.path))
-        rows = [dict(zip(columns, map(float, row))) for row in zip(*columns.values())]
-        for row in (row for row in rows if row["penetration_m"] <= end):
-            value = row["required_suction_Pa"]
-            row |= {f"required_suction_{k}_Pa": value + w for k, w in SIDES.items()}
-        summary["results"]["at_depths"] = rows
-        file.write_text(json.dumps(summary), encoding="utf-8")
+        columns = {"penetration_m": (1.0, end)}
+        for side in ("below", "above"):
+            columns[f"required_suction_{side}_Pa"] = (2e3, 2e3)
+            columns[f"exit_gradient_axis_{side}"] = (half, half)
+        lines = [",".join(map(str, row)) for row in zip(*columns.values())]
+        text = "\n".join(["# fingerprint: f00d", ",".join(columns), *lines])
+        (self.path / error_bounds.NAME).write_text(text, encoding="utf-8")
 
     def test_error_bar_that_ends_above_the_run(self) -> None:
         """30 kPa at 4.5 m, of a bar of 2 kPa that ends at 4.4 m; far above the end it
@@ -67,20 +53,20 @@ class Cards(WithPage):
         self.assertIn("at 4.50 m; error bar known only to 2 m", page)
 
     def test_margin_to_piping(self) -> None:
-        """That of the records, 10 % at 4.4 m, with 0.09 or 0.18 on 0.9."""
-        margins = {"piping": {"least": 0.1, "penetration_m": 4.4}}
-        leave_run(self.path, {**SUMMARY, "results": {"margins": margins}})
+        """10 % at 4.5 m, with 0.045 or 0.18 on 0.9."""
+        leave_run(self.path, SUMMARY)
         self.leave_bar(4.5, 0.045)
         history = dict(Results(self.path).history)
         history["exit_gradient_wall"] = np.zeros(len(history["time_s"]))
+        history["exit_gradient_axis"] = 0.18 * history["penetration_m"]
         write_columns(self.path / "history.csv", history)
         page = report.write(self.path).read_text(encoding="utf-8")
-        self.assertIn("10 % <small>error bar 5 to 15 %; least, at 4.40 m", page)
+        self.assertIn("10 % <small>error bar 5 to 15 %; least, at 4.50 m", page)
         self.assertNotIn("bar includes 0", page)
         self.leave_bar(4.5, 0.18)
         page = report.write(self.path).read_text(encoding="utf-8")
         self.assertIn("error bar -10 to 30 %", page)
-        self.assertIn("the margin to piping is 10 % at 4.40 m, and its error bar", page)
+        self.assertIn("the margin to piping is 10 % at 4.50 m, and its error bar", page)
 
     def test_caisson_that_needs_no_suction(self) -> None:
         """4500 kN of resistance under 7000 kN."""

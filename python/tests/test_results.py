@@ -84,8 +84,8 @@ class Files(Directory):
             ('{"entries": [1]}', r"entries is \[1\], and no object"),
             ('{"defaults": null}', "defaults is None, and no object"),
             ('{"energies": {"a_J": "x"}}', "energies/a_J is 'x', and no number"),
-            ('{"results": {"at_depths": 5}}', "results/at_depths is 5, and no list"),
-            ('{"results": {"at_depths": [{}, 1]}}', "at_depths/2 is 1, and no object"),
+            ('{"results": {"warnings": 5}}', "results/warnings is 5, and no list"),
+            ('{"results": {"warnings": [{}, 1]}}', "warnings/2 is 1, and no object"),
             ('{"scene": {"diameter_m": "a"}}', "diameter_m is 'a', and no number"),
             ('{"scene": {"layers": [{"law": 2}]}}', "layers/1/law is 2, and no text"),
         ):

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from synthetic import write_columns, write_run
 
-from caisson import plot
+from caisson import evaluation, plot
 from caisson.plot import design, suction, theory
 from caisson.plot import suction_methods as methods
 from caisson.results import Results
@@ -200,13 +200,13 @@ class MadeUpRun(unittest.TestCase):
 
     def test_penetration_by_weight(self) -> None:
         history = synthetic()
-        self.assertAlmostEqual(suction.rest_of_run(history) or 0, REST, delta=0.14)
+        self.assertAlmostEqual(evaluation.rest_of_run(history) or 0, REST, delta=0.14)
         history["suction_Pa"][0] = 5.0  # not for good
-        self.assertAlmostEqual(suction.rest_of_run(history) or 0, REST, delta=0.14)
+        self.assertAlmostEqual(evaluation.rest_of_run(history) or 0, REST, delta=0.14)
         history["suction_Pa"][1:] = 5.0
-        self.assertIsNone(suction.rest_of_run(history))
+        self.assertIsNone(evaluation.rest_of_run(history))
         history["suction_Pa"][:] = 0.0
-        self.assertIsNone(suction.rest_of_run(history))
+        self.assertIsNone(evaluation.rest_of_run(history))
         answers = methods.answers_of(SITE, np.array([1.0, 6.0]))
         for name in methods.RANGE:
             caisson, enhanced = CASES[methods.CASES[name]]
@@ -364,7 +364,7 @@ class MadeUpRun(unittest.TestCase):
         self.assertIn("continues to the critical", suction.caption(answers, SITE))
 
     def test_entries_of_the_scene(self) -> None:
-        """Those of the section Design methods, in pictures and words."""
+        """Those of the options of the report, in pictures and words."""
         given = {
             "k_tan_delta_inside": [0.5, 0.6],
             "k_tan_delta_outside": [0.7, 0.7],

@@ -10,11 +10,11 @@
 
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
-#include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/json_parser.hpp>
 
 #include <limits>
 #include <regex>
-#include <type_traits>
+#include <sstream>
 
 namespace CaissonMPM
 {
@@ -22,39 +22,6 @@ namespace CaissonMPM
   {
     using Tree = boost::property_tree::ptree;
     using dealii::ParameterHandler;
-
-    /** An archive, as in Boost's serialization, that takes from a
-     * ParameterHandler the tree of its entries, which it otherwise keeps
-     * private. */
-    struct EntryArchive
-    {
-      template <typename Value>
-      EntryArchive &
-      operator&(const Value &value)
-      {
-        if constexpr (std::is_same_v<Value, Tree>)
-          tree = value;
-        return *this;
-      }
-
-      Tree tree;
-    };
-
-    /** Turn "Layer_201" back into "Layer 1": _XX is a hexadecimal code. */
-    std::string
-    unmangle(const std::string &name)
-    {
-      std::string result;
-      for (std::size_t i = 0; i < name.size(); ++i)
-        if (name[i] == '_' && i + 2 < name.size())
-          {
-            result += std::stoi(name.substr(i + 1, 2), nullptr, 16);
-            i += 2;
-          }
-        else
-          result += name[i];
-      return result;
-    }
 
     std::string
     join(const std::vector<std::string> &subsections, const std::string &name)
@@ -65,11 +32,29 @@ namespace CaissonMPM
       return result + name;
     }
 
+    const std::string unit_mark = "Units: ", no_unit = "none";
+
+    /** The unit that the text of an entry ends with, empty where it has none.
+     */
+    std::string
+    unit_of(const std::string &documentation)
+    {
+      const std::size_t at = documentation.rfind(unit_mark);
+      if (at == std::string::npos)
+        return "";
+      const std::size_t begin = at + unit_mark.size();
+      const std::string unit =
+        documentation.substr(begin, documentation.find('.', begin) - begin);
+      return unit == no_unit ? "" : unit;
+    }
+
     /** Of an entry without a unit users need no such note. */
     std::string
     without_empty_unit(const std::string &documentation)
     {
-      return documentation.substr(0, documentation.rfind(" Units: none"));
+      return documentation.substr(0,
+                                  documentation.rfind(" " + unit_mark +
+                                                      no_unit));
     }
 
     /** " from 0 to 90" for "0" and "90"; a bound that is none is left out. */
@@ -172,20 +157,23 @@ namespace CaissonMPM
 
   DeclaredEntries::DeclaredEntries(const ParameterHandler &prm)
   {
-    EntryArchive archive;
-    prm.save(archive, 0);
-    collect(archive.tree, {});
+    std::stringstream text;
+    prm.print_parameters(text,
+                         ParameterHandler::JSON |
+                           ParameterHandler::KeepDeclarationOrder);
+    Tree tree;
+    boost::property_tree::read_json(text, tree);
+    collect(tree, {});
   }
 
   void
   DeclaredEntries::collect(const Tree                     &tree,
                            const std::vector<std::string> &above)
   {
-    for (const auto &[mangled_name, node] : tree)
+    for (const auto &[name, node] : tree)
       {
-        const std::string name = unmangle(mangled_name),
-                          path = join(above, name);
-        const auto alias       = node.get_optional<std::string>("alias");
+        const std::string path  = join(above, name);
+        const auto        alias = node.get_optional<std::string>("alias");
         if (alias || node.count("value") > 0)
           {
             const auto text = [&tree_of_entry = node](const char *key) {
@@ -198,6 +186,7 @@ namespace CaissonMPM
                                text("value"),
                                text("default_value"),
                                without_empty_unit(text("documentation")),
+                               unit_of(text("documentation")),
                                text("pattern_description"),
                                alias ? join(above, *alias) : "",
                                text("deprecation_status") == "true"});

@@ -24,13 +24,13 @@ namespace CaissonMPM
 
     /** The names of all files that a run writes, and nothing else is removed.
      */
-    const std::regex
-      result_names(R"((points|grid|body)_\d{4,}\.vtu(\.tmp)?|)"
-                   R"((points|grid|body)(_by_penetration)?\.pvd(\.tmp)?|)"
-                   R"((history|history_error|observations|wall)\.csv(\.tmp)?|)"
-                   R"((run|verification)\.json(\.tmp)?|)"
-                   R"(run\.json\.of_rank_\d+(\.tmp)?|)"
-                   R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5))");
+    const std::regex result_names(
+      R"((points|grid|body)_\d{4,}\.vtu(\.tmp)?|)"
+      R"((points|grid|body)(_by_penetration)?\.pvd(\.tmp)?|)"
+      R"((history|history_error|error_bar|observations|wall)\.csv(\.tmp)?|)"
+      R"((run|verification)\.json(\.tmp)?|)"
+      R"(run\.json\.of_rank_\d+(\.tmp)?|)"
+      R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5))");
 
     /** The names of what the Python package makes of them. */
     const std::regex derived_names(

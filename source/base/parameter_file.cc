@@ -20,6 +20,37 @@ namespace CaissonMPM
     const std::string list_hint =
       "\n  \"caisson_mpm --print-parameters\" lists all entries.";
 
+    /** Entries of earlier versions, and what to do instead. */
+    const std::map<std::string, std::string> removed_entries = {
+      {"Method/Velocity transfer",
+       "Set FLIP fraction: 1 is FLIP, 0 is XPIC, which with XPIC order = 1 is "
+       "PIC, and auto is the blend."},
+      {"Method/Integration",
+       "Gauss in full cells is what the program does; for material points, set "
+       "Full cell fraction = 2 and Full cell fraction inside = 2."},
+      {"Method/Velocity limiter",
+       "Set Limiter factor = none in the place of false."},
+      {"Output/Error bar",
+       "The report finds the error bar of FILE.prm in FILE_error_bar.csv; for "
+       "another one, call scripts/caisson report --error-bar CSV DIR."},
+      {"Design methods/K tan delta inside",
+       "Call scripts/caisson report --k-tan-delta-inside LOW,HIGH DIR."},
+      {"Design methods/K tan delta outside",
+       "Call scripts/caisson report --k-tan-delta-outside LOW,HIGH DIR."},
+      {"Design methods/Plug permeability ratio",
+       "Call scripts/caisson report --plug-permeability-ratio X DIR."},
+      {"Design methods/Load spread",
+       "Call scripts/caisson report --load-spread X DIR."}};
+
+    /** Whether there have been entries in this section. */
+    bool
+    is_removed_section(const std::string &path)
+    {
+      const auto next = removed_entries.lower_bound(path + "/");
+      return next != removed_entries.end() &&
+             next->first.compare(0, path.size() + 1, path + "/") == 0;
+    }
+
     /** The path without links; as it is where it has none, as that of a pipe.
      */
     std::filesystem::path
@@ -300,7 +331,7 @@ namespace CaissonMPM
     bool
     Reader::has_subsection(const std::string &path)
     {
-      if (entries.has_subsection(path))
+      if (entries.has_subsection(path) || is_removed_section(path))
         return true;
       if (!declare || !declare(path))
         return false;
@@ -329,6 +360,10 @@ namespace CaissonMPM
     {
       if (entries.has_subsection(path))
         return place + ": " + quote(path) + " is a subsection, not an entry.";
+      if (const auto old = removed_entries.find(path);
+          old != removed_entries.end())
+        return place + ": there is no entry " + quote(path) + " any more.\n  " +
+               old->second;
       std::vector<std::string> names =
         names_of_symbol(path, entries.entry_paths());
       if (names.empty())

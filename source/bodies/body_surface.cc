@@ -26,16 +26,10 @@ namespace CaissonMPM
     add_choice(
       *this,
       "Corner normals",
-      corner_normals,
-      {{"average", CornerNormals::average},
-       {"split", CornerNormals::split},
-       {"both", CornerNormals::both},
-       {"wall", CornerNormals::wall},
-       {"tip", CornerNormals::tip}},
-      "At the nodes where two faces of the body meet, the normal is "
-      "the average of both faces, that of the wall, or that of the "
-      "tip; with both, soil may not move into either face; with split, "
-      "the cells at each face have a velocity of their own there, so "
+      splits_corners,
+      {{"split", true}, {"both", false}},
+      "At the nodes where two faces of the body meet, with both, soil may not "
+      "move into either face; with split, the cells at each face have a velocity of their own there, so "
       "that no soil passes through the body. Units: none.");
     for (unsigned int s = 0; s < n_surfaces; ++s)
       {

@@ -3,6 +3,7 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/domain/point_generator.h>
+#include <caisson_mpm/materials/umat_law.h>
 
 #include <deal.II/base/patterns.h>
 

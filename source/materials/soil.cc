@@ -3,6 +3,7 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/materials/soil.h>
+#include <caisson_mpm/materials/umat_law.h>
 
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>

@@ -3,6 +3,7 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/kernels/laws.h>
 #include <caisson_mpm/materials/soil_material.h>
+#include <caisson_mpm/materials/umat_law.h>
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/kernels/laws.h>
 #include <caisson_mpm/materials/soil.h>
+#include <caisson_mpm/materials/umat_law.h>
 
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>

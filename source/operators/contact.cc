@@ -25,12 +25,11 @@ namespace CaissonMPM
   void
   Contact::initialize(const BackgroundGrid &grid, const BodySurface &body)
   {
-    corner_normals = body.corner_normals;
-    circumference  = grid.circumference();
-    n_owned_nodes  = grid.n_owned_nodes();
+    circumference = grid.circumference();
+    n_owned_nodes = grid.n_owned_nodes();
     on_body.assign(grid.n_nodes(), false);
     faces = collect_contact_faces(grid);
-    if (corner_normals == BodySurface::CornerNormals::split)
+    if (body.splits_corners)
       corners_.initialize(grid, faces);
     collect_surface_nodes(grid);
     collect_inner_nodes(grid);
@@ -93,18 +92,12 @@ namespace CaissonMPM
               (node.n_normals == 1 && node.normal[0] * face.normal < 1. - 1e-9))
             node.normal[node.n_normals++] = face.normal;
         }
-    // 2. concave corners are those with three rigid cells; the convex ones that
-    //    ContactCorners treats are left out
-    std::vector<unsigned int> n_rigid(grid.n_nodes(), 0);
-    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
-      for (const unsigned int node : grid.cell_nodes(cell).node)
-        n_rigid[node] += grid.is_rigid(cell);
+    // 2. the corners that ContactCorners treats are left out
     nodes.clear();
     std::map<unsigned int, int> index;
     for (auto &entry : found)
       {
         Node &node           = entry.second;
-        node.concave         = n_rigid[node.node] == 3;
         on_body[entry.first] = true;
         if (corners_.is_corner(node.node))
           continue;
@@ -202,25 +195,7 @@ namespace CaissonMPM
     if (node.n_normals == 1)
       return against(node.normal[0]);
 
-    // At rest a tip bears on both faces of a corner, whatever it does in
-    // motion.
-    const bool at_rest = node.surface == tip && velocity.norm_square() == 0.;
-    if (at_rest || node.concave ||
-        corner_normals == BodySurface::CornerNormals::both)
-      return compute_contact_at_corner(node, w);
-    return against(corner_normal(node));
-  }
-
-  Vector2
-  Contact::corner_normal(const Node &node) const
-  {
-    using Corner              = BodySurface::CornerNormals;
-    const bool first_is_wall  = std::abs(node.normal[0][1]) < 1e-9,
-               second_is_wall = std::abs(node.normal[1][1]) < 1e-9;
-    if (corner_normals == Corner::average || first_is_wall == second_is_wall)
-      return node.mean_normal;
-    const bool take_first = (corner_normals == Corner::wall) == first_is_wall;
-    return node.normal[take_first ? 0 : 1];
+    return compute_contact_at_corner(node, w);
   }
 
   Contact::NodeResult

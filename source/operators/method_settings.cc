@@ -14,22 +14,14 @@ namespace CaissonMPM
 
   namespace
   {
-    const Choices<VelocityTransfer> transfers = {
-      {"XPIC", VelocityTransfer::xpic},
-      {"PIC", VelocityTransfer::pic},
-      {"FLIP", VelocityTransfer::flip},
-      {"blend", VelocityTransfer::blend}};
-    const Choices<StressUpdate>     stress_updates = {{"auto",
-                                                       StressUpdate::automatic},
-                                                      {"MUSL", StressUpdate::musl},
-                                                      {"USL", StressUpdate::usl}};
-    const Choices<ForceIntegration> integrations   = {
-        {"Gauss in full cells", ForceIntegration::gauss_in_full_cells},
-        {"material points", ForceIntegration::material_points}};
-    const Choices<Kernels::PressureSlope> pressure_fits = {
-      {"auto", Kernels::PressureSlope::by_dilation},
-      {"affine", Kernels::PressureSlope::acts},
-      {"mean", Kernels::PressureSlope::ignored}};
+    const Choices<StressUpdate>           stress_updates = {{"auto",
+                                                             StressUpdate::automatic},
+                                                            {"MUSL", StressUpdate::musl},
+                                                            {"USL", StressUpdate::usl}};
+    const Choices<Kernels::PressureSlope> pressure_fits  = {
+       {"auto", Kernels::PressureSlope::by_dilation},
+       {"affine", Kernels::PressureSlope::acts},
+       {"mean", Kernels::PressureSlope::ignored}};
   } // namespace
 
   MethodSettings::MethodSettings()
@@ -43,32 +35,27 @@ namespace CaissonMPM
   void
   MethodSettings::declare_transfer()
   {
-    add_choice(*this,
-               "Velocity transfer",
-               transfer,
-               transfers,
-               "Points take their velocity from the nodes by this scheme; the "
-               "blend is one of FLIP and XPIC. Units: none.");
     add_parameter("XPIC order",
                   xpic_order,
-                  "XPIC has this order, alone and in the blend; order 1 is "
-                  "PIC. Units: none.",
+                  "XPIC has this order; order 1 is PIC. Units: none.",
                   prm,
                   Patterns::Integer(1, 10));
-    add_word_or_number(*this,
-                       "FLIP fraction",
-                       flip_fraction,
-                       "auto",
-                       {},
-                       "FLIP has this share in the blend in a step with a "
-                       "Courant number of 0.8, and XPIC the rest; in shorter "
-                       "steps the share of XPIC is smaller, in proportion. "
-                       "With auto it is 0.99 where all layers are "
-                       "Mohr-Coulomb soil, the water is neither undrained nor "
-                       "coupled, and no loads move the body. "
-                       "Elsewhere it is 0.95. "
-                       "Units: none.",
-                       Patterns::Double(0., 1.));
+    add_word_or_number(
+      *this,
+      "FLIP fraction",
+      flip_fraction,
+      "auto",
+      {},
+      "Points take this share of their velocity from FLIP in "
+      "a step with a Courant number of 0.8, and the rest from "
+      "XPIC; in shorter steps the share of XPIC is smaller, in "
+      "proportion. 1 is FLIP, and 0 is XPIC. "
+      "With auto it is 0.99 where all layers are "
+      "Mohr-Coulomb soil, the water is neither undrained nor "
+      "coupled, and no loads move the body. "
+      "Elsewhere it is 0.95. "
+      "Units: none.",
+      Patterns::Double(0., 1.));
     add_choice(
       *this,
       "Stress update",
@@ -83,27 +70,23 @@ namespace CaissonMPM
   void
   MethodSettings::declare_integration()
   {
-    add_choice(*this,
-               "Integration",
-               force_integration,
-               integrations,
-               "The internal force is integrated at Gauss points in full cells "
-               "and at material points in the others, or at material points in "
-               "all cells. Units: none.");
-    add_parameter("Full cell fraction",
-                  full_fraction,
-                  "A cell at a free surface takes Gauss points only if its "
-                  "points fill this share of its volume; with 0.05 less, it "
-                  "is integrated at its points only. Units: none.",
-                  prm,
-                  Patterns::Double(0.1, 2.));
+    add_parameter(
+      "Full cell fraction",
+      full_fraction,
+      "The internal force of a cell at a free surface is integrated "
+      "at Gauss points only if its material points fill this share "
+      "of its volume; with 0.05 less, it is integrated at these "
+      "points only. 2 is at material points everywhere. Units: "
+      "none.",
+      prm,
+      Patterns::Double(0.1, never_full));
     add_parameter("Full cell fraction inside",
                   full_fraction_inside,
                   "A cell inside the soil, with filled cells around it, takes "
                   "Gauss points only if its points fill this share of its "
                   "volume. Units: none.",
                   prm,
-                  Patterns::Double(0.1, 2.));
+                  Patterns::Double(0.1, never_full));
     add_choice(
       *this,
       "Pressure in full cells",
@@ -142,17 +125,16 @@ namespace CaissonMPM
                   "against its velocity, except at the body. Units: none.",
                   prm,
                   Patterns::Double(0., 0.95));
-    add_parameter("Velocity limiter",
-                  limits_velocity,
-                  "The velocity of points in cells next to the body is "
-                  "limited to k H / dt, with the shortest side H of the cell "
-                  "and the step dt at a Courant number of 0.8. Units: none.");
-    add_parameter("Limiter factor",
-                  limiter_factor,
-                  "The velocity limiter uses this number as its factor k. "
-                  "Units: none.",
-                  prm,
-                  Patterns::Double(0.01, 1.));
+    add_word_or_number(
+      *this,
+      "Limiter factor",
+      limiter_factor,
+      "none",
+      {},
+      "The velocity of points in cells next to the body is limited to k H / dt, "
+      "with this factor k, the shortest side H of the cell and the step dt at a "
+      "Courant number of 0.8; none does not limit it. Units: none.",
+      Patterns::Double(0.01, 1.));
   }
 
   void
@@ -175,9 +157,9 @@ namespace CaissonMPM
         "Method/Full cell fraction inside = " + to_text(full_fraction_inside) +
         " exceeds Method/Full cell fraction = " + to_text(full_fraction) +
         ". Reduce it.");
-    if (!uses_musl() && transfer == VelocityTransfer::flip && damping == 0. &&
+    if (!uses_musl() && flip_fraction == 1. && damping == 0. &&
         !minimum_nodal_mass)
-      throw BadInput("Method/Stress update = USL with Velocity transfer = FLIP "
+      throw BadInput("Method/Stress update = USL with Method/FLIP fraction = 1 "
                      "needs Mass floor = true or Local damping: it is unstable "
                      "at nodes with little mass.");
   }
@@ -185,51 +167,27 @@ namespace CaissonMPM
   void
   MethodSettings::name_unused_entries(ParameterOrigins &origins) const
   {
-    const std::string scheme =
-      "Method/Velocity transfer is " + name_of(transfers, transfer);
-    if (transfer == VelocityTransfer::pic || transfer == VelocityTransfer::flip)
-      origins.add_unused({"Method/XPIC order"}, scheme);
-    if (transfer != VelocityTransfer::blend)
-      origins.add_unused({"Method/FLIP fraction"}, scheme);
-    if (force_integration == ForceIntegration::material_points)
-      origins.add_unused({"Method/Full cell fraction",
-                          "Method/Full cell fraction inside",
-                          "Method/Pressure in full cells",
+    if (flip_fraction == 1.)
+      origins.add_unused({"Method/XPIC order"}, "Method/FLIP fraction is 1");
+    if (integrates_at_points())
+      origins.add_unused({"Method/Pressure in full cells",
                           "Method/Stress filter"},
-                         "Method/Integration is material points");
-    if (!limits_velocity)
-      origins.add_unused({"Method/Limiter factor"},
-                         "Method/Velocity limiter is false");
-  }
-
-  unsigned int
-  MethodSettings::filter_order() const
-  {
-    return transfer == VelocityTransfer::xpic ||
-               transfer == VelocityTransfer::blend ?
-             xpic_order :
-             1;
+                         "no cell is full with Method/Full cell fraction and "
+                         "Method/Full cell fraction inside");
   }
 
   double
   MethodSettings::keep_velocity(const StepSize &step) const
   {
-    return transfer == VelocityTransfer::flip ?
-             1. :
-           transfer == VelocityTransfer::blend ?
-             std::pow(flip_fraction.value_or(flip_fraction_of_scene),
-                      step.n_reference_steps()) :
-             0.;
+    return std::pow(flip_fraction.value_or(flip_fraction_of_scene),
+                    step.n_reference_steps());
   }
 
   Kernels::IntegrationSettings
   MethodSettings::integration() const
   {
-    const bool at_points =
-      force_integration == ForceIntegration::material_points;
-    constexpr double never_full = 1e300;
-    return {at_points ? never_full : full_fraction,
-            at_points ? never_full : full_fraction_inside,
+    return {full_fraction,
+            full_fraction_inside,
             minimum_nodal_mass,
             pressure_fit};
   }
@@ -241,7 +199,7 @@ namespace CaissonMPM
     return {step.seconds,
             keep_velocity(step),
             mean_volume,
-            limits_velocity ? limiter_factor * n : 0.,
+            limiter_factor.value_or(0.) * n,
             1. - std::pow(1. - stress_filter, n)};
   }
 
@@ -250,25 +208,27 @@ namespace CaissonMPM
   {
     const std::string xpic = "XPIC(" + to_text(xpic_order) + ")";
     return name_of(stress_updates, stress_update) + ", " +
-           (transfer == VelocityTransfer::xpic ? xpic :
-            transfer == VelocityTransfer::blend ?
-                                                 "FLIP and " + xpic :
-                                                 name_of(transfers, transfer)) +
-           ", " + name_of(integrations, force_integration);
+           (flip_fraction == 1. ? "FLIP" :
+            flip_fraction != 0. ? "FLIP and " + xpic :
+            xpic_order == 1     ? "PIC" :
+                                  xpic) +
+           ", " +
+           (integrates_at_points() ? "material points" : "Gauss in full cells");
   }
 
   std::vector<std::string>
   MethodSettings::known_limits() const
   {
     std::vector<std::string> limits;
-    if (force_integration == ForceIntegration::material_points)
-      limits.push_back("Method/Integration = material points causes noise "
+    if (integrates_at_points())
+      limits.push_back("Method/Full cell fraction = 2 causes noise "
                        "where points cross cells; it was found to halve the "
                        "tip force of a caisson: see doc/limitations.md");
-    if (transfer == VelocityTransfer::pic)
-      limits.push_back("Method/Velocity transfer = PIC is viscous: a pulse "
-                       "loses a third of its energy over 20 of its lengths: "
-                       "see doc/limitations.md");
+    if (flip_fraction == 0. && xpic_order == 1)
+      limits.push_back(
+        "Method/XPIC order = 1 is PIC, which is viscous: a pulse "
+        "loses a third of its energy over 20 of its lengths: "
+        "see doc/limitations.md");
     return limits;
   }
 } // namespace CaissonMPM

@@ -42,7 +42,7 @@ namespace CaissonMPM
     for (std::size_t i = 0; i < n; ++i)
       transfer[i] = v[i] - keep * old[i];
     // 2. XPIC besides: (1 - a) sum_{k=1}^{n-1} (I - A)^k v
-    if (settings.filter_order() > 1)
+    if (settings.filter_order() > 1 && keep < 1.)
       add_filter(context, settings.filter_order(), 1. - keep);
     // 3. the velocity that strains the points: v+ (USL) or S+ V_p (MUSL)
     strains_with_new = !settings.uses_musl();

@@ -63,11 +63,8 @@ namespace CaissonMPM
     bool
     is_not_physics(const DeclaredEntry &entry)
     {
-      for (const std::string free : {"Design methods/",
-                                     "Output/",
-                                     "Run control/",
-                                     "Verification/",
-                                     "Time/End"})
+      for (const std::string free :
+           {"Output/", "Run control/", "Verification/", "Time/End"})
         if (begins_with(entry.path, free))
           return true;
       return false;

@@ -5,7 +5,6 @@
 #include <caisson_mpm/base/version.h>
 #include <caisson_mpm/domain/all_points.h>
 #include <caisson_mpm/kernels/kernel_table.h>
-#include <caisson_mpm/output/result_lines.h>
 #include <caisson_mpm/simulation/recorder.h>
 #include <caisson_mpm/simulation/run_review.h>
 #include <caisson_mpm/water/lid_compartment.h>
@@ -110,24 +109,6 @@ namespace CaissonMPM
               parts.water->traits().resists_body};
   }
 
-  ResultLimits
-  Recorder::result_limits() const
-  {
-    const LidCompartment *const lid = parts.water->traits().lid;
-    return {number_named("skirt_length_m", parts.body.shape().dimensions()),
-            lid == nullptr ? std::nullopt : lid->settings().largest};
-  }
-
-  void
-  Recorder::name_unused_entries(ParameterOrigins &origins) const
-  {
-    const auto sizes = parts.body.shape().dimensions();
-    design_methods.name_unused(
-      origins,
-      number_named("wall_thickness_m", sizes).has_value(),
-      parts.water->traits().lid != nullptr);
-  }
-
   std::vector<std::string>
   Recorder::count_names() const
   {
@@ -167,7 +148,6 @@ namespace CaissonMPM
     this->fingerprint  = fingerprint;
     this->installation = installation;
     this->kernels      = &kernels;
-    wrong_error_bar_   = error_bar.read(scene, fingerprint);
     OutputDirectory::check(directory, parts.grid.communicator());
     console = std::make_unique<Console>(verbosity());
   }
@@ -438,7 +418,6 @@ namespace CaissonMPM
     result.wall_time      = seconds_running();
     result.warnings       = console->warnings();
     result.assumed        = assumed;
-    result.design_methods = design_methods.members();
     return result;
   }
 
@@ -446,12 +425,7 @@ namespace CaissonMPM
   Recorder::write_summary(const std::string &status)
   {
     parts.totals.bring_to_first_rank(parts.grid.communicator());
-    if (parts.grid.is_first_rank())
-      error_bar.write(directory);
-    RunFacts known = facts(status);
-    if (parts.grid.is_first_rank())
-      known.results = run_results(*records, error_bar, result_limits());
-    write_run_summary(directory + "/run.json", parts, known);
+    write_run_summary(directory + "/run.json", parts, facts(status));
   }
 
   void
@@ -524,13 +498,6 @@ namespace CaissonMPM
                              "at t = " + to_text(parts.clock.time, 6) +
                                " s, after " + to_text(seconds_running(), 3) +
                                " s"}};
-    if (parts.grid.is_first_rank() && parts.body.shape().exists() &&
-        !parts.body.shape().expands())
-      for (const auto &line :
-           result_lines(*records,
-                        error_bar,
-                        parts.body.shape().top() - parts.body.shape().bottom()))
-        lines.push_back(line);
     if (const auto n_warnings = console->warnings().size())
       lines.emplace_back("warnings",
                          to_text(n_warnings) +

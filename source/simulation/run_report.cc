@@ -3,6 +3,7 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/base/version.h>
+#include <caisson_mpm/materials/umat_law.h>
 #include <caisson_mpm/output/json.h>
 #include <caisson_mpm/simulation/run_report.h>
 
@@ -70,21 +71,6 @@ namespace CaissonMPM
                             parts.body.motion().beginning().travel)}};
     }
 
-    /** The unit that the text of an entry ends with, empty where it has none.
-     */
-    std::string
-    unit_of(const DeclaredEntry &entry)
-    {
-      const std::string mark = "Units: ";
-      const std::size_t at   = entry.documentation.rfind(mark);
-      if (at == std::string::npos)
-        return "";
-      const std::size_t begin = at + mark.size(),
-                        end   = entry.documentation.find('.', begin);
-      const std::string unit  = entry.documentation.substr(begin, end - begin);
-      return unit == "none" ? "" : unit;
-    }
-
     /** What the scene sets to another value than the default, what has its
      * default, and what the program warned of. Layers have their numbers in
      * the scene. */
@@ -97,8 +83,8 @@ namespace CaissonMPM
         if (entry.alias_of.empty() && entry.value != entry.default_value)
           {
             entries.emplace_back(entry.path, Json::text(entry.value));
-            if (const std::string unit = unit_of(entry); !unit.empty())
-              units.emplace_back(entry.path, Json::text(unit));
+            if (!entry.unit.empty())
+              units.emplace_back(entry.path, Json::text(entry.unit));
           }
         else if (entry.alias_of.empty() && entry.path.find("Soil/Layer ") != 0)
           defaults.emplace_back(entry.path, Json::text(entry.value));
@@ -114,12 +100,10 @@ namespace CaissonMPM
               {"warnings", Json::list(warnings)}};
     }
 
-    /** The results, and the warnings by their rank, the most important first.
-     */
+    /** The warnings by their rank, the most important first. */
     Json::Members
     about_results(const RunFacts &facts)
     {
-      Json::Members            members = facts.results;
       std::vector<std::string> ranked;
       for (const auto &[rank, name] :
            {std::make_pair(WarningRank::result, "result"),
@@ -130,8 +114,7 @@ namespace CaissonMPM
             ranked.push_back(
               Json::flat_object({{"rank", Json::text(name)},
                                  {"text", Json::text(warning.text)}}));
-      members.emplace_back("warnings", Json::list(ranked));
-      return {{"results", Json::object(members, 2)}};
+      return {{"results", Json::object({{"warnings", Json::list(ranked)}}, 2)}};
     }
 
     Json::Members
@@ -268,7 +251,7 @@ namespace CaissonMPM
 
     /** The lengths and angles that pictures show. */
     Json::Members
-    about_scene(const RecordedParts &parts, const RunFacts &facts)
+    about_scene(const RecordedParts &parts)
     {
       Json::Members members = Json::numbers(parts.body.shape().dimensions());
       if (members.empty())
@@ -291,8 +274,7 @@ namespace CaissonMPM
         frames += (frames.empty() ? "" : ", ") + Json::number(depth);
       append(members,
              {{"layers", "[" + layers + "]"},
-              {"frame_penetrations_m", "[" + frames + "]"},
-              {"design_methods", Json::flat_object(facts.design_methods)}});
+              {"frame_penetrations_m", "[" + frames + "]"}});
       if (parts.water->traits().uses_permeability) // design methods need it
         append(members,
                {{"submerged_weight_N",
@@ -395,7 +377,7 @@ namespace CaissonMPM
            {{"energies",
              Json::object(Json::numbers(energies(parts.energy)), 2)},
             {"sections", Json::object(Json::numbers(parts.timer.seconds()), 2)},
-            {"scene", Json::object(about_scene(parts, facts), 2)}});
+            {"scene", Json::object(about_scene(parts), 2)}});
     if (parts.grid.is_first_rank())
       write_atomically(path, Json::object(members) + "\n");
   }
@@ -421,7 +403,7 @@ namespace CaissonMPM
             {"steps", Json::integer(facts.n_steps)},
             {"wall_time_s", Json::number(facts.wall_time)}});
     append(members, about_step(parts));
-    append(members, {{"scene", Json::object(about_scene(parts, facts), 2)}});
+    append(members, {{"scene", Json::object(about_scene(parts), 2)}});
     // several ranks may fail at once: each writes a file of its own first
     const std::string own =
       path + ".of_rank_" +

@@ -314,7 +314,8 @@ namespace CaissonMPM
       return;
     const double speed   = scene.body.motion().usual_velocity(),
                  inertia = scene.soil.inertial_density(m) * speed * speed,
-                 stress = -scene.soil.initial_stress(Point<2>(0., deepest))[zz];
+                 stress  = -scene.soil.initial_stress(
+                   dealii::Point<2>(0., deepest))[zz];
     if (stress > 0. && inertia > stress)
       origins.add_warning(
         "at the end of the way of the body the vertical stress at rest is " +

@@ -296,7 +296,6 @@ namespace CaissonMPM
     water->name_unused_entries(origins);
     nodal_motion.settings().name_unused_entries(origins);
     schedule.name_unused_entries(origins);
-    recorder.name_unused_entries(origins);
   }
 
   void
@@ -510,8 +509,6 @@ namespace CaissonMPM
                  number_of_steps()},
                 origins)
       .all();
-    if (!recorder.wrong_error_bar().empty())
-      origins.add_warning(recorder.wrong_error_bar());
     const double reach = body.shape().exists() && !body.shape().expands() ?
                            lines.total_travel() - body.shape().bottom() :
                            lines.depth();

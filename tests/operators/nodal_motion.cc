@@ -6,6 +6,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <map>
 #include <string>
 
 #include "stepper.h"
@@ -82,6 +84,15 @@ const std::string bar_text = R"(
 
 
 
+/** What sets the transfers of velocities. */
+const std::map<std::string, std::string> transfers = {
+  {"FLIP", "\nset FLIP fraction = 1"},
+  {"PIC", "\nset FLIP fraction = 0\nset XPIC order = 1"},
+  {"XPIC", "\nset FLIP fraction = 0"},
+  {"blend", ""}};
+
+
+
 /** Momentum is that of the start and of the body force, in all transfers. */
 void
 check_momentum(const std::string &mass_floor)
@@ -91,7 +102,7 @@ check_momentum(const std::string &mass_floor)
       {
         Stepper         s(soil_text,
                   "subsection Method\nset Mass floor = " + mass_floor +
-                    "\nset Velocity transfer = " + transfer +
+                    transfers.at(transfer) +
                     "\nend\nsubsection Loads\nset Body force = " + load +
                     "\nend\n");
         const auto      before = s.sums();
@@ -133,7 +144,7 @@ check_impact(const std::string &transfer, const std::string &mass_floor)
 {
   Stepper    s(bar_text,
             "subsection Method\nset Mass floor = " + mass_floor +
-              "\nset Velocity transfer = " + transfer + "\nend\n");
+              transfers.at(transfer) + "\nend\n");
   const auto before = s.sums();
   Vector2    impulse;
   double     added_mass = 0.;

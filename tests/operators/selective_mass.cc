@@ -203,7 +203,7 @@ double
 growth_in_bar(const std::string &update)
 {
   Stepper      s(bar,
-            "subsection Method\nset Velocity transfer = FLIP\n"
+            "subsection Method\nset FLIP fraction = 1\n"
                  "set Stress update = " +
               update + "\nend\n");
   std::mt19937 random(2);

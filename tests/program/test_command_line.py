@@ -146,8 +146,6 @@ class Options(ProgramTest):
         cases: tuple[tuple[str, list[str], Entries], ...] = (
             ("a file is in its place", ["--output-directory", f"{path}/file"], {}),
             ("name too long", ["--output-directory", f"{path}/{'x' * 300}"], {}),
-            ("cannot be read", [], {"Output/Error bar": "missing.csv"}),
-            ("cannot be read", [], {"Output/Error bar": ".."}),
             ("checkpoint", ["--restart", f"--output-directory={path}/new"], {}),
         )
         for words, options, entries in cases:

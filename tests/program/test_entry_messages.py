@@ -53,8 +53,8 @@ class Unused(ProgramTest):
 
     def test_entries_of_another_method(self) -> None:
         self.warning(
-            ["XPIC order", "Velocity transfer is FLIP"],
-            {"Method/Velocity transfer": "FLIP", "Method/XPIC order": 3},
+            ["XPIC order", "FLIP fraction is 1"],
+            {"Method/FLIP fraction": 1, "Method/XPIC order": 3},
         )
 
     def test_entries_without_their_condition(self) -> None:
@@ -104,6 +104,30 @@ class Places(ProgramTest):
         (path / "mine.prm").write_text("include base.prm\n")
         text = self.run_program(BAD_INPUT, path / "mine.prm")
         self.assertIn(f"{path}/base.prm:2, included by {path}/mine.prm:1: ", text)
+
+
+class Removed(ProgramTest):
+    """Entries of earlier versions: what to write instead."""
+
+    def test_removed_entries(self) -> None:
+        """On the command line, and in a file, also in a section that is gone."""
+        file = self.made_directory() / "old.prm"
+        for entry, words in (
+            ("Output/Error bar", "finds the error bar of FILE.prm in FILE_error_bar"),
+            ("Design methods/Load spread", "report --load-spread X DIR"),
+            ("Method/Velocity transfer", "Set FLIP fraction: 1 is FLIP"),
+            ("Method/Velocity limiter", "Set Limiter factor = none"),
+        ):
+            section, name = entry.split("/")
+            file.write_text(
+                f"include {scene('jack')}\nsubsection {section}\n  set {name} = 1\n"
+                "end\n",
+                encoding="utf-8",
+            )
+            for call in ((file,), (scene("jack"), "--set", f"{entry}=1")):
+                with self.subTest(entry, call=call):
+                    text = self.run_program(BAD_INPUT, *call, "--validate")
+                    self.assert_words([f'no entry "{entry}" any more', words], text)
 
 
 class Words(ProgramTest):

@@ -18,7 +18,6 @@ from plain_solver import Deck, forces_of, read_deck  # noqa: E402
 SHORT: Entries = {
     "Time/End penetration": 1.2,
     "Output/Frame penetrations": 0.5,
-    "Output/Error bar": "",
 }
 WALLS = {
     "TIP": "tip_force_N",

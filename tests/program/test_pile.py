@@ -21,7 +21,6 @@ class Start(ProgramTest):
             "Time/End penetration": 0.06,
             "Output/Frame interval": "never",
             "Output/Frame penetrations": "",
-            "Output/Error bar": "",
         }
         self.run_program(
             SUCCESS,

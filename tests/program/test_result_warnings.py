@@ -127,7 +127,8 @@ class RunReview(ProgramTest):
                 **SMALL,
                 "Time/Mass scaling": 100,
                 "Time/End penetration": 0.9,
-                "Method/Velocity transfer": "PIC",
+                "Method/FLIP fraction": 0,
+                "Method/XPIC order": 1,
             }
         )
         self.assert_words([LOST, "of the work of the body", "Mass scaling"], text)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from program import HERE, SUCCESS, ProgramTest, history, summary, user_scene
 
-from caisson import ranks
+from caisson import error_bounds, ranks
 from caisson.paths import PROGRAM
 from caisson.results import Results
 from caisson.runner import query, environment, size_in
@@ -116,12 +116,11 @@ subsection Time
 end
 subsection Output
   set Record interval = 0.1
-  set Error bar       = own_error_bar.csv
 end
 """
 
     def test_own_scene(self) -> None:
-        """Two meshes and the runs with other numerics on the coarse one; the scene
+        """Two meshes and the runs with other numerics on the coarse one; a run
         then finds its bar. A budget for one mesh is refused with the one to set."""
         path = self.made_directory()
         scene = path / "own.prm"
@@ -138,6 +137,7 @@ end
         self.assertIn("runs to do: 0", again)
         results = path / "results"
         self.run_program(SUCCESS, str(scene), "--output-directory", results)
+        error_bounds.adopt(results)
         bounds = Results(results).error_bounds
         self.assertGreater(len(bounds["total_force_low_N"]), 5)
         self.assertTrue((bounds["total_force_low_N"] < bounds["total_force_N"]).all())

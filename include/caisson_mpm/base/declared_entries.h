@@ -23,6 +23,7 @@ namespace CaissonMPM
     std::string              value;
     std::string              default_value;
     std::string              documentation;
+    std::string              unit; // empty where there is none
     /** As Patterns::PatternBase::description() writes it. */
     std::string pattern;
     /** The path of the entry that this is another name of, else empty. */

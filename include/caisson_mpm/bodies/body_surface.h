@@ -38,16 +38,6 @@ namespace CaissonMPM
   class BodySurface : public dealii::ParameterAcceptor
   {
   public:
-    /** How a node on an edge of the body, with two normals, is treated. */
-    enum class CornerNormals
-    {
-      average, // the mean of both normals
-      split,   // each face has its own velocity (operators/contact_corners.h)
-      both,    // not into either face
-      wall,    // the normal of the vertical face
-      tip      // the normal of the other face
-    };
-
     BodySurface();
 
     /**
@@ -80,7 +70,9 @@ namespace CaissonMPM
     /** Contact adhesion by surface. Units: Pa. */
     std::array<double, n_surfaces> adhesion = {{0., 0., 0., 0., 0.}};
 
-    CornerNormals corner_normals = CornerNormals::split;
+    /** Whether at the edges of the body each face has a velocity of its own
+     * (operators/contact_corners.h); else soil moves into neither face. */
+    bool splits_corners = true;
 
   private:
     std::array<double, n_surfaces> friction_angle = {{20., 20., 20., 20., 20.}};

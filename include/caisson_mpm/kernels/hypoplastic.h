@@ -17,18 +17,8 @@ namespace CaissonMPM
       /** The law "hypoplastic sand". */
       struct HypoplasticSand : HypoplasticIntegration<false>
       {
-        static constexpr const char *name      = "hypoplastic sand";
-        static constexpr LawEntry    entries[] = {
-             Entries::critical_friction_angle,
-             HypoplasticEntries::granulate_hardness,
-             HypoplasticEntries::compression_exponent,
-             HypoplasticEntries::densest_void_ratio,
-             HypoplasticEntries::critical_void_ratio,
-             HypoplasticEntries::loosest_void_ratio,
-             HypoplasticEntries::density_exponent_of_strength,
-             HypoplasticEntries::density_exponent_of_stiffness,
-             HypoplasticEntries::smallest_mean_stress};
-        static constexpr int friction_entry =
+        static constexpr const char *name = "hypoplastic sand";
+        static constexpr int         friction_entry =
                                entry_named(entries, "Critical friction angle"),
                              n_state = 0;
 

@@ -79,13 +79,14 @@ namespace CaissonMPM
         static Parameters
         make(const double *values)
         {
+          const LawValues<HypoplasticIntergranular> value{values};
           Parameters p = Hypoplasticity::make(values);
-          p.range      = values[9];
-          p.reversed   = values[10];
-          p.turned     = values[11];
-          p.evolution  = values[12];
-          p.decay      = values[13];
-          p.start      = values[14];
+          p.range      = value("Elastic range of strain");
+          p.reversed   = value("Stiffness factor of reversals");
+          p.turned     = value("Stiffness factor of turns");
+          p.evolution  = value("Evolution exponent");
+          p.decay      = value("Stiffness decay exponent");
+          p.start      = value("Intergranular strain at the start");
           p.by_roots =
             has_quarter_power(p.evolution) && has_quarter_power(p.decay);
           return p;
@@ -96,15 +97,17 @@ namespace CaissonMPM
               const LawContext &context,
               LawMessage       &message)
         {
-          if (values[11] > values[10])
+          const LawValues<HypoplasticIntergranular> value{values};
+          if (value("Stiffness factor of turns") >
+              value("Stiffness factor of reversals"))
             {
               __builtin_snprintf(
                 message.text,
                 sizeof(message.text),
                 "Stiffness factor of turns = %g exceeds "
                 "Stiffness factor of reversals = %g. Lower it.",
-                values[11],
-                values[10]);
+                value("Stiffness factor of turns"),
+                value("Stiffness factor of reversals"));
               return false;
             }
           return Hypoplasticity::check(values, context, message);

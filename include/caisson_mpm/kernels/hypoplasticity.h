@@ -119,6 +119,17 @@ namespace CaissonMPM
        */
       struct Hypoplasticity
       {
+        static constexpr LawEntry entries[] = {
+          Entries::critical_friction_angle,
+          HypoplasticEntries::granulate_hardness,
+          HypoplasticEntries::compression_exponent,
+          HypoplasticEntries::densest_void_ratio,
+          HypoplasticEntries::critical_void_ratio,
+          HypoplasticEntries::loosest_void_ratio,
+          HypoplasticEntries::density_exponent_of_strength,
+          HypoplasticEntries::density_exponent_of_stiffness,
+          HypoplasticEntries::smallest_mean_stress};
+
         static constexpr bool uses_void_ratio = true, stiffness_varies = true,
                               is_packed = true;
 
@@ -152,18 +163,20 @@ namespace CaissonMPM
         static Parameters
         make(const double *values)
         {
-          Parameters p;
-          p.sin_phi = __builtin_sin(values[0] * radians_per_degree);
+          const LawValues<Hypoplasticity> value{values};
+          Parameters                      p;
+          p.sin_phi = __builtin_sin(value("Critical friction angle") *
+                                    radians_per_degree);
           p.a       = __builtin_sqrt(3.) * (3. - p.sin_phi) /
                 (2. * __builtin_sqrt(2.) * p.sin_phi);
-          p.hardness = values[1];
-          p.n        = values[2];
-          p.e_d0     = values[3];
-          p.e_c0     = values[4];
-          p.e_i0     = values[5];
-          p.alpha    = values[6];
-          p.beta     = values[7];
-          p.shift    = values[8];
+          p.hardness = value("Granulate hardness");
+          p.n        = value("Compression exponent");
+          p.e_d0     = value("Densest void ratio");
+          p.e_c0     = value("Critical void ratio");
+          p.e_i0     = value("Loosest void ratio");
+          p.alpha    = value("Density exponent of strength");
+          p.beta     = value("Density exponent of stiffness");
+          p.shift    = value("Smallest mean stress");
           p.stiffness =
             p.hardness / p.n * __builtin_pow(p.e_i0, p.beta) / denominator(p);
           p.dense = loosest_void_ratio(Lanes<1>(p.dense_pressure), p)[0];
@@ -350,7 +363,8 @@ namespace CaissonMPM
                             const LawContext &context,
                             LawMessage       &message)
       {
-        const double e_d = values[3], e_c = values[4], e_i = values[5];
+        const Parameters p   = make(values);
+        const double     e_d = p.e_d0, e_c = p.e_c0, e_i = p.e_i0;
         if (!(e_d < e_c && e_c < e_i))
           {
             __builtin_snprintf(
@@ -379,8 +393,7 @@ namespace CaissonMPM
               e_i / (1. + e_i));
             return false;
           }
-        const Parameters p = make(values);
-        const double     loosest =
+        const double loosest =
           loosest_void_ratio(Lanes<1>(context.mean_stress + p.shift), p)[0];
         if (context.void_ratio > loosest)
           {
@@ -401,7 +414,7 @@ namespace CaissonMPM
                                sizeof(message.text),
                                "Density exponent of strength = %g leaves the "
                                "loosest sand without stiffness. Lower it.",
-                               values[6]);
+                               p.alpha);
             return false;
           }
         return true;

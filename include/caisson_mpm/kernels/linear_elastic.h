@@ -50,7 +50,9 @@ namespace CaissonMPM
         static Parameters
         make(const double *values)
         {
-          return Parameters::make(values[0], values[1]);
+          const LawValues<LinearElastic> value{values};
+          return Parameters::make(value("Youngs modulus"),
+                                  value("Poisson ratio"));
         }
 
         static bool

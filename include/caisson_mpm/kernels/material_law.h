@@ -89,6 +89,22 @@ namespace CaissonMPM
         return -1;
       }
 
+      /** The values of a law, by the names of its entries. */
+      template <typename Law>
+      struct LawValues
+      {
+        const double *values; // in the order of Law::entries
+
+        double
+        operator()(const char *name) const
+        {
+          const int i = entry_named(Law::entries, name);
+          if (i < 0)
+            __builtin_trap(); // the law has no such entry
+          return values[i];
+        }
+      };
+
       /** The largest value of an entry that has no upper limit. */
       constexpr double no_limit = __DBL_MAX__;
 

@@ -69,14 +69,16 @@ namespace CaissonMPM
         static Parameters
         make(const double *values)
         {
-          const double nu = values[2],
-                       s  = __builtin_sin(values[3] * radians_per_degree);
-          return {values[0],
-                  values[1],
+          const LawValues<ModifiedCamClay> value{values};
+          const double                     nu = value("Poisson ratio"),
+                       s = __builtin_sin(value("Critical friction angle") *
+                                         radians_per_degree);
+          return {value("Slope of compression"),
+                  value("Slope of swelling"),
                   1.5 * (1. - 2. * nu) / (1. + nu),
                   CriticalStateSlope::make(s),
-                  values[4],
-                  values[5],
+                  value("Yield stress ratio"),
+                  value("Smallest stress of stiffness"),
                   s};
         }
 
@@ -85,12 +87,13 @@ namespace CaissonMPM
               const LawContext &context,
               LawMessage       &message)
         {
-          const double share =
-            CriticalStateSlope::share_at_rest(__builtin_sin(values[3] *
-                                                            radians_per_degree),
-                                              context.earth_pressure_at_rest);
+          const LawValues<ModifiedCamClay> value{values};
+          const double share = CriticalStateSlope::share_at_rest(
+            __builtin_sin(value("Critical friction angle") *
+                          radians_per_degree),
+            context.earth_pressure_at_rest);
           const char *const text =
-            values[1] >= values[0] ?
+            value("Slope of swelling") >= value("Slope of compression") ?
               "Slope of swelling is not below Slope of compression. Reduce it." :
             context.void_ratio <= 0. ?
               "the void ratio at the start is 0. Set Void ratio." :

@@ -77,13 +77,15 @@ namespace CaissonMPM
         static Parameters
         make(const double *values)
         {
-          Parameters p         = Parameters::make(values[0],
-                                          values[1],
-                                          values[2] * radians_per_degree,
-                                          values[3] * radians_per_degree,
-                                          values[4],
-                                          values[5]);
-          p.largest_void_ratio = values[6];
+          const LawValues<MohrCoulomb> value{values};
+          Parameters                   p =
+            Parameters::make(value("Youngs modulus"),
+                             value("Poisson ratio"),
+                             value("Friction angle") * radians_per_degree,
+                             value("Dilatancy angle") * radians_per_degree,
+                             value("Cohesion"),
+                             value("Tension cut-off"));
+          p.largest_void_ratio = value("Largest void ratio");
           return p;
         }
 
@@ -147,7 +149,8 @@ namespace CaissonMPM
         static const char *
         warning(const double *values)
         {
-          return values[3] > 0. ?
+          const LawValues<MohrCoulomb> value{values};
+          return value("Dilatancy angle") > 0. ?
                    "Mohr-Coulomb sand with a dilatancy angle grows in volume at "
                    "the same rate up to Largest void ratio. A plug then heaves "
                    "two to three times as much as the wall displaces, and the "
@@ -362,7 +365,9 @@ namespace CaissonMPM
                          const LawContext &context,
                          LawMessage       &message)
       {
-        if (values[3] > 0. && values[6] <= context.void_ratio)
+        const LawValues<MohrCoulomb> value{values};
+        if (value("Dilatancy angle") > 0. &&
+            value("Largest void ratio") <= context.void_ratio)
           {
             __builtin_snprintf(
               message.text,
@@ -370,16 +375,19 @@ namespace CaissonMPM
               "Largest void ratio = %g does not exceed the void ratio %g at the "
               "start, so that soil with Dilatancy angle = %g degrees cannot "
               "dilate. Raise it, or set the dilatancy angle to 0.",
-              values[6],
+              value("Largest void ratio"),
               context.void_ratio,
-              values[3]);
+              value("Dilatancy angle"));
             return false;
           }
         const double compression =
           context.mean_stress / make(values).elastic.bulk;
         return check_loosest_state(values, compression, context, message) &&
-               check_strength(
-                 values[2], values[3], values[4], context, message);
+               check_strength(value("Friction angle"),
+                              value("Dilatancy angle"),
+                              value("Cohesion"),
+                              context,
+                              message);
       }
 
       inline bool
@@ -388,9 +396,11 @@ namespace CaissonMPM
                                        const LawContext &context,
                                        LawMessage       &message)
       {
-        const double unloaded =
+        const LawValues<MohrCoulomb> value{values};
+        const double                 unloaded =
           (1. + context.void_ratio) * (1. + compression) - 1.;
-        if (values[3] == 0. || values[6] > unloaded)
+        if (value("Dilatancy angle") == 0. ||
+            value("Largest void ratio") > unloaded)
           return true;
         __builtin_snprintf(
           message.text,
@@ -398,7 +408,7 @@ namespace CaissonMPM
           "Largest void ratio = %g: soil with the void ratio %g below a mean "
           "stress of %g Pa at the start would have %g, unloaded. Raise it, or "
           "set the dilatancy angle to 0.",
-          values[6],
+          value("Largest void ratio"),
           context.void_ratio,
           context.mean_stress,
           unloaded);

@@ -104,28 +104,34 @@ namespace CaissonMPM
         static Parameters
         make(const double *values)
         {
-          const double     critical[] = {values[0],
-                                         values[1],
-                                         values[2],
+          const LawValues<MohrCoulombDensity> value{values};
+          const double     critical[] = {value("Youngs modulus"),
+                                         value("Poisson ratio"),
+                                         value("Critical friction angle"),
                                          0.,
                                          0.,
                                          0.,
-                                         values[4],
-                                         values[8],
-                                         values[9],
-                                         values[10]};
+                                         value("Maximum void ratio"),
+                                         value("Reference stress"),
+                                         value("Stiffness exponent"),
+                                         value("Smallest stress of stiffness")};
           constexpr double ln_kPa     = 6.907755278982137; // ln 1000
-          const double     range      = values[4] - values[3],
-                       ln_crushing    = values[5] + ln_kPa,
-                       of_strength    = ln_crushing - __builtin_log(values[7]);
+          const double     range      = value("Maximum void ratio") -
+                               value("Minimum void ratio"),
+                       ln_crushing = value("Bolton Q") + ln_kPa,
+                       of_strength =
+                         ln_crushing -
+                         __builtin_log(value("Smallest stress of strength"));
           return {MohrCoulombStiffening::make(critical),
-                  values[2] * radians_per_degree,
-                  1. + values[4] - range / of_strength,
+                  value("Critical friction angle") * radians_per_degree,
+                  1. + value("Maximum void ratio") - range / of_strength,
                   1. / range,
                   ln_crushing,
-                  values[6] * radians_per_degree,
-                  values[7],
-                  values[11] > 0. ? 1. / hardin(Lanes<1>(values[11]))[0] : 0.};
+                  value("Degrees per dilatancy index") * radians_per_degree,
+                  value("Smallest stress of strength"),
+                  value("Reference void ratio") > 0. ?
+                    1. / hardin(Lanes<1>(value("Reference void ratio")))[0] :
+                    0.};
         }
 
         /** Whether the soil gains volume in plastic shear. */
@@ -160,8 +166,12 @@ namespace CaissonMPM
               const LawContext &context,
               LawMessage       &message)
         {
-          const double e_min = values[3], e_max = values[4],
-                       phi = values[2] + largest_index * values[6],
+          const LawValues<MohrCoulombDensity> value{values};
+          const double e_min = value("Minimum void ratio"),
+                       e_max = value("Maximum void ratio"),
+                       phi =
+                         value("Critical friction angle") +
+                         largest_index * value("Degrees per dilatancy index"),
                        psi = __builtin_asin(
                                sine_of_dilatancy(Lanes<1>(largest_index))[0]) /
                              radians_per_degree;
@@ -185,8 +195,8 @@ namespace CaissonMPM
                 "%g give a friction angle of %g degrees to sand with a "
                 "dilatancy angle of %.3g: plastic flow would create energy. "
                 "Raise one of them.",
-                values[2],
-                values[6],
+                value("Critical friction angle"),
+                value("Degrees per dilatancy index"),
                 phi,
                 psi);
               return false;
@@ -198,10 +208,12 @@ namespace CaissonMPM
         static const char *
         warning(const double *values)
         {
-          if (values[7] < 1e3)
+          const LawValues<MohrCoulombDensity> value{values};
+          if (value("Smallest stress of strength") < 1e3)
             return "Smallest stress of strength is usually 1.5e5 Pa: check its "
                    "unit";
-          return warning_of_stiffness(values[8], values[10]);
+          return warning_of_stiffness(value("Reference stress"),
+                                      value("Smallest stress of stiffness"));
         }
 
         /** 1 - sin phi_c (Jaky). */
@@ -270,12 +282,16 @@ namespace CaissonMPM
                       const LawContext &context,
                       LawMessage       &message)
         {
-          const double e_min = values[3], e_max = values[4];
+          const LawValues<MohrCoulombDensity> value{values};
+          const double e_min   = value("Minimum void ratio"),
+                       e_max   = value("Maximum void ratio");
           const double density = (e_max - context.void_ratio) / (e_max - e_min),
-                       reference    = values[11],
+                       reference    = value("Reference void ratio"),
                        of_reference = (e_max - reference) / (e_max - e_min),
                        critical =
-                         1. / (values[5] - __builtin_log(values[7] / 1e3));
+                         1. / (value("Bolton Q") -
+                               __builtin_log(
+                                 value("Smallest stress of strength") / 1e3));
           if (density < -1e-9 || density > densest)
             {
               __builtin_snprintf(
@@ -313,8 +329,8 @@ namespace CaissonMPM
                 "Bolton Q = %g and Smallest stress of strength = %g Pa leave "
                 "the sand no critical state below a relative density of %g. "
                 "Raise the one or reduce the other.",
-                values[5],
-                values[7],
+                value("Bolton Q"),
+                value("Smallest stress of strength"),
                 largest_critical_density);
               return false;
             }
@@ -327,8 +343,9 @@ namespace CaissonMPM
                       const LawContext &context,
                       LawMessage       &message)
         {
-          const double mean = context.mean_stress;
-          const double s =
+          const LawValues<MohrCoulombDensity> value{values};
+          const double                        mean = context.mean_stress;
+          const double                        s =
             strength(StressState<Lanes<1>>{-mean, -mean, -mean, 0.},
                      Lanes<1>(context.void_ratio),
                      make(values))
@@ -345,7 +362,7 @@ namespace CaissonMPM
             "them.",
             k,
             context.void_ratio,
-            values[2],
+            value("Critical friction angle"),
             1. / passive,
             passive);
           return false;

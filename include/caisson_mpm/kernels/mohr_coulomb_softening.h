@@ -88,18 +88,20 @@ namespace CaissonMPM
         static Parameters
         make(const double *values)
         {
-          const auto angle = [values](const int i) {
-            return values[i] * radians_per_degree;
+          const LawValues<MohrCoulombSoftening> value{values};
+          const auto angle = [value](const char *name) {
+            return value(name) * radians_per_degree;
           };
-          return {MohrCoulombElasticity::make(values[0], values[1]),
-                  angle(6),
-                  angle(7),
-                  values[8],
-                  angle(2) - angle(6),
-                  angle(3) - angle(7),
-                  values[4] - values[8],
-                  values[9],
-                  values[5]};
+          return {MohrCoulombElasticity::make(value("Youngs modulus"),
+                                              value("Poisson ratio")),
+                  angle("Residual friction angle"),
+                  angle("Residual dilatancy angle"),
+                  value("Residual cohesion"),
+                  angle("Friction angle") - angle("Residual friction angle"),
+                  angle("Dilatancy angle") - angle("Residual dilatancy angle"),
+                  value("Cohesion") - value("Residual cohesion"),
+                  value("Softening shape factor"),
+                  value("Tension cut-off")};
         }
 
         static const char *
@@ -115,21 +117,26 @@ namespace CaissonMPM
               const LawContext &context,
               LawMessage       &message)
         {
-          static constexpr int peak[] = {2, 3, 4}, residual[] = {6, 7, 8};
-          for (int i = 0; i < 3; ++i)
-            if (values[residual[i]] > values[peak[i]])
+          const LawValues<MohrCoulombSoftening> value{values};
+          static constexpr const char          *softening[][2] = {
+                     {"Friction angle", "Residual friction angle"},
+                     {"Dilatancy angle", "Residual dilatancy angle"},
+                     {"Cohesion", "Residual cohesion"}};
+          for (const auto &[peak, residual] : softening)
+            if (value(residual) > value(peak))
               {
                 __builtin_snprintf(message.text,
                                    sizeof(message.text),
                                    "%s = %g exceeds %s = %g: the law softens. "
                                    "Lower the residual value.",
-                                   entries[residual[i]].name,
-                                   values[residual[i]],
-                                   entries[peak[i]].name,
-                                   values[peak[i]]);
+                                   residual,
+                                   value(residual),
+                                   peak,
+                                   value(peak));
                 return false;
               }
-          if (values[7] > values[6])
+          if (value("Residual dilatancy angle") >
+              value("Residual friction angle"))
             {
               __builtin_snprintf(
                 message.text,
@@ -137,12 +144,15 @@ namespace CaissonMPM
                 "Residual dilatancy angle = %g exceeds Residual friction "
                 "angle = %g degrees: plastic flow would create energy. Lower "
                 "the dilatancy angle.",
-                values[7],
-                values[6]);
+                value("Residual dilatancy angle"),
+                value("Residual friction angle"));
               return false;
             }
-          return check_strength(
-            values[2], values[3], values[4], context, message);
+          return check_strength(value("Friction angle"),
+                                value("Dilatancy angle"),
+                                value("Cohesion"),
+                                context,
+                                message);
         }
 
         /** Whether the soil gains volume in plastic shear. */

@@ -65,9 +65,15 @@ namespace CaissonMPM
         static Parameters
         make(const double *values)
         {
+          const LawValues<MohrCoulombStiffening> value{values};
           return {MohrCoulomb::make(values),
-                  StiffnessByStress::make(values[7], values[8], values[9]),
-                  1. / (1. - (values[8] < .9 ? values[8] : .9))};
+                  StiffnessByStress::make(value("Reference stress"),
+                                          value("Stiffness exponent"),
+                                          value(
+                                            "Smallest stress of stiffness")),
+                  1. / (1. - (value("Stiffness exponent") < .9 ?
+                                value("Stiffness exponent") :
+                                .9))};
         }
 
         static bool
@@ -138,7 +144,10 @@ namespace CaissonMPM
         static const char *
         warning(const double *values)
         {
-          const char *const text = warning_of_stiffness(values[7], values[9]);
+          const LawValues<MohrCoulombStiffening> value{values};
+          const char *const                      text =
+            warning_of_stiffness(value("Reference stress"),
+                                 value("Smallest stress of stiffness"));
           return text != nullptr ? text : MohrCoulomb::warning(values);
         }
 

@@ -117,22 +117,27 @@ namespace CaissonMPM
         static Parameters
         make(const double *values)
         {
-          const double A = values[0], D = A * values[1], P = A * values[2],
-                       G = A * values[6], n = .5 * (A + P) / D;
+          const LawValues<NgiAdp> value{values};
+          const double            A = value("Active strength"),
+                       D            = A * value("Direct shear strength ratio"),
+                       P            = A * value("Passive strength ratio"),
+                       G = A * value("Unloading shear modulus ratio"),
+                       n = .5 * (A + P) / D;
           Parameters p;
           p.elastic =
-            MohrCoulombElasticity::make(2. * G * (1. + values[7]), values[7]);
+            MohrCoulombElasticity::make(2. * G * (1. + value("Poisson ratio")),
+                                        value("Poisson ratio"));
           constexpr double no_cone = MohrCoulombStrength<double>::no_cutoff;
           p.cutoff                 = MohrCoulombStrength<double>::make(
-            p.elastic, 0., 1., 0., no_cone, values[8]);
+            p.elastic, 0., 1., 0., no_cone, value("Tension cut-off"));
           p.center         = .5 * (A - P);
           p.radius         = .5 * (A + P);
           p.active         = A;
           p.shear_scale    = n;
           p.inverse_scale  = 1. / n;
-          p.active_strain  = values[3] - A / G;
-          p.direct_strain  = n * (values[4] - D / G);
-          p.passive_strain = values[5] - P / G;
+          p.active_strain  = value("Active failure strain") - A / G;
+          p.direct_strain  = n * (value("Direct shear failure strain") - D / G);
+          p.passive_strain = value("Passive failure strain") - P / G;
           return p;
         }
 
@@ -141,10 +146,12 @@ namespace CaissonMPM
               const LawContext &context,
               LawMessage       &message)
         {
-          const double k = context.earth_pressure_at_rest,
+          const LawValues<NgiAdp> value{values};
+          const double            k = context.earth_pressure_at_rest,
                        tau_0 =
                          1.5 * context.mean_stress * (1. - k) / (1. + 2. * k),
-                       A = values[0], P = A * values[2];
+                       A = value("Active strength"),
+                       P = A * value("Passive strength ratio");
           if (tau_0 >= A || tau_0 <= -P)
             {
               __builtin_snprintf(
@@ -451,21 +458,29 @@ namespace CaissonMPM
                       const double  tau_0,
                       LawMessage   &message)
         {
-          const double G          = values[0] * values[6],
-                       elastic[3] = {(values[0] - tau_0) / G,
-                                     values[0] * values[1] / G,
-                                     (values[0] * values[2] + tau_0) / G};
-          for (int i = 0; i < 3; ++i)
-            if (values[3 + i] <= elastic[i])
+          const LawValues<NgiAdp> value{values};
+          const double            A = value("Active strength"),
+                       G = A * value("Unloading shear modulus ratio");
+          const struct
+          {
+            const char *failure;
+            double      elastic;
+          } strains[] = {{"Active failure strain", (A - tau_0) / G},
+                         {"Direct shear failure strain",
+                          A * value("Direct shear strength ratio") / G},
+                         {"Passive failure strain",
+                          (A * value("Passive strength ratio") + tau_0) / G}};
+          for (const auto &strain : strains)
+            if (value(strain.failure) <= strain.elastic)
               {
                 __builtin_snprintf(
                   message.text,
                   sizeof(message.text),
                   "%s = %g is not more than the elastic strain at failure, %g. "
                   "Raise it, or Unloading shear modulus ratio.",
-                  entries[3 + i].name,
-                  values[3 + i],
-                  elastic[i]);
+                  strain.failure,
+                  value(strain.failure),
+                  strain.elastic);
                 return false;
               }
           return true;

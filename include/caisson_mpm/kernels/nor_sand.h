@@ -117,23 +117,30 @@ namespace CaissonMPM
         static Parameters
         make(const double *values)
         {
-          Parameters p;
-          p.elastic = MohrCoulombElasticity::make(values[0], values[1]);
+          const LawValues<NorSand> value{values};
+          Parameters               p;
+          p.elastic = MohrCoulombElasticity::make(value("Youngs modulus"),
+                                                  value("Poisson ratio"));
           p.stiffness =
-            StiffnessByStress::make(values[9], values[10], values[11]);
-          p.sine         = __builtin_sin(values[2] * radians_per_degree);
+            StiffnessByStress::make(value("Reference stress"),
+                                    value("Stiffness exponent"),
+                                    value("Smallest stress of stiffness"));
+          p.sine         = __builtin_sin(value("Critical friction angle") *
+                                 radians_per_degree);
           p.slope        = CriticalStateSlope::make(p.sine);
           const double M = p.slope.M;
-          p.lambda       = values[4];
-          p.Gamma        = values[3] + p.lambda * log_of_1_kPa;
-          p.coupling     = values[5];
-          p.dilatancy    = values[6] / (M - values[6] * p.lambda);
-          p.hardening    = values[7] / M;
+          p.lambda       = value("Slope of the critical state");
+          p.Gamma =
+            value("Critical void ratio at 1 kPa") + p.lambda * log_of_1_kPa;
+          p.coupling  = value("Volumetric coupling");
+          p.dilatancy = value("State dilatancy") /
+                        (M - value("State dilatancy") * p.lambda);
+          p.hardening = value("Plastic hardening") / M;
           // in extension a principal stress vanishes at eta = 3 / 2
           const double limit =
             (.95 * .5 * (3. + M) / M - 1.) / (1. - p.coupling);
           p.most_dilatant = limit < 1. ? limit : 1.;
-          p.at_start      = values[8];
+          p.at_start      = value("Yield stress ratio");
           return p;
         }
 
@@ -142,16 +149,17 @@ namespace CaissonMPM
               const LawContext &context,
               LawMessage       &message)
         {
-          const Parameters p = make(values);
-          const double     M = p.slope.M;
-          if (values[6] * p.lambda > .5 * M)
+          const LawValues<NorSand> value{values};
+          const Parameters         p = make(values);
+          const double             M = p.slope.M;
+          if (value("State dilatancy") * p.lambda > .5 * M)
             {
               __builtin_snprintf(
                 message.text,
                 sizeof(message.text),
                 "State dilatancy = %g times Slope of the critical state = %g "
                 "exceeds %g, half of M. Reduce one of them.",
-                values[6],
+                value("State dilatancy"),
                 p.lambda,
                 .5 * M);
               return false;
@@ -177,7 +185,9 @@ namespace CaissonMPM
         static const char *
         warning(const double *values)
         {
-          return warning_of_stiffness(values[9], values[11]);
+          const LawValues<NorSand> value{values};
+          return warning_of_stiffness(value("Reference stress"),
+                                      value("Smallest stress of stiffness"));
         }
 
         /** 1 - sin(phi_c) (Jaky 1948). */

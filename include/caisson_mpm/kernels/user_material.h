@@ -41,7 +41,8 @@ namespace CaissonMPM
         static Parameters
         make(const double *values)
         {
-          return {__builtin_sin(values[0] * radians_per_degree),
+          const LawValues<UserMaterial> value{values};
+          return {__builtin_sin(value("Friction angle") * radians_per_degree),
                   0.,
                   nullptr,
                   nullptr};

@@ -6,8 +6,9 @@
 
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/kernels/material.h>
-#include <caisson_mpm/materials/umat_law.h>
+#include <caisson_mpm/materials/umat_settings.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>

@@ -20,40 +20,16 @@
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/base/guarded_call.h>
 #include <caisson_mpm/kernels/user_point.h>
+#include <caisson_mpm/materials/umat_settings.h>
 #include <caisson_mpm/materials/user_library.h>
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
 namespace CaissonMPM
 {
-  /** What points have in the place of state that their law does not keep. */
-  constexpr double no_state = std::numeric_limits<double>::quiet_NaN();
-
-  /** What the user says of a UMAT. */
-  struct UmatSettings
-  {
-    std::string         library; // as the scene has it
-    std::string         routine = "umat";
-    std::string         name; // CMNAME; empty: that of the section
-    unsigned int        n_components = 4;
-    double              unit         = 1.; // of its stress, Pa
-    std::vector<double> properties;
-    unsigned int        n_variables = 0;
-    std::vector<double> variables; // the first of them, at the start
-  };
-
-  /** The stiffness of a law in a state, as the time step needs it. */
-  struct UmatStiffness
-  {
-    double p_wave_modulus = 0.; // a bound of rho c^2 of all plane waves, Pa
-    double poisson        = 0.;
-    bool   varies         = false; // with stress
-  };
-
   /**
    * Calls a UMAT for one point after the other. Owns the arguments that the
    * UMAT works on, and keeps the first failure; after that it is not called

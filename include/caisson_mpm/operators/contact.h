@@ -209,7 +209,6 @@ namespace CaissonMPM
       unsigned int           n_normals = 0; // of different direction: 1 or 2
       std::array<Vector2, 2> normal;
       Vector2                mean_normal;
-      bool                   concave  = false; // between lid and wall
       bool                   is_open  = false; // the soil is below the lid
       double                 friction = 0.;
       double                 adhesion = 0.; // a A, N per radian
@@ -244,11 +243,6 @@ namespace CaissonMPM
     /** Return the same at a corner that has two normals. */
     NodeResult
     compute_contact_at_corner(const Node &node, const Vector2 &w) const;
-
-    /** Return which of both normals of a convex corner counts, or their mean,
-     * as Rigid body/Corner normals says. */
-    Vector2
-    corner_normal(const Node &node) const;
 
     /** Change the velocity @p u of a node with the mass @p m. */
     NodeResult
@@ -287,11 +281,9 @@ namespace CaissonMPM
     std::vector<unsigned int>       inner_nodes; // inside the body
     std::vector<NodeResult>         results; // of the nodes, in the last step
     std::vector<bool>               on_body;
-    BodySurface::CornerNormals      corner_normals =
-      BodySurface::CornerNormals::average;
-    Vector2      velocity;
-    double       circumference = 2. * pi;
-    unsigned int n_owned_nodes = 0;
+    Vector2                         velocity;
+    double                          circumference = 2. * pi;
+    unsigned int                    n_owned_nodes = 0;
   };
 } // namespace CaissonMPM
 

@@ -34,28 +34,12 @@ namespace CaissonMPM
     }
   };
 
-  /** How points take their velocity from the nodes (nodal_motion.h). */
-  enum class VelocityTransfer
-  {
-    xpic,
-    pic,
-    flip,
-    blend
-  };
-
   /** Which nodal velocities strain the points. */
   enum class StressUpdate
   {
     automatic, // usl with an inertia tolerance, else musl
     musl,      // those that the updated points bring back
     usl        // the new nodal velocities
-  };
-
-  /** Where the internal force is integrated. */
-  enum class ForceIntegration
-  {
-    gauss_in_full_cells,
-    material_points
   };
 
   /**
@@ -96,7 +80,10 @@ namespace CaissonMPM
 
     /** Order of XPIC in what it does not keep; 1: PIC. */
     unsigned int
-    filter_order() const;
+    filter_order() const
+    {
+      return xpic_order;
+    }
 
     bool
     uses_musl() const
@@ -140,11 +127,18 @@ namespace CaissonMPM
     void
     declare_stability();
 
-    VelocityTransfer transfer           = VelocityTransfer::blend;
-    StressUpdate     stress_update      = StressUpdate::automatic;
-    ForceIntegration force_integration  = ForceIntegration::gauss_in_full_cells;
-    Kernels::PressureSlope pressure_fit = Kernels::PressureSlope::by_dilation;
-    unsigned int           xpic_order   = 2;
+    /** Whether no cell takes Gauss points. */
+    bool
+    integrates_at_points() const
+    {
+      return full_fraction == never_full && full_fraction_inside == never_full;
+    }
+
+    static constexpr double never_full = 2.; // fraction of a cell
+
+    StressUpdate           stress_update = StressUpdate::automatic;
+    Kernels::PressureSlope pressure_fit  = Kernels::PressureSlope::by_dilation;
+    unsigned int           xpic_order    = 2;
     std::optional<double>  flip_fraction; // else by the scene
     double                 flip_fraction_of_scene = 0.95;
     double                 full_fraction          = 0.9;
@@ -153,8 +147,7 @@ namespace CaissonMPM
     double                 stress_filter          = 0.01;
     bool                   minimum_nodal_mass     = true;
     double                 damping                = 0.;
-    bool                   limits_velocity        = true;
-    double                 limiter_factor         = 0.75;
+    std::optional<double>  limiter_factor         = 0.75;
   };
 } // namespace CaissonMPM
 

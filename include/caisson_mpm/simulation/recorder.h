@@ -9,11 +9,8 @@
 #include <caisson_mpm/checks/verification.h>
 #include <caisson_mpm/kernels/forward.h>
 #include <caisson_mpm/operators/wall_forces.h>
-#include <caisson_mpm/output/design_methods.h>
-#include <caisson_mpm/output/error_bar.h>
 #include <caisson_mpm/output/observations.h>
 #include <caisson_mpm/output/records.h>
-#include <caisson_mpm/output/run_results.h>
 #include <caisson_mpm/output/visualization.h>
 #include <caisson_mpm/output/wall_file.h>
 #include <caisson_mpm/simulation/recorded_parts.h>
@@ -44,10 +41,6 @@ namespace CaissonMPM
     void
     check_parameters();
 
-    /** Name the entries of the design methods that have no effect. */
-    void
-    name_unused_entries(ParameterOrigins &origins) const;
-
     /** Let a directory that is not empty replace the parameter. */
     void
     set_output_directory(const std::string &of_command_line);
@@ -56,7 +49,7 @@ namespace CaissonMPM
      * Learn what is run; the wall time begins. @p scene_file is for messages,
      * @p fingerprint is that of the physics, and @p installation the directory
      * of the run after which this one goes on, or empty. Throws BadInput where
-     * the output directory or the file of the error bar cannot be used. Writes
+     * the output directory cannot be used. Writes
      * nothing.
      */
     void
@@ -65,14 +58,6 @@ namespace CaissonMPM
              const std::string          &fingerprint,
              const std::string          &installation,
              const Kernels::KernelTable &kernels);
-
-    /** Return why history_error.csv will not be written although the scene asks
-     * for it, or an empty text. */
-    const std::string &
-    wrong_error_bar() const
-    {
-      return wrong_error_bar_;
-    }
 
     /** Throw BadInput where an observation finds no material point. Collective.
      */
@@ -197,8 +182,6 @@ namespace CaissonMPM
     count_names() const;
     SceneParts
     scene_parts() const;
-    ResultLimits
-    result_limits() const;
     Console::Verbosity
     verbosity() const;
     void
@@ -259,10 +242,8 @@ namespace CaissonMPM
 
     const RecordedParts parts;
 
-    Observations  observations;
-    Verification  verification;
-    ErrorBar      error_bar;
-    DesignMethods design_methods;
+    Observations observations;
+    Verification verification;
 
     enum class Terminal
     {
@@ -281,7 +262,6 @@ namespace CaissonMPM
     std::unique_ptr<Visualization>   visualization;
     std::unique_ptr<WallFile>        wall_file;
     std::string                      scene, command, fingerprint, installation;
-    std::string                      wrong_error_bar_;
     std::vector<std::string>         assumed; // entries
     std::vector<std::string>         earlier_warnings;
     std::function<double()>          steps_left;

@@ -31,8 +31,6 @@ namespace CaissonMPM
     std::vector<Warning> warnings;            // of the input and of the run
     std::vector<std::string> assumed;         // entries marked so
     Json::Members            progress;        // of a run that has not ended
-    Json::Members            results;         // of a run that has
-    Json::Members            design_methods;  // what they assume
   };
 
   /** Write run.json: what was run, how large it was and how long it took. The

@@ -81,7 +81,6 @@ def runs_of(_: Path) -> list[dict[str, Any]]:
                 "Rigid body/Wall thickness": wall,
                 "Output/Frame interval": "never",
                 "Output/Frame penetrations": "",
-                "Output/Error bar": "",
             }
             name = f"{sand.name}_wall_{wall:g}"
             seconds = 60 * (0.1 / wall) ** 2

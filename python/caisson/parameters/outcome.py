@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from caisson import curves
+from caisson import curves, error_bounds
+from caisson.evaluation import rest_of_run
 from caisson.parameters.entry import Parameter, Sample, read_all
 from caisson.parameters.sampling import numbers_of, sampling_of
-from caisson.plot.suction import rest_of_run
 from caisson.results import ResultsError, Table, read_table
 from caisson.runner import Status
 from caisson.study import Study, StudyError, StudyRun
@@ -257,15 +257,14 @@ class Outcomes:
 
     def error(self, depths: np.ndarray, values: np.ndarray) -> np.ndarray | None:
         """Return how far the truth may lie below and above [2, n_depths], by the error
-        bar that the scene names, for its numerics; None where there is none. values: of
+        bar beside the scene, for its numerics; None where there is none. values: of
         what is observed."""
         column, is_relative = ERRORS.get(self.column, ("", False))
         outcome = next(o for o in [*self.all, self.reference] if o and o.history)
         if not column:
             return None
         try:
-            file = outcome.run.results.summary["entries"]["Output/Error bar"]
-            bar = read_table(outcome.run.run.scene.parent / file)
+            bar = read_table(error_bounds.beside(outcome.run.run.scene))
             sides = [bar[column.format(side)] for side in ("below", "above")]
         except ResultsError:
             return None

@@ -4,6 +4,8 @@ import argparse
 import sys
 from pathlib import Path
 
+from caisson import error_bounds
+from caisson.plot import assumed
 from caisson.results import Results, ResultsError
 from caisson_design import InputError, cone_options
 
@@ -20,6 +22,7 @@ def draw(directory: Path) -> list[Path]:
 
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
+    error_bounds.adopt(directory)
     run = Results(directory)
     pictures = [forces.draw(directory / "forces.png", run)]
     pictures += suction.draw(directory, run)
@@ -36,8 +39,8 @@ def draw(directory: Path) -> list[Path]:
     return [picture for picture in pictures if picture is not None]
 
 
-def add_cone_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the option for a cone test."""
+def add_method_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the design methods: a cone test, and what they assume."""
     parser.add_argument(
         "--cpt",
         type=Path,
@@ -46,10 +49,13 @@ def add_cone_arguments(parser: argparse.ArgumentParser) -> None:
         " directory of the run",
     )
     cone_options.add_arguments(parser)
+    assumed.add_arguments(parser)
 
 
-def keep_cone(options: argparse.Namespace, directory: Path) -> None:
-    """Keep a cone test, if one is given, with a run. Raises InputError."""
+def keep_methods(options: argparse.Namespace, directory: Path) -> bool:
+    """Keep what is given of them with a run; return whether there is anything. Raises
+    InputError."""
+    is_new = assumed.keep(options, directory) or options.cpt is not None
     how = cone_options.how_of(options)
     if options.cpt is not None:
         from caisson_design import cone
@@ -58,11 +64,12 @@ def keep_cone(options: argparse.Namespace, directory: Path) -> None:
             print(f"{options.cpt}: {remark}")
     else:
         how.refuse()
+    return is_new
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson plot`."""
-    add_cone_arguments(parser)
+    add_method_arguments(parser)
     parser.add_argument(
         "directories",
         nargs="+",
@@ -77,7 +84,7 @@ def main(options: argparse.Namespace) -> int:
     status = 0
     for directory in options.directories:
         try:
-            keep_cone(options, directory)
+            keep_methods(options, directory)
             for picture in draw(directory):
                 print(f"plot: {picture}")
         except (InputError, OSError) as error:

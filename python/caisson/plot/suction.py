@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from caisson.evaluation import pump_limit, rest_of_run
 from caisson.plot import suction_methods as methods
 from caisson.plot import theory
 from caisson.plot.forces import COLORS, draw_error_bar, error_band, penetration
@@ -27,24 +28,6 @@ CRITICAL = {
 }
 ERROR_BAR = "error bar"  # its name in the legends
 WHITE = {"facecolor": "white", "edgecolor": "0.8"}  # behind a text
-
-
-def rest_of_run(history: Table) -> float | None:
-    """Return the penetration from which on suction is never 0 again, in m; None
-    where it is 0 at the end, or acts from the first row on."""
-    without = np.flatnonzero(history["suction_Pa"] <= 0)
-    if len(without) == 0 or without[-1] in (0, len(history["suction_Pa"]) - 1):
-        return None
-    return float(history["penetration_m"][without[-1]])
-
-
-def pump_limit(run: Results) -> float | None:
-    """Return Water/Largest suction in kPa, None without one."""
-    entries = run.summary.get("entries", {}) if run.scene else {}
-    try:
-        return float(entries.get("Water/Largest suction", "")) / 1e3
-    except ValueError:
-        return None
 
 
 def from_rest_on(suction: np.ndarray) -> np.ndarray:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson.density_law import BY_DENSITY
+from caisson.plot import assumed
 from caisson.results import Results, ResultsError
 from caisson_design import andersen, clay, dnv, houlsby_byrne, senders_randolph
 from caisson_design.assumed_cone import STEP, Sand, SandGround, assumed_cone
@@ -67,7 +68,9 @@ def site_of(run: Results) -> Site:
     if not run.scene and run.is_running:
         return Site({}, cone=test, is_running=True)
     entries = (run.summary.get("entries") or {}) if run.scene else {}
-    return Site(run.scene, entries.get("Water/Level", "drained"), test)
+    given = {**(run.scene.get("design_methods") or {}), **assumed.of_run(run.directory)}
+    scene = {**run.scene, "design_methods": given}
+    return Site(scene, entries.get("Water/Level", "drained"), test)
 
 
 def top_of(entry: Scene) -> float:
@@ -148,8 +151,8 @@ def skirt_of(site: Site) -> Skirt:
 
 
 def assumptions_of(scene: Scene) -> Assumptions:
-    """Return what Houlsby and Byrne assume, by the section Design methods of the
-    scene; older files, which lack it, have the defaults."""
+    """Return what Houlsby and Byrne assume, by the options of the report or, in the
+    run.json of earlier versions, the scene."""
     given = scene.get("design_methods") or {}
     known = {name: given[name] for name in Assumptions._fields if name in given}
     return Assumptions(

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The error bar of a run: error_bar.csv, and the bounds that follow from it,
+history_error.csv.
+
+The errors come from a study of the scene (`caisson error-bar`), as a file beside it:
+mine_error_bar.csv of mine.prm. They hold for the scene of the study only, which the
+file names by its fingerprint. The columns of the file are penetration_m and, of each
+quantity, how far it may be too high and too low (below, above), and what leads to the
+limit of all meshes (shift).
+"""
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from caisson import curves
+from caisson.results import Results, ResultsError, Table, read_table
+from caisson_design import disk
+
+NAME, HISTORY = "error_bar.csv", "history_error.csv"
+DEPTH = "penetration_m"
+# the bounds of a value, and the parts of the error that lead to them
+BOUNDS = {"low": ("below", -1), "high": ("above", 1), "limit": ("shift", 1)}
+
+
+class Quantity(NamedTuple):
+    """A quantity of history.csv, and how columns of the error bar begin."""
+
+    name: str
+    unit: str
+    bar: str
+    is_relative: bool = False  # its errors are shares of it
+
+    def column(self, bound: str = "") -> str:
+        """Return its column in history.csv, or that of a bound."""
+        return "_".join(filter(None, (self.name, bound, self.unit)))
+
+    def bar_column(self, part: str) -> str:
+        """Return its column in the file of errors."""
+        unit = "" if self.is_relative else self.unit
+        return "_".join(filter(None, (self.bar, part, unit)))
+
+
+# The required suction crosses zero, where the weight no longer suffices, so that it and
+# what follows from it have absolute errors.
+QUANTITIES = (
+    Quantity("tip_force", "N", "tip", True),
+    Quantity("total_force", "N", "total", True),
+    Quantity("required_suction", "Pa", "required_suction"),
+    Quantity("exit_gradient_axis", "", "exit_gradient_axis"),
+    Quantity("plug_heave", "m", "plug_heave"),
+)
+
+
+def beside(scene: Path) -> Path:
+    """Return where the error bar of a scene is."""
+    return scene.with_name(f"{scene.stem}_error_bar.csv")
+
+
+def adopt(directory: Path, bar: Path | None = None) -> None:
+    """Keep an error bar with a run, and write its bounds: this one, or that beside its
+    scene if it is for this run, or the one kept before. Raises ResultsError where the
+    given one cannot be used."""
+    run = Results(directory)
+    if not (run.scene and (directory / "history.csv").is_file()):
+        return
+    scene = Path(str(run.summary.get("scene_file") or "scene"))
+    chosen = [bar] if bar else [beside(scene), directory / NAME]
+    known = (path for path in chosen if bar or path.is_file())
+    file = next((path for path in known if is_of(run, path)), None)
+    if file is None:
+        if bar is not None:
+            raise ResultsError(
+                f"the error bar {bar} was computed for other parameters than those of"
+                f" {directory}: compute it with caisson error-bar"
+            )
+        return
+    text = disk.read_text(file, ResultsError)
+    columns = bounds_of(run.history, read_table(file))
+    rows = zip(*columns.values())
+    lines = [",".join(f"{value:.10g}" for value in row) for row in rows]
+    disk.write(directory / NAME, text)
+    disk.write(directory / HISTORY, "\n".join([",".join(columns), *lines]) + "\n")
+
+
+def is_of(run: Results, bar: Path) -> bool:
+    """Return whether an error bar was computed for the parameters of a run. Raises
+    ResultsError where it cannot be read."""
+    text = disk.read_text(bar, ResultsError)
+    found = re.search(r"^# fingerprint: (\S+)", text, re.M)
+    return found is not None and found[1] == run.summary.get("fingerprint")
+
+
+def changes(bar: Table, q: Quantity, values: np.ndarray, at: np.ndarray) -> Table:
+    """Return the bounds of values [n] of a quantity at depths [n] by an error bar."""
+    found: Table = {}
+    for bound, (part, sign) in BOUNDS.items():
+        if (errors := bar.get(q.bar_column(part))) is not None:
+            error = sign * np.interp(at, bar[DEPTH], errors)
+            change = error * values if q.is_relative else error
+            found[q.column(bound)] = values + change
+    return found
+
+
+def is_inside(bar: Table, depth: np.ndarray) -> np.ndarray:
+    """Return which depths [n] an error bar covers."""
+    return (depth >= bar[DEPTH][0] - curves.EDGE) & (
+        depth <= bar[DEPTH][-1] + curves.EDGE
+    )
+
+
+def bounds_of(history: Table, bar: Table) -> Table:
+    """Return the rows of a history within the depths of an error bar: of each of its
+    quantities the values and their bounds."""
+    rows = is_inside(bar, history[DEPTH])
+    depth = history[DEPTH][rows]
+    found = {DEPTH: depth}
+    for q in QUANTITIES:
+        if q.bar_column("below") in bar and q.column() in history:
+            found[q.column()] = values = history[q.column()][rows]
+            found |= changes(bar, q, values, depth)
+    return found
+
+
+def at_depths(run: Results, depth: np.ndarray, means: Table) -> Table:
+    """Return the bounds of means [n] of a run at depths [n], nan beyond its error bar;
+    empty without one."""
+    if not (run.directory / NAME).is_file():
+        return {}
+    bar = read_table(run.directory / NAME)
+    found: Table = {}
+    for q in QUANTITIES:
+        if q.column() in means:
+            found |= changes(bar, q, means[q.column()], depth)
+    inside = is_inside(bar, depth)
+    return {
+        name: np.where(inside, values, np.nan)
+        for name, values in found.items()
+        if "_limit" not in name
+    }

@@ -1,0 +1,311 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What came out of a run: the numbers at depths, the largest force, the margins and the
+largest pull.
+
+All of them follow from history.csv. They are means of curves.smoothed_at(), except the
+largest pull: that is the largest median over neighboring rows of a way up.
+"""
+import functools
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from caisson import curves, error_bounds
+from caisson.results import Results, Table
+
+INTERVAL = 0.5  # m, between the depths
+LEAST_RISE = 1e-3  # m, below which a way up says nothing
+DEPTH, TOTAL, SUCTION = "penetration_m", "total_force_N", "required_suction_Pa"
+HEAVE, ROOM, BOILING = "plug_heave_m", "room_below_lid_m", "cavitation_suction_Pa"
+GRADIENT = "exit_gradient_over_critical"
+COLUMNS = (
+    "tip_force_N",
+    "inner_friction_N",
+    "outer_friction_N",
+    TOTAL,
+    curves.WITH_WATER,
+    "suction_Pa",
+    SUCTION,
+    BOILING,
+    "seepage_flow_m3_s",
+    HEAVE,
+)
+FEW = 25  # rows of a way up, with fewer of which a median is over three of them
+FRICTION_RISE = 5e-3  # m, which mobilizes friction
+# of the rise to the largest pull: how much further a capacity is followed, and the
+# part of it at which the pull is nearly reached
+FURTHER, BEFORE, NEARLY = 0.2, 0.7, 0.93
+LITTLE = 0.1  # of a pull
+NO_CAPACITY = "the pull neither fell nor levelled off: it is not the capacity"
+
+
+class Way(NamedTuple):
+    """The rows of a way down or up: their depths [n] (m) and columns [n]."""
+
+    depth: np.ndarray
+    columns: Table
+
+    def mean(self, name: str, at: np.ndarray) -> np.ndarray:
+        """Return the means of a column at depths [m] (m): [m]."""
+        return curves.smoothed_at(self.depth, self.columns[name], at)
+
+    def largest(self, values: np.ndarray) -> tuple[float, float]:
+        """Return the largest mean of values [n], and its depth (m)."""
+        at = np.concatenate([depths_of(self.depth), self.depth])
+        means = curves.smoothed_at(self.depth, values, at)
+        return float(means.max()), float(at[np.argmax(means)])
+
+
+def multiples_of(position: np.ndarray, interval: float = INTERVAL) -> np.ndarray:
+    """Return the multiples of the interval (m) that a growing curve passes after its
+    start, or the rounder ones of curves.round_depths() where it is shorter than two of
+    them."""
+    if np.ptp(position) < 2 * interval:
+        return curves.round_depths(position)
+    found = curves.common_depths([position], interval)
+    return found[found > position.min() + 1e-6 * interval]
+
+
+def depths_of(position: np.ndarray, interval: float = INTERVAL) -> np.ndarray:
+    """Return the same depths, and the end of the way down."""
+    found = multiples_of(position, interval)
+    end = float(position.max())
+    near = 2e-3 * (found[1] - found[0] if len(found) > 1 else interval)
+    if len(found) and end - found[-1] <= near:
+        return found
+    return np.append(found, end)
+
+
+def way_of(run: Results, rows: np.ndarray) -> Way:
+    """Return a way along rows of history.csv."""
+    history = run.history
+    columns = {name: history[name][rows] for name in COLUMNS if name in history}
+    depth = history[DEPTH][rows]
+    if SUCTION in history:
+        columns[GRADIENT] = curves.gradient_share(history)[rows]
+        if length := run.scene.get("skirt_length_m"):
+            columns[ROOM] = float(length) - depth - columns[HEAVE]
+    return Way(depth, columns)
+
+
+def way_down(run: Results) -> Way:
+    """Return the way down without the row where it begins."""
+    return way_of(run, curves.way_down(run.history[DEPTH])[1:])
+
+
+def at_depths(run: Results) -> Table:
+    """Return the numbers of the way down at each half meter and at the end, with the
+    bounds of those that have an error bar: columns [n]; empty without a way down."""
+    if DEPTH not in run.history or len((way := way_down(run)).depth) < 2:
+        return {}
+    at = depths_of(way.depth)
+    means = {name: way.mean(name, at) for name in way.columns}
+    return {DEPTH: at, **means, **error_bounds.at_depths(run, at, means)}
+
+
+def rows_of(table: Table) -> list[dict[str, float]]:
+    """Return a table by its rows, without what is no number."""
+    rows = (dict(zip(table, map(float, row))) for row in zip(*table.values()))
+    return [{k: v for k, v in row.items() if np.isfinite(v)} for row in rows]
+
+
+def rest_of_run(history: Table) -> float | None:
+    """Return the penetration from which on suction is never 0 again, in m; None
+    where it is 0 at the end, or acts from the first row on."""
+    without = np.flatnonzero(history["suction_Pa"] <= 0)
+    if len(without) == 0 or without[-1] in (0, len(history["suction_Pa"]) - 1):
+        return None
+    return float(history[DEPTH][without[-1]])
+
+
+def pump_limit(run: Results) -> float | None:
+    """Return Water/Largest suction in kPa, None without one."""
+    entries = run.summary.get("entries", {}) if run.scene else {}
+    try:
+        return float(entries.get("Water/Largest suction", "")) / 1e3
+    except ValueError:
+        return None
+
+
+def margins_of(run: Results, way: Way) -> dict[str, Any]:
+    """Return the least margins to piping, boiling and the largest suction of the pump,
+    as shares of 1, and the least room below the lid (m)."""
+    required = np.maximum(way.columns[SUCTION], 0)
+
+    def margin(ratio: np.ndarray) -> dict[str, float]:
+        most, depth = way.largest(ratio)
+        return {"least": 1 - most, DEPTH: depth}
+
+    found: dict[str, Any] = {"piping": margin(way.columns[GRADIENT])}
+    if (boils := way.columns.get(BOILING)) is not None:
+        share = np.divide(required, boils, out=np.ones(len(boils)), where=boils > 0)
+        found["boiling"] = margin(share)
+    if limit := pump_limit(run):
+        found["pump"] = margin(required / (1e3 * limit))
+    if ROOM in way.columns:
+        found[ROOM] = -way.largest(-way.columns[ROOM])[0]
+    return found
+
+
+def results_of_way_down(run: Results, way: Way) -> dict[str, Any]:
+    """Return the results of a way down."""
+
+    def largest(name: str) -> dict[str, float]:
+        most, depth = way.largest(way.columns[name])
+        return {name: most, DEPTH: depth}
+
+    total = curves.WITH_WATER if curves.WITH_WATER in way.columns else TOTAL
+    found: dict[str, Any] = {
+        DEPTH: float(way.depth[-1]),
+        "largest_force": largest(total),
+    }
+    if SUCTION in way.columns:
+        if (rest := rest_of_run(run.history)) is not None:
+            found["rest_penetration_m"] = rest
+        found["largest_suction"] = largest(SUCTION)
+        found["margins"] = margins_of(run, way)
+    return found | {"at_depths": rows_of(at_depths(run))}
+
+
+@functools.lru_cache(maxsize=16)
+def results_of(run: Results) -> dict[str, Any]:
+    """Return the results of a run, by names that the manual lists
+    (doc/how_to/results.md); empty of a run without forces."""
+    history = run.history
+    if TOTAL not in history:
+        return {}
+    found: dict[str, Any] = {}
+    if len((way := way_down(run)).depth) > 1:
+        found = results_of_way_down(run, way)
+    if pull := largest_pull(history):
+        found["largest_pull"] = pull
+    up = way_of(run, curves.way_up(history[DEPTH])[1:])
+    if len(up.depth) > 1 and np.ptp(up.depth) > LEAST_RISE:
+        at = -multiples_of(-up.depth)
+        means = {name: up.mean(name, at) for name in up.columns}
+        found["at_depths_up"] = rows_of({DEPTH: at, **means})
+    return found
+
+
+def medians(pull: np.ndarray) -> np.ndarray:
+    """Return the pull [n] of each row of a way up as the lower median over it and two
+    rows on either side, one where there are few rows: a single jump does not count."""
+    beside = 1 if len(pull) < FEW else 2
+    near = (pull[max(i - beside, 0) : i + beside + 1] for i in range(len(pull)))
+    return np.array([np.sort(x)[(len(x) - 1) // 2] for x in near])
+
+
+class Pull(NamedTuple):
+    """A way up: the row before it, and the medians of the pull over its rows."""
+
+    begin: int
+    medians: np.ndarray
+
+    @property
+    def most(self) -> int:
+        """The row of the largest pull."""
+        return self.begin + 1 + int(np.argmax(self.medians))
+
+
+def pulls_of(pull: np.ndarray, depth: np.ndarray) -> list[Pull]:
+    """Return all ways up. pull, depth: [n_rows]."""
+    rises = np.concatenate([[False], np.diff(depth) < 0, [False]])
+    ends = np.flatnonzero(np.diff(rises.astype(int)))
+    return [
+        Pull(int(begin), medians(pull[begin + 1 : end + 1]))
+        for begin, end in zip(ends[::2], ends[1::2])
+    ]
+
+
+def is_capacity(way: Pull, depth: np.ndarray) -> bool:
+    """Return whether friction is mobilized, and the pull does not increase: the body
+    has risen further by a fifth, or bore nearly as much before."""
+    rises = depth[way.begin] - depth[way.begin + 1 :][: len(way.medians)]
+    rise, end = rises[way.most - way.begin - 1], rises[-1]
+    if end < FRICTION_RISE:
+        return False
+    if end - rise > max(FURTHER * rise, FRICTION_RISE):
+        return True
+    before = way.medians[rises <= BEFORE * rise]
+    return bool(
+        rise >= FRICTION_RISE
+        and len(before)
+        and before.max() > NEARLY * way.medians.max()
+    )
+
+
+def mechanism_of(history: Table, most: int, growth: dict[str, float]) -> str:
+    """Return how a caisson with a sealed lid fails, by what has filled the space
+    beneath it up to a row. growth: of columns on the way up, in m3."""
+    if history["lid_cavity_m3"][most] > 0:
+        return "cavitation beneath the lid"
+    pull = -history.get(curves.WITH_WATER, history[TOTAL])[most]
+    if pull + history[TOTAL][most] < LITTLE * pull:
+        return "drained: friction on both walls"
+    ways = {
+        "plug_rise_m3": "reverse bearing: the plug rises with the caisson",
+        "seepage_volume_m3": "water flows in through the plug",
+        "lid_leak_m3": "water flows in through the leak",
+        "lid_expansion_m3": "what is beneath the lid expands",
+    }
+    largest = max(ways, key=lambda name: growth[name])
+    mark = "" if largest == "plug_rise_m3" else "partly drained: passive suction, and "
+    return mark + ways[largest]
+
+
+def largest_pull(history: Table) -> dict[str, Any]:
+    """Return the largest pull over the rows in which the body rises, and what bears it;
+    empty where nothing pulls. Forces are upward on the soil, and contain no weight."""
+    force = history.get(curves.WITH_WATER, history[TOTAL])
+    depth = history[DEPTH]
+    ways = [way for way in pulls_of(-force, depth) if way.medians.max() > 0]
+    if not ways:
+        return {}
+    way = max(ways, key=lambda way: float(way.medians.max()))
+    most = way.most
+    found: dict[str, Any] = {
+        "pull_N": -float(force[most]),
+        DEPTH: float(depth[most]),
+        "rise_m": float(depth[way.begin] - depth[most]),
+        "water_N": float(history[TOTAL][most] - force[most]),
+        "outer_friction_N": -float(history["outer_friction_N"][most]),
+        "inner_friction_N": -float(history["inner_friction_N"][most]),
+        "tip_N": -float(history["tip_force_N"][most]),
+        "is_capacity": is_capacity(way, depth),
+    }
+    if "lid_growth_m3" in history:
+        growth = {
+            name: float(values[most] - values[way.begin])
+            for name, values in history.items()
+            if name.endswith("_m3")
+        }
+        found["plug_follows"] = growth["plug_rise_m3"] / growth["lid_growth_m3"]
+        if found["is_capacity"]:
+            found["mechanism"] = mechanism_of(history, most, growth)
+    return found
+
+
+def capacity_in_words(pull: dict[str, Any]) -> str:
+    """Return whether the largest pull is the capacity."""
+    return "the capacity" if pull["is_capacity"] else NO_CAPACITY
+
+
+def lines_of(run: Results) -> list[str]:
+    """Return the largest force, the largest pull and the penetration by weight in
+    words."""
+    found, shown = results_of(run), run.shown
+    lines = []
+
+    def words(force: float, depth: float) -> str:
+        return f"{shown.words(force / 1e3, 'kN', '.4g')} at {shown.depth(depth)}"
+
+    if force := found.get("largest_force"):
+        (name, value), *_ = force.items()
+        water = ", with water," if name == curves.WITH_WATER else ""
+        lines.append(f"largest force{water} {words(value, force[DEPTH])}")
+    if pull := found.get("largest_pull"):
+        line = f"largest pull {words(pull['pull_N'], pull[DEPTH])}"
+        lines.append(f"{line}: {pull.get('mechanism') or capacity_in_words(pull)}")
+    if (rest := found.get("rest_penetration_m")) is not None:
+        lines.append(f"rests by weight at {shown.depth(rest)}")
+    return lines
