@@ -11,23 +11,23 @@ GROUPS: Groups = {
         "verify": (STUDY, "run the verification ladder: problems with exact solutions"),
         "accuracy": (STUDY, "measure error against time over meshes and methods"),
         "capacity": (
-            f"{REFERENCES}.footing_sand.bearing_capacity",
+            f"{REFERENCES}.bearing_capacity",
             "compute exact bearing capacities of strip and circular footings",
         ),
         "tip-capacity": (
-            f"{REFERENCES}.wall_tip.tip_capacity",
+            f"{REFERENCES}.tip_capacity",
             "compute what the tip of a wall bears between unequal surcharges",
         ),
         "cavity-expansion": (
-            f"{REFERENCES}.cavity_mohr_coulomb.cavity_expansion",
+            f"{REFERENCES}.cavity_expansion",
             "compare an expanding cavity with its exact pressure",
         ),
         "manufactured": (
-            f"{REFERENCES}.two_fields.manufactured",
+            f"{REFERENCES}.manufactured",
             "check the manufactured solutions against first principles",
         ),
         "element-tests": (
-            f"{REFERENCES}.element_tests.hypoplastic_sand",
+            f"{REFERENCES}.hypoplastic_sand",
             "integrate element tests of hypoplastic sand independently",
         ),
     },

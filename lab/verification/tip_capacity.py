@@ -52,7 +52,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq, root
 
-from lab.verification.footing_sand.bearing_capacity import (
+from lab.verification.bearing_capacity import (
     Array,
     Footing,
     Front,

@@ -16,7 +16,7 @@ in M.
 From the root of the project, with PYTHONPATH=python:. this prints the checks of the
 scene:
 
-    python3 -m lab.verification.consolidation_large.consolidation
+    python3 -m lab.verification.consolidation
 """
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
