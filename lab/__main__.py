@@ -43,10 +43,6 @@ GROUPS: Groups = {
     },
     "performance": {
         "speed": (STUDY, "measure the speed of kernels and program, as ratios"),
-        "scaling": (
-            "lab.performance.scaling",
-            "estimate the time of a step on up to 1,000 ranks",
-        ),
         "publish-speed": (
             "lab.performance.publish",
             "copy the measured speed into lab/performance/speed.md",
