@@ -57,7 +57,7 @@ GROUPS: Groups = {
         "study": (STUDY, "run and evaluate a study of any kind from its file"),
         "scene-results": (
             "lab.studies.scene_results",
-            "run the scenes of the README and compare them with the manual",
+            "run the scenes of prm/ and compare them with the manual",
         ),
     },
 }
