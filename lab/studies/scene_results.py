@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs the scenes of the manual's table and compares them with what the manual says of them.
+"""Runs the scenes of prm/ and compares them with what the manual says of them.
 
 doc/scene_results.csv has the key numbers of each scene: of the whole run, and of a
 short way. Its rows say with which commit and on which processor they were made, and how
