@@ -11,23 +11,23 @@ GROUPS: Groups = {
         "verify": (STUDY, "run the verification ladder: problems with exact solutions"),
         "accuracy": (STUDY, "measure error against time over meshes and methods"),
         "capacity": (
-            f"{REFERENCES}.footing_sand.bearing_capacity",
+            f"{REFERENCES}.bearing_capacity",
             "compute exact bearing capacities of strip and circular footings",
         ),
         "tip-capacity": (
-            f"{REFERENCES}.wall_tip.tip_capacity",
+            f"{REFERENCES}.tip_capacity",
             "compute what the tip of a wall bears between unequal surcharges",
         ),
         "cavity-expansion": (
-            f"{REFERENCES}.cavity_mohr_coulomb.cavity_expansion",
+            f"{REFERENCES}.cavity_expansion",
             "compare an expanding cavity with its exact pressure",
         ),
         "manufactured": (
-            f"{REFERENCES}.two_fields.manufactured",
+            f"{REFERENCES}.manufactured",
             "check the manufactured solutions against first principles",
         ),
         "element-tests": (
-            f"{REFERENCES}.element_tests.hypoplastic_sand",
+            f"{REFERENCES}.hypoplastic_sand",
             "integrate element tests of hypoplastic sand independently",
         ),
     },
@@ -43,10 +43,6 @@ GROUPS: Groups = {
     },
     "performance": {
         "speed": (STUDY, "measure the speed of kernels and program, as ratios"),
-        "scaling": (
-            "lab.performance.scaling",
-            "estimate the time of a step on up to 1,000 ranks",
-        ),
         "publish-speed": (
             "lab.performance.publish",
             "copy the measured speed into lab/performance/speed.md",
@@ -61,7 +57,7 @@ GROUPS: Groups = {
         "study": (STUDY, "run and evaluate a study of any kind from its file"),
         "scene-results": (
             "lab.studies.scene_results",
-            "run the scenes of the README and compare them with the manual",
+            "run the scenes of prm/ and compare them with the manual",
         ),
     },
 }

@@ -6,5 +6,5 @@ LAB = Path(__file__).resolve().parent
 
 
 def scene_of(kind: str, name: str) -> Path:
-    """Return the scene of a case, as in scene_of("verification", "piston")."""
-    return LAB / kind / name / f"{name}.prm"
+    """Return a scene, as in scene_of("verification", "piston")."""
+    return LAB / kind / f"{name}.prm"

@@ -14,7 +14,7 @@ usual ones:
 Tables (table.md and a .csv each) and pictures go to results/speed. A section that
 is not run keeps what it had there. The machine must do nothing else, so runs are
 never made side by side, and always repeated. `scripts/lab publish-speed` copies
-the table into speed.md beside this module, and the pictures into doc/pictures.
+the tables into speed.md beside this module, and one picture into doc/pictures.
 """
 import time
 from collections.abc import Callable, Sequence

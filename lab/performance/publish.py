@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Copies the table of results/speed into lab/performance/speed.md, and the pictures
-into doc/pictures."""
+"""Copies the tables of results/speed into lab/performance/speed.md, and the picture of
+the manual into doc/pictures."""
 import argparse
+import re
 import shutil
 
 from caisson.paths import PICTURES, RESULTS, ROOT
 from caisson_design import disk
 
 DOCUMENT = ROOT / "lab/performance/speed.md"
+PICTURE = "speed_step.png"  # of benchmarks.md
 BEGIN, END = "<!-- speed: begin -->", "<!-- speed: end -->"
 
 
@@ -20,8 +22,7 @@ def main(_: argparse.Namespace) -> int:
     before, rest = DOCUMENT.read_text(encoding="utf-8").split(BEGIN)
     after = rest.split(END)[1]
     table = (RESULTS / "speed/table.md").read_text(encoding="utf-8")
-    table = table.replace("](pictures/", "](../../doc/pictures/")
+    table = re.sub(r"!\[.*?\]\(pictures/.*?\)\n\n", "", table)
     disk.write(DOCUMENT, f"{before}{BEGIN}\n{table}\n{END}{after}")
-    for picture in (RESULTS / "speed").glob("speed_*.png"):
-        shutil.copy(picture, PICTURES)
+    shutil.copy(RESULTS / "speed" / PICTURE, PICTURES)
     return 0

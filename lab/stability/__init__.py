@@ -136,7 +136,7 @@ def judge(run: StudyRun) -> tuple[list[str], bool]:
     if must_fail:
         notes = ["must fail: " + (", ".join(notes) or "it did not")]
     verdict = "FAILS" if not good else "fails, as it must" if must_fail else "passes"
-    line = [run.run.scene.stem, verdict, *numbers(seen), ", ".join(notes)]
+    line = [run.study, verdict, *numbers(seen), ", ".join(notes)]
     return line, good
 
 

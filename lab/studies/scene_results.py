@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs the scenes of the README and compares them with what the manual says of them.
+"""Runs the scenes of prm/ and compares them with what the manual says of them.
 
 doc/scene_results.csv has the key numbers of each scene: of the whole run, and of a
 short way. Its rows say with which commit and on which processor they were made, and how
@@ -82,9 +82,9 @@ class Number:
         return self.scene, self.way, self.quantity, round(self.penetration_m, 3)
 
 
-def scenes_of_readme() -> list[str]:
-    """Return the names of the scenes in the table of the README, in its order."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
+def listed_scenes() -> list[str]:
+    """Return the names of the scenes in the table of the manual, in its order."""
+    text = (ROOT / "doc/how_to/scenes.md").read_text(encoding="utf-8")
     return re.findall(r"^\| `prm/(\w+)\.prm`", text, re.MULTILINE)
 
 
@@ -287,10 +287,10 @@ def write_page(numbers: list[Number], path: Path = PAGE) -> None:
 
 def merged(old: list[Number], new: list[Number]) -> list[Number]:
     """Return the numbers with the scenes and ways of new replaced, in the order of
-    the README."""
+    the table."""
     ways = {(number.scene, number.way) for number in new}
     numbers = [n for n in old if (n.scene, n.way) not in ways] + new
-    order = {name: i for i, name in enumerate(scenes_of_readme())}
+    order = {name: i for i, name in enumerate(listed_scenes())}
     return sorted(numbers, key=lambda n: (n.way != WHOLE, order.get(n.scene, 99)))
 
 
@@ -307,7 +307,7 @@ def main(options: argparse.Namespace) -> int:
     """Run the scenes; return 1 where a number differs or a scene fails."""
     way = SHORT if options.short else WHOLE
     complaints, commit = [], machine.commit()
-    for scene in scenes_of_readme():
+    for scene in listed_scenes():
         if not re.search(options.only, scene):
             continue
         try:

@@ -6,7 +6,7 @@ import unittest
 import numpy as np
 
 from caisson.paths import ROOT
-from lab.verification.consolidation_large.consolidation import (
+from lab.verification.consolidation import (
     TIME,
     Column,
     checks,
@@ -16,7 +16,7 @@ from lab.verification.consolidation_large.consolidation import (
     times_to,
 )
 
-SCENE = ROOT / "lab/verification/consolidation_large/consolidation_large.prm"
+SCENE = ROOT / "lab/verification/consolidation_large.prm"
 LADDER = ROOT / "lab/verification/ladder.toml"
 
 

@@ -16,12 +16,12 @@ from caisson_design.houlsby_byrne import (
     bearing_factor_weight,
     method,
 )
-from lab.verification.cavity_mohr_coulomb.cavity_expansion import (
+from lab.verification.cavity_expansion import (
     MohrCoulomb,
     Tresca,
     comparison,
 )
-from lab.verification.footing_sand.bearing_capacity import (
+from lab.verification.bearing_capacity import (
     Footing,
     Mesh,
     RoughNet,
@@ -29,8 +29,8 @@ from lab.verification.footing_sand.bearing_capacity import (
     factors,
     pressure,
 )
-from lab.verification.wall_tip import tip_capacity as wall_tip
-from lab.verification.wall_tip.tip_capacity import Side, Tip, weightless_tip
+from lab.verification import tip_capacity as wall_tip
+from lab.verification.tip_capacity import Side, Tip, weightless_tip
 
 SAND = Layer(top=0, unit_weight=8829, friction_angle=30, lateral_stress_ratio=0.5)
 # kN, D = 6 m: {h: (tip of walls of 0.05, 0.1, 0.2 m, outer friction)}, each without

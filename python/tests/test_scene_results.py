@@ -40,8 +40,8 @@ class Files(unittest.TestCase):
                 self.assertAlmostEqual(float(value), expected, delta=0.6)
 
     def test_scenes(self) -> None:
-        """Every number is of a scene of the README, with its commit."""
-        scenes = scene_results.scenes_of_readme()
+        """Every number is of a listed scene, with its commit."""
+        scenes = scene_results.listed_scenes()
         self.assertGreater(len(scenes), 10)
         for number in scene_results.read():
             self.assertIn(number.scene, scenes)

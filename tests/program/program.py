@@ -51,10 +51,8 @@ def scene(name: str) -> str:
 
 def user_scene(name: str) -> str:
     """Return a scene of prm/, or PART/NAME of the laboratory."""
-    part, slash, case = name.partition("/")
-    if slash:
-        return str(HERE.parent / "lab" / part / case / f"{case}.prm")
-    return str(SCENES / f"{name}.prm")
+    folder = HERE.parent / "lab" if "/" in name else SCENES
+    return str(folder / f"{name}.prm")
 
 
 def history(path: Path, name: str = "history") -> Rows:

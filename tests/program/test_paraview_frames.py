@@ -93,7 +93,7 @@ class Fields(FramesTest):
 
     def test_pore_pressure(self) -> None:
         path = self.frames_of(
-            "../lab/verification/consolidation/consolidation",
+            "../lab/verification/consolidation",
             {"Time/End time": 0.1, "Grid/Cell width": 0.1, "Grid/Cell height": 0.1},
         )
         for series, names in (("points", POINTS), ("grid", CELLS | STRESS)):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A short way of the scenes of the README beside doc/scene_results.csv: program.py."""
+"""A short way of the scenes of prm/ beside doc/scene_results.csv: program.py."""
 import unittest
 
 from program import ProgramTest

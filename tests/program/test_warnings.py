@@ -312,7 +312,7 @@ class Review(ProgramTest):
 
     def test_closed_body(self) -> None:
         """A pile needs more room than a caisson, and has no inner wall."""
-        pile = "validation/pile"
+        pile = "validation/pile/pile"
         self.assertNotIn("warning", self.validate(pile, {}))
         cases: tuple[tuple[Entries, list[str]], ...] = (
             ({"Grid/Outer radius": 7}, ["6.7 m from the wall", "at least 7.5 m"]),

@@ -16,7 +16,6 @@ GROUPS: Groups = {
             f"{THIS}.clean_install",
             "try the commands of the README on a bare Debian",
         ),
-        "two-hosts": (f"{THIS}.two_hosts", "run on two hosts and count messages"),
     },
     "checks": {
         "check-floors": (f"{THIS}.floors", "check the order of the sources"),
@@ -30,12 +29,10 @@ GROUPS: Groups = {
             f"{THIS}.parameter_page",
             "write the parameter reference of the manual",
         ),
-        "draw-architecture": (
-            f"{THIS}.draw_architecture",
-            "draw doc/pictures/architecture.svg",
+        "draw-sketches": (
+            f"{THIS}.draw_sketches",
+            "draw doc/pictures/architecture.svg and zones.svg",
         ),
-        "draw-zones": (f"{THIS}.draw_zones", "draw doc/pictures/zones.svg"),
-        "draw-blocks": (f"{THIS}.draw_blocks", "draw doc/pictures/blocks.png"),
     },
 }
 COMMANDS = commands_of(GROUPS)

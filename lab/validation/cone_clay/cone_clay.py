@@ -24,7 +24,7 @@ from caisson.study import Study, StudyRun
 from lab.curves import final_mean
 from lab.validation.verdict import Row
 
-STRENGTH = 10e3  # Pa, of lab/verification/cone_tresca/cone_tresca.prm
+STRENGTH = 10e3  # Pa, of lab/verification/cone_tresca.prm
 RADIUS = 0.01785  # m
 POISSON = 0.45
 MARGIN = 0.03  # beyond the formulas
