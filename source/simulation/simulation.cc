@@ -9,6 +9,7 @@
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/simulation/physics_text.h>
 #include <caisson_mpm/simulation/simulation.h>
+#include <caisson_mpm/water/pore_water_factory.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
