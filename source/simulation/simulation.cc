@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
-#include <caisson_mpm/base/fingerprint.h>
 #include <caisson_mpm/base/guarded_call.h>
 #include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/base/text.h>
