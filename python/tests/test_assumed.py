@@ -9,8 +9,9 @@ from pathlib import Path
 
 from synthetic import write_run
 
-from caisson.plot import assumed, theory
-from caisson.results import Results, ResultsError
+from caisson.plot import theory
+from caisson.results import Results
+from caisson_design import InputError, assumed
 from caisson_design.houlsby_byrne import Assumptions
 
 
@@ -62,7 +63,7 @@ class Assumed(unittest.TestCase):
 
     def test_damaged_file(self) -> None:
         (self.path / assumed.NAME).write_text("[1", encoding="utf-8")
-        with self.assertRaisesRegex(ResultsError, "design_methods.json cannot be"):
+        with self.assertRaisesRegex(InputError, "design_methods.json cannot be"):
             self.assumptions()
 
 

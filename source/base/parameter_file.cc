@@ -30,6 +30,8 @@ namespace CaissonMPM
        "Full cell fraction = 2 and Full cell fraction inside = 2."},
       {"Method/Velocity limiter",
        "Set Limiter factor = none in the place of false."},
+      {"Grid/Refined distance along wall",
+       "Remove it: it is the thickness of the wall."},
       {"Output/Error bar",
        "The report finds the error bar of FILE.prm in FILE_error_bar.csv; for "
        "another one, call scripts/caisson report --error-bar CSV DIR."},

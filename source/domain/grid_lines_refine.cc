@@ -44,20 +44,12 @@ namespace CaissonMPM
       positive);
     add_parameter("Refinement levels along wall",
                   levels_at_wall,
-                  "Cells along the wall above the tip are halved in both "
-                  "directions this many times. Units: none.",
+                  "Cells along the wall above the tip, up to its thickness "
+                  "away, are halved in both directions this many times, those "
+                  "up to twice this distance once less, and so on. Units: "
+                  "none.",
                   prm,
                   times);
-    add_word_or_number(*this,
-                       "Refined distance along wall",
-                       refined_distance_at_wall,
-                       "auto",
-                       0.,
-                       "Cells up to this distance from the faces of the wall "
-                       "are halved Refinement levels along wall times, those "
-                       "up to twice this distance once less, and so on; auto "
-                       "takes the thickness of the wall. Units: m.",
-                       positive);
     add_parameter("Refined region",
                   refined_region,
                   "Cells are also halved Refinement levels times where this "
@@ -80,9 +72,6 @@ namespace CaissonMPM
     if (levels == 0)
       origins.add_unused({"Grid/Refined distance", "Grid/Refined region"},
                          "Grid/Refinement levels is 0");
-    if (levels_at_wall == 0)
-      origins.add_unused({"Grid/Refined distance along wall"},
-                         "Grid/Refinement levels along wall is 0");
   }
 
   // ------------------------------------------------------------ the body
@@ -91,12 +80,6 @@ namespace CaissonMPM
   GridLines::distance_of_tip(const BodyShape &body) const
   {
     return refined_distance.value_or(2. * (body.right() - body.left()));
-  }
-
-  double
-  GridLines::distance_of_wall(const BodyShape &body) const
-  {
-    return refined_distance_at_wall.value_or(body.right() - body.left());
   }
 
   bool
@@ -163,21 +146,19 @@ namespace CaissonMPM
       return levels;
     if (!body.exists())
       return 0;
-    const double low = rows[b.row], high = rows[b.row + b.size];
-    const double aside = distance(columns[b.column],
+    const double low = rows[b.row], high = rows[b.row + b.size],
+                 thickness = body.right() - body.left();
+    const double aside     = distance(columns[b.column],
                                   columns[b.column + b.size],
                                   body.left(),
                                   body.right());
     if (body.expands())
-      return level_at(aside, distance_of_wall(body), levels_at_wall);
+      return level_at(aside, thickness, levels_at_wall);
     const double from_tip  = distance(low, high, body.bottom(), shoulder),
                  from_wall = distance(low, high, shoulder, zone_top);
-    return std::max(level_at(std::max(aside, from_tip),
-                             distance_of_tip(body),
-                             levels),
-                    level_at(std::max(aside, from_wall),
-                             distance_of_wall(body),
-                             levels_at_wall));
+    return std::max(
+      level_at(std::max(aside, from_tip), distance_of_tip(body), levels),
+      level_at(std::max(aside, from_wall), thickness, levels_at_wall));
   }
 
   bool

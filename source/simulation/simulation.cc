@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
-#include <caisson_mpm/base/fingerprint.h>
 #include <caisson_mpm/base/guarded_call.h>
 #include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/base/text.h>
@@ -9,6 +8,7 @@
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/simulation/physics_text.h>
 #include <caisson_mpm/simulation/simulation.h>
+#include <caisson_mpm/water/pore_water_factory.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>

@@ -58,9 +58,7 @@ namespace CaissonMPM
     bool
     is_in_pascals(const DeclaredEntry &entry)
     {
-      const std::string unit = "Units: Pa.";
-      return entry.documentation.find(unit) != std::string::npos &&
-             entry.alias_of.empty();
+      return entry.unit == "Pa" && entry.alias_of.empty();
     }
 
     /** The number that an entry has; 0 where it has none, as an expression. */

@@ -358,12 +358,9 @@ namespace CaissonMPM
      * body asks for. */
     void
     check_refinement(const BodyShape &body) const;
-    /** Return the distances within which cells are the smallest, of the tip and
-     * of the wall. */
+    /** Return the distance from the tip within which cells are the smallest. */
     double
     distance_of_tip(const BodyShape &body) const;
-    double
-    distance_of_wall(const BodyShape &body) const;
     /** Return how often the cell of the coarse lines is to be halved for a
      * block. */
     unsigned int
@@ -450,7 +447,7 @@ namespace CaissonMPM
     double                refinement     = 1.;
     unsigned int          levels         = 0; // at the tip
     unsigned int          levels_at_wall = 0;
-    std::optional<double> refined_distance, refined_distance_at_wall; // or auto
+    std::optional<double> refined_distance; // or auto
     std::string           refined_region;
     unsigned int          largest_number = 1000000;
 

@@ -16,7 +16,6 @@
 #include <caisson_mpm/operators/nodal_forces.h>
 #include <caisson_mpm/water/water_settings.h>
 
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -251,10 +250,6 @@ namespace CaissonMPM
   /** Return whether a condition holds for the first time, and remember it. */
   bool
   holds_first(bool &has_held, const bool holds);
-
-  /** Return the model that Water/Level chooses. */
-  std::unique_ptr<PoreWater>
-  make_pore_water(const WaterScene &scene);
 } // namespace CaissonMPM
 
 #endif

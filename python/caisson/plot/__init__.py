@@ -5,9 +5,8 @@ import sys
 from pathlib import Path
 
 from caisson import error_bounds
-from caisson.plot import assumed
 from caisson.results import Results, ResultsError
-from caisson_design import InputError, cone_options
+from caisson_design import InputError, assumed, cone_options
 
 
 def draw(directory: Path) -> list[Path]:

@@ -12,9 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson.density_law import BY_DENSITY
-from caisson.plot import assumed
 from caisson.results import Results, ResultsError
-from caisson_design import andersen, clay, dnv, houlsby_byrne, senders_randolph
+from caisson_design import andersen, assumed, clay, dnv, houlsby_byrne, senders_randolph
 from caisson_design.assumed_cone import STEP, Sand, SandGround, assumed_cone
 from caisson_design.cone import ConeMethod, Profile, Skirt, of_run
 from caisson_design.houlsby_byrne import (

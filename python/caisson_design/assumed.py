@@ -6,8 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from caisson.results import ResultsError
-from caisson_design import disk
+from caisson_design import InputError, disk
 
 NAME = "design_methods.json"
 
@@ -91,14 +90,14 @@ def keep(options: argparse.Namespace, directory: Path) -> bool:
 
 
 def of_run(directory: Path) -> dict[str, Any]:
-    """Return the options that are kept with a run, by name. Raises ResultsError."""
+    """Return the options that are kept with a run, by name. Raises InputError."""
     path = directory / NAME
     if not path.is_file():
         return {}
     try:
-        found = dict(json.loads(disk.read_text(path, ResultsError)))
+        found = dict(json.loads(disk.read_text(path, InputError)))
     except (TypeError, ValueError) as error:
-        raise ResultsError(f"{path} cannot be read: {error}") from error
+        raise InputError(f"{path} cannot be read: {error}") from error
     if found.get("load_spread") == 0:
         found["load_spread"] = None
     return {name: value for name, value in found.items() if name in OPTIONS}
