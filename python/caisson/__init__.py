@@ -28,11 +28,10 @@ The modules, each above those that it uses:
 
 scripts/caisson is the command line. Needed besides Python 3.11: numpy,
 SciPy, matplotlib, VTK and Jinja2, as Debian packages them; pandas for history.
-The package caisson_design beside it has the design methods, and needs nothing of it;
-caisson_error has the error bars, caisson_report the page on a run, caisson_export the
-state for other programs.
-The laboratory (lab) and the workshop (tools) import both; neither imports anything of
-them.
+The folder design has the design methods, error the error bars, report the page on a
+run, and export the state for other programs.
+The laboratory (lab) and the workshop (tools) import the package; it imports
+nothing of them.
 
 Units are SI, angles in degrees, unless a name says otherwise (wall_kN). Arrays
 are given with their shapes, as in [n_rows].

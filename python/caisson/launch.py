@@ -88,8 +88,8 @@ def options_for_error(options: argparse.Namespace, directory: Path) -> list[str]
     """Return the options of the program with which the scene has the error that is
     wanted. The runs for it go beside the output directory. Raises RunError, StudyError
     and ArgumentTypeError."""
-    from caisson_error import wanted
-    from caisson_error.command import seconds_of
+    from caisson.error import wanted
+    from caisson.error.command import seconds_of
 
     scene, *more = options.arguments
     if more and more[0] != "--output-directory":
@@ -106,12 +106,11 @@ def options_for_error(options: argparse.Namespace, directory: Path) -> list[str]
 
 def draw(directory: Path) -> None:
     """Draw the pictures and write the report; the results do not need them."""
-    import caisson_report
-    from caisson import plot
+    from caisson import plot, report
 
     for picture in plot.draw(directory):
         print(f"plot: {picture}")
-    print(f"report: {caisson_report.write(directory)}")
+    print(f"report: {report.write(directory)}")
 
 
 @contextlib.contextmanager

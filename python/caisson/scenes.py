@@ -11,7 +11,7 @@ import tempfile
 from pathlib import Path
 
 from caisson.paths import SCENES
-from caisson_design import InputError, disk
+from caisson.design import InputError, disk
 
 
 def title_of(scene: Path) -> str:

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson_export.balance import Balanced, balance
-from caisson_export.interpolate import interpolate
-from caisson_export.mesh import Mesh, Window, regular
-from caisson_export.state import Layer, State, Wall
+from caisson.export.balance import Balanced, balance
+from caisson.export.interpolate import interpolate
+from caisson.export.mesh import Mesh, Window, regular
+from caisson.export.state import Layer, State, Wall
 
 WEIGHT, K0 = 9e3, 0.5  # N/m3, 1
 WINDOW = Window(4.0, 4.0, 0.2)

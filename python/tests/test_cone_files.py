@@ -11,8 +11,8 @@ import numpy as np
 
 from caisson import __main__ as program
 from caisson.cpt import command
-from caisson_design import cone, cone_file, interpretation
-from caisson_design.cone_options import How
+from caisson.design import cone, cone_file, interpretation
+from caisson.design.cone_options import How
 from made_up_cone import AGS, GEF, WithFiles, options
 
 Rows = list[list[float]]

@@ -17,13 +17,13 @@ from caisson.cpt import command, tables
 from caisson.paths import SCENES
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import SuggestError
-from caisson_design import InputError
-from caisson_design import cone_file
-from caisson_design import cone_layers as layers
-from caisson_design import correlations
-from caisson_design import interpretation
-from caisson_design.cone_estimates import K0, REFERENCE, WEIGHT, reference_moduli
-from caisson_design.correlations import (
+from caisson.design import InputError
+from caisson.design import cone_file
+from caisson.design import cone_layers as layers
+from caisson.design import correlations
+from caisson.design import interpretation
+from caisson.design.cone_estimates import K0, REFERENCE, WEIGHT, reference_moduli
+from caisson.design.correlations import (
     ANGLE,
     BEST,
     DENSITY,
@@ -32,8 +32,8 @@ from caisson_design.correlations import (
     MODULUS,
     STRENGTH,
 )
-from caisson_design.density import bolton_angle
-from caisson_design.ground import (
+from caisson.design.density import bolton_angle
+from caisson.design.ground import (
     ATMOSPHERE,
     Ground,
     ground_of,

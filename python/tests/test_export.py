@@ -32,12 +32,12 @@ from made_up_state import (
 from plain_solver import Deck, forces_of, read_deck
 
 from caisson.results import ResultsError, read_table
-from caisson_export import command, decks, tables
-from caisson_export.balance import Balanced, balance, check_forces
-from caisson_export.interpolate import interpolate
-from caisson_export.mesh import regular
-from caisson_export.state import Layer, State, forces_at, layers_of, stress_of
-from caisson_export.text import about
+from caisson.export import command, decks, tables
+from caisson.export.balance import Balanced, balance, check_forces
+from caisson.export.interpolate import interpolate
+from caisson.export.mesh import regular
+from caisson.export.state import Layer, State, forces_at, layers_of, stress_of
+from caisson.export.text import about
 
 CCX = shutil.which("ccx")
 ZONES = {"inside", "outside_near", "outside", "below_tip"}

@@ -7,12 +7,12 @@ import numpy as np
 from made_up_state import K0, WEDGE, WEIGHT, Temporary, balanced, made_up
 
 from caisson.results import read_table
-from caisson_export import tables
-from caisson_export.laws import vertical_over_yield_stress, youngs_modulus
-from caisson_export.mesh import Mesh, Window, regular
-from caisson_export.springs import shear_modulus
-from caisson_export.state import State, Wall
-from caisson_export.tables import Zone, zones_of
+from caisson.export import tables
+from caisson.export.laws import vertical_over_yield_stress, youngs_modulus
+from caisson.export.mesh import Mesh, Window, regular
+from caisson.export.springs import shear_modulus
+from caisson.export.state import State, Wall
+from caisson.export.tables import Zone, zones_of
 
 
 def entries(**numbers: float) -> list[dict[str, Any]]:

@@ -9,11 +9,11 @@ from plain_solver import forces_of, read_deck
 from scipy.spatial import cKDTree
 
 from caisson.results import ResultsError
-from caisson_export import decks
-from caisson_export.balance import balance
-from caisson_export.gmsh import read_gmsh
-from caisson_export.interpolate import interpolate
-from caisson_export.mesh import (
+from caisson.export import decks
+from caisson.export.balance import balance
+from caisson.export.gmsh import read_gmsh
+from caisson.export.interpolate import interpolate
+from caisson.export.mesh import (
     Mesh,
     Window,
     default_window,
@@ -22,7 +22,7 @@ from caisson_export.mesh import (
     steps,
     with_sets,
 )
-from caisson_export.state import Wall
+from caisson.export.state import Wall
 
 
 class Grid(unittest.TestCase):

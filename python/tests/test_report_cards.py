@@ -11,10 +11,10 @@ import numpy as np
 from synthetic import write_columns, write_run
 from test_report import SCENE, SUMMARY, WithPage, leave_run
 
-import caisson_report as report
+import caisson.report as report
 from caisson.results import Results
-from caisson_report import content, installation, methods, sketch
-from caisson_report import page as page_module
+from caisson.report import content, installation, methods, sketch
+from caisson.report import page as page_module
 
 SIDES = {"low": -2e3, "high": 2e3}  # Pa, of the bar of the suction
 

@@ -16,11 +16,11 @@ from caisson import plot
 from caisson.plot import design, suction, theory
 from caisson.plot import suction_methods as methods
 from caisson.results import Results
-from caisson_design import seepage, senders_randolph
-from caisson_design import suction_installation as installation
-from caisson_design.assumed_cone import AssumedCone, Sand
-from caisson_design.cone import Profile, Skirt
-from caisson_design.houlsby_byrne import Caisson, Layer
+from caisson.design import seepage, senders_randolph
+from caisson.design import suction_installation as installation
+from caisson.design.assumed_cone import AssumedCone, Sand
+from caisson.design.cone import Profile, Skirt
+from caisson.design.houlsby_byrne import Caisson, Layer
 
 GAMMA, WEIGHT, D = 8829.0, 1e6, 6.0
 SAND: dict[str, Any] = {

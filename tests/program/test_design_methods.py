@@ -12,7 +12,7 @@ from program import BAD_INPUT, SUCCESS, ProgramTest, history, scene, summary
 
 from caisson.plot import theory
 from caisson.results import Results
-from caisson_design import houlsby_byrne
+from caisson.design import houlsby_byrne
 
 SECTION = "Design methods"
 SHORT = {"Time/End penetration": 0.51}

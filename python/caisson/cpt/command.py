@@ -21,10 +21,10 @@ from caisson.runner import RunError
 from caisson.study import StudyError, check_is_own, file_name
 from caisson.suggest.cone import REACH
 from caisson.suggest.entry import SuggestError
-from caisson_design import InputError, cone_picture, disk, interpretation
-from caisson_design import printable
-from caisson_design.correlations import EVERY
-from caisson_design.interpretation import Interpretation
+from caisson.design import InputError, cone_picture, disk, interpretation
+from caisson.design import printable
+from caisson.design.correlations import EVERY
+from caisson.design.interpretation import Interpretation
 
 SIZES = ("diameter", "skirt", "wall")
 SCENE, STUDY = "scene.prm", "study.toml"

@@ -10,7 +10,7 @@ from pathlib import Path
 import jinja2
 import numpy as np
 
-import caisson_report
+from caisson import report
 from caisson import plot, study_command
 from caisson.cpt import tables
 from caisson.parameters import methods
@@ -19,9 +19,9 @@ from caisson.parameters.outcome import Outcomes, words_of
 from caisson.plot import theory
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
-from caisson_design import disk
-from caisson_design.interpretation import Interpretation
-from caisson_design.reasons import text_of
+from caisson.design import disk
+from caisson.design.interpretation import Interpretation
+from caisson.design.reasons import text_of
 
 HERE = Path(__file__).parent
 NAME = "report.html"
@@ -106,7 +106,7 @@ def reports_of(outcomes: Outcomes, directory: Path) -> list[tuple[str, str]]:
     for outcome in outcomes.complete:
         of_run = outcome.run.run.directory
         plot.draw(of_run)
-        path = caisson_report.write(of_run)
+        path = report.write(of_run)
         found.append((outcome.name, str(path.relative_to(directory.resolve()))))
     return found
 
@@ -154,7 +154,7 @@ def write(
         lstrip_blocks=True,
     )
     environment.filters["sub"] = with_subscripts
-    css = Path(caisson_report.__file__).parent / "page.css"
+    css = Path(report.__file__).parent / "page.css"
     path = directory / NAME
     disk.write(
         path,

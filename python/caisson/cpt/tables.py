@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from caisson.table import markdown, write_csv
-from caisson_design import printable
-from caisson_design.cone_estimates import (
+from caisson.design import printable
+from caisson.design.cone_estimates import (
     CAN,
     ENDS,
     INDEX,
@@ -19,17 +19,17 @@ from caisson_design.cone_estimates import (
     Estimate,
     Estimates,
 )
-from caisson_design.cone_layers import BAND, Layer
-from caisson_design.correlations import (
+from caisson.design.cone_layers import BAND, Layer
+from caisson.design.correlations import (
     ANGLE,
     DENSITY,
     EVERY,
     MODULUS,
     STRENGTH,
 )
-from caisson_design.ground import CLAY, CLAY_LIKE, DRAINED, OFFSET, SAND
-from caisson_design.ground import Ground, kind_of
-from caisson_design.interpretation import Interpretation
+from caisson.design.ground import CLAY, CLAY_LIKE, DRAINED, OFFSET, SAND
+from caisson.design.ground import Ground, kind_of
+from caisson.design.interpretation import Interpretation
 
 WIDEST_GAP = 1.0  # m between rows; a wider one is reported
 

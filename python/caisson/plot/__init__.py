@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from caisson.results import Results, ResultsError
-from caisson_design import InputError, cone_options
+from caisson.design import InputError, cone_options
 
 
 def draw(directory: Path) -> list[Path]:
@@ -52,7 +52,7 @@ def keep_cone(options: argparse.Namespace, directory: Path) -> None:
     """Keep a cone test, if one is given, with a run. Raises InputError."""
     how = cone_options.how_of(options)
     if options.cpt is not None:
-        from caisson_design import cone
+        from caisson.design import cone
 
         for remark in cone.adopt(options.cpt, directory, how):
             print(f"{options.cpt}: {remark}")

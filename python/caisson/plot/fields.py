@@ -16,7 +16,7 @@ from caisson.plot.forces import penetration
 from caisson.plot.small import in_units
 from caisson.plot.vtu import read_cells, read_points
 from caisson.results import Results, ResultsError, Table
-from caisson_design import disk
+from caisson.design import disk
 
 Series = list[tuple[float, list[Path]]]  # [(time, [files])]
 Window = tuple[float, float, float]  # radius, bottom, top (m)

@@ -16,11 +16,11 @@ from caisson.plot.theory import (
     houlsby_byrne_of,
     senders_randolph_of,
 )
-from caisson_design import suction_installation as installation
-from caisson_design.cone import ConeMethod
-from caisson_design.houlsby_byrne import UNDISTURBED, Caisson, HoulsbyByrne
-from caisson_design.method import Method
-from caisson_design.seepage import feld, ibsen_thilsted
+from caisson.design import suction_installation as installation
+from caisson.design.cone import ConeMethod
+from caisson.design.houlsby_byrne import UNDISTURBED, Caisson, HoulsbyByrne
+from caisson.design.method import Method
+from caisson.design.seepage import feld, ibsen_thilsted
 
 SENDERS_RANDOLPH = "Senders & Randolph (2009)"
 LOW, HIGH = "houlsby_byrne_low_Pa", "houlsby_byrne_high_Pa"

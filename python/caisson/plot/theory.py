@@ -13,16 +13,16 @@ import numpy as np
 
 from caisson.density_law import BY_DENSITY
 from caisson.results import Results, ResultsError
-from caisson_design import andersen, clay, dnv, houlsby_byrne, senders_randolph
-from caisson_design.assumed_cone import STEP, Sand, SandGround, assumed_cone
-from caisson_design.cone import ConeMethod, Profile, Skirt, of_run
-from caisson_design.houlsby_byrne import (
+from caisson.design import andersen, clay, dnv, houlsby_byrne, senders_randolph
+from caisson.design.assumed_cone import STEP, Sand, SandGround, assumed_cone
+from caisson.design.cone import ConeMethod, Profile, Skirt, of_run
+from caisson.design.houlsby_byrne import (
     UNDISTURBED,
     Assumptions,
     HoulsbyByrne,
     Layer,
 )
-from caisson_design.method import Forces, Method
+from caisson.design.method import Forces, Method
 
 Scene = Mapping[str, Any]
 # The laws whose strength is one friction angle; run.json names the law of a layer.

@@ -13,7 +13,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from caisson.results import Read, ResultsError
 from caisson.units import split
-from caisson_design import disk
+from caisson.design import disk
 
 TENSOR = ("rr", "zz", "tt", "rz")  # components before those that are 0
 

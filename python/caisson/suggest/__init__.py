@@ -57,10 +57,10 @@ from caisson.suggest.walls import (
     wall_friction_of,
     with_walls,
 )
-from caisson_design import InputError, cone_file, cone_options, disk, interpretation
-from caisson_design.interpretation import Interpretation
-from caisson_design.quantity import angle_of_friction, length, number
-from caisson_design.shown import units_for
+from caisson.design import InputError, cone_file, cone_options, disk, interpretation
+from caisson.design.interpretation import Interpretation
+from caisson.design.quantity import angle_of_friction, length, number
+from caisson.design.shown import units_for
 
 # of a study: of the friction angle (degrees), or of the relative density
 CHANGES = (-4, -2, 0, 2, 4)
