@@ -5,7 +5,7 @@ import argparse
 import shutil
 
 from caisson.paths import PICTURES, RESULTS, ROOT
-from caisson.design import disk
+from caisson import disk
 
 DOCUMENT = ROOT / "lab/performance/speed.md"
 BEGIN, END = "<!-- speed: begin -->", "<!-- speed: end -->"

@@ -10,11 +10,14 @@ from caisson.command_line import Groups, commands_of, end_process, run_command
 GROUPS: Groups = {
     "set up": {
         "suggest": ("caisson.suggest", "write a scene for your own caisson"),
-        "cpt": ("caisson.cpt.command", "derive soil layers from a cone test"),
+        "cpt": ("caisson.commands.cpt", "derive soil layers from a cone test"),
         "scenes": ("caisson.scenes", "list the scenes that come with the program"),
     },
     "compute": {
-        "run": ("caisson.launch", "run a scene, draw its pictures, write its report"),
+        "run": (
+            "caisson.commands.run",
+            "run a scene, draw its pictures, write its report",
+        ),
         "study": ("caisson.study_command", "run and evaluate many runs of a scene"),
         "error-bar": ("caisson.error.command", "compute the error bar of a scene"),
     },

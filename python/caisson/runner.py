@@ -18,7 +18,7 @@ from typing import Any
 from caisson.lock import is_locked
 from caisson.paths import PROGRAM, WORK
 from caisson.ranks import Size
-from caisson.design import disk
+from caisson import disk
 
 Entries = Mapping[str, Any]
 # what batch systems set, which may give a run several hosts

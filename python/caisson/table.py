@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from caisson.design import disk
+from caisson import disk
 
 
 def number(value: float | None, digits: int = 5) -> str:

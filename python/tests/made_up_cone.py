@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson.design import InputError, cone_file, interpretation
+from caisson.design import cone_file, interpretation
+from caisson.disk import InputError
 from caisson.design.cone_options import How
 
 HEAD = "depth_m,qc_MPa,fs_kPa,u2_kPa\n"

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from caisson import __main__ as program
-from caisson.cpt import command
+from caisson.commands import cpt as command
 from caisson.design import cone, cone_file, interpretation
 from caisson.design.cone_options import How
 from made_up_cone import AGS, GEF, WithFiles, options

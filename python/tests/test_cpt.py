@@ -13,11 +13,12 @@ from math import inf, log10
 import numpy as np
 from scipy.optimize import brentq
 
-from caisson.cpt import command, tables
+from caisson.commands import cpt as command
+from caisson.design import cone_texts as tables
 from caisson.paths import SCENES
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import SuggestError
-from caisson.design import InputError
+from caisson.disk import InputError
 from caisson.design import cone_file
 from caisson.design import cone_layers as layers
 from caisson.design import correlations

@@ -353,7 +353,7 @@ class Tables(Temporary):
         self.assertIn("# Stresses are effective, in Pa, positive in tension", text)
 
     def test_vtu(self) -> None:
-        from caisson.plot import vtu
+        from caisson import vtu
 
         found = balanced(made_up())
         tables.write_vtu(self.path / "a.vtu", found)

@@ -9,7 +9,7 @@ import numpy as np
 
 from caisson.design import andersen, cone, dnv, senders_randolph
 from caisson.design import houlsby_byrne
-from caisson.design import InputError
+from caisson.disk import InputError
 from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, Layer
 from caisson.design.method import Forces
 

@@ -3,6 +3,7 @@
 sources see what they must."""
 import argparse
 import ast
+import graphlib
 import importlib
 import os
 import pkgutil
@@ -52,7 +53,14 @@ COMMANDS = {
     "scripts/lab": lab.__main__.COMMANDS,
     "tools/workshop": caisson_workshop.__main__.COMMANDS,
 }
-MOST_COMMANDS, MOST_LINES = 10, 21_600  # of the user's package
+MOST_COMMANDS, MOST_LINES = 10, 21_620  # of the user's package
+
+
+# of the package, in the order in which one may import another one
+FOLDERS = "design plot parameters error export report suggest commands".split()
+
+
+FILES = sorted((ROOT / "python/caisson").rglob("*.py"))
 
 
 def modules() -> list[str]:
@@ -69,15 +77,32 @@ def modules() -> list[str]:
     return [name for name in names if not name.endswith("__main__")]
 
 
+def module_name(path: Path) -> str:
+    """Return the name of a module of the product."""
+    parts = path.relative_to(ROOT / "python").with_suffix("").parts
+    return ".".join(parts).removesuffix(".__init__")
+
+
+def floor(module: str) -> int:
+    """Return the place of a module in FOLDERS, -1 of the core."""
+    folder = (*module.split("."), "")[1]
+    return FOLDERS.index(folder) if folder in FOLDERS else -1
+
+
 def imported(path: Path) -> set[str]:
-    """Return the names of all that a module imports."""
+    """Return the names of all modules that a module imports."""
     names = set[str]()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
-            names |= {f"{node.module}.{alias.name}" for alias in node.names}
+            for alias in node.names:
+                name = f"{node.module}.{alias.name}"
+                names.add(name if name in NAMES else str(node.module))
     return names
+
+
+NAMES = set(map(module_name, FILES))
 
 
 class TopLevel(unittest.TestCase):
@@ -119,13 +144,23 @@ class Imports(unittest.TestCase):
 class Product(unittest.TestCase):
     """The user's package: small, and without laboratory and workshop."""
 
-    files = sorted((ROOT / "python/caisson").rglob("*.py"))
-
     def test_imports(self) -> None:
-        """It imports nothing of them."""
-        for path in self.files:
-            found = {name.split(".")[0] for name in imported(path)}
-            self.assertFalse(found & {"lab", "caisson_workshop"}, path)
+        """No import goes to a folder further on in FOLDERS, and none of the core, which
+        is no folder, to any of them, but in the command line."""
+        graph = {}
+        for path in FILES:
+            found = graph[module_name(path)] = imported(path)
+            tops = {name.split(".")[0] for name in found}
+            self.assertFalse(tops & {"lab", "caisson_workshop"}, path)
+            for name in found:
+                self.assertLessEqual(floor(name), floor(module_name(path)), path)
+        del graph["caisson"]  # loads its modules when their names are used
+        tuple(graphlib.TopologicalSorter(graph).static_order())
+
+    def test_folders(self) -> None:
+        names = {path.name for path in (ROOT / "python/caisson").iterdir()}
+        folders = {n for n in names if "." not in n and n != "__pycache__"}
+        self.assertEqual(folders, set(FOLDERS))
 
     def test_laboratory_needs_no_workshop(self) -> None:
         for path in (ROOT / "lab").rglob("*.py"):
@@ -133,7 +168,7 @@ class Product(unittest.TestCase):
 
     def test_size(self) -> None:
         self.assertLessEqual(len(caisson.__main__.COMMANDS), MOST_COMMANDS)
-        lines = sum(len(path.read_bytes().splitlines()) for path in self.files)
+        lines = sum(len(path.read_bytes().splitlines()) for path in FILES)
         self.assertLessEqual(lines, MOST_LINES)
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from synthetic import write_run
 
 import caisson.report as report
-from caisson import launch
+from caisson.commands import run as launch
 from caisson.results import Results, ResultsError
 from caisson.design import reasons
 from caisson.design.seepage import senders_randolph

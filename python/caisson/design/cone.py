@@ -22,7 +22,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson.design import InputError, cone_file, disk
+from caisson import disk
+from caisson.design import cone_file
+from caisson.disk import InputError
 from caisson.design.cone_options import How
 from caisson.design.method import Forces
 

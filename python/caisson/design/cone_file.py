@@ -12,7 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson.design import InputError, cone_formats, cone_grid, disk, printable
+from caisson import disk
+from caisson.design import cone_formats, cone_grid
+from caisson.disk import InputError
+from caisson.terminal import printable
 from caisson.design.cone_options import How
 from caisson.design.cone_rules import RANGES, Readings
 from caisson.design.cone_table import Rows, Table, cell_of, refuse, value_of

@@ -21,7 +21,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
-from caisson.design import InputError
+from caisson.disk import InputError
 from caisson.design.cone_table import Facts, Head, Rows, Table, refuse, table_of
 from caisson.design.cone_table import value_of
 from caisson.design.cone_words import LENGTH, NEEDED, QUANTITIES, unit_in

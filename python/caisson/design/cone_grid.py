@@ -12,7 +12,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from caisson.design import InputError, printable
+from caisson.disk import InputError
+from caisson.terminal import printable
 from caisson.design.cone_options import EXAMPLE
 from caisson.design.cone_table import Facts, Head, Rows, Table, cell_of
 from caisson.design.cone_table import is_number, refuse, table_of

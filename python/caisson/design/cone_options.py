@@ -4,7 +4,7 @@ one."""
 import argparse
 from typing import NamedTuple
 
-from caisson.design import InputError
+from caisson.disk import InputError
 
 EXAMPLE = "depth_m,qc_MPa,fs_kPa,u2_kPa"  # the columns of a table
 OPTIONS = {

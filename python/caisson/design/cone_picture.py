@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from caisson.design import correlations
-from caisson.design import disk
+from caisson import disk
 from caisson.design.cone_estimates import (
     ENDS,
     INDEX,

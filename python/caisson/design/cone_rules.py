@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson.design import InputError
+from caisson.disk import InputError
 from caisson.design.cone_table import Table, cell_of, more
 from caisson.design.cone_words import QUANTITIES
 

@@ -8,7 +8,7 @@ from math import isfinite, nan
 from pathlib import Path
 from typing import NamedTuple
 
-from caisson.design import InputError
+from caisson.disk import InputError
 from caisson.design.cone_words import INSTEAD, LENGTH, NEEDED, QUANTITIES, unit_in
 
 EMPTY = frozenset(("", "-", "--", "n/a", "#n/a", "na", "nan", "none", "null", "void"))

@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson.design import InputError, printable
+from caisson.disk import InputError
+from caisson.terminal import printable
 from caisson.design import cone_file, cone_options
 from caisson.design import cone_layers as layers
 from caisson.design import correlations

@@ -8,7 +8,7 @@ import math
 from typing import NamedTuple
 
 from caisson.design.method import Forces
-from caisson.design.shown import units_for
+from caisson.shown import units_for
 
 LIKE = (0.8, 1.25)  # computed over method; within it nobody asks why
 RAISED = 1.5  # K tan(delta) over that of undisturbed ground, beyond which a wall grips

@@ -22,7 +22,7 @@ from caisson.ranks import Size
 from caisson.runner import Run, RunError, read_parameters
 from caisson.study import Options, Study, StudyError, StudyRun, execute
 from caisson.study_command import shares_of, to_do_of
-from caisson.design import disk
+from caisson import disk
 from caisson.error import error_bar
 from caisson.error.windows import NUMBERS, Window, WindowedRun, windows_of
 

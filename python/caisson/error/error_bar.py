@@ -40,7 +40,7 @@ from caisson.paths import short
 from caisson.progress import duration
 from caisson.results import ResultsError, Table
 from caisson.study import Options, Study, StudyError, StudyRun
-from caisson.design import disk
+from caisson import disk
 from caisson.error.mesh_error import MeshError, mesh_error
 
 NAME = "error bar"

@@ -22,7 +22,7 @@ import numpy as np
 from caisson import curves, table
 from caisson.results import Results, Table
 from caisson.runner import Entries, Run, Status, query, read_parameters, set_options
-from caisson.design import disk
+from caisson import disk
 
 WIDTHS, SHARE_OF_MEAN = 12.0, 1 / 3
 NUMBERS = 4, 3, 2  # of windows, the first as a rule

@@ -18,7 +18,8 @@ from caisson.frame import Frame
 from caisson.loaded import LoadedRun, load
 from caisson.paths import short
 from caisson.results import ResultsError
-from caisson.design import InputError, disk
+from caisson import disk
+from caisson.disk import InputError
 from caisson.design.quantity import length, number
 from caisson.export import decks, spring_files, spring_picture, tables
 from caisson.export.balance import Balanced, balance, check_forces

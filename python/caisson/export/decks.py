@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson.design import disk
+from caisson import disk
 from caisson.export.balance import Balanced
 from caisson.export.state import GRAVITY
 from caisson.export.text import TOTAL, about

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from caisson.results import ResultsError
-from caisson.design import disk
+from caisson import disk
 from caisson.export.mesh import CLOSE, Mesh, default_window, with_sets
 from caisson.export.state import State, Wall
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from caisson.results import ResultsError
-from caisson.design import disk
+from caisson import disk
 from caisson.export.mesh import default_window, steps, surface_of
 from caisson.export.state import TOLERANCE, State
 

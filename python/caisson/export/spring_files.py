@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from caisson import table
-from caisson.design import disk
+from caisson import disk
 from caisson.export.springs import SMALL, STILL_GROWS, WALLS, Springs
 
 ROWS = 25  # of a curve in the table

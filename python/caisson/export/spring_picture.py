@@ -6,7 +6,7 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from caisson.design import disk
+from caisson import disk
 from caisson.export.springs import WALLS, Springs
 
 

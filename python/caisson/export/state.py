@@ -152,7 +152,7 @@ def wall_of(frame: Frame) -> Wall | None:
     """Return the wall, from the body of the frame or else the cells that it fills;
     None where no part of it is below the surface."""
     if frame.body is not None:
-        from caisson.plot.vtu import positions_of
+        from caisson.vtu import positions_of
 
         corners = positions_of(frame.body)
     else:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from caisson.table import write_csv
-from caisson.design import disk
+from caisson import disk
 from caisson.export.balance import Balanced
 from caisson.export.interpolate import Values
 from caisson.export.state import STRESS, State

@@ -59,7 +59,7 @@ from caisson.study import (
     file_name,
 )
 from caisson.design import cone
-from caisson.design import InputError
+from caisson.disk import InputError
 
 NAME = "parameters"
 STUDY_KEYS = set(

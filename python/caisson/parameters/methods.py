@@ -18,7 +18,7 @@ from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import DEPTH, Outcome, Outcomes, values_at
 from caisson.plot import theory
 from caisson.table import write_csv
-from caisson.design import disk
+from caisson import disk
 
 TOTAL = "total_force_N"
 INTERVAL = 0.1  # m

@@ -14,7 +14,7 @@ from caisson.parameters.effects import Effect
 from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import Outcome, Outcomes, title_of, unit_of, words_of
 from caisson.parameters.sampling import BASE, LATIN, ONE
-from caisson.design import disk
+from caisson import disk
 
 BLUE, RED = "#2166ac", "#c0392b"
 STYLES = ("-", "--", ":", "-.")

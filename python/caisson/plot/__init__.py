@@ -5,7 +5,8 @@ import sys
 from pathlib import Path
 
 from caisson.results import Results, ResultsError
-from caisson.design import InputError, cone_options
+from caisson.design import cone_options
+from caisson.disk import InputError
 
 
 def draw(directory: Path) -> list[Path]:

@@ -24,8 +24,9 @@ from caisson.paths import seen
 from caisson.plot.small import in_units
 from caisson.results import Results, ResultsError, Table
 from caisson.table import write_csv
-from caisson.design import InputError, disk
-from caisson.design.shown import USUAL, Units
+from caisson import disk
+from caisson.disk import InputError
+from caisson.shown import USUAL, Units
 
 LINES = ("black", "#c0392b", "#2166ac", "#2e8b57", "#8c510a", "#7b3294")
 STYLES = ("-", "--", ":", "-.")

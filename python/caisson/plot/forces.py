@@ -13,7 +13,7 @@ from caisson.curves import path_of, running_mean
 from caisson.plot import theory
 from caisson.plot.small import in_units
 from caisson.results import Results, Table
-from caisson.design import disk
+from caisson import disk
 
 COLORS = {
     "total": "black",

@@ -4,7 +4,7 @@ from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
-from caisson.design.shown import Units
+from caisson.shown import Units
 
 
 def in_units(figure: Figure, shown: Units) -> None:

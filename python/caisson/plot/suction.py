@@ -12,7 +12,7 @@ from caisson.plot import theory
 from caisson.plot.forces import COLORS, draw_error_bar, error_band, penetration
 from caisson.plot.small import in_units
 from caisson.results import Results, Table
-from caisson.design import disk
+from caisson import disk
 
 BLUE, GREEN, RED = (
     COLORS[name] for name in ("inner friction", "outer friction", "tip")

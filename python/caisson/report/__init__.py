@@ -11,8 +11,8 @@ from pathlib import Path
 
 from caisson.plot import add_cone_arguments, draw, keep_cone
 from caisson.results import Results, ResultsError
-from caisson.design import InputError
-from caisson.design import disk
+from caisson.disk import InputError
+from caisson import disk
 
 NAME = "report.html"
 INTERVAL = 30.0  # s, in which a followed report is renewed

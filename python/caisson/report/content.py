@@ -21,7 +21,7 @@ from caisson.plot.forces import (
 from caisson.plot.suction import BLUE, CRITICAL, GREEN, RED, upper_end
 from caisson.plot.suction_methods import CONE_HIGH, CONE_LOW, HIGH, LOW
 from caisson.results import Results, Table
-from caisson.design.shown import Units, units_for
+from caisson.shown import Units, units_for
 from caisson.report.installation import (
     BOILING,
     COMPUTED,

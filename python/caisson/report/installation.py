@@ -21,7 +21,7 @@ from caisson.plot.forces import penetration
 from caisson.plot.suction import pump_limit, rest_of_run
 from caisson.results import Results, Table
 from caisson.design.reasons import text_of
-from caisson.design.shown import USUAL, Units
+from caisson.shown import USUAL, Units
 from caisson.report.scene import plug_area
 
 INTERVAL = 0.5  # m, between the depths of the table

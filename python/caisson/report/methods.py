@@ -28,7 +28,7 @@ from caisson.design.reasons import (
     relieved,
     text_of,
 )
-from caisson.design.shown import SMALLER, USUAL, Units
+from caisson.shown import SMALLER, USUAL, Units
 from caisson.report import relief
 from caisson.report.installation import depths_of, needs_suction
 

@@ -16,7 +16,7 @@ import numpy as np
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.suction import rest_of_run
 from caisson.results import Results, ResultsError
-from caisson.design import disk
+from caisson import disk
 from caisson.design.houlsby_byrne import UNDISTURBED
 from caisson.design.suction_installation import mean_unit_weight
 

@@ -5,7 +5,7 @@ import math
 from typing import Any, NamedTuple
 
 from caisson.results import Results
-from caisson.design.shown import Units
+from caisson.shown import Units
 from caisson.report.scene import BODY, end_of, entry_of
 
 LETTER = 7.2  # pixels, the width of a letter

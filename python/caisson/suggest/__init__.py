@@ -32,7 +32,7 @@ from pathlib import Path
 import jinja2
 
 from caisson import density_law
-from caisson.cpt import tables
+from caisson.design import cone_texts
 from caisson.paths import INSTALLED
 from caisson.runner import RunError, query
 from caisson.suggest import clay, cone, sand
@@ -57,10 +57,12 @@ from caisson.suggest.walls import (
     wall_friction_of,
     with_walls,
 )
-from caisson.design import InputError, cone_file, cone_options, disk, interpretation
+from caisson import disk
+from caisson.design import cone_file, cone_options, interpretation
+from caisson.disk import InputError
 from caisson.design.interpretation import Interpretation
 from caisson.design.quantity import angle_of_friction, length, number
-from caisson.design.shown import units_for
+from caisson.shown import units_for
 
 # of a study: of the friction angle (degrees), or of the relative density
 CHANGES = (-4, -2, 0, 2, 4)
@@ -468,7 +470,7 @@ def write(options: argparse.Namespace) -> None:
     if options.cpt:
         deepest = cone.REACH * options.skirt
         found = interpretation.interpret(options.cpt, options, deepest)
-        print(tables.text_of_test(found))
+        print(cone_texts.text_of_test(found))
         layers = cone.layers_of(
             found, end_of(options), law_of(options), bool(options.weight)
         )

@@ -13,7 +13,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from caisson.results import Read, ResultsError
 from caisson.units import split
-from caisson.design import disk
+from caisson import disk
 
 TENSOR = ("rr", "zz", "tt", "rz")  # components before those that are 0
 

@@ -18,7 +18,10 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from caisson.design import InputError
+
+class InputError(Exception):
+    """A file or a number that cannot be used; the text is for the user."""
+
 
 Refusal = type[InputError]
 MOST = 2**29  # bytes of a text: a device has no end

@@ -31,7 +31,7 @@ from caisson.runner import (
 )
 from caisson.study import StudyError
 
-PACKAGES = Path(__file__).parents[1]
+PACKAGES = Path(__file__).parents[2]
 RENEWAL = 30.0  # s, in which the report of a run is renewed
 SHARE = 20.0  # of that time to the time that it takes, at least
 

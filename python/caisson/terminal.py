@@ -1,10 +1,22 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What reaches the terminal: text that may come from a file, and no commands to it."""
+import unicodedata
 from typing import Any, TextIO
 
-from caisson.design import printable
-
 CLEAR = "\r\x1b[K"  # goes back to the beginning of the line, and clears it
+
+
+def printable(text: str) -> str:
+    """Return a text of a file as it may reach a terminal, a picture or a page: what no
+    printer prints, such as the escape that begins a command of a terminal, becomes
+    \\x1b; other blanks become spaces, and tabs stay."""
+    if text.isprintable():
+        return text
+    letters = (" " if unicodedata.category(c) == "Zs" else c for c in text)
+    return "".join(
+        c if c.isprintable() or c == "\t" else c.encode("unicode_escape").decode()
+        for c in letters
+    )
 
 
 class PlainText:

@@ -15,14 +15,17 @@ import sys
 from pathlib import Path
 
 from caisson import suggest
-from caisson.cpt import page, tables
+from caisson.commands import cpt_page
+from caisson.design import cone_texts
 from caisson.paths import RESULTS, scene_or_study, short
 from caisson.runner import RunError
 from caisson.study import StudyError, check_is_own, file_name
 from caisson.suggest.cone import REACH
 from caisson.suggest.entry import SuggestError
-from caisson.design import InputError, cone_picture, disk, interpretation
-from caisson.design import printable
+from caisson import disk
+from caisson.design import cone_picture, interpretation
+from caisson.disk import InputError
+from caisson.terminal import printable
 from caisson.design.correlations import EVERY
 from caisson.design.interpretation import Interpretation
 
@@ -81,7 +84,7 @@ def write(
     directory.mkdir(parents=True, exist_ok=True)
     title = f"Cone test {found.name} {printable(location)}".rstrip()
     return [
-        tables.write(directory / "layers.csv", found.layers),
+        cone_texts.write(directory / "layers.csv", found.layers),
         cone_picture.draw(
             directory / "cpt.png", title, found.ground, found.layers, found.names, tip
         ),
@@ -102,7 +105,7 @@ def work(options: argparse.Namespace) -> int:
     name = f"{options.cpt.stem} {options.location}".rstrip()
     directory: Path = options.out or RESULTS / "cpt" / file_name(name)
     if not has_caisson:
-        print(tables.text_of_test(found))
+        print(cone_texts.text_of_test(found))
     tip = suggest.end_of(options) if has_caisson else None
     with disk.all_or_none(options.overwrite):
         files = write(found, directory, tip, options.location)
@@ -115,12 +118,12 @@ def work(options: argparse.Namespace) -> int:
     report(files)
     if not options.run:
         return 0
-    study = page.study_of(options.study, directory)
-    check_is_own(directory, study, [page.NAME])
-    status = page.run_study(options.study, directory, options.jobs)
+    study = cpt_page.study_of(options.study, directory)
+    check_is_own(directory, study, [cpt_page.NAME])
+    status = cpt_page.run_study(options.study, directory, options.jobs)
     name = f"{found.name} {printable(options.location)}".rstrip()
     facts = [("Caisson", caisson_of(options)), ("Ground", f"cone test {name}")]
-    report([page.write(found, options.study, directory, facts)])
+    report([cpt_page.write(found, options.study, directory, facts)])
     return status
 
 

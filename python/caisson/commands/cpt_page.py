@@ -12,14 +12,14 @@ import numpy as np
 
 from caisson import report
 from caisson import plot, study_command
-from caisson.cpt import tables
+from caisson.design import cone_texts
 from caisson.parameters import methods
 from caisson.parameters.methods import TOTAL, Answers
 from caisson.parameters.outcome import Outcomes, words_of
 from caisson.plot import theory
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
-from caisson.design import disk
+from caisson import disk
 from caisson.design.interpretation import Interpretation
 from caisson.design.reasons import text_of
 
@@ -158,13 +158,13 @@ def write(
     path = directory / NAME
     disk.write(
         path,
-        environment.get_template("page.html.jinja").render(
+        environment.get_template("cpt_page.html.jinja").render(
             title=study.title,
             job=job_of(facts, outcomes),
             test=test.name,
             troubles=troubles_of(outcomes),
-            soil=by_layer(*tables.cells_of(test.layers)),
-            remarks=tables.remarks(test),
+            soil=by_layer(*cone_texts.cells_of(test.layers)),
+            remarks=cone_texts.remarks(test),
             forces=forces_of(answers),
             reasons=theory.reasons(answers.answers[0]),
             profile=picture_of(directory / "cpt.png"),

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from caisson.table import markdown, write_csv
-from caisson.design import printable
+from caisson.terminal import printable
 from caisson.design.cone_estimates import (
     CAN,
     ENDS,
