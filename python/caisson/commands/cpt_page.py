@@ -7,9 +7,9 @@ import html
 import re
 from pathlib import Path
 
-import jinja2
 import numpy as np
 
+from caisson.template import template
 from caisson import report
 from caisson import plot, study_command
 from caisson.design import cone_texts
@@ -146,19 +146,11 @@ def write(
         raise ResultsError(f"no run of {file} is complete: see their logs")
     answers = methods.answers_of(outcomes)
     results = directory / file_name(study.id)
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(HERE),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["sub"] = with_subscripts
     css = Path(report.__file__).parent / "page.css"
     path = directory / NAME
     disk.write(
         path,
-        environment.get_template("cpt_page.html.jinja").render(
+        template(HERE / "cpt_page.html.jinja", sub=with_subscripts).render(
             title=study.title,
             job=job_of(facts, outcomes),
             test=test.name,

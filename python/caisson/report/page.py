@@ -5,9 +5,9 @@ import json
 from pathlib import Path
 from typing import Any
 
-import jinja2
 import numpy as np
 
+from caisson.template import template
 from caisson import plot
 from caisson.lock import is_locked
 from caisson.needed import JAVASCRIPT, SCRIPTS
@@ -196,10 +196,6 @@ def css_text(words: str) -> str:
 
 def html(run: Results, rate: Rate) -> str:
     """Return the page. Raises ResultsError or OSError."""
-    loader = jinja2.FileSystemLoader(HERE)
-    environment = jinja2.Environment(
-        loader=loader, autoescape=True, undefined=jinja2.StrictUndefined
-    )
     is_pull = pull.is_pull(run)
     found = None if is_pull else installation.installation_of(run, rate)
     beside = methods.NOTHING if is_pull else methods.methods_of(run)
@@ -214,7 +210,7 @@ def html(run: Results, rate: Rate) -> str:
     cards = cards + methods.card_of(beside) if cards else pull.cards_of(run)
     warnings = warnings_of(summary)
     warnings["result"] += installation.piping_warning(run, found)
-    return environment.get_template("page.html").render(
+    return template(HERE / "page.html").render(
         title=title,
         footer=css_text(title),
         job=job_of(run, summary),
