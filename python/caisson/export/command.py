@@ -2,15 +2,16 @@
 """Exports the state of the soil at a frame of a run to other programs, and springs.
 
 The mesh is a regular grid around the wall, or a text file of Gmsh. The stress is
-interpolated from the material points, and corrected until it balances the buoyant
-weight, the water and the forces of the run on the wall; what is printed, and written
-into the file, says how far it was out of balance and how much it has changed.
+interpolated from the material points; the first step of the other program finds its
+equilibrium with the buoyant weight, the water and the forces of the run on the wall.
+What is printed, and written into the file, is the balance of the whole.
 
 Springs along the walls and below the tip (tz) are those of the last motion of a run,
 such as a pull after the installation.
 """
 import argparse
 import sys
+from functools import partial
 from collections.abc import Callable
 from pathlib import Path
 
@@ -22,33 +23,28 @@ from caisson import disk
 from caisson.disk import InputError
 from caisson.design.quantity import length, number
 from caisson.export import decks, spring_files, spring_picture, tables
-from caisson.export.balance import Balanced, balance, check_forces
+from caisson.export.exported import Exported, exported
 from caisson.export.gmsh import read_gmsh
 from caisson.export.interpolate import interpolate
 from caisson.export.mesh import Mesh, Window, check_spacing, default_window, regular
 from caisson.export.places import read_places
 from caisson.export.springs import Springs, springs_of
 from caisson.export.state import State, read_state
-from caisson.export.text import about, about_points
+from caisson.export.text import about, about_state
 
-Writer = Callable[[Path, Balanced], None]
+Writer = Callable[[Path, Exported], None]
 # form: end of the file, and what writes it
 FORMS: dict[str, tuple[str, Writer]] = {
     "csv": (".csv", tables.write_cells),
     "vtu": (".vtu", tables.write_vtu),
-    "abaqus": (
-        "_abaqus.inp",
-        lambda path, state: decks.write(path, decks.abaqus(state)),
-    ),
-    "calculix": (
-        "_calculix.inp",
-        lambda path, state: decks.write(path, decks.calculix(state)),
-    ),
-    "opensees": (
-        "_opensees.py",
-        lambda path, state: decks.write(path, decks.opensees(state)),
-    ),
     "plaxis": ("_plaxis.csv", tables.write_plaxis),
+}
+FORMS |= {
+    program: (
+        f"_{program}.{template.split('.')[1]}",
+        partial(decks.write, program=program),
+    )
+    for program, (template, _) in decks.PROGRAMS.items()
 }
 
 SPRINGS: dict[str, tuple[str, Callable[[Path, Springs, Springs | None], None]]] = {
@@ -73,7 +69,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     places = parser.add_mutually_exclusive_group()
     text = "text file of Gmsh, 2.2 or 4.1, without the section of the body"
     places.add_argument("--mesh", type=Path, metavar="FILE.msh", help=text)
-    text = "table with columns r_m and z_m: values there, not balanced (csv)"
+    text = "table with columns r_m and z_m: values there (csv)"
     places.add_argument("--points", type=Path, metavar="FILE.csv", help=text)
     text = "cell size of the grid (m), default: a fortieth of the diameter"
     add("--spacing", type=length, metavar="M", help=text)
@@ -121,22 +117,13 @@ def mesh_of(state: State, options: argparse.Namespace) -> Mesh:
     return mesh
 
 
-def advice_on(state: State, options: argparse.Namespace) -> str:
-    """Return what to do about a mesh that is too coarse at the wall."""
-    if options.mesh is not None:
-        return "refine it along the wall and at the tip"
-    usual = default_window(state).spacing
-    finer = min(usual, (options.spacing or usual) / 2)
-    return f"take --spacing {finer:.2g}"
-
-
 def export_points(state: State, options: argparse.Namespace, path: Path) -> list[str]:
     """Write the values at the points of a table; return what to say of them."""
     if options.to != "csv":
         raise ResultsError(f"--points is for --to csv, not {options.to}")
     at = read_places(options.points, state)
     tables.write_points(path, state, at, interpolate(state, at))
-    return about_points(state)
+    return about_state(state)
 
 
 def export_springs(options: argparse.Namespace) -> tuple[Path, list[str]]:
@@ -178,10 +165,9 @@ def export_state(options: argparse.Namespace) -> tuple[Path, list[str]]:
     if options.points is not None:
         return path, export_points(state, options, path)
     mesh = mesh_of(state, options)
-    balanced = balance(state, mesh, interpolate(state, mesh.centers))
-    check_forces(balanced, advice_on(state, options))
-    write(path, balanced)
-    return path, about(balanced)
+    found = exported(state, mesh)
+    write(path, found)
+    return path, about(found)
 
 
 def main(options: argparse.Namespace) -> int:

@@ -162,7 +162,7 @@ def in_wall(mesh: Mesh, surfaces: np.ndarray, wall: Wall) -> np.ndarray:
     r, z = mesh.centers.T
     found = wall.contains(mesh.centers)
     around = (r > wall.inner) & (r < wall.outer) & (z > wall.tip)
-    size, below = abs(areas(mesh)), z < 0
+    size, below = abs(mesh.areas), z < 0
     for surface in np.unique(surfaces[around & below]):
         here = surfaces == surface
         if 2 * size[here & below & around].sum() > size[here & below].sum():
@@ -182,16 +182,10 @@ def words_on(mesh: Mesh, kept: np.ndarray, names: dict[int, str]) -> str:
     return f"{n} cells of the mesh are the wall, and left out{whole}."
 
 
-def areas(mesh: Mesh) -> np.ndarray:
-    """Return the areas of cells (m2), negative where they are clockwise: [m]."""
-    x, y = np.moveaxis(mesh.nodes[mesh.cells], 2, 0)
-    return (x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum(axis=1) / 2
-
-
 def trimmed(mesh: Mesh, kept: np.ndarray, remark: str) -> Mesh:
     """Return a mesh with the cells that are kept and their nodes only, and with all
     cells counterclockwise."""
-    cells, area = mesh.cells[kept], areas(mesh)[kept]
+    cells, area = mesh.cells[kept], mesh.areas[kept]
     turned = cells[:, [2, 1, 0, 3]]
     turned[cells[:, 2] == cells[:, 3]] = cells[cells[:, 2] == cells[:, 3]][
         :, [1, 0, 2, 2]

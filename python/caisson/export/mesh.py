@@ -39,6 +39,23 @@ class Mesh:
         """Whether cells have three corners: [m]."""
         return self.cells[:, 2] == self.cells[:, 3]
 
+    @property
+    def areas(self) -> np.ndarray:
+        """The areas of the cells (m2), negative where they are clockwise: [m]."""
+        return self._products().sum(axis=1) / 2
+
+    @property
+    def volumes(self) -> np.ndarray:
+        """The volumes of the whole circumference (m3): [m]."""
+        r = self.nodes[self.cells, 0]
+        products = (r + np.roll(r, -1, axis=1)) * self._products()
+        return np.pi / 3 * products.sum(axis=1)
+
+    def _products(self) -> np.ndarray:
+        """Return the cross products of the corners and those after them: [m, 4]."""
+        x, y = np.moveaxis(self.nodes[self.cells], 2, 0)
+        return x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y
+
     def edges(self) -> np.ndarray:
         """Return the edges that only one cell has: [k, 2], with the soil on their
         left."""

@@ -18,8 +18,7 @@ LEFT_OUT |= {"mean_stress_Pa", "deviator_Pa"}
 LEFT_OUT |= {"vertical_effective_stress_kPa", "vertical_stress_over_stress_at_rest"}
 GRAVITY = 9.81  # m/s2: densities are unit weights over it
 TOLERANCE = 1e-6  # m
-# Young's modulus over the norm of the stress: of the correction, and of soil whose law
-# has no Young's modulus
+# Young's modulus over the norm of the stress, of soil whose law has none
 STIFFNESS = 1e3
 
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from caisson.table import write_csv
 from caisson import disk
-from caisson.export.balance import Balanced
+from caisson.export.exported import Exported
 from caisson.export.interpolate import Values
 from caisson.export.state import STRESS, State
-from caisson.export.text import about, about_points
+from caisson.export.text import about, about_state
 
 Columns = dict[str, np.ndarray]
 # of the soil above the tip; below it the zones are as high; none is lower than a cell
@@ -45,21 +45,19 @@ def columns_of(
     return result | values.fields | {"layer": numbers[values.layer]}
 
 
-def of_cells(state: Balanced) -> Columns:
+def of_cells(state: Exported) -> Columns:
     """Return the values of the cells of a mesh."""
     result = columns_of(
-        state.state, state.values, state.stress, state.mesh.centers[:, 1]
+        state.state, state.values, state.values.stress, state.mesh.centers[:, 1]
     )
-    result |= {"unit_weight_N_m3": state.unit_weight, "volume_m3": state.volume}
-    result |= tensor("correction", state.correction)
-    result |= tensor("scatter", state.values.scatter)
-    return result | {"correction_exceeds_scatter": state.exceeds.astype(int)}
+    result |= {"unit_weight_N_m3": state.unit_weight, "volume_m3": state.mesh.volumes}
+    return result | tensor("scatter", state.values.scatter)
 
 
-def write_cells(path: Path, state: Balanced) -> None:
+def write_cells(path: Path, state: Exported) -> None:
     """Write one row for each cell."""
     place = dict(zip(("r_m", "z_m"), state.mesh.centers.T))
-    numbers = {"cell": np.arange(1, len(state.stress) + 1)}
+    numbers = {"cell": np.arange(1, len(state.values.stress) + 1)}
     write_table(path, about(state), numbers | place | of_cells(state))
 
 
@@ -68,10 +66,10 @@ def write_points(path: Path, state: State, at: np.ndarray, values: Values) -> No
     columns = dict(zip(("r_m", "z_m"), at.T))
     columns |= columns_of(state, values, values.stress, at[:, 1])
     columns |= tensor("scatter", values.scatter)
-    write_table(path, about_points(state), columns)
+    write_table(path, about_state(state), columns)
 
 
-def write_vtu(path: Path, state: Balanced) -> None:
+def write_vtu(path: Path, state: Exported) -> None:
     """Write the mesh with the values of its cells; what it is stands in a comment."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonCore import vtkPoints
@@ -117,7 +115,7 @@ class Zone:
     cells: np.ndarray
 
 
-def rings_of(state: Balanced) -> list[tuple[str, float, float, float]]:
+def rings_of(state: Exported) -> list[tuple[str, float, float, float]]:
     """Return the rings of the zones: name, radii, and height of the upper end (m),
     which is the mean of the surface of the ground, or the tip below it."""
     r, z = state.mesh.nodes.T
@@ -163,7 +161,7 @@ def rows_of_ring(edges: np.ndarray, z: np.ndarray, tip: float) -> np.ndarray:
     return np.array([*rows, edges[-1]])
 
 
-def zones_of(state: Balanced) -> list[Zone]:
+def zones_of(state: Exported) -> list[Zone]:
     """Return zones that cover the ground without a gap, but for the soil beside the
     slope of a tip, whose cells count in the zone below it."""
     mesh, wall = state.mesh, state.state.wall
@@ -187,12 +185,12 @@ def zones_of(state: Balanced) -> list[Zone]:
     return zones
 
 
-def line_of(state: Balanced, zone: Zone) -> dict[str, float | str]:
+def line_of(state: Exported, zone: Zone) -> dict[str, float | str]:
     """Return the row of a zone: means by volume over its cells. The past vertical
     stress is that of yielding, where it is known, or else that of the ground at rest,
     and at least the present one."""
     cells, fields = zone.cells, state.values.fields
-    volume = state.volume[cells]
+    volume = state.mesh.volumes[cells]
 
     def mean(values: np.ndarray) -> float:
         """Return the mean of the cells whose value is known."""
@@ -201,11 +199,11 @@ def line_of(state: Balanced, zone: Zone) -> dict[str, float | str]:
             return np.nan
         return float(np.average(values[cells][known], weights=volume[known]))
 
-    unknown = np.full(len(state.stress), np.nan)
+    unknown = np.full(len(state.values.stress), np.nan)
     yielding = fields.get("vertical_yield_stress_Pa", unknown)
     at_rest = state.state.at_rest(state.mesh.centers[:, 1])
     past = np.where(np.isfinite(yielding), yielding, at_rest)
-    rr, zz, tt, rz = map(mean, state.stress.T)
+    rr, zz, tt, rz = map(mean, state.values.stress.T)
     before, known = max(mean(past), -zz), zz < 0
     return {
         "zone": zone.name,
@@ -226,7 +224,7 @@ def line_of(state: Balanced, zone: Zone) -> dict[str, float | str]:
     }
 
 
-def write_plaxis(path: Path, state: Balanced) -> None:
+def write_plaxis(path: Path, state: Exported) -> None:
     """Write zones of soil, each with its weight, K0 and OCR."""
     zones = [line_of(state, zone) for zone in zones_of(state)]
     rows = [
