@@ -1,19 +1,20 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cone tests: files, formulas against numbers worked out by hand, layers, estimates,
 and what goes into a scene."""
-import argparse
 import contextlib
 import csv
 import io
 import itertools
 import unittest
 import warnings
+from typing import TextIO, cast
 from math import inf, log10
 
 import numpy as np
 from scipy.optimize import brentq
 
-from caisson.commands import cpt as command
+from caisson import __main__ as program
+from caisson.terminal import PlainText
 from caisson.design import cone_texts as tables
 from caisson.paths import SCENES
 from caisson.suggest import cone, sand
@@ -497,11 +498,10 @@ class Command(WithFiles):
 
     def call(self, *words: str) -> tuple[int, str]:
         """Return status and words of `caisson cpt`."""
-        parser = argparse.ArgumentParser()
-        command.add_arguments(parser)
         said = io.StringIO()
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-            status = command.main(parser.parse_args(words))
+        plain = cast(TextIO, PlainText(said))  # as end_process() sets it
+        with contextlib.redirect_stdout(plain), contextlib.redirect_stderr(plain):
+            status = program.main(["cpt", *words])
         return status, said.getvalue()
 
     def test_files(self) -> None:

@@ -30,6 +30,7 @@ from made_up_state import (
 )
 from plain_solver import Deck, forces_of, read_deck
 
+from caisson import __main__ as program
 from caisson.results import ResultsError, read_table
 from caisson.export import command, decks, tables
 from caisson.export.exported import Exported
@@ -394,11 +395,9 @@ class Command(Temporary):
 
     def call(self, *words: str | Path) -> tuple[int, str]:
         """Return the exit status and all that is said."""
-        parser = command.argparse.ArgumentParser()
-        command.add_arguments(parser)
         with contextlib.redirect_stdout(io.StringIO()) as said:
             with contextlib.redirect_stderr(said):
-                status = command.main(parser.parse_args(list(map(str, words))))
+                status = program.main(["export", *map(str, words)])
         return status, said.getvalue()
 
     def state_of(self, state: State) -> Any:

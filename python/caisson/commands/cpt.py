@@ -11,17 +11,14 @@ results/cpt/NAME: layers.csv and cpt.png; of a caisson scene.prm and study.toml,
 with --run report.html.
 """
 import argparse
-import sys
 from pathlib import Path
 
 from caisson import suggest
 from caisson.commands import cpt_page
 from caisson.design import cone_texts
 from caisson.paths import RESULTS, scene_or_study, short
-from caisson.runner import RunError
-from caisson.study import StudyError, check_is_own, file_name
+from caisson.study import check_is_own, file_name
 from caisson.suggest.cone import REACH
-from caisson.suggest.entry import SuggestError
 from caisson import disk
 from caisson.design import cone_picture, interpretation
 from caisson.disk import InputError
@@ -132,11 +129,4 @@ def main(options: argparse.Namespace) -> int:
     if options.list:
         list_correlations()
         return 0
-    try:
-        return work(options)
-    except BrokenPipeError:  # as of `| head`
-        raise
-    except (InputError, SuggestError, StudyError, RunError, OSError) as error:
-        lines = f"cpt: {error}".split("\n")
-        print("\n".join(map(printable, lines)), file=sys.stderr)
-        return 1
+    return work(options)

@@ -11,7 +11,6 @@ import argparse
 import math
 import os
 import re
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -362,25 +361,21 @@ def advise(plan: Plan, study: Study) -> None:
 
 def main(arguments: argparse.Namespace) -> int:
     """Run and write the file."""
-    try:
-        plan = Plan(arguments)
-        study = plan.study()
-        total = sum(run.duration for run in study.runs)
-        for run in study.runs:
-            print(f"{run.name}: about {duration(run.duration)}")
-        print(f"all runs: about {duration(total)} on one core", flush=True)
-        if total > ROUNDED * plan.budget:
-            print(f"This is more than the budget, {duration(plan.budget)}.")
-        if arguments.list:
-            return 0
-        if not arguments.overwrite:
-            plan.check_free(study.runs)
-        plan.execute(study.runs, arguments.again)
-        set_depths(study, plan.windows)
-        with disk.all_or_none(arguments.overwrite):
-            error_bar.evaluate([study], Options(), 0)
-        advise(plan, study)
+    plan = Plan(arguments)
+    study = plan.study()
+    total = sum(run.duration for run in study.runs)
+    for run in study.runs:
+        print(f"{run.name}: about {duration(run.duration)}")
+    print(f"all runs: about {duration(total)} on one core", flush=True)
+    if total > ROUNDED * plan.budget:
+        print(f"This is more than the budget, {duration(plan.budget)}.")
+    if arguments.list:
         return 0
-    except (StudyError, RunError, OSError) as error:
-        print(f"error-bar: {error}", file=sys.stderr)
-        return 1
+    if not arguments.overwrite:
+        plan.check_free(study.runs)
+    plan.execute(study.runs, arguments.again)
+    set_depths(study, plan.windows)
+    with disk.all_or_none(arguments.overwrite):
+        error_bar.evaluate([study], Options(), 0)
+    advise(plan, study)
+    return 0

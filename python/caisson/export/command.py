@@ -10,7 +10,6 @@ Springs along the walls and below the tip (tz) are those of the last motion of a
 such as a pull after the installation.
 """
 import argparse
-import sys
 from functools import partial
 from collections.abc import Callable
 from pathlib import Path
@@ -20,7 +19,6 @@ from caisson.loaded import LoadedRun, load
 from caisson.paths import short
 from caisson.results import ResultsError
 from caisson import disk
-from caisson.disk import InputError
 from caisson.design.quantity import length, number
 from caisson.export import decks, spring_files, spring_picture, tables
 from caisson.export.exported import Exported, exported
@@ -172,12 +170,8 @@ def export_state(options: argparse.Namespace) -> tuple[Path, list[str]]:
 
 def main(options: argparse.Namespace) -> int:
     """Write the file, and print what it is."""
-    try:
-        export = export_springs if options.to in SPRINGS else export_state
-        with disk.all_or_none(options.overwrite):
-            path, lines = export(options)
-        print("\n".join([*lines, f"written to {short(path)}"]))
-        return 0
-    except (InputError, OSError) as error:
-        print(f"export: {error}", file=sys.stderr)
-        return 1
+    export = export_springs if options.to in SPRINGS else export_state
+    with disk.all_or_none(options.overwrite):
+        path, lines = export(options)
+    print("\n".join([*lines, f"written to {short(path)}"]))
+    return 0

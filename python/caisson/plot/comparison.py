@@ -10,7 +10,6 @@ mean over 0.2 m, as everywhere; see curves.
 """
 import argparse
 import math
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -25,7 +24,6 @@ from caisson.plot.small import in_units
 from caisson.results import Results, ResultsError, Table
 from caisson.table import write_csv
 from caisson import disk
-from caisson.disk import InputError
 from caisson.shown import USUAL, Units
 
 LINES = ("black", "#c0392b", "#2166ac", "#2e8b57", "#8c510a", "#7b3294")
@@ -234,20 +232,16 @@ def main(options: argparse.Namespace) -> int:
     directories = options.words
     if directories[0].suffix in PICTURES and not directories[0].is_dir():
         picture, directories = directories[0], directories[1:]
-    try:
-        if not directories:
-            raise ResultsError("give the output directory of a run")
-        histories = read(directories)
-        shown = units_of_all(directories)
-        usual = INTERVAL_OF_SMALL if "m" in shown.smaller else INTERVAL
-        columns = columns_of(histories, options.interval or usual)
-        picture = picture or default_picture(directories)
-        with disk.all_or_none(options.overwrite):
-            written = [draw(picture, histories, shown)]
-            written.append(write(picture.with_suffix(".csv"), columns))
-        for path in written:
-            print(f"compare: {seen(path)}")
-    except (InputError, OSError) as error:
-        print(f"compare: {error}", file=sys.stderr)
-        return 1
+    if not directories:
+        raise ResultsError("give the output directory of a run")
+    histories = read(directories)
+    shown = units_of_all(directories)
+    usual = INTERVAL_OF_SMALL if "m" in shown.smaller else INTERVAL
+    columns = columns_of(histories, options.interval or usual)
+    picture = picture or default_picture(directories)
+    with disk.all_or_none(options.overwrite):
+        written = [draw(picture, histories, shown)]
+        written.append(write(picture.with_suffix(".csv"), columns))
+    for path in written:
+        print(f"compare: {seen(path)}")
     return 0

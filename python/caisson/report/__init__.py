@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """One page on a run, report.html in its directory: curves, tables, pictures, and what
 the program warned of. It needs no other file and no network. Until the run ends, the
-page reloads itself; `--follow` renews it until the run ends."""
+page reloads itself, and `caisson run` renews it."""
 import argparse
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 from caisson.plot import add_cone_arguments, draw, keep_cone
@@ -15,7 +14,6 @@ from caisson.disk import InputError
 from caisson import disk
 
 NAME = "report.html"
-INTERVAL = 30.0  # s, in which a followed report is renewed
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 
@@ -29,15 +27,6 @@ def write(directory: Path, rate: float | None = None) -> Path:
         raise ResultsError(f"no directory {directory}")
     text = page.html(Results(directory), Rate() if rate is None else Rate(rate, False))
     return disk.write(directory / NAME, text)
-
-
-def follow(directory: Path, interval: float, rate: float | None = None) -> Path:
-    """Renew the report until the run has ended; return its path."""
-    while True:
-        path = write(directory, rate)
-        if not Results(directory).is_running:
-            return path
-        time.sleep(interval)
 
 
 def find_browser() -> str:
@@ -95,9 +84,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="rate of penetration that the pump is made for, in m/h; 1 is assumed",
     )
     parser.add_argument("--pdf", action="store_true", help="print it to report.pdf too")
-    parser.add_argument(
-        "--follow", action="store_true", help="renew it until the run ends"
-    )
 
 
 def main(options: argparse.Namespace) -> int:
@@ -114,10 +100,7 @@ def main(options: argparse.Namespace) -> int:
                 relief.adopt(options.jacked, directory)
             if options.rate is not None and not options.rate > 0:
                 raise ResultsError(f"--rate {options.rate:g}: give m/h above 0")
-            if options.follow:
-                path = follow(directory, INTERVAL, options.rate)
-            else:
-                path = write(directory, options.rate)
+            path = write(directory, options.rate)
             print(f"report: {path}")
             if options.pdf:
                 print(f"report: {print_pdf(path)}")

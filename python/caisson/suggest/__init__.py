@@ -23,7 +23,6 @@ import argparse
 import functools
 import os
 import re
-import sys
 import tempfile
 from collections.abc import Sequence
 from math import inf, pi
@@ -59,7 +58,6 @@ from caisson.suggest.walls import (
 )
 from caisson import disk
 from caisson.design import cone_file, cone_options, interpretation
-from caisson.disk import InputError
 from caisson.design.interpretation import Interpretation
 from caisson.design.quantity import angle_of_friction, length, number
 from caisson.shown import units_for
@@ -488,11 +486,7 @@ def write(options: argparse.Namespace) -> None:
 
 def main(options: argparse.Namespace) -> int:
     """Write the scene, and say what it will cost."""
-    try:
-        write(options)
-    except (SuggestError, RunError, InputError, OSError) as error:
-        print(f"suggest: {error}", file=sys.stderr)
-        return 1
+    write(options)
     run, study = (
         ("caisson run", "caisson study")
         if INSTALLED
