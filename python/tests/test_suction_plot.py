@@ -357,7 +357,7 @@ class MadeUpRun(unittest.TestCase):
         """At 4.5 m K tan(delta) = 0.8 has no suction, and 0.45 still has one."""
         answers = methods.answers_of(SITE, np.array([3.0, 4.5]))
         high = answers.suctions[methods.HIGH]
-        upper = suction.upper_end(answers, *methods.RANGE)
+        _, upper = answers.required[0].band
         self.assertTrue(np.isnan(high[1]) and np.isfinite(high[0]))
         self.assertEqual(upper[0], high[0])
         self.assertEqual(upper[1], answers.suctions[methods.PIPING][1])

@@ -17,6 +17,7 @@ from caisson import disk
 BLUE, GREEN, RED = (
     COLORS[name] for name in ("inner friction", "outer friction", "tip")
 )
+COLOR_OF = {methods.HOULSBY_BYRNE: BLUE}  # of a required suction; others are green
 # column of design.csv: label and line of a critical suction; a required one is a band
 CRITICAL_COLOR = "#b35806"
 CRITICAL = {
@@ -59,45 +60,23 @@ def has_line(*suctions: np.ndarray) -> bool:
     return any(np.isfinite(values).any() for values in suctions)
 
 
-def upper_end(answers: methods.Answers, low: str, high: str) -> np.ndarray:
-    """Return the upper end of a range of required suctions; where none suffices there
-    but one at the lower end, the suction at which the method expects piping."""
-    lower, upper = answers.suctions[low], answers.suctions[high]
-    only_lower = np.isfinite(lower) & ~np.isfinite(upper)
-    return np.where(only_lower, answers.suctions[methods.LIMITS[high]], upper)
-
-
-def draw_band(
-    axes: Axes, answers: methods.Answers, low: str, high: str, color: str, name: str
-) -> None:
-    """Draw the range between two required suctions, in kPa; they are drawn from where
-    the weight no longer suffices."""
-    lines = [from_rest_on(answers.suctions[column]) for column in (low, high)]
-    if not has_line(*lines):
-        return
-    axes.fill_betweenx(
-        answers.depth,
-        answers.suctions[low] / 1e3,
-        upper_end(answers, low, high) / 1e3,
-        facecolor=color,
-        alpha=0.18,
-        linewidth=0,
-        label=f"required, {name}",
-    )
-    for line, style in zip(lines, ("--", ":")):
-        axes.plot(line, answers.depth, color=color, linewidth=0.8, linestyle=style)
-
-
 def draw_required(axes: Axes, answers: methods.Answers) -> None:
-    """Draw the required suction of the methods, in kPa."""
-    name = "Houlsby & Byrne (2005)"
-    draw_band(axes, answers, methods.LOW, methods.HIGH, BLUE, name)
-    line = from_rest_on(answers.suctions[methods.LOWER_BOUND])
-    if has_line(line):
-        label = f"required, {theory.LOWER_BOUND}"
-        axes.plot(line, answers.depth, "-.", color=BLUE, linewidth=0.6, label=label)
-    name = answers.senders_randolph
-    draw_band(axes, answers, methods.CONE_LOW, methods.CONE_HIGH, GREEN, name)
+    """Draw the ranges of the required suction of the methods, in kPa, from where the
+    weight no longer suffices."""
+    for method in answers.required:
+        color = COLOR_OF.get(method.name, GREEN)
+        low, high = (end / 1e3 for end in method.band)
+        lines = [from_rest_on(values) for values in method.cases.values()]
+        bounds = [from_rest_on(values) for values in method.bounds.values()]
+        if has_line(*lines):
+            label = f"required, {method.name}"
+            style = {"facecolor": color, "alpha": 0.18, "linewidth": 0}
+            axes.fill_betweenx(answers.depth, low, high, label=label, **style)
+            for line, dashes in zip(lines, ("--", ":")):
+                axes.plot(line, answers.depth, dashes, color=color, linewidth=0.8)
+        for line in filter(has_line, bounds):
+            label = f"required, {theory.LOWER_BOUND}"
+            axes.plot(line, answers.depth, "-.", color=color, lw=0.6, label=label)
 
 
 def draw_critical(axes: Axes, answers: methods.Answers) -> None:

@@ -329,6 +329,30 @@ METHODS = (
 
 
 @dataclass(frozen=True)
+class Beside:
+    """What a method says of one quantity over depth, beside which a run stands: its
+    lower and its upper case, and a bound below them, [n] each (N or Pa); the limit
+    beyond which no suction suffices, and whether the cases end there, by piping."""
+
+    name: str
+    cases: dict[str, np.ndarray]
+    bounds: dict[str, np.ndarray] = field(default_factory=dict)
+    limit: float | np.ndarray = np.nan
+    may_end: bool = False
+
+    @property
+    def is_known(self) -> bool:
+        """Whether there is anything to show."""
+        return any(np.isfinite(values).any() for values in self.cases.values())
+
+    @property
+    def band(self) -> tuple[np.ndarray, np.ndarray]:
+        """Both ends; where only the upper case has none, the limit."""
+        low, high = self.cases.values()
+        return low, np.where(np.isfinite(low) & np.isnan(high), self.limit, high)
+
+
+@dataclass(frozen=True)
 class Answer:
     """What a method says over depth: forces by case and part, [n] (N) at embedments
     depth [n] (m), nan where it has no answer; none, and why not."""
@@ -343,6 +367,13 @@ class Answer:
     def name(self) -> str:
         """The name of the method, marked where its cone resistance is assumed."""
         return self.method.name + (ASSUMED_CONE if self.assumed else "")
+
+    @property
+    def total(self) -> Beside:
+        """The total force; no case without an answer."""
+        totals = {case: forces["total"] for case, forces in self.forces.items()}
+        bounds = {b: totals.pop(b) for b in self.method.bound if b in totals}
+        return Beside(self.name, totals, bounds)
 
     def band(self, part: str) -> tuple[np.ndarray, np.ndarray]:
         """Return a part in the lower and in the upper case (N)."""

@@ -18,8 +18,7 @@ from caisson.plot.forces import (
     remark_on,
     smooth,
 )
-from caisson.plot.suction import BLUE, CRITICAL, GREEN, RED, upper_end
-from caisson.plot.suction_methods import CONE_HIGH, CONE_LOW, HIGH, LOW
+from caisson.plot.suction import COLOR_OF, CRITICAL, GREEN, RED
 from caisson.results import Results, Table
 from caisson.shown import Units, units_for
 from caisson.report.installation import (
@@ -126,18 +125,18 @@ def method_suctions(run: Results) -> list[Curve]:
     answers = suction_methods.answers_of(site, depth)
     if not answers.suctions:
         return []
-    kilopascals = {name: s / 1e3 for name, s in answers.suctions.items()}
     found = []
-    for name, color, low, high in (
-        ("Houlsby & Byrne (2005)", BLUE, LOW, HIGH),
-        (answers.senders_randolph, GREEN, CONE_LOW, CONE_HIGH),
-    ):
-        upper = upper_end(answers, low, high) / 1e3
-        found.append(band(f"required, {name}", color, kilopascals[low], upper, depth))
-    bound = kilopascals[suction_methods.LOWER_BOUND]
-    found.append(line(f"required, {theory.LOWER_BOUND}", BLUE, bound, depth))
+    for method in answers.required:
+        color = COLOR_OF.get(method.name, GREEN)
+        low, high = (end / 1e3 for end in method.band)
+        found.append(band(f"required, {method.name}", color, low, high, depth))
+        for bound in method.bounds.values():
+            label = f"required, {theory.LOWER_BOUND}"
+            found.append(line(label, color, bound / 1e3, depth))
     for color, (column, (name, _)) in zip(CRITICAL_COLORS, CRITICAL.items()):
-        found.append(line(f"critical, {name}", color, kilopascals[column], depth))
+        found.append(
+            line(f"critical, {name}", color, answers.suctions[column] / 1e3, depth)
+        )
     return found
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from caisson import curves
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import penetration
+from caisson.plot.suction import CRITICAL
 from caisson.results import Results
 from caisson.design import suction_installation as installation
 from caisson.design.houlsby_byrne import STILL, UNDISTURBED
@@ -39,6 +40,8 @@ UNDISTURBED_IS = (
     f"{UNDISTURBED}: K0 tan \N{GREEK SMALL LETTER DELTA} without stress enhancement, a"
     " lower bound"
 )
+# the critical suctions that a table has
+SHOWN_LIMITS = (suction_methods.PIPING, suction_methods.CRITICAL_SENDERS_RANDOLPH)
 AT_DEPTH = 0.05  # m, between a depth and the frame that is taken for it
 NO_ANSWER = "none (piping)"
 NOTHING: dict[str, Any] = {"tables": [], "why": [], "reasons": [], "notes": []}
@@ -132,77 +135,66 @@ def table(title: str, columns: dict[str, Any], shown: Units = USUAL) -> dict[str
     }
 
 
-def forces_beside(
+def beside(
+    title: str,
+    columns: dict[str, Any],
     computed: np.ndarray | None,
-    at: np.ndarray,
-    answers: list[theory.Answer],
-    shown: Units = USUAL,
+    methods: list[theory.Beside],
+    shown: Units,
+    what: str = "",
+    last: dict[str, Any] = {},
 ) -> dict[str, Any]:
-    """Return the table of the total force (kN); computed: of a run without suction."""
-    columns: dict[str, Any] = {"depth (m)": at}
+    """Return a table of what a run has (N or Pa), if it has this, and methods say
+    behind other columns, and last ones. what: before the names of methods."""
     if computed is not None:
-        columns["computed"] = computed
-    for answer in answers:
-        for case, forces in answer.forces.items():
-            columns[f"{answer.name}, {case}"] = forces["total"] / 1e3
-        if answer.forces and computed is not None:
-            low, high = [force / 1e3 for force in answer.band("total")]
-            name = f"{RATIO}{answer.name}"
-            columns[name] = ratios(computed, low, high)
-            for bound in answer.method.bound:
-                force = answer.forces[bound]["total"] / 1e3
-                columns[f"{RATIO}{bound}"] = ratios(computed, force, force)
-    title = (
-        "Force of jacking, without suction (kN)"
-        if computed is None
-        else "Total force (kN)"
-    )
-    return table(title, columns, shown)
+        columns["computed"] = computed / 1e3
+    for method in methods:
+        for case, values in (method.cases | method.bounds).items():
+            texts = or_piping(values / 1e3) if method.may_end else values / 1e3
+            columns[f"{what}{method.name}, {case}"] = texts
+        if computed is not None:
+            columns[f"{RATIO}{method.name}"] = ratios(computed, *method.cases.values())
+            for bound, values in method.bounds.items():
+                columns[f"{RATIO}{bound}"] = ratios(computed, values, values)
+    return table(title, columns | last, shown)
 
 
-def resistance_beside(
-    run: Results, at: np.ndarray, site: theory.Site
-) -> dict[str, Any]:
-    """Return the table of the resistance (kN) under the suction of the run, by the run
-    and by the methods for suction, each with what this suction leaves."""
-    total = design.compared_at(run.history, at)[design.FORCES[-1]] / 1e3
+def under_suction(
+    run: Results, at: np.ndarray, site: theory.Site, answers: list[theory.Answer]
+) -> list[theory.Beside]:
+    """Return the resistance that methods for suction have at depths [n] under the
+    suction of the run; answers: of jacking."""
     suction = np.maximum(design.suction_at(run.history, at), 0)
-    columns: dict[str, Any] = {
-        "depth (m)": at,
-        "suction (kPa)": suction / 1e3,
-        "computed": total,
-    }
     try:
         byrne = theory.houlsby_byrne_of(site, float(at.max()))
     except theory.NotApplicable:
-        return table("", {"depth (m)": at}, run.shown)
+        return []
     caisson, _ = byrne.by_name[UNDISTURBED]
+    pairs = list(zip(map(float, suction), map(float, at)))
     flows = [
-        installation.seepage(caisson, float(s), float(h), byrne.permeability_ratio)
-        for s, h in zip(suction, at)
+        installation.seepage(caisson, s, h, byrne.permeability_ratio) for s, h in pairs
     ]
-    by_method = {
-        "Houlsby & Byrne (2005)": [
-            [byrne.forces_under(flow, float(h), case) for flow, h in zip(flows, at)]
-            for case in byrne.cases
-        ]
-    }
-    for answer in theory.answers_of(site, at):
+
+    def of_byrne(case: str) -> np.ndarray:
+        both = zip(flows, at)
+        return np.array([byrne.forces_under(f, float(h), case).total for f, h in both])
+
+    cases = {case: of_byrne(case) for case in byrne.cases}
+    found = [theory.Beside(suction_methods.HOULSBY_BYRNE, cases)]
+    left = [1 - s / installation.critical_suction(caisson, h) for s, h in pairs]
+    for answer in answers:
         if answer.method.key == "senders_randolph" and answer.forces:
-            critical = [installation.critical_suction(caisson, float(h)) for h in at]
-            left = 1 - suction / np.array(critical)
-            by_method[answer.name] = [
-                [
-                    relieved(by_case(answer, case, i), float(x))
-                    for i, x in enumerate(left)
-                ]
+            cases = {
+                case: np.array(
+                    [
+                        relieved(by_case(answer, case, i), x).total
+                        for i, x in enumerate(left)
+                    ]
+                )
                 for case in answer.method.cases
-            ]
-    for name, cases in by_method.items():
-        ends = [np.array([forces.total for forces in case]) / 1e3 for case in cases]
-        columns |= {f"{name}, low": ends[0], f"{name}, high": ends[1]}
-        columns[f"{RATIO}{name}"] = ratios(total, ends[0], ends[1])
-    return table("Resistance under the suction of the run (kN)", columns, run.shown)
+            }
+            found.append(theory.Beside(answer.name, cases))
+    return found
 
 
 def or_piping(values: np.ndarray) -> list[str]:
@@ -213,43 +205,31 @@ def or_piping(values: np.ndarray) -> list[str]:
     return [text_of(float(v)) if i <= last else NO_ANSWER for i, v in enumerate(values)]
 
 
-def suctions_beside(run: Results, at: np.ndarray, site: theory.Site) -> dict[str, Any]:
-    """Return the table of required and critical suctions (kPa)."""
-    computed = np.maximum(design.suction_at(run.history, at), 0) / 1e3
-    answers = suction_methods.answers_of(site, at)
-    found, senders = answers.suctions, answers.senders_randolph
-    columns: dict[str, Any] = {"depth (m)": at, "computed": computed}
-    byrne = "Houlsby & Byrne (2005)"
-    for name, cases in (
-        (byrne, suction_methods.CASES),
-        (
-            senders,
-            {suction_methods.CONE_LOW: "low", suction_methods.CONE_HIGH: "high"},
-        ),
-    ):
-        kilopascals = [found[c] / 1e3 for c in cases if c in found]
-        if not any(np.isfinite(values).any() for values in kilopascals):
-            continue
-        for case, values in zip(cases.values(), kilopascals):
-            of_byrne = name == byrne
-            columns[f"required, {name}, {case}"] = (
-                or_piping(values) if of_byrne else values
-            )
-        low, high = kilopascals[:2]
-        columns[f"{RATIO}{name}"] = ratios(computed, low, high)
-        if name == byrne:
-            bound = kilopascals[2]
-            columns[f"{RATIO}{UNDISTURBED}"] = ratios(computed, bound, bound)
-    for name, column in (
-        (byrne, suction_methods.PIPING),
-        (
-            suction_methods.SENDERS_RANDOLPH,
-            suction_methods.CRITICAL_SENDERS_RANDOLPH,
-        ),
-    ):
-        if column in found:
-            columns[f"critical, {name}"] = found[column] / 1e3
-    return table("Required and critical suction (kPa)", columns, run.shown)
+def suction_tables(
+    run: Results, at: np.ndarray, site: theory.Site, answers: list[theory.Answer]
+) -> list[dict[str, Any]]:
+    """Return the tables of required and critical suctions, and of the resistance under
+    the suction of the run; answers: of jacking."""
+    required = np.maximum(design.suction_at(run.history, at), 0)
+    found = suction_methods.answers_of(site, at)
+    critical = {
+        f"critical, {CRITICAL[column][0]}": found.suctions[column] / 1e3
+        for column in SHOWN_LIMITS
+        if found.suctions
+    }
+    title, columns = "Required and critical suction (kPa)", {"depth (m)": at}
+    suctions = beside(
+        title, columns, required, found.required, run.shown, "required, ", critical
+    )
+    methods = under_suction(run, at, site, answers)
+    resistance = beside(
+        "Resistance under the suction of the run (kN)",
+        {"depth (m)": at, "suction (kPa)": required / 1e3},
+        design.compared_at(run.history, at)[design.FORCES[-1]],
+        methods,
+        run.shown,
+    )
+    return [suctions, resistance] if methods else [suctions]
 
 
 # ------------------------------------------------------------------ why
@@ -406,14 +386,18 @@ def methods_of(run: Results) -> dict[str, Any]:
     with_suction, total = needs_suction(run), design.FORCES[-1]
     computed = None
     if total in history and not with_suction:
-        computed = design.compared_at(history, at)[total] / 1e3
-    tables, meaning = [forces_beside(computed, at, answers, run.shown)], ""
+        computed = design.compared_at(history, at)[total]
+    title = "Total force (kN)"
+    if computed is None:
+        title = "Force of jacking, without suction (kN)"
+    forces = [answer.total for answer in answers if answer.forces]
+    tables = [beside(title, {"depth (m)": at}, computed, forces, run.shown)]
+    meaning = ""
     if with_suction:
         columns, meaning = relief.table_of(run, at)
         title = "What suction leaves of the forces"
         left = [table(title, columns, run.shown)] if columns else []
-        resistance = resistance_beside(run, at, site)
-        tables = [suctions_beside(run, at, site), resistance, *left, *tables]
+        tables = [*suction_tables(run, at, site, answers), *left, *tables]
     # the deepest of them that a cone test reaches
     end = site.cone.depth[-1] if site.cone else np.inf
     h = float(max((z for z in at if z <= end), default=at[-1]))
