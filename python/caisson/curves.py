@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Numbers of a curve: every mean over a window of history.csv is taken here.
+"""Numbers of a curve, and their error bars: every mean over a window of history.csv is
+taken here.
 
 The rows of history.csv are means since the row before, so a number is averaged over a
 window of penetration before it is shown or compared. smoothed_at() has the definition.
@@ -10,6 +11,7 @@ Positions are metres of penetration or of travelled path.
 """
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,6 +21,7 @@ EDGE = 1e-9  # m, by which a row may lie outside of a window and still count
 FORCE_WINDOW = 0.2  # m, of a way of 0.8 m and more; see window_of()
 # with excess pressure on the tip and beneath a sealed lid, where a run has such
 WITH_WATER = "total_force_with_water_N"
+HELD = 0.7  # m, below the error bar, over which its last width still stands
 FROM = 1.0  # m, of roughness and energy ratio: the start is left out
 
 
@@ -208,3 +211,49 @@ def forces_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
 def depth_at(time: float, history: Table) -> float:
     """Return the penetration at a time (m)."""
     return float(np.interp(time, history["time_s"], history["penetration_m"]))
+
+
+class Bounds(NamedTuple):
+    """Error bar of values [n]; below the depth end (m) it has the width of that."""
+
+    low: np.ndarray
+    high: np.ndarray
+    end: float
+
+    def scaled(self, factor: float, least: float = -np.inf) -> "Bounds":
+        """Return them times a factor, and not below the least one."""
+        low, high = (np.maximum(factor * side, least) for side in (self.low, self.high))
+        return Bounds(low, high, self.end)
+
+
+def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
+    """Return the bounds of a column of numbers_of() in its unit, [n]; below the error
+    bar, up to HELD, those of the same width; None without an error bar."""
+    name, sides = f"{quantity}_{unit}", [
+        f"{quantity}_{s}_{unit}" for s in ("low", "high")
+    ]
+    if sides[0] not in numbers:
+        return None
+    values, depth = numbers[name], numbers["penetration_m"]
+    last = int(np.flatnonzero(np.isfinite(numbers[sides[0]]))[-1])
+    held = (depth > depth[last]) & (depth <= depth[last] + HELD)
+    found = []
+    for side in sides:
+        ratio, change = numbers[side][last] / values[last], numbers[side] - values
+        below = values * ratio if unit == "N" else values + change[last]
+        found.append(np.where(held, below, numbers[side]))
+    return Bounds(found[0], found[1], float(depth[last]))
+
+
+def error_band(
+    bounds: Table, name: str, unit: str = ""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """Return depths and running means of the lower and the upper bound of a quantity,
+    [n_rows] each, or None where the run has none."""
+    low, high = ["_".join(filter(None, [name, s, unit])) for s in ("low", "high")]
+    if low not in bounds or high not in bounds:
+        return None
+    depth = bounds["penetration_m"]
+    window = window_of(float(path_of(depth)[-1]))
+    means = [running_mean(depth, bounds[column], window) for column in (low, high)]
+    return depth, means[0], means[1]

@@ -17,7 +17,7 @@ from caisson.parameters.effects import order
 from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import DEPTH, Outcome, Outcomes, values_at
 from caisson.plot import theory
-from caisson.table import write_csv
+from caisson.table import write_columns
 from caisson import disk
 
 TOTAL = "total_force_N"
@@ -91,12 +91,7 @@ def write(path: Path, found: Answers) -> Path:
             for case, parts in of_run[i].forces.items():
                 head = f"{method.key}_{case.replace(' ', '_')}_{TOTAL} [{name}]"
                 columns[head] = parts["total"]
-    rows = [
-        ["" if math.isnan(value) else f"{value:.6g}" for value in row]
-        for row in zip(*columns.values())
-    ]
-    write_csv(path, list(columns), rows)
-    return path
+    return write_columns(path, columns)
 
 
 def depths_of_bars(deepest: float) -> np.ndarray:

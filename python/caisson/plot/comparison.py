@@ -22,7 +22,7 @@ from caisson.plot.forces import penetration
 from caisson.paths import seen
 from caisson.plot.small import in_units
 from caisson.results import Results, ResultsError, Table
-from caisson.table import write_csv
+from caisson.table import write_columns
 from caisson import disk
 from caisson.shown import USUAL, Units
 
@@ -180,16 +180,6 @@ def columns_of(histories: Histories, interval: float) -> Table:
     return columns
 
 
-def write(path: Path, columns: Table) -> Path:
-    """Write the columns, with six digits and an empty cell where there is no value."""
-    texts = [
-        ["" if math.isnan(value) else f"{value:.6g}" for value in values]
-        for values in columns.values()
-    ]
-    write_csv(path, list(columns), list(zip(*texts)))
-    return path
-
-
 def positive(text: str) -> float:
     """Return a length of the command line."""
     value = float(text)
@@ -241,7 +231,7 @@ def main(options: argparse.Namespace) -> int:
     picture = picture or default_picture(directories)
     with disk.all_or_none(options.overwrite):
         written = [draw(picture, histories, shown)]
-        written.append(write(picture.with_suffix(".csv"), columns))
+        written.append(write_columns(picture.with_suffix(".csv"), columns))
     for path in written:
         print(f"compare: {seen(path)}")
     return 0

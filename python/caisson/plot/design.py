@@ -9,7 +9,7 @@ import numpy as np
 from caisson import curves
 from caisson.plot import suction_methods, theory
 from caisson.results import Results, Table
-from caisson.table import write_csv
+from caisson.table import write_columns
 
 INTERVAL = 0.1  # m, between the rows
 FORCES = ("tip_force_N", "inner_friction_N", "outer_friction_N", "total_force_N")
@@ -96,8 +96,4 @@ def write(path: Path, run: Results) -> Path | None:
     path, or None where no caisson goes down."""
     if not theory.is_caisson(run.scene) or not goes_down(run.history):
         return None
-    columns = columns_of(run)
-    rows = zip(*(values.tolist() for values in columns.values()))
-    texts = [["" if np.isnan(v) else v for v in row] for row in rows]
-    write_csv(path, list(columns), texts)
-    return path
+    return write_columns(path, columns_of(run), 12)

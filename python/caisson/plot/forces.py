@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson import curves
-from caisson.curves import path_of, running_mean
+from caisson.curves import error_band, path_of, running_mean
 from caisson.plot import theory
 from caisson.plot.small import in_units
 from caisson.results import Results, Table
@@ -97,20 +97,6 @@ def draw_bands(
             linestyle="-.",
             label=theory.LOWER_BOUND if name == names[-1] else None,
         )
-
-
-def error_band(
-    bounds: Table, name: str, unit: str = ""
-) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
-    """Return depths and running means of the lower and the upper bound of a quantity,
-    [n_rows] each, or None where the run has none."""
-    low, high = ["_".join(filter(None, [name, s, unit])) for s in ("low", "high")]
-    if low not in bounds or high not in bounds:
-        return None
-    depth = bounds["penetration_m"]
-    window = window_of(depth)
-    means = [running_mean(depth, bounds[column], window) for column in (low, high)]
-    return depth, means[0], means[1]
 
 
 def draw_error_bar(

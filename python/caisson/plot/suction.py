@@ -9,7 +9,8 @@ from matplotlib.figure import Figure
 
 from caisson.plot import suction_methods as methods
 from caisson.plot import theory
-from caisson.plot.forces import COLORS, draw_error_bar, error_band, penetration
+from caisson.curves import error_band
+from caisson.plot.forces import COLORS, draw_error_bar, penetration
 from caisson.plot.small import in_units
 from caisson.results import Results, Table
 from caisson import disk

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 
 from caisson import curves
+from caisson.curves import error_band
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import (
     COLORS,
     WATER_COLOR,
     WITH_WATER,
     column_of,
-    error_band,
     penetration,
     remark_on,
     smooth,

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson import curves
+from caisson.curves import HELD, Bounds, bounds_of
 from caisson.paths import INSTALLED
 from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import penetration
@@ -31,7 +32,6 @@ COMPUTED = "exit gradient computed"
 GRADIENT = "exit_gradient_over_critical"
 PIPING, BOILING, PUMP = "piping, Houlsby & Byrne", "water boils", "pump"
 NOTHING = 5e-4  # of a unit of the tables
-HELD = 0.7  # m, below the error bar, over which its last width still stands
 
 
 class Rate(NamedTuple):
@@ -45,19 +45,6 @@ class Rate(NamedTuple):
         """The rate in words."""
         mark = " (ASSUMED)" if self.assumed else ""
         return f"{self.meters_per_hour:g} m/h{mark}"
-
-
-class Bounds(NamedTuple):
-    """Error bar of values [n]; below the depth end (m) it has the width of that."""
-
-    low: np.ndarray
-    high: np.ndarray
-    end: float
-
-    def scaled(self, factor: float, least: float = -np.inf) -> "Bounds":
-        """Return them times a factor, and not below the least one."""
-        low, high = (np.maximum(factor * side, least) for side in (self.low, self.high))
-        return Bounds(low, high, self.end)
 
 
 @dataclass
@@ -146,25 +133,6 @@ def needs_suction(run: Results) -> bool:
     tables; False without suction."""
     required = numbers_of(run).get(design.SUCTION, np.empty(0))
     return bool((required > 1e3 * NOTHING).any())
-
-
-def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
-    """Return the bounds of a column of numbers_of() in its unit, [n]; below the error
-    bar, up to HELD, those of the same width; None without an error bar."""
-    name, sides = f"{quantity}_{unit}", [
-        f"{quantity}_{s}_{unit}" for s in ("low", "high")
-    ]
-    if sides[0] not in numbers:
-        return None
-    values, depth = numbers[name], numbers["penetration_m"]
-    last = int(np.flatnonzero(np.isfinite(numbers[sides[0]]))[-1])
-    held = (depth > depth[last]) & (depth <= depth[last] + HELD)
-    found = []
-    for side in sides:
-        ratio, change = numbers[side][last] / values[last], numbers[side] - values
-        below = values * ratio if unit == "N" else values + change[last]
-        found.append(np.where(held, below, numbers[side]))
-    return Bounds(found[0], found[1], float(depth[last]))
 
 
 def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
