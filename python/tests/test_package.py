@@ -19,33 +19,6 @@ import caisson_workshop.__main__
 import lab.__main__
 from caisson.paths import ROOT
 from caisson_workshop.floors import committed, strangers
-from caisson_workshop.lengths import cpp_functions
-
-CPP = """
-namespace N
-{
-  struct S
-  {
-    S(int a)
-      : b(a)
-    {
-      // a comment with { and "
-      if (a)
-        { b = '{'; }
-    }
-    std::vector<int> list = {f(1), 2};
-  };
-
-  template <typename T = S<int>>
-  bool
-  operator==(const S &a,
-             const S &b)
-  {
-    return [&] { return "}"; }();
-  }
-} // namespace N
-"""
-
 
 # command line: its commands
 COMMANDS = {
@@ -204,14 +177,6 @@ class Command(unittest.TestCase):
         self.assertEqual(self.called("study", "/bin/true"), ["package"])
         self.assertEqual(self.called("report", ""), ["package"])
         self.assertEqual(self.called("scenes", ""), ["package"])
-
-
-class Lengths(unittest.TestCase):
-    """Functions of C++ are found."""
-
-    def test_cpp_functions(self) -> None:
-        found = list(cpp_functions(CPP))
-        self.assertEqual(found, [("S", 6, 12), ("operator==", 18, 22)])
 
 
 if __name__ == "__main__":
