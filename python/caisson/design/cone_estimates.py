@@ -108,35 +108,26 @@ def reference_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndar
     return correlations.moduli_of(ground, names, end) / growth_of(ground, names)
 
 
-def rests_of(
-    ground: Ground, names: dict[str, str], end: int, is_clay: bool
-) -> np.ndarray:
-    """Return K_0 [n]; that of sand is high where the friction angle is low."""
-    if is_clay:
-        return correlations.at_rest_of_clay(ground)
-    return correlations.at_rest(correlations.angles_of(ground, names, -end))
+# ground, names of correlations and an end to the values of a quantity [n]; K_0 of sand
+# is high where the friction angle is low
+OF_SAND: dict[str, Callable[[Ground, dict[str, str], int], np.ndarray]] = {
+    DENSITY: correlations.densities_of,
+    ANGLE: correlations.angles_of,
+    MODULUS: correlations.moduli_of,
+    REFERENCE: reference_moduli,
+    STRENGTH: correlations.strengths_of,
+    K0: lambda g, n, end: correlations.at_rest(correlations.angles_of(g, n, -end)),
+}
+OF_CLAY = OF_SAND | {
+    MODULUS: clay_moduli,
+    K0: lambda ground, _, __: correlations.at_rest_of_clay(ground),
+}
 
 
 def estimates_of(
     ground: Ground, layers: Sequence[Layer], names: dict[str, str]
 ) -> list[Estimates]:
     """Return the estimates of each layer. names: the correlation of each quantity."""
-
-    def clay_rests(_: Ground, __: dict[str, str], end: int) -> np.ndarray:
-        return rests_of(ground, names, end, True)
-
-    def sand_rests(_: Ground, __: dict[str, str], end: int) -> np.ndarray:
-        return rests_of(ground, names, end, False)
-
-    of_sand: dict[str, Callable[[Ground, dict[str, str], int], np.ndarray]] = {
-        DENSITY: correlations.densities_of,
-        ANGLE: correlations.angles_of,
-        MODULUS: correlations.moduli_of,
-        REFERENCE: reference_moduli,
-        STRENGTH: correlations.strengths_of,
-        K0: sand_rests,
-    }
-    of_clay = of_sand | {MODULUS: clay_moduli, K0: clay_rests}
     measured = {RESISTANCE: ground.resistance, WEIGHT: ground.unit_weight}
     if not np.isnan(ground.index).all():
         measured[INDEX] = ground.index
@@ -145,7 +136,7 @@ def estimates_of(
         rows, values = layer.rows, {}
         for name, column in measured.items():
             values[name] = combined(column[rows], column[rows], column[rows], ANY)
-        functions = of_clay if layer.kind == CLAY else of_sand
+        functions = OF_CLAY if layer.kind == CLAY else OF_SAND
         for name in HAS[layer.kind]:
             low, best, high = [
                 functions[name](ground, names, end)[rows] for end in ENDS.values()

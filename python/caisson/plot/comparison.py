@@ -19,8 +19,8 @@ from matplotlib.figure import Figure
 from caisson import curve, curves
 from caisson.plot import design
 from caisson.plot.forces import penetration
-from caisson.paths import seen
-from caisson.plot.small import in_units
+from caisson.paths import distinct_ends, seen
+from caisson.plot.small import in_units, over_depth
 from caisson.results import Results, ResultsError, Table
 from caisson.table import write_columns
 from caisson import disk
@@ -51,12 +51,10 @@ def pushing_force(history: Table) -> np.ndarray:
 def names_of(directories: Sequence[Path]) -> list[str]:
     """Return a name for each directory: its last part, or as many of its last parts
     as distinguish it from the others."""
-    parts = [directory.resolve().parts for directory in directories]
-    for length in range(1, max(map(len, parts)) + 1):
-        names = ["/".join(part[-length:]) for part in parts]
-        if len(set(names)) == len(names):
-            return names
-    raise ResultsError("the same directory is given twice")
+    names = distinct_ends([directory.resolve().parts for directory in directories])
+    if len(set(names)) < len(names):
+        raise ResultsError("the same directory is given twice")
+    return names
 
 
 def default_picture(directories: Sequence[Path]) -> Path:
@@ -127,13 +125,8 @@ def draw(picture: Path, histories: Histories, shown: Units = USUAL) -> Path:
                 label=name,
             )
         axes.axvline(0, color="0.6", linewidth=0.8)
-        axes.grid(color="0.9")
-        axes.set_axisbelow(True)
         axes.invert_yaxis()
-        axes.xaxis.set_label_position("top")
-        axes.xaxis.tick_top()
-        axes.set_xlabel(label)
-        axes.set_ylabel("penetration of the tip (m)")
+        over_depth(axes, label, "penetration of the tip (m)")
         axes.legend(fontsize=8)
     in_units(figure, shown)
     figure.tight_layout()

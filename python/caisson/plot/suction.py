@@ -11,7 +11,7 @@ from caisson.plot import suction_methods as methods
 from caisson.plot import theory
 from caisson.curves import error_band
 from caisson.plot.forces import COLORS, draw_error_bar, penetration
-from caisson.plot.small import in_units
+from caisson.plot.small import in_units, over_depth, with_note
 from caisson.results import Results, Table
 from caisson import disk
 
@@ -243,16 +243,6 @@ def caption(answers: methods.Answers, site: theory.Site) -> str:
     return "\n".join(lines)
 
 
-def set_depth_axis(axes: Axes, depth: np.ndarray, place: str) -> None:
-    """Let depth point downward, label the upper side, and place the legend."""
-    axes.grid(color="0.9")
-    axes.set_axisbelow(True)
-    axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
-    axes.xaxis.set_label_position("top")
-    axes.xaxis.tick_top()
-    axes.legend(fontsize=8, framealpha=0.9, loc=place)
-
-
 def draw(directory: Path, run: Results) -> list[Path]:
     """Write suction.png; return its path, none without a pump or without
     penetration."""
@@ -272,12 +262,13 @@ def draw(directory: Path, run: Results) -> list[Path]:
     draw_gradients(panels[1], run)
     draw_heave(panels[2], run)
     for axes, place in zip(panels, ("upper right", "lower left", "upper right")):
-        set_depth_axis(axes, depth, place)
+        over_depth(axes, axes.get_xlabel(), "")
+        axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
+        axes.legend(fontsize=8, framealpha=0.9, loc=place)
     panels[0].set_ylabel("penetration of the skirt tip (m)")
     about = textwrap.fill(theory.about_cone(site, deepest), 200)
     text = "\n".join(filter(None, [caption(answers, site), about]))
-    figure.text(0.5, 0.008, text, ha="center", fontsize=8, color="0.3")
-    figure.tight_layout(rect=(0, 0.015 + 0.02 * len(text.splitlines()), 1, 1))
+    with_note(figure, text)
     picture = directory / "suction.png"
     in_units(figure, run.shown)
     return [disk.save(figure, picture)]

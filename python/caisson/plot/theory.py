@@ -442,6 +442,12 @@ def reasons(answers: list[Answer]) -> list[tuple[str, str]]:
     return [(", ".join(names), reason) for reason, names in found.items()]
 
 
+def reasons_in_words(answers: list[Answer]) -> str:
+    """Return which methods have no answer, and why, in one line."""
+    texts = [f"{names}: {why}" for names, why in reasons(answers)]
+    return f"no answer from {'; '.join(texts)}" if texts else ""
+
+
 def about_cone(site: Site, deepest: float) -> str:
     """Return a sentence where the cone test ends above an embedment (m), or what a
     cone resistance that is assumed rests on; with the friction angle of sand whose

@@ -10,6 +10,7 @@ import numpy as np
 from caisson.template import template
 from caisson import plot
 from caisson.lock import is_locked
+from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results
 from caisson.report import content, installation, methods, pull, scene, sketch
@@ -84,21 +85,13 @@ def steps_of(run: Results) -> str:
     return f"{run.summary['steps']} of {' to '.join(ends)} s"
 
 
-def duration_in_words(seconds: float) -> str:
-    """Return a time that is left, roughly."""
-    if seconds < 90:
-        return f"{seconds:.0f} s"
-    minutes = seconds / 60
-    return f"{minutes:.0f} min" if minutes < 90 else f"{minutes / 60:.1f} h"
-
-
 def progress_of(run: Results) -> tuple[float, str]:
     """Return how much of a run is done (%), and in words how long it takes still."""
     known = run.summary.get("progress") or {} if run.scene else {}
     done = 100 * float(known.get("fraction_done") or 0)
     left = known.get("remaining_s")
     words = f"{done:.0f} % done"
-    return done, words + (f", about {duration_in_words(left)} left" if left else "")
+    return done, words + (f", about {duration(left)} left" if left else "")
 
 
 def status_of(run: Results) -> str:
