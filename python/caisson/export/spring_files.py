@@ -6,6 +6,7 @@ import numpy as np
 
 from caisson import table
 from caisson import disk
+from caisson.template import template
 from caisson.export.springs import SMALL, STILL_GROWS, WALLS, Springs
 
 ROWS = 25  # of a curve in the table
@@ -159,20 +160,13 @@ def write_csv(path: Path, found: Springs, other: Springs | None) -> None:
 
 def write_opensees(path: Path, found: Springs, other: Springs | None) -> None:
     """Write the springs as materials and elements of OpenSees, in a module."""
-    text = ["SPDX-License-Identifier: LGPL-2.1-or-later", "", "Springs of a caisson."]
-    text += [*about_both(found, other), *SIGNS, OPENSEES, about_hyperbolas(found), ""]
-    lines = disk.remarks("#", text)
-    lines += ["# place, depth (m), ultimate (N), displacement at half of it (m)"]
-    lines += ["SPRINGS = ["]
-    for spring in found.springs:
-        if spring.ultimate > 0:
-            half = spring.half(found.displacement)
-            force = spring.ultimate * spring.area
-            lines.append(
-                f'    ("{spring.place}", {spring.depth:.5g}, {force:.6g}, {half:.6g}),'
-            )
-    bearing = f"BEARING = {('tip', 'lid') if found.direction > 0 else ()}"
-    disk.write(path, "\n".join([*lines, "]", bearing, *ADD, ""]))
+    text = template(Path(__file__).with_name("springs_opensees.py.jinja")).render(
+        about=[*about_both(found, other), *SIGNS, OPENSEES, about_hyperbolas(found)],
+        springs=[spring for spring in found.springs if spring.ultimate > 0],
+        displacement=found.displacement,
+        bearing=("tip", "lid") if found.direction > 0 else (),
+    )
+    disk.write(path, text)
 
 
 SIGNS = (
@@ -185,18 +179,4 @@ OPENSEES = (
     " your model at that depth, and a fixed node that it makes. It takes the numbers"
     " from first on for nodes, materials and elements. What a pulled tip or lid loses"
     " is a spring, too."
-)
-ADD = (
-    "",
-    "",
-    "def add(ops, node, first, soil_type=2):",
-    '    """soil_type: 1 clay, 2 sand, of TzSimple1 and QzSimple1."""',
-    "    for number, (place, depth, ultimate, half) in enumerate(SPRINGS, first):",
-    "        here = node(depth)",
-    "        ops.node(number, *ops.nodeCoord(here))",
-    "        ops.fix(number, *[1] * len(ops.nodeDOFs(here)))",
-    '        kind = "QzSimple1" if place in BEARING else "TzSimple1"',
-    "        ops.uniaxialMaterial(kind, number, soil_type, ultimate, half)",
-    "        ends = number, number, here",
-    '        ops.element("zeroLength", *ends, "-mat", number, "-dir", 2)',
 )
