@@ -28,8 +28,9 @@ The folders, each above those that it uses; the core imports none of them:
 
     design                  design methods, and cone tests as files
     plot                    pictures of a run
+    error                   error bars of scenes
     parameters              studies of uncertain or varied entries
-    error, export, report   error bars, the state for other programs, a page on a run
+    export, report          the state for other programs, a page on a run
     suggest                 scenes for one's own caisson
     commands                those that use several folders: run and cpt
 

@@ -30,7 +30,7 @@ MOST_COMMANDS, MOST_LINES = 10, 21_160  # of the user's package
 
 
 # of the package, in the order in which one may import another one
-FOLDERS = "design plot parameters error export report suggest commands".split()
+FOLDERS = "design plot error parameters export report suggest commands".split()
 
 
 FILES = sorted((ROOT / "python/caisson").rglob("*.py"))
