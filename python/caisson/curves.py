@@ -226,23 +226,24 @@ class Bounds(NamedTuple):
         return Bounds(low, high, self.end)
 
 
-def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
-    """Return the bounds of a column of numbers_of() in its unit, [n]; below the error
-    bar, up to HELD, those of the same width; None without an error bar."""
-    name, sides = f"{quantity}_{unit}", [
-        f"{quantity}_{s}_{unit}" for s in ("low", "high")
-    ]
-    if sides[0] not in numbers:
+def bounds_of(
+    bar: Table, quantity: str, unit: str, depth: np.ndarray, values: np.ndarray
+) -> Bounds | None:
+    """Return the error bar of values [n] at depths [n] (m), by history_error.csv: that
+    of a force is relative. Below its end, up to HELD, it keeps its width. None where
+    the quantity has none."""
+    if f"{quantity}_low_{unit}" not in bar:
         return None
-    values, depth = numbers[name], numbers["penetration_m"]
-    last = int(np.flatnonzero(np.isfinite(numbers[sides[0]]))[-1])
-    held = (depth > depth[last]) & (depth <= depth[last] + HELD)
-    found = []
-    for side in sides:
-        ratio, change = numbers[side][last] / values[last], numbers[side] - values
-        below = values * ratio if unit == "N" else values + change[last]
-        found.append(np.where(held, below, numbers[side]))
-    return Bounds(found[0], found[1], float(depth[last]))
+    known, middle = bar["penetration_m"], bar[f"{quantity}_{unit}"]
+    beyond = (depth < known[0] - EDGE) | (depth > known[-1] + HELD)
+    sides = []
+    for side in (bar[f"{quantity}_{name}_{unit}"] for name in ("low", "high")):
+        if unit == "N":
+            found = values * np.interp(depth, known, side / middle)
+        else:
+            found = values + np.interp(depth, known, side - middle)
+        sides.append(np.where(beyond, np.nan, found))
+    return Bounds(sides[0], sides[1], float(known[-1]))
 
 
 def error_band(

@@ -157,16 +157,6 @@ class Results:
         return found
 
     @property
-    def at_depths(self) -> Table:
-        """What run.json says of the way down at depths: columns [n], nan where a depth
-        lacks one; empty where it says nothing, as of a run that has not ended."""
-        results = (self.summary.get("results") or {}) if self.scene else {}
-        rows = results.get("at_depths") or []
-        names = dict.fromkeys(name for row in rows for name in row)
-        found = {name: [row.get(name) for row in rows] for name in names}
-        return {name: np.array(values, dtype=float) for name, values in found.items()}
-
-    @property
     def scene(self) -> dict[str, Any]:
         """The body and the layers of the soil, from run.json; empty where a run
         has left none yet."""

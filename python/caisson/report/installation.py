@@ -107,11 +107,8 @@ def depths_of(position: np.ndarray, interval: float = INTERVAL) -> np.ndarray:
 
 
 def numbers_of(run: Results) -> Table:
-    """Return the numbers of the way down at the depths of the tables: columns [n] by
-    their names in run.json, which has them at the end of a run. Before, they are taken
-    from what there is of history.csv; empty where that has no way down."""
-    if known := run.at_depths:
-        return known
+    """Return the numbers of the way down at the depths of the tables: columns [n] of
+    history.csv; empty where that has no way down. run.json has the same."""
     history = run.history
     rows = curves.way_down(history["penetration_m"])[1:]
     depth = history["penetration_m"][rows]
@@ -174,7 +171,8 @@ def installation_of(run: Results, rate: Rate) -> Installation | None:
     at = numbers["penetration_m"]
     forces = {name: numbers[name] / 1e3 for name in design.FORCES}
     found = Installation(at, forces, run.shown)
-    if bars := bounds_of(numbers, "total_force", "N"):
+    total = numbers["total_force_N"]
+    if bars := bounds_of(run.error_bounds, "total_force", "N", at, total):
         found.force_bounds = bars.scaled(1e-3)
     if curves.WITH_WATER in numbers:
         found.with_water = numbers[curves.WITH_WATER] / 1e3
@@ -186,8 +184,9 @@ def installation_of(run: Results, rate: Rate) -> Installation | None:
 def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -> None:
     """Add the columns of a run with suction."""
     scene, at = run.scene, found.depth
-    found.required = np.maximum(numbers[design.SUCTION], 0) / 1e3
-    if bars := bounds_of(numbers, "required_suction", "Pa"):
+    suction = numbers[design.SUCTION]
+    found.required = np.maximum(suction, 0) / 1e3
+    if bars := bounds_of(run.error_bounds, "required_suction", "Pa", at, suction):
         found.required_bounds = bars.scaled(1e-3, 0.0)
     if weight := scene.get("submerged_weight_N"):
         found.excess = (float(weight) - found.forces["total_force_N"][-1] * 1e3) / 1e3
