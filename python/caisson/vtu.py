@@ -97,7 +97,9 @@ def corners_of(grid: Any) -> np.ndarray:
     """Return the corners of the cells of a grid of quadrilaterals: [n, 4, 2] in the
     order lower left, lower right, upper right, upper left."""
     corner = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
-    return sorted_corners(positions_of(grid)[corner])
+    corners = positions_of(grid)[corner]
+    order = np.lexsort((corners[..., 1], corners[..., 0]))
+    return np.take_along_axis(corners, order[:, [0, 2, 3, 1], np.newaxis], 1)
 
 
 def read_points(files: Sequence[Path]) -> dict[str, np.ndarray]:
@@ -116,9 +118,3 @@ def read_cells(files: Sequence[Path]) -> dict[str, np.ndarray]:
     grid = joined([read_grid(file) for file in files])
     found = {**arrays_of(grid.GetCellData()), "corners": corners_of(grid)}
     return Read(files[0], found)
-
-
-def sorted_corners(corners: np.ndarray) -> np.ndarray:
-    """Return the corners of cells with vertical sides in the order of read_cells."""
-    order = np.lexsort((corners[..., 1], corners[..., 0]))
-    return np.take_along_axis(corners, order[:, [0, 2, 3, 1], np.newaxis], 1)

@@ -18,6 +18,7 @@ from caisson.commands import cpt_page
 from caisson.design import cone_texts
 from caisson.paths import RESULTS, scene_or_study, short
 from caisson.study import check_is_own, file_name
+from caisson.study_command import whole_number
 from caisson.suggest.cone import REACH
 from caisson import disk
 from caisson.design import cone_picture, interpretation
@@ -38,15 +39,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--list", action="store_true", help="list the correlations, and do no more")
     add("--overwrite", action="store_true", help="replace files that were changed")
     add("--run", action="store_true", help="run the study of a caisson")
-    add("--jobs", type=int, metavar="N", help="runs at a time, default: the fastest")
+    text = "runs at a time, default: the fastest"
+    add("--jobs", type=whole_number, metavar="N", help=text)
     suggest.add_caisson_arguments(parser, required=False)
     interpretation.add_arguments(parser)
-
-
-def list_correlations() -> None:
-    """Print all correlations."""
-    for c in EVERY:
-        print(f"{c.name:20}{c.quantity:20}{c.source}; {c.holds}")
 
 
 def check(options: argparse.Namespace) -> bool:
@@ -59,8 +55,6 @@ def check(options: argparse.Namespace) -> bool:
         raise InputError(f"of the caisson, {' and '.join(missing)} are missing")
     if options.run and not given:
         raise InputError("--run needs a caisson: --diameter, --skirt and --wall")
-    if options.jobs is not None and options.jobs < 1:
-        raise InputError("--jobs must be 1 or more")
     return bool(given)
 
 
@@ -91,11 +85,15 @@ def write(
 def report(files: list[Path]) -> None:
     """Say what has been written."""
     for file in files:
-        print(f"cpt: {printable(short(file))}")
+        print(f"cpt: {short(file)}")
 
 
-def work(options: argparse.Namespace) -> int:
-    """Do what the options ask for; return the exit status."""
+def main(options: argparse.Namespace) -> int:
+    """Write layers, picture and, of a caisson, scene, study and report."""
+    if options.list:
+        for c in EVERY:
+            print(f"{c.name:20}{c.quantity:20}{c.source}; {c.holds}")
+        return 0
     has_caisson = check(options)
     deepest = REACH * options.skirt if has_caisson else None
     found = interpretation.interpret(options.cpt, options, deepest)
@@ -122,11 +120,3 @@ def work(options: argparse.Namespace) -> int:
     facts = [("Caisson", caisson_of(options)), ("Ground", f"cone test {name}")]
     report([cpt_page.write(found, options.study, directory, facts)])
     return status
-
-
-def main(options: argparse.Namespace) -> int:
-    """Write layers, picture and, of a caisson, scene, study and report."""
-    if options.list:
-        list_correlations()
-        return 0
-    return work(options)

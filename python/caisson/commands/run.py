@@ -29,7 +29,6 @@ from caisson.runner import (
     read_parameters,
     size_in,
 )
-from caisson.study import StudyError
 
 PACKAGES = Path(__file__).parents[2]
 RENEWAL = 30.0  # s, in which the report of a run is renewed
@@ -190,28 +189,22 @@ def run_on_ranks(command: list[str], stop_file: Path | None) -> int:
 def main(options: argparse.Namespace) -> int:
     """Run the program, then draw what it wrote; return its status."""
     if options.ranks is not None and options.ranks < 1:
-        print("run: --ranks must be 1 or more", file=sys.stderr)
-        return 1
+        raise RunError("--ranks must be 1 or more")
     if not options.arguments:
         scenes = SCENES if INSTALLED else f"{short(SCENES)}/"
-        print(
-            f"run: give a parameter file; the scenes are in {scenes}", file=sys.stderr
-        )
-        return 1
+        raise RunError(f"give a parameter file; the scenes are in {scenes}")
     arguments = [
         str(scene_or_study(word)) if word.endswith(".prm") else word
         for word in options.arguments
     ]
     if options.budget and not options.error:
-        print("run: --budget belongs to --error", file=sys.stderr)
-        return 1
+        raise RunError("--budget belongs to --error")
     directory, stop_file = places_of(arguments)
     if options.error and directory:  # else the program says what is wrong
         try:
             arguments += options_for_error(options, directory)
-        except (RunError, StudyError, OSError, argparse.ArgumentTypeError) as error:
-            print(f"run: {error}", file=sys.stderr)
-            return 1
+        except argparse.ArgumentTypeError as error:
+            raise RunError(str(error)) from error
     if complaint := needed.complaint():
         print(f"run: {complaint}, for pictures and report", file=sys.stderr)
     n_ranks = options.ranks or choose_ranks(arguments)

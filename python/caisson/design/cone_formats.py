@@ -355,11 +355,6 @@ def number_in(element: ElementTree.Element, name: str) -> float | None:
         return None
 
 
-def usual_of_bro(key: str) -> str:
-    """Return the unit of a quantity in a record of BRO-XML."""
-    return QUANTITIES[key].usual.replace("kPa", "MPa")
-
-
 def bro_records(path: Path, test: ElementTree.Element) -> Rows:
     """Return the records of a test. Raises InputError."""
     survey = first_of(test, "conePenetrationTest")
@@ -399,7 +394,13 @@ def bro(path: Path, lines: Sequence[str], wanted: Sequence[str], where: str) -> 
     test = tests[chosen_of(path, every, where, every[0])]
     rows = bro_records(path, test)
     heads = [
-        Head(place, QUANTITIES[key].name, key, usual_of_bro(key), 1)
+        Head(
+            place,
+            QUANTITIES[key].name,
+            key,
+            QUANTITIES[key].usual.replace("kPa", "MPa"),
+            1,
+        )
         for place, key in BY_BRO.items()
     ]
     found = table_of(path, heads, rows, wanted, "the standard", "record 4 of 25 is q_c")

@@ -9,7 +9,6 @@ and up again the way up has columns of its own, total_force_N [jack up]. A value
 mean over 0.2 m, as everywhere; see curves.
 """
 import argparse
-import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -21,6 +20,7 @@ from caisson.plot import design
 from caisson.plot.forces import penetration
 from caisson.paths import distinct_ends, seen
 from caisson.plot.small import in_units, over_depth
+from caisson.design.quantity import length
 from caisson.results import Results, ResultsError, Table
 from caisson.table import write_columns
 from caisson import disk
@@ -76,19 +76,13 @@ def read(directories: Sequence[Path]) -> Histories:
     return found
 
 
-def goes_by_suction(history: Table) -> bool:
-    """Return whether suction draws a body down: then the force that pushes it is its
-    weight, and says nothing."""
-    return design.SUCTION in history and design.goes_down(history)
-
-
 def panels_of(histories: Histories) -> dict[str, Table]:
     """Return the curves of each panel by its axis and the name of the run: the
-    required suctions, where there are any, and the forces."""
+    required suctions, where suction draws bodies down, and the forces."""
     suctions = {
         name: np.maximum(history[design.SUCTION], 0) / 1e3
         for name, history in histories.items()
-        if goes_by_suction(history)
+        if design.SUCTION in history and design.goes_down(history)
     }
     forces = {
         name: (history[TOTAL] if name in suctions else pushing_force(history)) / 1e3
@@ -98,12 +92,6 @@ def panels_of(histories: Histories) -> dict[str, Table]:
         return {"applied force (kN), push positive": forces}
     axis = "resistance; without suction, applied force (kN)"
     return {"required suction (kPa)": suctions, axis: forces}
-
-
-def units_of_all(directories: Sequence[Path]) -> Units:
-    """Return the units that suit all runs: the smaller ones where all are small."""
-    smaller = [Results(directory).shown.smaller for directory in directories]
-    return Units(frozenset.intersection(*smaller))
 
 
 def draw(picture: Path, histories: Histories, shown: Units = USUAL) -> Path:
@@ -173,14 +161,6 @@ def columns_of(histories: Histories, interval: float) -> Table:
     return columns
 
 
-def positive(text: str) -> float:
-    """Return a length of the command line."""
-    value = float(text)
-    if not 0 < value < math.inf:
-        raise ValueError
-    return value
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson compare`."""
     parser.usage = (
@@ -198,7 +178,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     text = f"between the depths of the .csv file, in m, default {INTERVAL:g}"
     text += f", or {INTERVAL_OF_SMALL:g} of bodies shorter than 1 m"
-    parser.add_argument("--interval", type=positive, metavar="M", help=text)
+    parser.add_argument("--interval", type=length, metavar="M", help=text)
     text = "replace picture and .csv file if they are there"
     parser.add_argument("--overwrite", action="store_true", help=text)
     text = "print forces at round depths and the roughness of curves, and draw nothing"
@@ -218,7 +198,8 @@ def main(options: argparse.Namespace) -> int:
     if not directories:
         raise ResultsError("give the output directory of a run")
     histories = read(directories)
-    shown = units_of_all(directories)
+    smaller = [Results(directory).shown.smaller for directory in directories]
+    shown = Units(frozenset.intersection(*smaller))  # where all are small
     usual = INTERVAL_OF_SMALL if "m" in shown.smaller else INTERVAL
     columns = columns_of(histories, options.interval or usual)
     picture = picture or default_picture(directories)
