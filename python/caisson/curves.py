@@ -10,7 +10,7 @@ The program takes the numbers at depths of its terminal and of run.json in the s
 Positions are metres of penetration or of travelled path.
 """
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -100,6 +100,14 @@ def mean_at(
         return mean
     slope = distance @ y / (distance @ distance)
     return float(mean + slope * (at - x.mean()))
+
+
+def down_at(history: Table, names: Iterable[str], at: np.ndarray) -> Table:
+    """Return the same means of columns on the way down at depths at [m] (m). The first
+    row of a history is zero, as no time has passed, and is left out."""
+    rows = way_down(history["penetration_m"])[1:]
+    depth = history["penetration_m"][rows]
+    return {name: smoothed_at(depth, history[name][rows], at) for name in names}
 
 
 def smoothed_within(

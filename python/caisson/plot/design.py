@@ -30,15 +30,8 @@ def depths_of(history: Table) -> np.ndarray:
 
 
 def forces_at(history: Table, depth: np.ndarray) -> Table:
-    """Return the forces of a run on its way down at depths [n], as columns [n]. The
-    first row of a history is zero, as no time has passed, and is left out."""
-    rows = curves.way_down(history["penetration_m"])[1:]
-    known = history["penetration_m"][rows]
-    return {
-        name: curves.smoothed_at(known, history[name][rows], depth)
-        for name in FORCES
-        if name in history
-    }
+    """Return the forces of a run on its way down at depths [n], as columns [n]."""
+    return curves.down_at(history, filter(history.__contains__, FORCES), depth)
 
 
 def compared_at(history: Table, depth: np.ndarray) -> Table:
@@ -54,9 +47,7 @@ def compared_at(history: Table, depth: np.ndarray) -> Table:
 
 def suction_at(history: Table, depth: np.ndarray) -> np.ndarray:
     """Return the required suction of a run on its way down at depths [n]: [n]."""
-    rows = curves.way_down(history["penetration_m"])[1:]
-    known = history["penetration_m"][rows]
-    return curves.smoothed_at(known, history[SUCTION][rows], depth)
+    return curves.down_at(history, [SUCTION], depth)[SUCTION]
 
 
 def column_of(answer: theory.Answer, case: str, part: str) -> str:

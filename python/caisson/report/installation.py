@@ -114,15 +114,10 @@ def numbers_of(run: Results) -> Table:
     depth = history["penetration_m"][rows]
     if len(rows) < 2:
         return {}
-    more = {}
     if design.SUCTION in history:
-        more[GRADIENT] = curves.gradient_share(history)
+        history = history | {GRADIENT: curves.gradient_share(history)}
     at = depths_of(depth)
-    means = {
-        name: curves.smoothed_at(depth, values[rows], at)
-        for name, values in (history | more).items()
-    }
-    return means | {"penetration_m": at}
+    return curves.down_at(history, history, at) | {"penetration_m": at}
 
 
 def needs_suction(run: Results) -> bool:
