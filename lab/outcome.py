@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from caisson import table
 from caisson.paths import short
-from caisson_design import disk
+from caisson import disk
 
 
 def write_picture(kind: str, path: Path, figure: Figure) -> None:

@@ -13,7 +13,7 @@ from caisson.paths import SCENES, short
 from lab.paths import LAB
 
 KINDS = study_command.KINDS | {
-    "error bar": "caisson_error.error_bar",
+    "error bar": "caisson.error.error_bar",
     "verification": "lab.verification",
     "validation": "lab.validation",
     "accuracy": "lab.verification.accuracy",

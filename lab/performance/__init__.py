@@ -21,7 +21,7 @@ from collections.abc import Callable, Sequence
 
 from caisson.paths import short
 from caisson.study import Options, Study, StudyError
-from caisson_design import disk
+from caisson import disk
 from lab.performance.kernels import measure_kernels, measure_roofline
 from lab.performance.program import (
     measure_agreement,

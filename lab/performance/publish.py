@@ -6,7 +6,7 @@ import re
 import shutil
 
 from caisson.paths import PICTURES, RESULTS, ROOT
-from caisson_design import disk
+from caisson import disk
 
 DOCUMENT = ROOT / "lab/performance/speed.md"
 PICTURE = "speed_step.png"  # of benchmarks.md

@@ -24,7 +24,7 @@ from caisson import table
 from caisson.results import Results, ResultsError, Table
 from caisson.runner import Status
 from caisson.study import Options, Study, StudyRun
-from caisson_design import disk
+from caisson import disk
 
 NAME = "stability"
 STUDY_KEYS = {"must_fail", "largest_residual", "largest_lean", "why"}

@@ -21,7 +21,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from caisson import suggest
+from caisson import __main__ as program
 from caisson.paths import RESULTS
 from caisson.results import Results, ResultsError
 from caisson.runner import Run, RunError, Status, query, read_parameters
@@ -177,11 +177,9 @@ def case_of(seed: int, number: int) -> Case:
 
 def write_scene(case: Case, file: Path) -> bool:
     """Let suggest write the scene; return whether it does."""
-    parser, said = argparse.ArgumentParser(), io.StringIO()
-    suggest.add_arguments(parser)
-    options = parser.parse_args([*case.words, str(file), "--overwrite"])
+    said = io.StringIO()
     with contextlib.redirect_stderr(said), contextlib.redirect_stdout(said):
-        status = suggest.main(options)
+        status = program.main(["suggest", *case.words, str(file), "--overwrite"])
     if status != 0:
         case.faults.append("refused: " + " ".join(said.getvalue().split()))
     case.notes += re.findall(r"^warning: (.*)", said.getvalue(), re.M)

@@ -19,7 +19,7 @@ from caisson import curves, table
 from caisson.paths import PROGRAM, RESULTS, ROOT, SCENES
 from caisson.results import Results, Table
 from caisson.runner import Entries, Run, RunError, Status
-from caisson_design import disk
+from caisson import disk
 from lab import machine
 from lab.curves import final_mean
 

@@ -18,7 +18,7 @@ Each problem is a study; a row of the table is one of its
 or states the half-width of the error bar of an installation, over the quantity itself:
 
     error_bar = "../jack_error_bar.csv"   # of a study of kind "error bar"
-    quantity = "tip"                      # as caisson_error.error_bar names it
+    quantity = "tip"                      # as caisson.error.error_bar names it
     depth = 2                             # m
 """
 import math
@@ -30,7 +30,7 @@ import numpy as np
 from caisson.results import ResultsError, read_table
 from caisson.study import Options, Study, StudyError, StudyRun
 from caisson.table import number
-from caisson_error import error_bar
+from caisson.error import error_bar
 from lab import outcome
 from lab.machine import machine
 

@@ -21,9 +21,9 @@ from caisson import curves, table
 from caisson.paths import short
 from caisson.results import ResultsError
 from caisson.study import Options, Study, StudyRun
-from caisson_design import disk
-from caisson_error.error_bar import refinement_of
-from caisson_error.mesh_error import mesh_error
+from caisson import disk
+from caisson.error.error_bar import refinement_of
+from caisson.error.mesh_error import mesh_error
 from lab.curves import relative_error
 
 NAME = "accuracy"

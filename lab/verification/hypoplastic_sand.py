@@ -24,7 +24,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson.paths import ROOT
-from caisson_design import disk
+from caisson import disk
 
 KERNELS = ROOT / "tests/kernels/hypoplastic_element_tests.output"
 # phi_c, h_s, n, e_d0, e_c0, e_i0, alpha, beta

@@ -10,29 +10,35 @@ For scripts and notebooks (doc/how_to/python.md):
     run.history                         # a pandas.DataFrame; attrs["units"]
     run.frame(penetration=2.5).mesh     # a mesh for VTK and PyVista
 
-The modules, each above those that it uses:
+The modules of the core, each above those that it uses:
 
-    paths, table, units     where things are, how tables look, units in names
+    disk, paths, table      files, where things are, how tables look
+    units, shown            units in names, and those in which results are shown
     scenes, lock            the scenes that come with the program; the lock of a run
     runner                  Run: one call of the program with entries set
     results                 Results: what a run has left in its directory
     curves                  means over windows and other numbers of a curve
     frame, loaded, api      what the names above are: meshes, tables, run() and load()
-    plot, report            pictures of a run, and a page on it
     progress                how far a study is
     study                   the format of all studies, and how they are run
-    parameters              studies of uncertain or varied entries
-    cpt, suggest            layers from a cone test, and scenes for one's own caisson
     completion              what a shell completes
     command_line            a command line with subcommands in groups
 
-scripts/caisson is the command line. Needed besides Python 3.11: numpy,
-SciPy, matplotlib, VTK and Jinja2, as Debian packages them; pandas for history.
-The package caisson_design beside it has the design methods, and needs nothing of it;
-caisson_error has the error bars, caisson_report the page on a run, caisson_export the
-state for other programs.
-The laboratory (lab) and the workshop (tools) import both; neither imports anything of
-them.
+The folders, each above those that it uses; the core imports none of them:
+
+    design                  design methods, and cone tests as files
+    plot                    pictures of a run
+    error                   error bars of scenes
+    parameters              studies of uncertain or varied entries
+    export, report          the state for other programs, a page on a run
+    suggest                 scenes for one's own caisson
+    commands                those that use several folders: run and cpt
+
+scripts/caisson is the command line; __main__ knows all commands by name, and loads the
+one that is called. Needed besides Python 3.11: numpy, SciPy, matplotlib, VTK and
+Jinja2, as Debian packages them; pandas for history.
+The laboratory (lab) and the workshop (tools) import the package; it imports
+nothing of them.
 
 Units are SI, angles in degrees, unless a name says otherwise (wall_kN). Arrays
 are given with their shapes, as in [n_rows].

@@ -10,22 +10,25 @@ from caisson.command_line import Groups, commands_of, end_process, run_command
 GROUPS: Groups = {
     "set up": {
         "suggest": ("caisson.suggest", "write a scene for your own caisson"),
-        "cpt": ("caisson.cpt.command", "derive soil layers from a cone test"),
+        "cpt": ("caisson.commands.cpt", "derive soil layers from a cone test"),
         "scenes": ("caisson.scenes", "list the scenes that come with the program"),
     },
     "compute": {
-        "run": ("caisson.launch", "run a scene, draw its pictures, write its report"),
+        "run": (
+            "caisson.commands.run",
+            "run a scene, draw its pictures, write its report",
+        ),
         "study": ("caisson.study_command", "run and evaluate many runs of a scene"),
-        "error-bar": ("caisson_error.command", "compute the error bar of a scene"),
+        "error-bar": ("caisson.error.command", "compute the error bar of a scene"),
     },
     "results": {
         "plot": ("caisson.plot", "draw the pictures of runs"),
-        "report": ("caisson_report", "write an HTML page on each run"),
+        "report": ("caisson.report", "write an HTML page on each run"),
         "compare": (
             "caisson.plot.comparison",
             "draw or print the forces of several runs",
         ),
-        "export": ("caisson_export.command", "give the soil to other programs"),
+        "export": ("caisson.export.command", "give the soil to other programs"),
     },
 }
 COMMANDS = commands_of(GROUPS)

@@ -18,8 +18,9 @@ from pathlib import Path
 from typing import NoReturn, TextIO, cast
 
 from caisson import needed, paths
-from caisson_design import InputError, disk
-from caisson_design.terminal import PlainText
+from caisson import disk
+from caisson.disk import InputError
+from caisson.terminal import PlainText
 
 # group: subcommand: its module, and what it does
 Groups = Mapping[str, Mapping[str, tuple[str, str]]]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Numbers of a curve: every mean over a window of history.csv is taken here.
+"""Numbers of a curve, and their error bars: every mean over a window of history.csv is
+taken here.
 
 The rows of history.csv are means since the row before, so a number is averaged over a
 window of penetration before it is shown or compared. smoothed_at() has the definition.
@@ -7,7 +8,7 @@ window of penetration before it is shown or compared. smoothed_at() has the defi
 Positions are metres of penetration or of travelled path.
 """
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -17,6 +18,7 @@ EDGE = 1e-9  # m, by which a row may lie outside of a window and still count
 FORCE_WINDOW = 0.2  # m, of a way of 0.8 m and more; see window_of()
 # with excess pressure on the tip and beneath a sealed lid, where a run has such
 WITH_WATER = "total_force_with_water_N"
+HELD = 0.7  # m, below the error bar, over which its last width still stands
 FROM = 1.0  # m, of roughness and energy ratio: the start is left out
 
 
@@ -95,6 +97,14 @@ def mean_at(
         return mean
     slope = distance @ y / (distance @ distance)
     return float(mean + slope * (at - x.mean()))
+
+
+def down_at(history: Table, names: Iterable[str], at: np.ndarray) -> Table:
+    """Return the same means of columns on the way down at depths at [m] (m). The first
+    row of a history is zero, as no time has passed, and is left out."""
+    rows = way_down(history["penetration_m"])[1:]
+    depth = history["penetration_m"][rows]
+    return {name: smoothed_at(depth, history[name][rows], at) for name in names}
 
 
 def smoothed_within(
@@ -208,3 +218,17 @@ def forces_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
 def depth_at(time: float, history: Table) -> float:
     """Return the penetration at a time (m)."""
     return float(np.interp(time, history["time_s"], history["penetration_m"]))
+
+
+def error_band(
+    bounds: Table, name: str, unit: str = ""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """Return depths and running means of the lower and the upper bound of a quantity,
+    [n_rows] each, or None where the run has none."""
+    low, high = ["_".join(filter(None, [name, s, unit])) for s in ("low", "high")]
+    if low not in bounds or high not in bounds:
+        return None
+    depth = bounds["penetration_m"]
+    window = window_of(float(path_of(depth)[-1]))
+    means = [running_mean(depth, bounds[column], window) for column in (low, high)]
+    return depth, means[0], means[1]

@@ -16,7 +16,7 @@ import numpy as np
 
 from caisson import curves
 from caisson.results import Results, ResultsError, Table, read_table
-from caisson_design import disk
+from caisson import disk
 
 NAME, HISTORY = "error_bar.csv", "history_error.csv"
 DEPTH = "penetration_m"

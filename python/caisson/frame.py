@@ -21,7 +21,7 @@ def reader() -> ModuleType:
     """Return what reads the files of frames. VTK, which takes a while, is loaded here.
     Raises ModuleNotFoundError, which names the command that installs it."""
     try:
-        return importlib.import_module("caisson.plot.vtu")
+        return importlib.import_module("caisson.vtu")
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError(needed.complaint() or str(error)) from error
 

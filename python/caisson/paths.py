@@ -6,6 +6,7 @@ import importlib.metadata
 import os
 import shutil
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -54,6 +55,16 @@ def short(path: Path) -> str:
 def seen(path: Path) -> str:
     """Return the path from the current folder, or the whole one where it is shorter."""
     return min(os.path.relpath(path), str(path.resolve()), key=len)
+
+
+def distinct_ends(parts: Sequence[Sequence[str]]) -> list[str]:
+    """Return the last part of each name, or as many parts as distinguish it."""
+    names = list[str]()
+    for length in range(1, max(map(len, parts)) + 1):
+        names = ["/".join(part[-length:]) for part in parts]
+        if len(set(names)) == len(names):
+            break
+    return names
 
 
 def scene_or_study(name: str) -> Path:

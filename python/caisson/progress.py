@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Self, TextIO
 
-from caisson_design.terminal import CLEAR
+from caisson.terminal import CLEAR
 
 INTERVAL = 1.0  # s
 # of lines in a log file: the least time (s), and the least part of the work

@@ -14,8 +14,9 @@ import numpy as np
 
 from caisson import run_shape
 from caisson.lock import is_locked
-from caisson_design import InputError, disk
-from caisson_design.shown import Units, units_of
+from caisson import disk
+from caisson.disk import InputError
+from caisson.shown import Units, units_of
 
 Table = dict[str, np.ndarray]
 

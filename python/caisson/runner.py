@@ -18,7 +18,8 @@ from typing import Any
 from caisson.lock import is_locked
 from caisson.paths import PROGRAM, WORK
 from caisson.ranks import Size
-from caisson_design import disk
+from caisson import disk
+from caisson.disk import InputError
 
 Entries = Mapping[str, Any]
 # what batch systems set, which may give a run several hosts
@@ -34,7 +35,7 @@ class Status(enum.IntEnum):
     STOPPED = 3
 
 
-class RunError(Exception):
+class RunError(InputError):
     """A run that could not be made, or not be finished; the text is for the user."""
 
 

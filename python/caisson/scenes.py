@@ -11,7 +11,8 @@ import tempfile
 from pathlib import Path
 
 from caisson.paths import SCENES
-from caisson_design import InputError, disk
+from caisson import disk
+from caisson.disk import InputError
 
 
 def title_of(scene: Path) -> str:

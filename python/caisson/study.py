@@ -66,7 +66,8 @@ from caisson.progress import Progress
 from caisson.ranks import Size
 from caisson.results import Results
 from caisson.runner import Entries, Run, RunError, Status
-from caisson_design import InputError, disk
+from caisson import disk
+from caisson.disk import InputError
 
 FILE_KEYS = {"kind", "set", "variants", "study"}
 STUDY_KEYS = set(

@@ -9,7 +9,6 @@ import argparse
 import concurrent.futures
 import importlib
 import re
-import sys
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -147,25 +146,21 @@ def print_list(studies: list[Study]) -> None:
 
 def main(arguments: argparse.Namespace, kinds: Mapping[str, str] = KINDS) -> int:
     """Run and evaluate."""
-    try:
-        module = module_of(arguments.file, kinds)
-        options = Options(
-            only=arguments.only,
-            quick=arguments.quick,
-            program=arguments.program.resolve(),
-            results=arguments.results or RESULTS / module.NAME.replace(" ", "_"),
-        )
-        studies = reader_of(arguments.file, options, module).studies()
-        if not studies:
-            raise StudyError(f"{arguments.file}: no study fits")
-        if arguments.list:
-            print_list(studies)
-            return 0
-        options.results.mkdir(parents=True, exist_ok=True)
-        return int(run_and_evaluate(module, studies, options, arguments))
-    except StudyError as error:
-        print(f"study: {error}", file=sys.stderr)
-        return 1
+    module = module_of(arguments.file, kinds)
+    options = Options(
+        only=arguments.only,
+        quick=arguments.quick,
+        program=arguments.program.resolve(),
+        results=arguments.results or RESULTS / module.NAME.replace(" ", "_"),
+    )
+    studies = reader_of(arguments.file, options, module).studies()
+    if not studies:
+        raise StudyError(f"{arguments.file}: no study fits")
+    if arguments.list:
+        print_list(studies)
+        return 0
+    options.results.mkdir(parents=True, exist_ok=True)
+    return int(run_and_evaluate(module, studies, options, arguments))
 
 
 def run_and_evaluate(
@@ -228,8 +223,8 @@ def shares_of(runs: Sequence[StudyRun], jobs: int | None) -> list[Share]:
         shares = [(runs[:n], cores(), None), (runs[n:], at_a_time, chosen.ranks)]
     least = sum(run.seconds or run.size.least for run in runs) / (sum(times) or 1)
     about = f", about {span(least * seconds, seconds)}" if all(times) else ""
-    print(f"runs to do: {len(runs)}{about}, {how}" if runs else "runs to do: 0")
-    sys.stdout.flush()
+    text = f"runs to do: {len(runs)}{about}, {how}" if runs else "runs to do: 0"
+    print(text, flush=True)
     return shares
 
 

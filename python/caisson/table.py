@@ -2,11 +2,12 @@
 """Tables as Markdown and as .csv."""
 import csv
 import io
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from caisson_design import disk
+from caisson import disk
 
 
 def number(value: float | None, digits: int = 5) -> str:
@@ -48,3 +49,18 @@ def write_csv(
     text.writelines(f"{line}\n" for line in disk.remarks("#", remarks))
     csv.writer(text).writerows([list(columns), *rows])
     disk.write(path, text.getvalue())
+
+
+def digits(value: float | None, number: int = 6) -> str:
+    """Return a number for a cell, empty for what is not known."""
+    return "" if value is None or not math.isfinite(value) else f"{value:.{number}g}"
+
+
+def write_columns(
+    path: Path, columns: Mapping[str, Iterable[float]], number: int = 6
+) -> Path:
+    """Write columns of numbers with so many digits; return the path."""
+    rows = zip(*columns.values())
+    texts = [[digits(float(value), number) for value in row] for row in rows]
+    write_csv(path, list(columns), texts)
+    return path

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson_design import InputError, cone_file, interpretation
-from caisson_design.cone_options import How
+from caisson.design import cone_file, interpretation
+from caisson.disk import InputError
+from caisson.design.cone_options import How
 
 HEAD = "depth_m,qc_MPa,fs_kPa,u2_kPa\n"
 HEADINGS = (

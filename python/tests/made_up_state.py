@@ -6,10 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson_export.balance import Balanced, balance
-from caisson_export.interpolate import interpolate
-from caisson_export.mesh import Mesh, Window, regular
-from caisson_export.state import Layer, State, Wall
+from caisson.export.exported import Exported, exported
+from caisson.export.mesh import Mesh, Window, regular
+from caisson.export.state import Layer, State, Wall
 
 WEIGHT, K0 = 9e3, 0.5  # N/m3, 1
 WINDOW = Window(4.0, 4.0, 0.2)
@@ -51,10 +50,9 @@ def made_up(
     )
 
 
-def balanced(state: State, mesh: Mesh | None = None) -> Balanced:
+def on_mesh(state: State, mesh: Mesh | None = None) -> Exported:
     """Return a state on a mesh, or else on the regular grid."""
-    mesh = mesh or regular(state, WINDOW)
-    return balance(state, mesh, interpolate(state, mesh.centers))
+    return exported(state, mesh or regular(state, WINDOW))
 
 
 class Temporary(unittest.TestCase):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A plain reader of exported input files, and forces of nodes from them.
 
-It shares nothing with caisson_export: loops over elements and Gauss points, with the
+It shares nothing with caisson.export: loops over elements and Gauss points, with the
 formulas of a textbook (Zienkiewicz and Taylor, axisymmetric stress analysis)."""
 import math
 from dataclasses import dataclass, field

@@ -9,7 +9,7 @@ import numpy as np
 
 from caisson.plot import theory
 from caisson.results import Read
-from caisson_design.cone import Profile
+from caisson.design.cone import Profile
 
 LINEAR = Profile([0, 10], [0, 20e6])  # 2 MPa per meter
 SCENE: dict[str, Any] = {

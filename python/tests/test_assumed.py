@@ -11,8 +11,9 @@ from synthetic import write_run
 
 from caisson.plot import theory
 from caisson.results import Results
-from caisson_design import InputError, assumed
-from caisson_design.houlsby_byrne import Assumptions
+from caisson.design import assumed
+from caisson.disk import InputError
+from caisson.design.houlsby_byrne import Assumptions
 
 
 class Assumed(unittest.TestCase):

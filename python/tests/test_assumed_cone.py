@@ -6,8 +6,8 @@ import numpy as np
 from scipy.integrate import trapezoid
 from scipy.optimize import brentq
 
-from caisson_design import density
-from caisson_design.assumed_cone import AssumedCone, Sand, SandGround
+from caisson.design import density
+from caisson.design.assumed_cone import AssumedCone, Sand, SandGround
 
 # 10 kN/m3 and K0 = 0.4: sigma'_m = 6 kPa per meter
 DENSE = Sand(0, 10e3, 0.4, 0.85, 33)

@@ -11,7 +11,8 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-from caisson import launch, ranks
+from caisson import ranks
+from caisson.commands import run as launch
 from caisson.paths import ROOT
 from caisson.ranks import Size
 from caisson.runner import environment, mpi_command, size_in
@@ -149,7 +150,7 @@ for _ in range(600):
 STOPPED = """
 import sys
 from pathlib import Path
-from caisson.launch import run_on_ranks
+from caisson.commands.run import run_on_ranks
 sys.exit(run_on_ranks(sys.argv[1:3], Path(sys.argv[2])))
 """
 

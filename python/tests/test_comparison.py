@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The picture and the file that compare runs."""
-import argparse
 import contextlib
 import csv
 import io
@@ -11,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from synthetic import write_run
 
+from caisson import __main__ as program
 from caisson.plot import comparison
 
 
@@ -68,33 +68,24 @@ class Files(unittest.TestCase):
         """It stands beside the runs, as said; other runs have another one, and what a
         user has changed stays."""
         runs = [synthetic(self.path / name, [0, 1, 2]) for name in ("a", "b", "c")]
-        parser = argparse.ArgumentParser()
-        comparison.add_arguments(parser)
         for pair in (runs[:2], runs[1:], runs[:2]):
             with contextlib.redirect_stdout(io.StringIO()) as said:
-                self.assertEqual(
-                    comparison.main(parser.parse_args([*map(str, pair)])), 0
-                )
+                self.assertEqual(program.main(["compare", *map(str, pair)]), 0)
             for line in said.getvalue().splitlines():
                 self.assertTrue(Path(line.removeprefix("compare: ")).is_file(), line)
             where = Path(line.removeprefix("compare: ")).resolve().parent
             self.assertEqual(where, self.path.resolve())
         (self.path / "comparison_a_b.csv").write_text("mine")
         with contextlib.redirect_stderr(io.StringIO()) as said:
-            words = parser.parse_args([*map(str, runs[:2])])
-            self.assertEqual(comparison.main(words), 1)
+            self.assertEqual(program.main(["compare", *map(str, runs[:2])]), 1)
         self.assertIn("comparison_a_b.csv exists", said.getvalue())
 
     def compare(self, *words: object, interval: float = 0.1) -> int:
         """Run the command; a picture is given, so that none is left elsewhere."""
-        parser = argparse.ArgumentParser(prog="caisson compare")
-        comparison.add_arguments(parser)
         picture = str(self.path / "both.png")
-        options = parser.parse_args(
-            ["--interval", str(interval), picture, *map(str, words)]
-        )
+        given = ["--interval", str(interval), picture, *map(str, words)]
         with contextlib.redirect_stdout(io.StringIO()):
-            return comparison.main(options)
+            return program.main(["compare", *given])
 
     def columns(self) -> dict[str, list[str]]:
         """Return the columns of the file as they stand there."""

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Files of cone tests: those of others, and what commands do with them."""
-import argparse
 import contextlib
 import io
 import unittest
@@ -10,9 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from caisson import __main__ as program
-from caisson.cpt import command
-from caisson_design import cone, cone_file, interpretation
-from caisson_design.cone_options import How
+from caisson.design import cone, cone_file, interpretation
+from caisson.design.cone_options import How
 from made_up_cone import AGS, GEF, WithFiles, options
 
 Rows = list[list[float]]
@@ -136,12 +134,10 @@ class Command(WithFiles):
     @staticmethod
     def call_on(path: Path, *words: str) -> tuple[int, str]:
         """Return status and words of `caisson cpt`."""
-        parser = argparse.ArgumentParser()
-        command.add_arguments(parser)
         said = io.StringIO()
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             out = str(path.parent / "out")
-            status = command.main(parser.parse_args([str(path), "--out", out, *words]))
+            status = program.main(["cpt", str(path), "--out", out, *words])
         return status, said.getvalue()
 
     def call(self, *words: str) -> tuple[int, str]:

@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from caisson_design import InputError
+from caisson.disk import InputError
 from made_up_cone import AGS, GEF, OTHER, UNITS, WithFiles
 
 

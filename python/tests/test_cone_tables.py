@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 
 from caisson import needed
-from caisson_design import InputError, cone_file, cone_grid
-from caisson_design.cone_options import How
+from caisson.design import cone_file, cone_grid
+from caisson.disk import InputError
+from caisson.design.cone_options import How
 from made_up_cone import AGS, GEF, OTHER, WithFiles
 
 

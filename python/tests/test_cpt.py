@@ -1,29 +1,31 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cone tests: files, formulas against numbers worked out by hand, layers, estimates,
 and what goes into a scene."""
-import argparse
 import contextlib
 import csv
 import io
 import itertools
 import unittest
 import warnings
+from typing import TextIO, cast
 from math import inf, log10
 
 import numpy as np
 from scipy.optimize import brentq
 
-from caisson.cpt import command, tables
+from caisson import __main__ as program
+from caisson.terminal import PlainText
+from caisson.design import cone_texts as tables
 from caisson.paths import SCENES
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import SuggestError
-from caisson_design import InputError
-from caisson_design import cone_file
-from caisson_design import cone_layers as layers
-from caisson_design import correlations
-from caisson_design import interpretation
-from caisson_design.cone_estimates import K0, REFERENCE, WEIGHT, reference_moduli
-from caisson_design.correlations import (
+from caisson.disk import InputError
+from caisson.design import cone_file
+from caisson.design import cone_layers as layers
+from caisson.design import correlations
+from caisson.design import interpretation
+from caisson.design.cone_estimates import K0, REFERENCE, WEIGHT, reference_moduli
+from caisson.design.correlations import (
     ANGLE,
     BEST,
     DENSITY,
@@ -32,8 +34,8 @@ from caisson_design.correlations import (
     MODULUS,
     STRENGTH,
 )
-from caisson_design.density import bolton_angle
-from caisson_design.ground import (
+from caisson.design.density import bolton_angle
+from caisson.design.ground import (
     ATMOSPHERE,
     Ground,
     ground_of,
@@ -496,11 +498,10 @@ class Command(WithFiles):
 
     def call(self, *words: str) -> tuple[int, str]:
         """Return status and words of `caisson cpt`."""
-        parser = argparse.ArgumentParser()
-        command.add_arguments(parser)
         said = io.StringIO()
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-            status = command.main(parser.parse_args(words))
+        plain = cast(TextIO, PlainText(said))  # as end_process() sets it
+        with contextlib.redirect_stdout(plain), contextlib.redirect_stderr(plain):
+            status = program.main(["cpt", *words])
         return status, said.getvalue()
 
     def test_files(self) -> None:

@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from caisson.cpt import page
+from caisson.commands import cpt_page as page
 from caisson.parameters.methods import depths_of_bars
 
 

@@ -6,11 +6,12 @@ import unittest
 
 import numpy as np
 
-from caisson.cpt import tables
+from caisson.design import cone_texts as tables
 from caisson.suggest import cone
-from caisson_design import InputError, cone_file, interpretation
-from caisson_design.correlations import STRENGTH
-from caisson_design.ground import behavior_of, ground_of, kinds_of
+from caisson.design import cone_file, interpretation
+from caisson.disk import InputError
+from caisson.design.correlations import STRENGTH
+from caisson.design.ground import behavior_of, ground_of, kinds_of
 from made_up_cone import WithFiles, options
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import minimize
 
-from caisson_design.houlsby_byrne import (
+from caisson.design.houlsby_byrne import (
     UNDISTURBED,
     Assumptions,
     Caisson,

@@ -13,8 +13,9 @@ from made_up_state import Temporary
 
 from caisson import command_line
 from caisson.__main__ import GROUPS
-from caisson_design import InputError, disk
-from caisson_design.terminal import CLEAR, PlainText
+from caisson import disk
+from caisson.disk import InputError
+from caisson.terminal import CLEAR, PlainText
 
 FULL = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 

@@ -15,8 +15,8 @@ from caisson import curves
 from caisson.results import Results, ResultsError, Table, read_table
 from caisson.runner import Entries
 from caisson.study import Options, Reader, Study, StudyError
-from caisson_error import command, error_bar, windows
-from caisson_error.mesh_error import mesh_error
+from caisson.error import command, error_bar, windows
+from caisson.error.mesh_error import mesh_error
 from lab import verification
 
 STUDY = """

@@ -4,15 +4,15 @@ import unittest
 from typing import Any
 
 import numpy as np
-from made_up_state import K0, WEDGE, WEIGHT, Temporary, balanced, made_up
+from made_up_state import K0, WEDGE, WEIGHT, Temporary, on_mesh, made_up
 
 from caisson.results import read_table
-from caisson_export import tables
-from caisson_export.laws import vertical_over_yield_stress, youngs_modulus
-from caisson_export.mesh import Mesh, Window, regular
-from caisson_export.springs import shear_modulus
-from caisson_export.state import State, Wall
-from caisson_export.tables import Zone, zones_of
+from caisson.export import tables
+from caisson.export.laws import vertical_over_yield_stress, youngs_modulus
+from caisson.export.mesh import Mesh, Window, regular
+from caisson.export.springs import shear_modulus
+from caisson.export.state import State, Wall
+from caisson.export.tables import Zone, zones_of
 
 
 def entries(**numbers: float) -> list[dict[str, Any]]:
@@ -37,7 +37,7 @@ class Zones(Temporary):
     def zones(self, state: State, window: Window) -> tuple[Mesh, list[Zone]]:
         """Return the mesh of a window and its zones."""
         mesh = regular(state, window)
-        return mesh, zones_of(balanced(state, mesh))
+        return mesh, zones_of(on_mesh(state, mesh))
 
     def test_cover_the_ground_once(self) -> None:
         """At any penetration and spacing, each place of the ground is in one zone,
@@ -98,7 +98,7 @@ class Zones(Temporary):
         yielding[state.position[:, 1] < -3] = np.nan
         state.fields["vertical_yield_stress_Pa"] = yielding
         state.fields["yield_stress_Pa"] = yielding / share
-        tables.write_plaxis(self.path / "a.csv", balanced(state))
+        tables.write_plaxis(self.path / "a.csv", on_mesh(state))
         lines = (self.path / "a.csv").read_text(encoding="utf-8").splitlines()
         rows = [one.split(",", 1)[1] for one in lines if one[0] != "#"]
         (self.path / "b.csv").write_text("\n".join(rows), encoding="utf-8")

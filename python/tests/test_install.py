@@ -29,9 +29,7 @@ class Install(unittest.TestCase):
         for name in FILES:
             (self.project / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.project / name)
-        for part in ("", "_design", "_error", "_export", "_report"):
-            name = f"python/caisson{part}"
-            shutil.copytree(ROOT / name, self.project / name)
+        shutil.copytree(ROOT / "python/caisson", self.project / "python/caisson")
 
     def call(self, *words: str | Path) -> str:
         """Return what a call says; there is no network, and no other package."""

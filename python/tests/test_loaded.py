@@ -50,7 +50,7 @@ class Package(unittest.TestCase):
 
     def test_commands_do_not_hide_the_function(self) -> None:
         """No module of the package has its name."""
-        code = "import caisson.__main__, caisson.launch; print(callable(caisson.run))"
+        code = "import caisson.commands.run; print(callable(caisson.run))"
         self.assertEqual(self.python(code), "True")
 
     def test_names(self) -> None:
@@ -210,7 +210,7 @@ class Frames(Directory):
             frame.mesh
 
     def test_without_vtk(self) -> None:
-        broken = mock.patch.dict("sys.modules", {"caisson.plot.vtu": None})
+        broken = mock.patch.dict("sys.modules", {"caisson.vtu": None})
         with broken, mock.patch("caisson.needed.complaint", return_value="VTK missing"):
             with self.assertRaisesRegex(ModuleNotFoundError, "VTK missing"):
                 self.run_there.frame(index=1).mesh

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson_design import andersen, cone, dnv, senders_randolph
-from caisson_design import houlsby_byrne
-from caisson_design import InputError
-from caisson_design.houlsby_byrne import UNDISTURBED, Assumptions, Layer
-from caisson_design.method import Forces
+from caisson.design import andersen, cone, dnv, senders_randolph
+from caisson.design import houlsby_byrne
+from caisson.disk import InputError
+from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, Layer
+from caisson.design.method import Forces
 
 # 6 m with a wall of 0.1 m: the tip has pi 5.9 0.1 = 1.853540 m2
 SKIRT = cone.Skirt(6, 0.1, 20, 20)

@@ -3,6 +3,7 @@
 sources see what they must."""
 import argparse
 import ast
+import graphlib
 import importlib
 import os
 import pkgutil
@@ -14,41 +15,10 @@ from pathlib import Path
 
 import caisson
 import caisson.__main__
-import caisson_design
-import caisson_error
-import caisson_export
-import caisson_report
 import caisson_workshop.__main__
 import lab.__main__
 from caisson.paths import ROOT
 from caisson_workshop.floors import committed, strangers
-from caisson_workshop.lengths import cpp_functions
-
-CPP = """
-namespace N
-{
-  struct S
-  {
-    S(int a)
-      : b(a)
-    {
-      // a comment with { and "
-      if (a)
-        { b = '{'; }
-    }
-    std::vector<int> list = {f(1), 2};
-  };
-
-  template <typename T = S<int>>
-  bool
-  operator==(const S &a,
-             const S &b)
-  {
-    return [&] { return "}"; }();
-  }
-} // namespace N
-"""
-
 
 # command line: its commands
 COMMANDS = {
@@ -56,15 +26,19 @@ COMMANDS = {
     "scripts/lab": lab.__main__.COMMANDS,
     "tools/workshop": caisson_workshop.__main__.COMMANDS,
 }
-MOST_COMMANDS, MOST_LINES = 10, 10_450  # of the user's package
+MOST_COMMANDS, MOST_LINES = 10, 21_100  # of the user's package
+
+
+# of the package, in the order in which one may import another one
+FOLDERS = "design plot error parameters export report suggest commands".split()
+
+
+FILES = sorted((ROOT / "python/caisson").rglob("*.py"))
 
 
 def modules() -> list[str]:
     """Return the names of all modules of the packages."""
-    packages = (
-        *(caisson, caisson_design, caisson_error),
-        *(caisson_export, caisson_report, lab, caisson_workshop),
-    )
+    packages = (caisson, lab, caisson_workshop)
     names = [
         m.name
         for package in packages
@@ -74,6 +48,34 @@ def modules() -> list[str]:
     cases = (ROOT / "lab").glob("*/*/*.py")
     names += [".".join(path.relative_to(ROOT).with_suffix("").parts) for path in cases]
     return [name for name in names if not name.endswith("__main__")]
+
+
+def module_name(path: Path) -> str:
+    """Return the name of a module of the product."""
+    parts = path.relative_to(ROOT / "python").with_suffix("").parts
+    return ".".join(parts).removesuffix(".__init__")
+
+
+def floor(module: str) -> int:
+    """Return the place of a module in FOLDERS, -1 of the core."""
+    folder = (*module.split("."), "")[1]
+    return FOLDERS.index(folder) if folder in FOLDERS else -1
+
+
+def imported(path: Path) -> set[str]:
+    """Return the names of all modules that a module imports."""
+    names = set[str]()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            for alias in node.names:
+                name = f"{node.module}.{alias.name}"
+                names.add(name if name in NAMES else str(node.module))
+    return names
+
+
+NAMES = set(map(module_name, FILES))
 
 
 class TopLevel(unittest.TestCase):
@@ -115,28 +117,23 @@ class Imports(unittest.TestCase):
 class Product(unittest.TestCase):
     """The user's package: small, and without laboratory and workshop."""
 
-    files = sorted((ROOT / "python/caisson").rglob("*.py"))
-
     def test_imports(self) -> None:
-        """It imports nothing of them, and the design methods nothing of it either."""
-        design = sorted((ROOT / "python/caisson_design").rglob("*.py"))
-        others = [
-            path
-            for name in ("caisson_error", "caisson_export", "caisson_report")
-            for path in sorted((ROOT / "python" / name).rglob("*.py"))
-        ]
-        for path in self.files + design + others:
-            refused = {"lab", "caisson_workshop"}
-            if path in design:
-                refused.add("caisson")
-            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-                names = []
-                if isinstance(node, ast.Import):
-                    names = [alias.name for alias in node.names]
-                elif isinstance(node, ast.ImportFrom):
-                    names = [node.module or ""]
-                found = {name.split(".")[0] for name in names}
-                self.assertFalse(found & refused, path)
+        """No import goes to a folder further on in FOLDERS, and none of the core, which
+        is no folder, to any of them, but in the command line."""
+        graph = {}
+        for path in FILES:
+            found = graph[module_name(path)] = imported(path)
+            tops = {name.split(".")[0] for name in found}
+            self.assertFalse(tops & {"lab", "caisson_workshop"}, path)
+            for name in found:
+                self.assertLessEqual(floor(name), floor(module_name(path)), path)
+        del graph["caisson"]  # loads its modules when their names are used
+        tuple(graphlib.TopologicalSorter(graph).static_order())
+
+    def test_folders(self) -> None:
+        names = {path.name for path in (ROOT / "python/caisson").iterdir()}
+        folders = {n for n in names if "." not in n and n != "__pycache__"}
+        self.assertEqual(folders, set(FOLDERS))
 
     def test_laboratory_needs_no_workshop(self) -> None:
         for path in (ROOT / "lab").rglob("*.py"):
@@ -144,7 +141,7 @@ class Product(unittest.TestCase):
 
     def test_size(self) -> None:
         self.assertLessEqual(len(caisson.__main__.COMMANDS), MOST_COMMANDS)
-        lines = sum(len(path.read_bytes().splitlines()) for path in self.files)
+        lines = sum(len(path.read_bytes().splitlines()) for path in FILES)
         self.assertLessEqual(lines, MOST_LINES)
 
 
@@ -180,14 +177,6 @@ class Command(unittest.TestCase):
         self.assertEqual(self.called("study", "/bin/true"), ["package"])
         self.assertEqual(self.called("report", ""), ["package"])
         self.assertEqual(self.called("scenes", ""), ["package"])
-
-
-class Lengths(unittest.TestCase):
-    """Functions of C++ are found."""
-
-    def test_cpp_functions(self) -> None:
-        found = list(cpp_functions(CPP))
-        self.assertEqual(found, [("S", 6, 12), ("operator==", 18, 22)])
 
 
 if __name__ == "__main__":

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Studies of parameters with a stand-in for the program: checked, run, resumed in
 parts, and evaluated."""
-import argparse
 import contextlib
 import csv
 import fcntl
@@ -16,6 +15,7 @@ from unittest import mock
 import numpy as np
 from synthetic import write_run
 
+from caisson import __main__ as program
 from caisson import error_bounds, parameters, progress, study_command
 from caisson.parameters import effects, pictures, tables
 from caisson.parameters.outcome import Outcomes
@@ -62,13 +62,11 @@ class Commands(WithFiles):
 
     def study(self, *options: str) -> tuple[int, str]:
         """Run the command; return its status and all that it says."""
-        parser = argparse.ArgumentParser(prog="caisson study")
-        study_command.add_arguments(parser)
         words = [str(self.path / "s.toml"), "--program", str(FAKE_PROGRAM)]
         words += ["--results", str(self.path / "results"), *options]
         said = io.StringIO()
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-            status = study_command.main(parser.parse_args(words))
+            status = program.main(["study", *words])
         return status, said.getvalue()
 
     def calls(self) -> list[str]:

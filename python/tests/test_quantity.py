@@ -10,8 +10,8 @@ import caisson.__main__
 from caisson.suggest import clay, walls
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.soil import LAWS, layer_of
-from caisson_design.expression import value_at, without_unit
-from caisson_design.quantity import angle_of_friction, length, number, value_of
+from caisson.design.expression import value_at, without_unit
+from caisson.design.quantity import angle_of_friction, length, number, value_of
 
 KNOWN = {
     "Law": "",

@@ -3,9 +3,9 @@
 import unittest
 from math import nan
 
-from caisson_design import reasons
-from caisson_design.method import Forces
-from caisson_design.reasons import ByCone
+from caisson.design import reasons
+from caisson.design.method import Forces
+from caisson.design.reasons import ByCone
 
 RUN = Forces(900e3, 50e3, 150e3)
 NAME = "DNV (cone ASSUMED)"

@@ -17,12 +17,12 @@ from unittest import mock
 import numpy as np
 from synthetic import write_run
 
-import caisson_report as report
-from caisson import launch
+import caisson.report as report
+from caisson.commands import run as launch
 from caisson.results import Results, ResultsError
-from caisson_design import reasons
-from caisson_design.seepage import senders_randolph
-from caisson_report import content, installation, methods
+from caisson.design import reasons
+from caisson.design.seepage import senders_randolph
+from caisson.report import content, installation, methods
 
 BROWSER = report.find_browser()
 SCENE: dict[str, Any] = {

@@ -10,11 +10,11 @@ import numpy as np
 from synthetic import write_columns, write_run
 from test_report import SCENE, SUMMARY, WithPage, leave_run
 
-import caisson_report as report
+import caisson.report as report
 from caisson import error_bounds
 from caisson.results import Results
-from caisson_report import content, installation, methods, sketch
-from caisson_report import page as page_module
+from caisson.report import content, installation, methods, sketch
+from caisson.report import page as page_module
 
 
 class Cards(WithPage):
@@ -42,7 +42,7 @@ class Cards(WithPage):
         leave_run(self.path, SUMMARY)
         self.leave_bar(4.4, 0.1)
         page = report.write(self.path).read_text(encoding="utf-8")
-        self.assertIn("about 28 to 32 kPa (error bar of 4 m)", page)
+        self.assertIn("about 28 to 32 kPa (error bar of 4.4 m)", page)
         takes, _ = installation.tables_of(self.installation())
         cells = [
             row[takes["heads"].index("required suction (kPa)")] for row in takes["rows"]

@@ -7,9 +7,9 @@ import numpy as np
 from synthetic import write_run
 from test_report import SUMMARY, WithPage
 
-import caisson_report as report
+import caisson.report as report
 from caisson.results import Results
-from caisson_report import content, pull
+from caisson.report import content, pull
 
 
 class Pulled(WithPage):

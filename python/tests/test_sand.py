@@ -16,10 +16,10 @@ from caisson.suggest import cone, sand
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.sizes import LEVELS
 from caisson.suggest.soil import layers_of
-from caisson_design import interpretation
-from caisson_design.assumed_cone import AssumedCone, Sand
-from caisson_design.cone_estimates import K0, REFERENCE
-from caisson_design.correlations import DENSITY
+from caisson.design import interpretation
+from caisson.design.assumed_cone import AssumedCone, Sand
+from caisson.design.cone_estimates import K0, REFERENCE
+from caisson.design.correlations import DENSITY
 
 EXAMPLE = SCENES / "cpt_example.csv"
 KNOWN = ["Cohesion", "Friction angle", "K0", "Permeability", "Youngs modulus"]

@@ -17,7 +17,7 @@ from made_up_state import Temporary
 from caisson import __main__ as program
 from caisson.loaded import load
 from caisson.results import ResultsError, read_table
-from caisson_export.springs import Springs, last_motion, springs_of, wave_velocity
+from caisson.export.springs import Springs, last_motion, springs_of, wave_velocity
 
 DIAMETER, WALL = 4.0, 0.1
 RADII = {"inner": 1.9, "outer": 2.0}

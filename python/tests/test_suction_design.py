@@ -7,10 +7,10 @@ from math import exp, isnan, pi, radians, tan
 
 import numpy as np
 
-from caisson_design.houlsby_byrne import Caisson, Layer, Seepage
-from caisson_design.method import Forces
-from caisson_design.seepage import CRITICAL_SUCTIONS, houlsby_byrne, pressure_factor
-from caisson_design.suction_installation import (
+from caisson.design.houlsby_byrne import Caisson, Layer, Seepage
+from caisson.design.method import Forces
+from caisson.design.seepage import CRITICAL_SUCTIONS, houlsby_byrne, pressure_factor
+from caisson.design.suction_installation import (
     critical_suction,
     piping_suction,
     relieved_suction,

@@ -17,7 +17,7 @@ from program import FAILURE, SUCCESS, Entries, ProgramTest, history, summary
 from caisson import plot
 from caisson.paths import ROOT
 from caisson.plot.cells import cell_of
-from caisson.plot.vtu import (
+from caisson.vtu import (
     corners_of,
     named_arrays,
     positions_of,

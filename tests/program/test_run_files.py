@@ -18,9 +18,9 @@ from program import (
 
 from caisson import error_bounds, evaluation
 from caisson.plot import design
-from caisson_design.reasons import text_of
-from caisson_report import installation
-from caisson_report import page as page_module
+from caisson.design.reasons import text_of
+from caisson.report import installation
+from caisson.report import page as page_module
 
 
 class Files(ProgramTest):

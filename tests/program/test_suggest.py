@@ -14,7 +14,7 @@ from program import SUCCESS, HERE, ProgramTest, history, summary
 from caisson import density_law
 from caisson.runner import environment, read_parameters
 from caisson.suggest.soil import LAWS
-from caisson_design import cone_file
+from caisson.design import cone_file
 from lab.stability import suggested
 
 EXAMPLE = HERE.parent / "prm/cpt_example.csv"

@@ -13,7 +13,7 @@ from program import ALONE, STOPPED, SUCCESS, Entries, ProgramTest, scene
 
 from caisson.loaded import load
 from caisson.results import Results, Table
-from caisson_export.springs import springs_of
+from caisson.export.springs import springs_of
 
 TAN_DELTA = math.tan(math.radians(20))  # the default
 ENTRIES: Entries = {

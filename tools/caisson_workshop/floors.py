@@ -9,7 +9,7 @@
 - A CMakeLists.txt names every source/**/*.cc.
 - Words that are not used in sources: BANNED.
 - A file has at most 600 lines, a function 60, a script 40 (lengths.py).
-- Python files of users are written by caisson_design.disk only.
+- Python files of users are written by caisson.disk only.
 - The top level of the project holds nothing but TOP_LEVEL.
 """
 import argparse
@@ -44,7 +44,7 @@ BANNED: dict[str, str] = {
 # of python and lab, where copy is a temporary file
 WRITES = {
     r"(?<!\bcopy)\.write_(text|bytes)\(|savefig\(|rmtree\(|\bopen\([^)]*\"[wx]b?\"": (
-        "a file of a user is written whole or not at all: use caisson_design.disk"
+        "a file of a user is written whole or not at all: use caisson.disk"
     )
 }
 MAY_WRITE = {"disk.py", "timed.py"}  # the latter the log of a process

@@ -21,8 +21,8 @@ from scipy.ndimage import uniform_filter1d
 from caisson import curves
 from caisson.paths import SCENES
 from caisson.study import Study, StudyRun
-from caisson_design import dnv
-from caisson_design.cone import Profile
+from caisson.design import dnv
+from caisson.design.cone import Profile
 from lab.validation.verdict import Row
 
 CONE_AREA = pi * 0.1**2  # m2, of lab/validation/cone_in_sand/cone_in_sand.prm

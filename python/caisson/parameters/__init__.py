@@ -58,8 +58,8 @@ from caisson.study import (
     check_is_own,
     file_name,
 )
-from caisson_design import cone
-from caisson_design import InputError
+from caisson.design import cone
+from caisson.disk import InputError
 
 NAME = "parameters"
 STUDY_KEYS = set(

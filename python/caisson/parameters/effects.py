@@ -74,12 +74,6 @@ def chance(n: int) -> float:
     return float(t / math.sqrt(n - 2 + t**2))
 
 
-def base_result(sampling: str, results: np.ndarray) -> float:
-    """Return what effects are beside: the result of the first run of one parameter at
-    a time, or the mean of a grid."""
-    return float(results[0] if sampling == ONE else np.mean(results))
-
-
 def levels(
     outcomes: Outcomes,
     runs: Sequence[Outcome],
@@ -115,15 +109,14 @@ def effects_of(outcomes: Outcomes, depth: float | None) -> tuple[float, list[Eff
             effects.append(Effect(parameter, 0.0, found))
             continue
         by_value = levels(outcomes, runs, results, parameter)
-        ends = min(by_value, key=by_value.__getitem__), max(
-            by_value, key=by_value.__getitem__
-        )
+        ordered = sorted(by_value, key=by_value.__getitem__)
+        ends = ordered[0], ordered[-1]
         effects.append(Effect(parameter, by_value[ends[0]], by_value[ends[1]], ends))
     effects.sort(key=lambda effect: -effect.size)
-    base = (
-        0.0 if outcomes.sampling == LATIN else base_result(outcomes.sampling, results)
-    )
-    return base, effects
+    if outcomes.sampling == LATIN:
+        return 0.0, effects
+    base = results[0] if outcomes.sampling == ONE else np.mean(results)
+    return float(base), effects
 
 
 def spread(matrix: np.ndarray) -> tuple[list[str], np.ndarray]:

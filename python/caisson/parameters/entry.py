@@ -14,6 +14,7 @@ from caisson.parameters.distributions import (
     require,
 )
 from caisson.parameters.formula import Formula, FormulaError
+from caisson.paths import distinct_ends
 from caisson.runner import Entries
 from caisson.study import StudyError
 
@@ -188,21 +189,12 @@ def read_all(tables: object) -> list[Parameter]:
         except (DistributionError, FormulaError) as error:
             raise StudyError(f"parameter {name!r}: {error}") from error
     check_entries(found)
-    found = [replace(p, label=label) for p, label in zip(found, labels_of(found))]
+    labels = distinct_ends([parameter.name.split("/") for parameter in found])
+    found = [replace(p, label=label) for p, label in zip(found, labels)]
     free = [parameter for parameter in found if parameter.formula is None]
     if not free:
         raise StudyError("each parameter has a formula, so that none varies")
     return free + sorted_formulas(free, [p for p in found if p.formula is not None])
-
-
-def labels_of(parameters: list[Parameter]) -> list[str]:
-    """Return the last part of each name, or as many parts as distinguish it."""
-    parts = [parameter.name.split("/") for parameter in parameters]
-    for length in range(1, max(map(len, parts)) + 1):
-        labels = ["/".join(part[-length:]) for part in parts]
-        if len(set(labels)) == len(labels):
-            break
-    return labels
 
 
 def check_entries(parameters: list[Parameter]) -> None:

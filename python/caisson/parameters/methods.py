@@ -17,8 +17,9 @@ from caisson.parameters.effects import order
 from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import DEPTH, Outcome, Outcomes, values_at
 from caisson.plot import theory
-from caisson.table import write_csv
-from caisson_design import disk
+from caisson.plot.small import over_depth, with_note
+from caisson.table import write_columns
+from caisson import disk
 
 TOTAL = "total_force_N"
 INTERVAL = 0.1  # m
@@ -91,12 +92,7 @@ def write(path: Path, found: Answers) -> Path:
             for case, parts in of_run[i].forces.items():
                 head = f"{method.key}_{case.replace(' ', '_')}_{TOTAL} [{name}]"
                 columns[head] = parts["total"]
-    rows = [
-        ["" if math.isnan(value) else f"{value:.6g}" for value in row]
-        for row in zip(*columns.values())
-    ]
-    write_csv(path, list(columns), rows)
-    return path
+    return write_columns(path, columns)
 
 
 def depths_of_bars(deepest: float) -> np.ndarray:
@@ -168,12 +164,6 @@ def draw_runs(axes: Axes, found: Answers) -> None:
         )
 
 
-def reasons_of(found: Answers) -> str:
-    """Return which methods have no answer, and why."""
-    texts = [f"{names}: {why}" for names, why in theory.reasons(found.answers[0])]
-    return f"no answer from {'; '.join(texts)}" if texts else ""
-
-
 def draw(path: Path, found: Answers, outcomes: Outcomes) -> Path:
     """Write the picture."""
     figure = Figure(figsize=(8.5, 8.5))
@@ -185,19 +175,13 @@ def draw(path: Path, found: Answers, outcomes: Outcomes) -> Path:
     axes.set_xlim(0, limit)
     draw_methods(axes, found, limit)
     draw_runs(axes, found)
-    axes.grid(color="0.9", axis="x")
-    axes.set_axisbelow(True)
-    axes.xaxis.set_label_position("top")
-    axes.xaxis.tick_top()
-    axes.set_xlabel("Total force (kN)")
-    axes.set_ylabel("Penetration of the skirt tip (m)")
+    over_depth(axes, "Total force (kN)", "Penetration of the skirt tip (m)", "x")
     axes.legend(fontsize=8, framealpha=0.9, loc="upper right")
     figure.suptitle(outcomes.study.title, fontsize=11)
     note = "bars, beside the line of their depth: both cases with the soil of all runs"
     byrne = theory.assumptions_in_words(found.runs[0].run.results.scene)
     if found.band(0) is None:
         byrne = ""
-    note = "\n".join(filter(None, [note, byrne, reasons_of(found)]))
-    figure.text(0.5, 0.01, note, ha="center", fontsize=8, color="0.3", wrap=True)
-    figure.tight_layout(rect=(0, 0.03 + 0.02 * note.count("\n"), 1, 1))
+    reasons = theory.reasons_in_words(found.answers[0])
+    with_note(figure, "\n".join(filter(None, [note, byrne, reasons])))
     return disk.save(figure, path)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from caisson import curves, error_bounds
+from caisson.error.error_bar import QUANTITIES, SIDES
 from caisson.evaluation import rest_of_run
 from caisson.parameters.entry import Parameter, Sample, read_all
 from caisson.parameters.sampling import numbers_of, sampling_of
@@ -25,17 +26,6 @@ OBSERVED = (
 )
 SHOWN = {"_N": ("kN", 1e-3), "_Pa": ("kPa", 1e-3), "_m": ("m", 1.0), "_m3": ("m³", 1.0)}
 COMPLETE, FAILED = "complete", "failed"
-# column of history.csv: those of its error on both sides in the file of an error bar,
-# and whether it is relative
-ERRORS = {
-    "tip_force_N": ("tip_{}", True),
-    "inner_friction_N": ("inner_{}", True),
-    "outer_friction_N": ("outer_{}", True),
-    "total_force_N": ("total_{}", True),
-    "required_suction_Pa": ("required_suction_{}_Pa", False),
-    "exit_gradient_axis": ("exit_gradient_axis_{}", False),
-    "plug_heave_m": ("plug_heave_{}_m", False),
-}
 
 
 @dataclass
@@ -259,17 +249,17 @@ class Outcomes:
         """Return how far the truth may lie below and above [2, n_depths], by the error
         bar beside the scene, for its numerics; None where there is none. values: of
         what is observed."""
-        column, is_relative = ERRORS.get(self.column, ("", False))
+        named = [q for q in QUANTITIES.values() if q.column == self.column]
         outcome = next(o for o in [*self.all, self.reference] if o and o.history)
-        if not column:
+        if not named:
             return None
         try:
             bar = read_table(error_bounds.beside(outcome.run.run.scene))
-            sides = [bar[column.format(side)] for side in ("below", "above")]
+            sides = [bar[named[0].named(side)] for side in SIDES]
         except ResultsError:
             return None
         nan = math.nan
         error = np.array(
             [np.interp(depths, bar[DEPTH], s, left=nan, right=nan) for s in sides]
         )
-        return error * np.abs(values) if is_relative else error
+        return error * np.abs(values) if named[0].is_relative else error

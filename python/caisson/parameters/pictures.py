@@ -14,7 +14,8 @@ from caisson.parameters.effects import Effect
 from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import Outcome, Outcomes, title_of, unit_of, words_of
 from caisson.parameters.sampling import BASE, LATIN, ONE
-from caisson_design import disk
+from caisson import disk
+from caisson.plot.small import over_depth, with_note
 
 BLUE, RED = "#2166ac", "#c0392b"
 STYLES = ("-", "--", ":", "-.")
@@ -184,17 +185,10 @@ def draw_fan(path: Path, outcomes: Outcomes) -> Path:
     old = axes.get_legend()
     title = old.get_title().get_text() if old is not None else ""
     axes.legend(fontsize=8, framealpha=0.9, title=title, title_fontsize=8)
-    axes.grid(color="0.9")
-    axes.set_axisbelow(True)
     axes.invert_yaxis()
-    axes.xaxis.set_label_position("top")
-    axes.xaxis.tick_top()
-    axes.set_xlabel(title_of(outcomes.column))
-    axes.set_ylabel("penetration (m)")
+    over_depth(axes, title_of(outcomes.column), "penetration (m)")
     figure.suptitle(outcomes.study.title, fontsize=11)
-    note = caption(outcomes, text)
-    figure.text(0.5, 0.01, note, ha="center", fontsize=8, color="0.3")
-    figure.tight_layout(rect=(0, 0.03 + 0.018 * note.count("\n"), 1, 1))
+    with_note(figure, caption(outcomes, text))
     return disk.save(figure, path)
 
 
@@ -292,7 +286,5 @@ def draw_tornado(path: Path, outcomes: Outcomes, depth: float | None) -> Path | 
     axes.legend(
         fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1), ncol=3, frameon=False
     )
-    note = "\n".join(notes)
-    figure.text(0.5, 0.012, note, ha="center", fontsize=8, color="0.3")
-    figure.tight_layout(rect=(0, 0.06 * len(notes), 1, 1))
+    with_note(figure, "\n".join(notes))
     return disk.save(figure, path)

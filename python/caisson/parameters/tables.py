@@ -21,11 +21,6 @@ RANKS = (
 PRINTED = 20  # rows of runs; of more runs the quantiles are printed
 
 
-def digits(value: float | None) -> str:
-    """Return six digits, and an empty cell for what is not known."""
-    return "" if value is None or not math.isfinite(value) else f"{value:.6g}"
-
-
 def largest(outcomes: Outcomes, outcome: Outcome) -> tuple[float, float]:
     """Return the largest value of what is observed, of a body that is pulled the
     largest pull, and its depth (m); nan where there is none."""
@@ -41,14 +36,14 @@ def row_of(outcomes: Outcomes, outcome: Outcome, has_rest: bool) -> list[str]:
     """Return the row of a run in table.csv."""
     sample = [outcome.sample.get(p.name, "") for p in outcomes.parameters]
     row = [outcome.name, outcome.status, *map(text_of, sample)]
-    row += map(digits, outcomes.values(outcome, outcomes.depths))
-    row += map(digits, largest(outcomes, outcome))
+    row += map(table.digits, outcomes.values(outcome, outcomes.depths))
+    row += map(table.digits, largest(outcomes, outcome))
     history = outcome.history
-    row.append(digits(None if history is None else float(history[DEPTH].max())))
+    row.append(table.digits(None if history is None else float(history[DEPTH].max())))
     if has_rest:
-        row.append(digits(outcome.rest))
+        row.append(table.digits(outcome.rest))
     remark = "; ".join(filter(None, [outcome.why, *outcome.warnings]))
-    return [*row, digits(outcome.wall), remark]
+    return [*row, table.digits(outcome.wall), remark]
 
 
 def write_runs(path: Path, outcomes: Outcomes) -> Path:
@@ -75,9 +70,7 @@ def write_fan(path: Path, outcomes: Outcomes) -> Path:
             columns[f"{column} [{name}]"] = values
     for outcome, values in zip(outcomes.complete, matrix):
         columns[f"{column} [{outcome.name}]"] = values
-    rows = zip(*(map(digits, values) for values in columns.values()))
-    table.write_csv(path, list(columns), list(rows))
-    return path
+    return table.write_columns(path, columns)
 
 
 def lines(outcomes: Outcomes, depth: float | None) -> Iterator[str]:

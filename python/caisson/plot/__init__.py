@@ -6,7 +6,8 @@ from pathlib import Path
 
 from caisson import error_bounds
 from caisson.results import Results, ResultsError
-from caisson_design import InputError, assumed, cone_options
+from caisson.design import assumed, cone_options
+from caisson.disk import InputError
 
 
 def draw(directory: Path) -> list[Path]:
@@ -57,7 +58,7 @@ def keep_methods(options: argparse.Namespace, directory: Path) -> bool:
     is_new = assumed.keep(options, directory) or options.cpt is not None
     how = cone_options.how_of(options)
     if options.cpt is not None:
-        from caisson_design import cone
+        from caisson.design import cone
 
         for remark in cone.adopt(options.cpt, directory, how):
             print(f"{options.cpt}: {remark}")

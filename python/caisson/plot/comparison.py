@@ -9,8 +9,6 @@ and up again the way up has columns of its own, total_force_N [jack up]. A value
 mean over 0.2 m, as everywhere; see curves.
 """
 import argparse
-import math
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -20,12 +18,13 @@ from matplotlib.figure import Figure
 from caisson import curve, curves
 from caisson.plot import design
 from caisson.plot.forces import penetration
-from caisson.paths import seen
-from caisson.plot.small import in_units
+from caisson.paths import distinct_ends, seen
+from caisson.plot.small import in_units, over_depth
+from caisson.design.quantity import length
 from caisson.results import Results, ResultsError, Table
-from caisson.table import write_csv
-from caisson_design import InputError, disk
-from caisson_design.shown import USUAL, Units
+from caisson.table import write_columns
+from caisson import disk
+from caisson.shown import USUAL, Units
 
 LINES = ("black", "#c0392b", "#2166ac", "#2e8b57", "#8c510a", "#7b3294")
 STYLES = ("-", "--", ":", "-.")
@@ -52,12 +51,10 @@ def pushing_force(history: Table) -> np.ndarray:
 def names_of(directories: Sequence[Path]) -> list[str]:
     """Return a name for each directory: its last part, or as many of its last parts
     as distinguish it from the others."""
-    parts = [directory.resolve().parts for directory in directories]
-    for length in range(1, max(map(len, parts)) + 1):
-        names = ["/".join(part[-length:]) for part in parts]
-        if len(set(names)) == len(names):
-            return names
-    raise ResultsError("the same directory is given twice")
+    names = distinct_ends([directory.resolve().parts for directory in directories])
+    if len(set(names)) < len(names):
+        raise ResultsError("the same directory is given twice")
+    return names
 
 
 def default_picture(directories: Sequence[Path]) -> Path:
@@ -79,19 +76,13 @@ def read(directories: Sequence[Path]) -> Histories:
     return found
 
 
-def goes_by_suction(history: Table) -> bool:
-    """Return whether suction draws a body down: then the force that pushes it is its
-    weight, and says nothing."""
-    return design.SUCTION in history and design.goes_down(history)
-
-
 def panels_of(histories: Histories) -> dict[str, Table]:
     """Return the curves of each panel by its axis and the name of the run: the
-    required suctions, where there are any, and the forces."""
+    required suctions, where suction draws bodies down, and the forces."""
     suctions = {
         name: np.maximum(history[design.SUCTION], 0) / 1e3
         for name, history in histories.items()
-        if goes_by_suction(history)
+        if design.SUCTION in history and design.goes_down(history)
     }
     forces = {
         name: (history[TOTAL] if name in suctions else pushing_force(history)) / 1e3
@@ -101,12 +92,6 @@ def panels_of(histories: Histories) -> dict[str, Table]:
         return {"applied force (kN), push positive": forces}
     axis = "resistance; without suction, applied force (kN)"
     return {"required suction (kPa)": suctions, axis: forces}
-
-
-def units_of_all(directories: Sequence[Path]) -> Units:
-    """Return the units that suit all runs: the smaller ones where all are small."""
-    smaller = [Results(directory).shown.smaller for directory in directories]
-    return Units(frozenset.intersection(*smaller))
 
 
 def draw(picture: Path, histories: Histories, shown: Units = USUAL) -> Path:
@@ -128,13 +113,8 @@ def draw(picture: Path, histories: Histories, shown: Units = USUAL) -> Path:
                 label=name,
             )
         axes.axvline(0, color="0.6", linewidth=0.8)
-        axes.grid(color="0.9")
-        axes.set_axisbelow(True)
         axes.invert_yaxis()
-        axes.xaxis.set_label_position("top")
-        axes.xaxis.tick_top()
-        axes.set_xlabel(label)
-        axes.set_ylabel("penetration of the tip (m)")
+        over_depth(axes, label, "penetration of the tip (m)")
         axes.legend(fontsize=8)
     in_units(figure, shown)
     figure.tight_layout()
@@ -181,24 +161,6 @@ def columns_of(histories: Histories, interval: float) -> Table:
     return columns
 
 
-def write(path: Path, columns: Table) -> Path:
-    """Write the columns, with six digits and an empty cell where there is no value."""
-    texts = [
-        ["" if math.isnan(value) else f"{value:.6g}" for value in values]
-        for values in columns.values()
-    ]
-    write_csv(path, list(columns), list(zip(*texts)))
-    return path
-
-
-def positive(text: str) -> float:
-    """Return a length of the command line."""
-    value = float(text)
-    if not 0 < value < math.inf:
-        raise ValueError
-    return value
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson compare`."""
     parser.usage = (
@@ -216,7 +178,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     text = f"between the depths of the .csv file, in m, default {INTERVAL:g}"
     text += f", or {INTERVAL_OF_SMALL:g} of bodies shorter than 1 m"
-    parser.add_argument("--interval", type=positive, metavar="M", help=text)
+    parser.add_argument("--interval", type=length, metavar="M", help=text)
     text = "replace picture and .csv file if they are there"
     parser.add_argument("--overwrite", action="store_true", help=text)
     text = "print forces at round depths and the roughness of curves, and draw nothing"
@@ -233,20 +195,17 @@ def main(options: argparse.Namespace) -> int:
     directories = options.words
     if directories[0].suffix in PICTURES and not directories[0].is_dir():
         picture, directories = directories[0], directories[1:]
-    try:
-        if not directories:
-            raise ResultsError("give the output directory of a run")
-        histories = read(directories)
-        shown = units_of_all(directories)
-        usual = INTERVAL_OF_SMALL if "m" in shown.smaller else INTERVAL
-        columns = columns_of(histories, options.interval or usual)
-        picture = picture or default_picture(directories)
-        with disk.all_or_none(options.overwrite):
-            written = [draw(picture, histories, shown)]
-            written.append(write(picture.with_suffix(".csv"), columns))
-        for path in written:
-            print(f"compare: {seen(path)}")
-    except (InputError, OSError) as error:
-        print(f"compare: {error}", file=sys.stderr)
-        return 1
+    if not directories:
+        raise ResultsError("give the output directory of a run")
+    histories = read(directories)
+    smaller = [Results(directory).shown.smaller for directory in directories]
+    shown = Units(frozenset.intersection(*smaller))  # where all are small
+    usual = INTERVAL_OF_SMALL if "m" in shown.smaller else INTERVAL
+    columns = columns_of(histories, options.interval or usual)
+    picture = picture or default_picture(directories)
+    with disk.all_or_none(options.overwrite):
+        written = [draw(picture, histories, shown)]
+        written.append(write_columns(picture.with_suffix(".csv"), columns))
+    for path in written:
+        print(f"compare: {seen(path)}")
     return 0

@@ -9,7 +9,7 @@ import numpy as np
 from caisson import curves
 from caisson.plot import suction_methods, theory
 from caisson.results import Results, Table
-from caisson.table import write_csv
+from caisson.table import write_columns
 
 INTERVAL = 0.1  # m, between the rows
 FORCES = ("tip_force_N", "inner_friction_N", "outer_friction_N", "total_force_N")
@@ -30,15 +30,8 @@ def depths_of(history: Table) -> np.ndarray:
 
 
 def forces_at(history: Table, depth: np.ndarray) -> Table:
-    """Return the forces of a run on its way down at depths [n], as columns [n]. The
-    first row of a history is zero, as no time has passed, and is left out."""
-    rows = curves.way_down(history["penetration_m"])[1:]
-    known = history["penetration_m"][rows]
-    return {
-        name: curves.smoothed_at(known, history[name][rows], depth)
-        for name in FORCES
-        if name in history
-    }
+    """Return the forces of a run on its way down at depths [n], as columns [n]."""
+    return curves.down_at(history, filter(history.__contains__, FORCES), depth)
 
 
 def compared_at(history: Table, depth: np.ndarray) -> Table:
@@ -54,9 +47,7 @@ def compared_at(history: Table, depth: np.ndarray) -> Table:
 
 def suction_at(history: Table, depth: np.ndarray) -> np.ndarray:
     """Return the required suction of a run on its way down at depths [n]: [n]."""
-    rows = curves.way_down(history["penetration_m"])[1:]
-    known = history["penetration_m"][rows]
-    return curves.smoothed_at(known, history[SUCTION][rows], depth)
+    return curves.down_at(history, [SUCTION], depth)[SUCTION]
 
 
 def column_of(answer: theory.Answer, case: str, part: str) -> str:
@@ -96,8 +87,4 @@ def write(path: Path, run: Results) -> Path | None:
     path, or None where no caisson goes down."""
     if not theory.is_caisson(run.scene) or not goes_down(run.history):
         return None
-    columns = columns_of(run)
-    rows = zip(*(values.tolist() for values in columns.values()))
-    texts = [["" if np.isnan(v) else v for v in row] for row in rows]
-    write_csv(path, list(columns), texts)
-    return path
+    return write_columns(path, columns_of(run), 12)

@@ -14,9 +14,9 @@ from caisson.curves import depth_at
 from caisson.plot.cells import CellMeans
 from caisson.plot.forces import penetration
 from caisson.plot.small import in_units
-from caisson.plot.vtu import read_cells, read_points
+from caisson.vtu import read_cells, read_points
 from caisson.results import Results, ResultsError, Table
-from caisson_design import disk
+from caisson import disk
 
 Series = list[tuple[float, list[Path]]]  # [(time, [files])]
 Window = tuple[float, float, float]  # radius, bottom, top (m)

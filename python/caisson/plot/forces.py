@@ -9,11 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson import curves
-from caisson.curves import path_of, running_mean
+from caisson.curves import error_band, path_of, running_mean
 from caisson.plot import theory
-from caisson.plot.small import in_units
+from caisson.plot.small import in_units, over_depth, with_note
 from caisson.results import Results, Table
-from caisson_design import disk
+from caisson import disk
 
 COLORS = {
     "total": "black",
@@ -99,20 +99,6 @@ def draw_bands(
         )
 
 
-def error_band(
-    bounds: Table, name: str, unit: str = ""
-) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
-    """Return depths and running means of the lower and the upper bound of a quantity,
-    [n_rows] each, or None where the run has none."""
-    low, high = ["_".join(filter(None, [name, s, unit])) for s in ("low", "high")]
-    if low not in bounds or high not in bounds:
-        return None
-    depth = bounds["penetration_m"]
-    window = window_of(depth)
-    means = [running_mean(depth, bounds[column], window) for column in (low, high)]
-    return depth, means[0], means[1]
-
-
 def draw_error_bar(
     axes: Axes,
     band: tuple[np.ndarray, np.ndarray, np.ndarray] | None,
@@ -162,10 +148,8 @@ def set_limits(axes: Axes, depth: np.ndarray) -> None:
 
 def label_axes(axes: Axes, name: str, body: str) -> None:
     """Name the force of a panel, and place its axes and its legend."""
-    axes.xaxis.set_label_position("top")
-    axes.xaxis.tick_top()
-    axes.set_xlabel(f"{name} (kN)")
-    axes.set_ylabel(f"penetration of the {LOWEST.get(body, 'tip')} (m)")
+    depth = f"penetration of the {LOWEST.get(body, 'tip')} (m)"
+    over_depth(axes, f"{name} (kN)", depth)
     axes.legend(fontsize=8, framealpha=0.9, loc="upper right")
 
 
@@ -221,6 +205,7 @@ def draw_over_time(axes: Axes, history: Table) -> None:
         if column_of(name) in history:
             force = history[column_of(name)] / 1e3
             axes.plot(history["time_s"], force, color=color, label=name)
+    axes.grid(color="0.9")
     axes.set_xlabel("time (s)")
     axes.set_ylabel("force (kN)")
     axes.legend(fontsize=8)
@@ -237,20 +222,10 @@ def caption(run: Results, site: theory.Site, answers: list[theory.Answer]) -> st
     )
     if answers[0].forces:
         text += f"; {theory.assumptions_in_words(site.scene)}: dashed low, dotted high"
-    reasons = [f"{names}: {why}" for names, why in theory.reasons(answers)]
-    silent = f"no answer from {'; '.join(reasons)}" if reasons else ""
+    silent = theory.reasons_in_words(answers)
     end = theory.about_cone(site, float(depth.max()))
     lines = [x.replace(" = ", "\u00a0=\u00a0") for x in (text, silent, end) if x]
     return "\n".join(textwrap.fill(line, 150) for line in lines)
-
-
-def panels_of(figure: Figure, n: int) -> list[Axes]:
-    """Return the panels of a figure, with their grids."""
-    panels = list(figure.subplots(1, n, squeeze=False)[0])
-    for panel in panels:
-        panel.grid(color="0.9")
-        panel.set_axisbelow(True)
-    return panels
 
 
 def draw_over_depth(run: Results, depth: np.ndarray) -> Figure:
@@ -261,14 +236,13 @@ def draw_over_depth(run: Results, depth: np.ndarray) -> Figure:
     with_methods = any(map(has_line, answers[1:]))
     figure = Figure(figsize=(16.5 if with_methods else 11, 6.5))
     figure.suptitle(run.title, fontsize=10)
-    panels = panels_of(figure, 3 if with_methods else 2)
+    panels = figure.subplots(1, 3 if with_methods else 2)
     draw_panel(panels[0], run, tuple(COLORS), answers[0])
     draw_panel(panels[1], run, FRICTION, answers[0])
     if with_methods:
         draw_methods(panels[2], run, answers)
     text = caption(run, site, answers)
-    figure.text(0.5, 0.008, text, ha="center", fontsize=8, color="0.3")
-    figure.tight_layout(rect=(0, 0.015 + 0.02 * len(text.splitlines()), 1, 1))
+    with_note(figure, text)
     return figure
 
 
@@ -282,7 +256,7 @@ def draw(path: Path, run: Results) -> Path | None:
     if depth is None:
         figure = Figure(figsize=(7, 4))
         figure.suptitle(run.title, fontsize=10)
-        draw_over_time(panels_of(figure, 1)[0], history)
+        draw_over_time(figure.subplots(), history)
         figure.tight_layout()
     else:
         figure = draw_over_depth(run, depth)

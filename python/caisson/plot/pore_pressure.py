@@ -11,7 +11,7 @@ from matplotlib.colors import ListedColormap
 from caisson.plot import fields
 from caisson.plot.flow import Flow
 from caisson.results import Results, Table
-from caisson_design import disk
+from caisson import disk
 
 N_LINES = 12
 LEAST = 0.03  # of the largest pressure; flow lines of less are not drawn

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Axes of pictures in the units of small bodies: N, Pa and mm."""
+"""Axes over depth, notes below pictures, and the units of small bodies: N, Pa, mm."""
+from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
-from caisson_design.shown import Units
+from caisson.shown import Units
 
 
 def in_units(figure: Figure, shown: Units) -> None:
@@ -21,3 +22,20 @@ def label_in_units(axis: Axis, shown: Units) -> None:
     if (factor := shown.factor_of(label)) != 1:
         axis.set_label_text(shown.named(label))
         axis.set_major_formatter(FuncFormatter(lambda x, _: f"{factor * x:g}"))
+
+
+def over_depth(axes: Axes, label: str, depth: str, grid: str = "both") -> None:
+    """Name the axes of a panel over depth, the upper one with its unit."""
+    axes.grid(color="0.9", axis=grid)
+    axes.set_axisbelow(True)
+    axes.xaxis.set_label_position("top")
+    axes.xaxis.tick_top()
+    axes.set_xlabel(label)
+    axes.set_ylabel(depth)
+
+
+def with_note(figure: Figure, note: str) -> None:
+    """Write a note below the panels of a figure."""
+    figure.text(0.5, 0.008, note, ha="center", fontsize=8, color="0.3", wrap=True)
+    room = 0.015 + 0.02 * len(note.splitlines())
+    figure.tight_layout(rect=(0, room, 1, 1))

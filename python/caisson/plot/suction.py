@@ -10,14 +10,16 @@ from matplotlib.figure import Figure
 from caisson.evaluation import pump_limit, rest_of_run
 from caisson.plot import suction_methods as methods
 from caisson.plot import theory
-from caisson.plot.forces import COLORS, draw_error_bar, error_band, penetration
-from caisson.plot.small import in_units
+from caisson.curves import error_band
+from caisson.plot.forces import COLORS, draw_error_bar, penetration
+from caisson.plot.small import in_units, over_depth, with_note
 from caisson.results import Results, Table
-from caisson_design import disk
+from caisson import disk
 
 BLUE, GREEN, RED = (
     COLORS[name] for name in ("inner friction", "outer friction", "tip")
 )
+COLOR_OF = {methods.HOULSBY_BYRNE: BLUE}  # of a required suction; others are green
 # column of design.csv: label and line of a critical suction; a required one is a band
 CRITICAL_COLOR = "#b35806"
 CRITICAL = {
@@ -42,45 +44,23 @@ def has_line(*suctions: np.ndarray) -> bool:
     return any(np.isfinite(values).any() for values in suctions)
 
 
-def upper_end(answers: methods.Answers, low: str, high: str) -> np.ndarray:
-    """Return the upper end of a range of required suctions; where none suffices there
-    but one at the lower end, the suction at which the method expects piping."""
-    lower, upper = answers.suctions[low], answers.suctions[high]
-    only_lower = np.isfinite(lower) & ~np.isfinite(upper)
-    return np.where(only_lower, answers.suctions[methods.LIMITS[high]], upper)
-
-
-def draw_band(
-    axes: Axes, answers: methods.Answers, low: str, high: str, color: str, name: str
-) -> None:
-    """Draw the range between two required suctions, in kPa; they are drawn from where
-    the weight no longer suffices."""
-    lines = [from_rest_on(answers.suctions[column]) for column in (low, high)]
-    if not has_line(*lines):
-        return
-    axes.fill_betweenx(
-        answers.depth,
-        answers.suctions[low] / 1e3,
-        upper_end(answers, low, high) / 1e3,
-        facecolor=color,
-        alpha=0.18,
-        linewidth=0,
-        label=f"required, {name}",
-    )
-    for line, style in zip(lines, ("--", ":")):
-        axes.plot(line, answers.depth, color=color, linewidth=0.8, linestyle=style)
-
-
 def draw_required(axes: Axes, answers: methods.Answers) -> None:
-    """Draw the required suction of the methods, in kPa."""
-    name = "Houlsby & Byrne (2005)"
-    draw_band(axes, answers, methods.LOW, methods.HIGH, BLUE, name)
-    line = from_rest_on(answers.suctions[methods.LOWER_BOUND])
-    if has_line(line):
-        label = f"required, {theory.LOWER_BOUND}"
-        axes.plot(line, answers.depth, "-.", color=BLUE, linewidth=0.6, label=label)
-    name = answers.senders_randolph
-    draw_band(axes, answers, methods.CONE_LOW, methods.CONE_HIGH, GREEN, name)
+    """Draw the ranges of the required suction of the methods, in kPa, from where the
+    weight no longer suffices."""
+    for method in answers.required:
+        color = COLOR_OF.get(method.name, GREEN)
+        low, high = (end / 1e3 for end in method.band)
+        lines = [from_rest_on(values) for values in method.cases.values()]
+        bounds = [from_rest_on(values) for values in method.bounds.values()]
+        if has_line(*lines):
+            label = f"required, {method.name}"
+            style = {"facecolor": color, "alpha": 0.18, "linewidth": 0}
+            axes.fill_betweenx(answers.depth, low, high, label=label, **style)
+            for line, dashes in zip(lines, ("--", ":")):
+                axes.plot(line, answers.depth, dashes, color=color, linewidth=0.8)
+        for line in filter(has_line, bounds):
+            label = f"required, {theory.LOWER_BOUND}"
+            axes.plot(line, answers.depth, "-.", color=color, lw=0.6, label=label)
 
 
 def draw_critical(axes: Axes, answers: methods.Answers) -> None:
@@ -246,16 +226,6 @@ def caption(answers: methods.Answers, site: theory.Site) -> str:
     return "\n".join(lines)
 
 
-def set_depth_axis(axes: Axes, depth: np.ndarray, place: str) -> None:
-    """Let depth point downward, label the upper side, and place the legend."""
-    axes.grid(color="0.9")
-    axes.set_axisbelow(True)
-    axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
-    axes.xaxis.set_label_position("top")
-    axes.xaxis.tick_top()
-    axes.legend(fontsize=8, framealpha=0.9, loc=place)
-
-
 def draw(directory: Path, run: Results) -> list[Path]:
     """Write suction.png; return its path, none without a pump or without
     penetration."""
@@ -275,12 +245,13 @@ def draw(directory: Path, run: Results) -> list[Path]:
     draw_gradients(panels[1], run)
     draw_heave(panels[2], run)
     for axes, place in zip(panels, ("upper right", "lower left", "upper right")):
-        set_depth_axis(axes, depth, place)
+        over_depth(axes, axes.get_xlabel(), "")
+        axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
+        axes.legend(fontsize=8, framealpha=0.9, loc=place)
     panels[0].set_ylabel("penetration of the skirt tip (m)")
     about = textwrap.fill(theory.about_cone(site, deepest), 200)
     text = "\n".join(filter(None, [caption(answers, site), about]))
-    figure.text(0.5, 0.008, text, ha="center", fontsize=8, color="0.3")
-    figure.tight_layout(rect=(0, 0.015 + 0.02 * len(text.splitlines()), 1, 1))
+    with_note(figure, text)
     picture = directory / "suction.png"
     in_units(figure, run.shown)
     return [disk.save(figure, picture)]

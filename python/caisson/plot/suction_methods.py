@@ -10,18 +10,20 @@ import numpy as np
 
 from caisson.plot.theory import (
     ASSUMED_CONE,
+    Beside,
     NotApplicable,
     Scene,
     Site,
     houlsby_byrne_of,
     senders_randolph_of,
 )
-from caisson_design import suction_installation as installation
-from caisson_design.cone import ConeMethod
-from caisson_design.houlsby_byrne import UNDISTURBED, Caisson, HoulsbyByrne
-from caisson_design.method import Method
-from caisson_design.seepage import feld, ibsen_thilsted
+from caisson.design import suction_installation as installation
+from caisson.design.cone import ConeMethod
+from caisson.design.houlsby_byrne import UNDISTURBED, Caisson, HoulsbyByrne
+from caisson.design.method import Method
+from caisson.design.seepage import feld, ibsen_thilsted
 
+HOULSBY_BYRNE = "Houlsby & Byrne (2005)"
 SENDERS_RANDOLPH = "Senders & Randolph (2009)"
 LOW, HIGH = "houlsby_byrne_low_Pa", "houlsby_byrne_high_Pa"
 LOWER_BOUND = "houlsby_byrne_undisturbed_Pa"
@@ -40,8 +42,6 @@ METHODS = (
     CRITICAL_IBSEN_THILSTED,
     PIPING,
 )
-# the suction beyond which the equations of a required one do not hold
-LIMITS = {HIGH: PIPING, CONE_HIGH: CRITICAL_SENDERS_RANDOLPH}
 
 
 @dataclass(frozen=True)
@@ -63,6 +63,22 @@ class Answers:
     def senders_randolph(self) -> str:
         """The name of the method from a cone."""
         return SENDERS_RANDOLPH + (ASSUMED_CONE if self.assumed else "")
+
+    @property
+    def required(self) -> list[Beside]:
+        """The required suctions of the methods that have any."""
+        found = self.suctions
+        if not found:
+            return []
+        byrne = {case: found[column] for column, case in CASES.items()}
+        bound = {UNDISTURBED: byrne.pop(UNDISTURBED)}
+        cone = {"low": found[CONE_LOW], "high": found[CONE_HIGH]}
+        limit = found[CRITICAL_SENDERS_RANDOLPH]
+        both = (
+            Beside(HOULSBY_BYRNE, byrne, bound, found[PIPING], may_end=True),
+            Beside(self.senders_randolph, cone, {}, limit),
+        )
+        return [method for method in both if method.is_known]
 
 
 def weight_of(scene: Scene) -> float:

@@ -13,16 +13,16 @@ import numpy as np
 
 from caisson.density_law import BY_DENSITY
 from caisson.results import Results, ResultsError
-from caisson_design import andersen, assumed, clay, dnv, houlsby_byrne, senders_randolph
-from caisson_design.assumed_cone import STEP, Sand, SandGround, assumed_cone
-from caisson_design.cone import ConeMethod, Profile, Skirt, of_run
-from caisson_design.houlsby_byrne import (
+from caisson.design import andersen, assumed, clay, dnv, houlsby_byrne, senders_randolph
+from caisson.design.assumed_cone import STEP, Sand, SandGround, assumed_cone
+from caisson.design.cone import ConeMethod, Profile, Skirt, of_run
+from caisson.design.houlsby_byrne import (
     UNDISTURBED,
     Assumptions,
     HoulsbyByrne,
     Layer,
 )
-from caisson_design.method import Forces, Method
+from caisson.design.method import Forces, Method
 
 Scene = Mapping[str, Any]
 # The laws whose strength is one friction angle; run.json names the law of a layer.
@@ -331,6 +331,30 @@ METHODS = (
 
 
 @dataclass(frozen=True)
+class Beside:
+    """What a method says of one quantity over depth, beside which a run stands: its
+    lower and its upper case, and a bound below them, [n] each (N or Pa); the limit
+    beyond which no suction suffices, and whether the cases end there, by piping."""
+
+    name: str
+    cases: dict[str, np.ndarray]
+    bounds: dict[str, np.ndarray] = field(default_factory=dict)
+    limit: float | np.ndarray = np.nan
+    may_end: bool = False
+
+    @property
+    def is_known(self) -> bool:
+        """Whether there is anything to show."""
+        return any(np.isfinite(values).any() for values in self.cases.values())
+
+    @property
+    def band(self) -> tuple[np.ndarray, np.ndarray]:
+        """Both ends; where only the upper case has none, the limit."""
+        low, high = self.cases.values()
+        return low, np.where(np.isfinite(low) & np.isnan(high), self.limit, high)
+
+
+@dataclass(frozen=True)
 class Answer:
     """What a method says over depth: forces by case and part, [n] (N) at embedments
     depth [n] (m), nan where it has no answer; none, and why not."""
@@ -345,6 +369,13 @@ class Answer:
     def name(self) -> str:
         """The name of the method, marked where its cone resistance is assumed."""
         return self.method.name + (ASSUMED_CONE if self.assumed else "")
+
+    @property
+    def total(self) -> Beside:
+        """The total force; no case without an answer."""
+        totals = {case: forces["total"] for case, forces in self.forces.items()}
+        bounds = {b: totals.pop(b) for b in self.method.bound if b in totals}
+        return Beside(self.name, totals, bounds)
 
     def band(self, part: str) -> tuple[np.ndarray, np.ndarray]:
         """Return a part in the lower and in the upper case (N)."""
@@ -411,6 +442,12 @@ def reasons(answers: list[Answer]) -> list[tuple[str, str]]:
         if answer.why_not and not (is_sand and answer.method.key == "clay"):
             found.setdefault(answer.why_not, []).append(answer.method.name)
     return [(", ".join(names), reason) for reason, names in found.items()]
+
+
+def reasons_in_words(answers: list[Answer]) -> str:
+    """Return which methods have no answer, and why, in one line."""
+    texts = [f"{names}: {why}" for names, why in reasons(answers)]
+    return f"no answer from {'; '.join(texts)}" if texts else ""
 
 
 def about_cone(site: Site, deepest: float) -> str:

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from caisson.plot.fields import MOST_FRAMES
 from caisson.plot.small import in_units
 from caisson.results import Results, Table
-from caisson_design import disk
-from caisson_design.shown import Units
+from caisson import disk
+from caisson.shown import Units
 
 # part of the name of a column: its label, and the column of what stands beside it
 STRESSES = {

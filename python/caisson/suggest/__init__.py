@@ -23,16 +23,15 @@ import argparse
 import functools
 import os
 import re
-import sys
 import tempfile
 from collections.abc import Sequence
 from math import inf, pi
 from pathlib import Path
 
-import jinja2
 
 from caisson import density_law
-from caisson.cpt import tables
+from caisson.design import cone_texts
+from caisson.template import template
 from caisson.paths import INSTALLED
 from caisson.runner import RunError, query
 from caisson.suggest import clay, cone, sand
@@ -57,12 +56,14 @@ from caisson.suggest.walls import (
     wall_friction_of,
     with_walls,
 )
-from caisson_design import InputError, cone_file, cone_options, disk, interpretation
-from caisson_design.interpretation import Interpretation
-from caisson_design.quantity import angle_of_friction, length, number
-from caisson_design.shown import units_for
+from caisson import disk
+from caisson.design import cone_file, cone_options, interpretation
+from caisson.design.interpretation import Interpretation
+from caisson.design.quantity import angle_of_friction, length, number
+from caisson.shown import units_for
 
 # of a study: of the friction angle (degrees), or of the relative density
+HERE = Path(__file__).parent
 CHANGES = (-4, -2, 0, 2, 4)
 CHANGES_OF_DENSITY = (-0.2, -0.1, 0, 0.1, 0.2)
 VELOCITY = 0.1  # m/s
@@ -231,22 +232,6 @@ def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
     return found
 
 
-def template(name: str) -> jinja2.Template:
-    """Return a template of this package."""
-    environment_of_text = jinja2.Environment(
-        loader=jinja2.PackageLoader("caisson.suggest", "."),
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        undefined=jinja2.StrictUndefined,
-        # a text of the user, as the name of a file, ends no line
-        finalize=lambda x: disk.in_one_line(x) if isinstance(x, str) else x,
-    )
-    environment_of_text.filters["quoted"] = disk.quoted
-    environment_of_text.filters["number"] = lambda value: f"{float(value):.6g}"
-    return environment_of_text.get_template(name)
-
-
 def begin_of(options: argparse.Namespace) -> float:
     """Return where the run begins (m)."""
     given = options.embedment
@@ -288,7 +273,7 @@ def table_of_cone(options: argparse.Namespace) -> Path:
 
 def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
     """Return the text of a study with low, best and high estimate of a cone test."""
-    return template("soil_study.toml.jinja").render(
+    return template(HERE / "soil_study.toml.jinja").render(
         scene=os.path.relpath(options.file, options.study.parent),
         cone=os.path.relpath(table_of_cone(options), options.study.parent),
         name=options.cpt.name,
@@ -320,7 +305,7 @@ def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
                 entries[f"Rigid body/Friction angle of the {side} wall"] = wall
         choices[name] = entries
     scene = os.path.relpath(options.file, options.study.parent)
-    return template("study.toml.jinja").render(
+    return template(HERE / "study.toml.jinja").render(
         scene=scene,
         follows=follows,
         choices=choices,
@@ -361,7 +346,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
     soil = with_walls(
         clay.with_states(layers, end, -mesh.bottom), options.wall_friction, deep
     )
-    return template("scene.prm.jinja").render(
+    return template(HERE / "scene.prm.jinja").render(
         title=f"a caisson of {size.length(body.diameter)} with a wall of"
         f" {body.wall * 1e3:g} mm, {how}",
         body=body,
@@ -468,7 +453,7 @@ def write(options: argparse.Namespace) -> None:
     if options.cpt:
         deepest = cone.REACH * options.skirt
         found = interpretation.interpret(options.cpt, options, deepest)
-        print(tables.text_of_test(found))
+        print(cone_texts.text_of_test(found))
         layers = cone.layers_of(
             found, end_of(options), law_of(options), bool(options.weight)
         )
@@ -501,11 +486,7 @@ def write(options: argparse.Namespace) -> None:
 
 def main(options: argparse.Namespace) -> int:
     """Write the scene, and say what it will cost."""
-    try:
-        write(options)
-    except (SuggestError, RunError, InputError, OSError) as error:
-        print(f"suggest: {error}", file=sys.stderr)
-        return 1
+    write(options)
     run, study = (
         ("caisson run", "caisson study")
         if INSTALLED

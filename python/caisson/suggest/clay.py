@@ -23,10 +23,10 @@ import numpy as np
 
 from caisson import density_law as names
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer
-from caisson_design.cone_estimates import CLAY_RATIOS
-from caisson_design.correlations import RESTS_OF_CLAY
-from caisson_design.expression import value_at
-from caisson_design.ground import (
+from caisson.design.cone_estimates import CLAY_RATIOS
+from caisson.design.correlations import RESTS_OF_CLAY
+from caisson.design.expression import value_at
+from caisson.design.ground import (
     CONE_FACTOR,
     GRAVITY,
     WATER,

@@ -3,12 +3,12 @@
 from typing import Any
 
 from caisson import density_law
-from caisson.cpt.tables import SHOWN, text_of
+from caisson.design.cone_texts import SHOWN, text_of
 from caisson.suggest import clay, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.soil import ASSUMED, BY_STRESS
 from caisson.suggest.walls import ADHESION_OF_CLAY
-from caisson_design.cone_estimates import (
+from caisson.design.cone_estimates import (
     ENDS,
     K0,
     REFERENCE,
@@ -16,10 +16,10 @@ from caisson_design.cone_estimates import (
     WEIGHT,
     Estimates,
 )
-from caisson_design.correlations import ANGLE, DENSITY, MODULUS, STRENGTH
-from caisson_design.cone_rules import GIVEN
-from caisson_design.ground import CLAY, SAND, SILT
-from caisson_design.interpretation import Interpretation
+from caisson.design.correlations import ANGLE, DENSITY, MODULUS, STRENGTH
+from caisson.design.cone_rules import GIVEN
+from caisson.design.ground import CLAY, SAND, SILT
+from caisson.design.interpretation import Interpretation
 
 REACH = 1.5  # times the skirt: the test counts to this depth
 

@@ -2,10 +2,12 @@
 """What scenes of suggest are made of."""
 from dataclasses import dataclass
 
+from caisson.disk import InputError
+
 ASSUMPTION = " # ASSUMED"
 
 
-class SuggestError(Exception):
+class SuggestError(InputError):
     """What is wrong with what was given; the text is for the user."""
 
 

@@ -3,7 +3,7 @@
 
 What is not given is that of quartz sand of the sea bed, with its source in a few words.
 The modulus is that of the cone resistance which the design methods assume for this
-density (caisson_design.density), so that scene and methods have the same sand.
+density (caisson.design.density), so that scene and methods have the same sand.
 """
 import difflib
 import math
@@ -12,8 +12,8 @@ from collections.abc import Iterable, Mapping
 
 from caisson import density_law as names
 from caisson.suggest.entry import ASSUMPTION, Entry, SuggestError
-from caisson_design.correlations import MODULUS_RATIOS
-from caisson_design.density import ATMOSPHERE, CRITICAL_ANGLE, cone_resistance
+from caisson.design.correlations import MODULUS_RATIOS
+from caisson.design.density import ATMOSPHERE, CRITICAL_ANGLE, cone_resistance
 
 # relative density in the middle of a class, and its ends in % (ISO 14688-2)
 WORDS = {

@@ -9,8 +9,8 @@ from collections.abc import Collection, Iterable, Mapping
 from caisson import density_law as names
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest import clay, sand
-from caisson_design import expression, quantity
-from caisson_design.ground import porosity_of
+from caisson.design import expression, quantity
+from caisson.design.ground import porosity_of
 
 MOHR_COULOMB = "Mohr-Coulomb"
 BY_STRESS = "Mohr-Coulomb with stiffness by stress"

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Layers of soil and their parameters, low, best and high, from a cone test; of a
+caisson also its scene, and a study of the three estimates beside all design methods.
+
+    caisson cpt FILE
+    caisson cpt FILE --diameter 10 --skirt 8 --wall 40mm --run
+
+The file is GEF, AGS 4, BRO-XML, a workbook (.xlsx) or a table with the columns depth_m
+and qc_MPa and, where they were measured, fs_kPa and u2_kPa. Results go to
+results/cpt/NAME: layers.csv and cpt.png; of a caisson scene.prm and study.toml, and
+with --run report.html.
+"""
+import argparse
+from pathlib import Path
+
+from caisson import suggest
+from caisson.commands import cpt_page
+from caisson.design import cone_texts
+from caisson.paths import RESULTS, scene_or_study, short
+from caisson.study import check_is_own, file_name
+from caisson.study_command import whole_number
+from caisson.suggest.cone import REACH
+from caisson import disk
+from caisson.design import cone_picture, interpretation
+from caisson.disk import InputError
+from caisson.terminal import printable
+from caisson.design.correlations import EVERY
+from caisson.design.interpretation import Interpretation
+
+SIZES = ("diameter", "skirt", "wall")
+SCENE, STUDY = "scene.prm", "study.toml"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson cpt`."""
+    add = parser.add_argument
+    add("cpt", type=scene_or_study, nargs="?", metavar="FILE", help="the test")
+    add("--out", type=Path, metavar="DIR", help="of the results")
+    add("--list", action="store_true", help="list the correlations, and do no more")
+    add("--overwrite", action="store_true", help="replace files that were changed")
+    add("--run", action="store_true", help="run the study of a caisson")
+    text = "runs at a time, default: the fastest"
+    add("--jobs", type=whole_number, metavar="N", help=text)
+    suggest.add_caisson_arguments(parser, required=False)
+    interpretation.add_arguments(parser)
+
+
+def check(options: argparse.Namespace) -> bool:
+    """Return whether there is a caisson. Raises InputError."""
+    if options.cpt is None:
+        raise InputError("give the file of a cone test, or --list")
+    given = [name for name in SIZES if getattr(options, name) is not None]
+    if given and len(given) < len(SIZES):
+        missing = [f"--{name}" for name in SIZES if name not in given]
+        raise InputError(f"of the caisson, {' and '.join(missing)} are missing")
+    if options.run and not given:
+        raise InputError("--run needs a caisson: --diameter, --skirt and --wall")
+    return bool(given)
+
+
+def caisson_of(options: argparse.Namespace) -> str:
+    """Return the caisson in words."""
+    weight = f", weight in water {options.weight / 1e3:g} kN" if options.weight else ""
+    return (
+        f"diameter {options.diameter:g} m, skirt {options.skirt:g} m, wall"
+        f" {options.wall * 1e3:g} mm{weight}; tip to {suggest.end_of(options):g} m"
+    )
+
+
+def write(
+    found: Interpretation, directory: Path, tip: float | None, location: str
+) -> list[Path]:
+    """Write table and picture into a directory; return the files. tip: the depth to
+    which a skirt goes (m); location: of the test, in a file of several."""
+    directory.mkdir(parents=True, exist_ok=True)
+    title = f"Cone test {found.name} {printable(location)}".rstrip()
+    return [
+        cone_texts.write(directory / "layers.csv", found.layers),
+        cone_picture.draw(
+            directory / "cpt.png", title, found.ground, found.layers, found.names, tip
+        ),
+    ]
+
+
+def report(files: list[Path]) -> None:
+    """Say what has been written."""
+    for file in files:
+        print(f"cpt: {short(file)}")
+
+
+def main(options: argparse.Namespace) -> int:
+    """Write layers, picture and, of a caisson, scene, study and report."""
+    if options.list:
+        for c in EVERY:
+            print(f"{c.name:20}{c.quantity:20}{c.source}; {c.holds}")
+        return 0
+    has_caisson = check(options)
+    deepest = REACH * options.skirt if has_caisson else None
+    found = interpretation.interpret(options.cpt, options, deepest)
+    name = f"{options.cpt.stem} {options.location}".rstrip()
+    directory: Path = options.out or RESULTS / "cpt" / file_name(name)
+    if not has_caisson:
+        print(cone_texts.text_of_test(found))
+    tip = suggest.end_of(options) if has_caisson else None
+    with disk.all_or_none(options.overwrite):
+        files = write(found, directory, tip, options.location)
+        if has_caisson:
+            options.file, options.study = directory / SCENE, directory / STUDY
+            options.layer = options.sand = options.density = None
+            options.overwrite = True
+            suggest.write(options)  # which prints the table
+            files += [options.file, options.study]
+    report(files)
+    if not options.run:
+        return 0
+    study = cpt_page.study_of(options.study, directory)
+    check_is_own(directory, study, [cpt_page.NAME])
+    status = cpt_page.run_study(options.study, directory, options.jobs)
+    name = f"{found.name} {printable(options.location)}".rstrip()
+    facts = [("Caisson", caisson_of(options)), ("Ground", f"cone test {name}")]
+    report([cpt_page.write(found, options.study, directory, facts)])
+    return status

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs the study of a cone test, and writes report.html: the test, layers, and the
+forces of all estimates beside the design methods, on one page."""
+import argparse
+import base64
+import html
+import re
+from pathlib import Path
+
+import numpy as np
+
+from caisson.template import template
+from caisson import report
+from caisson import plot, study_command
+from caisson.design import cone_texts
+from caisson.parameters import methods
+from caisson.parameters.methods import TOTAL, Answers
+from caisson.parameters.outcome import Outcomes, words_of
+from caisson.plot import theory
+from caisson.results import ResultsError
+from caisson.study import Options, Study, file_name
+from caisson import disk
+from caisson.design.interpretation import Interpretation
+from caisson.design.reasons import text_of
+
+HERE = Path(__file__).parent
+NAME = "report.html"
+WIDEST = 5  # layers side by side
+
+
+def run_study(file: Path, directory: Path, jobs: int | None) -> int:
+    """Run what is missing of a study, into a directory; return its status."""
+    parser = argparse.ArgumentParser(prog="caisson study")
+    study_command.add_arguments(parser)
+    words = [str(file), "--results", str(directory)]
+    words += ["--jobs", str(jobs)] if jobs else []
+    return study_command.main(parser.parse_args(words))
+
+
+def study_of(file: Path, directory: Path) -> Study:
+    """Return the study of a file with results in a directory. Raises StudyError."""
+    module = study_command.module_of(file)
+    options = Options(results=directory.resolve())
+    return study_command.reader_of(file, options, module).studies()[0]
+
+
+def forces_of(found: Answers) -> tuple[list[str], list[list[str]]]:
+    """Return heads and rows of the total force (kN) at each meter and at the end: of
+    each run, and the range of each method."""
+    meters = np.arange(1, int(found.depth[-1] + 1e-6) + 1)
+    at = np.searchsorted(found.depth, meters - 1e-6)
+    at = np.unique([*at, len(found.depth) - 1])
+    heads = ["Depth (m)", *(f"Computed, {name}" for name in found.names)]
+    columns = [[text_of(depth) for depth in found.depth[at]]]
+    for force in found.computed:
+        columns.append([text_of(value / 1e3) for value in force[at]])
+    for i, method in enumerate(theory.METHODS):
+        band = found.band(i)
+        if band is None:
+            continue
+        heads.append(method.name)
+        low, high = (end[at] / 1e3 for end in band)
+        columns.append([range_of(a, b) for a, b in zip(low, high)])
+    return heads, [list(row) for row in zip(*columns)]
+
+
+def range_of(low: float, high: float) -> str:
+    """Return two ends, nothing where there are none."""
+    if not np.isfinite(low + high):
+        return ""
+    return f"{text_of(low)} to {text_of(high)}"
+
+
+def by_layer(
+    heads: list[str], rows: list[list[str]]
+) -> list[tuple[list[str], list[list[str]]]]:
+    """Return a table of layers as tables with a column for each layer and few of them,
+    which fit on a page."""
+    found = []
+    for first in range(0, len(rows), WIDEST):
+        columns = [heads, *rows[first : first + WIDEST]]
+        lines = [[capital(head), *rest] for head, *rest in zip(*columns)]
+        found.append((lines[0], lines[1:]))
+    return found
+
+
+def capital(head: str) -> str:
+    """Return a head as a title, but for symbols."""
+    return re.sub("^[a-z]{4,}", lambda word: word[0].capitalize(), head)
+
+
+def with_subscripts(text: str) -> str:
+    """Return a text as HTML, with q_c and its like as one writes them."""
+    safe = html.escape(text).replace("phi (deg)", "φ (°)")
+    return re.sub(r"\b([A-Za-z])_(\w+)", r"\1<sub>\2</sub>", safe)
+
+
+def picture_of(path: Path) -> str:
+    """Return a picture as data for the page."""
+    return base64.b64encode(path.read_bytes()).decode("ascii")
+
+
+def reports_of(outcomes: Outcomes, directory: Path) -> list[tuple[str, str]]:
+    """Draw pictures and report of each run; return (name, path from the page)."""
+    found = []
+    for outcome in outcomes.complete:
+        of_run = outcome.run.run.directory
+        plot.draw(of_run)
+        path = report.write(of_run)
+        found.append((outcome.name, str(path.relative_to(directory.resolve()))))
+    return found
+
+
+def troubles_of(outcomes: Outcomes) -> list[str]:
+    """Return what has failed, and the warnings of the runs."""
+    found = [
+        f"{outcome.name}: {outcome.status}, {outcome.why}".rstrip(", ")
+        for outcome in outcomes.all
+        if not outcome.is_complete
+    ]
+    warnings: dict[str, list[str]] = {}
+    for outcome in outcomes.complete:
+        for warning in outcome.run.results.summary.get("warnings", []):
+            warnings.setdefault(warning, []).append(outcome.name)
+    return found + [f"{', '.join(names)}: {text}" for text, names in warnings.items()]
+
+
+def job_of(facts: list[tuple[str, str]], outcomes: Outcomes) -> list[tuple[str, str]]:
+    """Return what a first page must name: facts, and when the last run was computed and
+    by what."""
+    summaries = [outcome.run.results.summary for outcome in outcomes.complete]
+    last = max(summaries, key=lambda summary: str(summary.get("written", "")))
+    written = str(last.get("written", ""))[:16].replace("T", " ")
+    program = f"caisson_mpm {last.get('version', '')}".rstrip()
+    return [*facts, ("Computed", written or "not known"), ("Program", program)]
+
+
+def write(
+    test: Interpretation, file: Path, directory: Path, facts: list[tuple[str, str]]
+) -> Path:
+    """Write the page of a study with a cone test. facts: what it names first. Raises
+    ResultsError where no run has an answer."""
+    study = study_of(file, directory)
+    outcomes = Outcomes(study)
+    if not outcomes.complete:
+        raise ResultsError(f"no run of {file} is complete: see their logs")
+    answers = methods.answers_of(outcomes)
+    results = directory / file_name(study.id)
+    css = Path(report.__file__).parent / "page.css"
+    path = directory / NAME
+    disk.write(
+        path,
+        template(HERE / "cpt_page.html.jinja", sub=with_subscripts).render(
+            title=study.title,
+            job=job_of(facts, outcomes),
+            test=test.name,
+            troubles=troubles_of(outcomes),
+            soil=by_layer(*cone_texts.cells_of(test.layers)),
+            remarks=cone_texts.remarks(test),
+            forces=forces_of(answers),
+            reasons=theory.reasons(answers.answers[0]),
+            profile=picture_of(directory / "cpt.png"),
+            methods=picture_of(results / "methods.png"),
+            observed="" if outcomes.column == TOTAL else words_of(outcomes.column),
+            fan=picture_of(results / "fan.png"),
+            reports=reports_of(outcomes, directory),
+            style=css.read_text(encoding="utf-8"),
+        ),
+    )
+    return path

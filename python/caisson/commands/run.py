@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs a scene on as many ranks as pay, or on those of --ranks, and draws its pictures.
+
+With --error it first finds the coarsest mesh whose error bar is small enough, and runs
+the scene on that one.
+The exit status is the program's: 0 success, 1 bad input, 2 failure, 3 stopped on
+request. Options of caisson_mpm follow the file. A scene that is not a file here is
+one of the project, see `caisson scenes`.
+"""
+import argparse
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from caisson import needed, ranks
+from caisson.paths import INSTALLED, PROGRAM, SCENES, scene_or_study, short
+from caisson.runner import (
+    RunError,
+    Status,
+    query,
+    environment,
+    mpi_command,
+    read_parameters,
+    size_in,
+)
+
+PACKAGES = Path(__file__).parents[2]
+RENEWAL = 30.0  # s, in which the report of a run is renewed
+SHARE = 20.0  # of that time to the time that it takes, at least
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson run`."""
+    parser.usage = (
+        "%(prog)s [--ranks N] [--error 5%% [--budget TIME]] FILE.prm"
+        " [option of caisson_mpm]..."
+    )
+    text = "MPI ranks, default: as many as pay on this machine"
+    parser.add_argument("--ranks", type=int, metavar="N", help=text)
+    text = "refine the mesh until the error bar of the total force is that small"
+    parser.add_argument("--error", metavar="5%", help=text)
+    text = "with --error: time of all runs on one core, such as 30min (default: 2h)"
+    parser.add_argument("--budget", metavar="TIME", help=text)
+    parser.add_argument("arguments", nargs=argparse.REMAINDER, metavar="FILE.prm ...")
+
+
+def places_of(arguments: list[str]) -> tuple[Path | None, Path | None]:
+    """Return where the program will write, and the file that stops it. None where there
+    is none: of bad input, which it explains itself, or of options that only print."""
+    parser = argparse.ArgumentParser(add_help=False)
+    parser.add_argument("--output-directory", type=Path)
+    chosen: Path | None = parser.parse_known_args(arguments)[0].output_directory
+    try:
+        entries = read_parameters(arguments)
+        directory = chosen or Path(entries["Output/Directory"])
+        name = entries["Run control/Stop file"]
+    except (RunError, KeyError):
+        return chosen, None
+    return directory, directory / name if name else None
+
+
+def choose_ranks(arguments: list[str]) -> int:
+    """Return the number of ranks that pays for a run, and say why. It is one where
+    there will be no run: the program itself says what is wrong with the input."""
+    if "--validate" in arguments:
+        return 1
+    try:
+        points = size_in(query([*arguments, "--validate"])).points
+    except RunError:
+        points = 0
+    if not points:
+        return 1
+    chosen, why = ranks.choose(points)
+    plural = "" if chosen == 1 else "s"
+    text = f"run: {chosen} rank{plural} ({why}); --ranks N overrules"
+    print(text, file=sys.stderr, flush=True)
+    return chosen
+
+
+def options_for_error(
+    options: argparse.Namespace, directory: Path
+) -> tuple[list[str], Path]:
+    """Return the options of the program with which the scene has the error that is
+    wanted, and its error bar. The runs for it go beside the output directory. Raises
+    RunError, StudyError and ArgumentTypeError."""
+    from caisson.error import wanted
+    from caisson.error.command import seconds_of
+
+    scene, *more = options.arguments
+    if more and more[0] != "--output-directory":
+        raise RunError(
+            f"--error goes with --output-directory only, not with {more[0]}. Write the"
+            " entries that you change into a file"
+        )
+    budget = seconds_of(options.budget) if options.budget else wanted.BUDGET
+    error = wanted.error_of(options.error)
+    meshes = directory.with_name(f"{directory.name}_meshes")
+    entries, bar = wanted.mesh_for(scene_or_study(scene), error, budget, meshes)
+    return [w for k, v in entries.items() for w in ("--set", f"{k}={v}")], bar
+
+
+def draw(directory: Path, error_bar: Path | None) -> None:
+    """Say what came out, draw the pictures and write the report; the results do not
+    need them. error_bar: of the run, None for that beside the scene."""
+    from caisson import error_bounds, evaluation, plot, report
+    from caisson.results import Results
+
+    error_bounds.adopt(directory, error_bar)
+    for line in evaluation.lines_of(Results(directory)):
+        print(f"run: {line}")
+    for picture in plot.draw(directory):
+        print(f"plot: {picture}")
+    print(f"report: {report.write(directory)}")
+
+
+@contextlib.contextmanager
+def reporting(directory: Path | None) -> Iterator[None]:
+    """Renew the report of a run from time to time as long as it runs, with at most a
+    small part of a core."""
+    ended = threading.Event()
+
+    def renew() -> None:
+        wait = RENEWAL
+        while directory is not None and not ended.wait(wait):
+            begin = time.monotonic()
+            python = ["nice", sys.executable, "-m", "caisson"]
+            subprocess.run(
+                [*python, "report", str(directory)],
+                env={**os.environ, "PYTHONPATH": str(PACKAGES)},
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
+            wait = max(RENEWAL, SHARE * (time.monotonic() - begin))
+
+    thread = threading.Thread(target=renew, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
+
+
+def wait_for(process: "subprocess.Popen[bytes]") -> int:
+    """Return the exit status of the program, as a shell would. It ends with a
+    checkpoint when it is asked to stop, so it is waited for."""
+    while True:
+        try:
+            status = process.wait()
+            return status if status >= 0 else 128 - status
+        except KeyboardInterrupt:
+            continue
+
+
+def run_alone(command: list[str]) -> int:
+    """Run the program on one rank; return its exit status. Ctrl-C reaches it without
+    our help; other signals are handed on."""
+    process = subprocess.Popen(command, env=environment())
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, lambda caught, _: process.send_signal(caught))
+    return wait_for(process)
+
+
+def run_on_ranks(command: list[str], stop_file: Path | None) -> int:
+    """Run the program on several ranks; return its exit status.
+
+    mpirun ends ranks a few seconds after a signal, whether or not they have written
+    their checkpoint. So no signal of the terminal reaches it: the first one makes the
+    file that stops a run in order, and the second one is handed on.
+    """
+    process = subprocess.Popen(
+        command, env=environment(), stdin=subprocess.DEVNULL, start_new_session=True
+    )
+    is_asked = False
+
+    def stop(*_: object) -> None:
+        nonlocal is_asked
+        if is_asked or stop_file is None or not stop_file.parent.is_dir():
+            process.send_signal(signal.SIGTERM)
+        else:
+            stop_file.touch()
+            print("run: stopping; once more ends it at once", file=sys.stderr)
+        is_asked = True
+
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
+        signal.signal(number, stop)
+    return wait_for(process)
+
+
+def main(options: argparse.Namespace) -> int:
+    """Run the program, then draw what it wrote; return its status."""
+    if options.ranks is not None and options.ranks < 1:
+        raise RunError("--ranks must be 1 or more")
+    if not options.arguments:
+        scenes = SCENES if INSTALLED else f"{short(SCENES)}/"
+        raise RunError(f"give a parameter file; the scenes are in {scenes}")
+    arguments = [
+        str(scene_or_study(word)) if word.endswith(".prm") else word
+        for word in options.arguments
+    ]
+    if options.budget and not options.error:
+        raise RunError("--budget belongs to --error")
+    directory, stop_file = places_of(arguments)
+    error_bar = None
+    if options.error and directory:  # else the program says what is wrong
+        try:
+            more, error_bar = options_for_error(options, directory)
+            arguments += more
+        except argparse.ArgumentTypeError as error:
+            raise RunError(str(error)) from error
+    if complaint := needed.complaint():
+        print(f"run: {complaint}, for pictures and report", file=sys.stderr)
+    n_ranks = options.ranks or choose_ranks(arguments)
+    begin = time.time()
+    command = [*mpi_command(n_ranks), str(PROGRAM), *arguments]
+    with reporting(directory):
+        if n_ranks == 1:
+            status = run_alone(command)
+        else:
+            status = run_on_ranks(command, stop_file)
+    if status not in list(Status):
+        print(
+            f"run: the program did not end in order (exit status {status}; above 128,"
+            " 128 and the number of a signal). If there is a checkpoint, --restart"
+            " continues from it",
+            file=sys.stderr,
+        )
+    history = directory / "history.csv" if directory else None
+    # only what this run wrote is drawn: --validate, say, writes nothing
+    if directory and history and history.exists() and history.stat().st_mtime >= begin:
+        try:
+            draw(directory, error_bar)
+        except Exception as error:  # whatever it is, the run was good
+            print(
+                f"run: no pictures of {directory}: {error}; the results are not"
+                " affected",
+                file=sys.stderr,
+            )
+    return status

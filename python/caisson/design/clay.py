@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Penetration resistance in clay by its undrained strength.
+
+The walls bear the adhesion, and the tip N_c times the strength and the weight of the
+soil above it:
+
+    R = pi (D_o int a_o dz + D_i int a_i dz) + A (gamma' h + N_c s_u).
+
+With the adhesion s_u over the sensitivity, this is what is used for skirts and suction
+anchors (Andersen et al. 2005; DNV-RP-E303). The tip is a strip in the lower case,
+N_c = 7.5, and a circle in the upper one, N_c = 9, both at depth (Skempton 1951).
+
+K.H. Andersen, J.D. Murff, M.F. Randolph, E.C. Clukey, C.T. Erbrich, H.P. Jostad,
+B. Hansen, C. Aubeny, P. Sharma, C. Supachawarote (2005), Suction anchors for deepwater
+applications. Proc. ISFOG, Perth, 3-30.
+A.W. Skempton (1951), The bearing capacity of clays. Building Research Congress,
+London, 180-189.
+"""
+from collections.abc import Sequence
+from math import inf, pi
+from typing import NamedTuple
+
+from caisson.design.cone import Skirt
+from caisson.design.method import Forces
+
+CASES = ("strip", "circle")
+N_C = dict(zip(CASES, (7.5, 9.0)))
+
+
+class Layer(NamedTuple):
+    """Clay down to the top of the next layer."""
+
+    top: float  # m below the mudline
+    unit_weight: float  # effective, N/m3
+    strength: float  # s_u, Pa
+    inner_adhesion: float  # Pa
+    outer_adhesion: float
+
+
+class Clay:
+    """The method for one caisson."""
+
+    cases = CASES
+
+    def __init__(self, skirt: Skirt, layers: Sequence[Layer]) -> None:
+        """layers: from the mudline down."""
+        self.skirt = skirt
+        self.layers = sorted(layers, key=lambda layer: layer.top)
+
+    def forces(self, h: float, case: str) -> Forces:
+        """Return the forces at an embedment."""
+        bottoms = [layer.top for layer in self.layers[1:]] + [inf]
+        stress = inner = outer = strength = 0.0
+        for layer, bottom in zip(self.layers, bottoms):
+            thickness = min(bottom, h) - layer.top
+            if thickness < 0 or (thickness == 0 and layer.top > 0):
+                break
+            stress += layer.unit_weight * thickness
+            inner += layer.inner_adhesion * thickness
+            outer += layer.outer_adhesion * thickness
+            strength = layer.strength
+        return Forces(
+            self.skirt.tip_area * (stress + N_C[case] * strength),
+            pi * self.skirt.inner_diameter * inner,
+            pi * self.skirt.outer_diameter * outer,
+        )

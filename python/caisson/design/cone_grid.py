@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Cone tests as tables: of text, or a sheet of a workbook (.xlsx).
+
+The row of heads is the first that names a depth and a cone resistance, as depth_m,
+"qc (MPa)" or "Tiefe in m"; units may stand in the row below. Lines above it may say the
+area ratio of the cone, the depth of a hole and that of the water. Cells are divided by
+semicolons, tabs, commas or blanks, whichever gives the most rows of numbers. Rows that
+are empty or begin with "#" are left out, but count.
+"""
+import csv
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from caisson.disk import InputError
+from caisson.terminal import printable
+from caisson.design.cone_options import EXAMPLE
+from caisson.design.cone_table import Facts, Head, Rows, Table, cell_of
+from caisson.design.cone_table import is_number, refuse, table_of
+from caisson.design.cone_words import (
+    EVERY_UNIT,
+    QUANTITIES,
+    fact_of,
+    head_of,
+    is_level,
+    unit_in,
+)
+
+DIVIDERS = (";", "\t", ",", None)  # None: blanks
+SAMPLE = 400  # lines that tell what divides cells
+
+
+def divided(line: str, divider: str | None) -> list[str]:
+    """Return the cells of a line."""
+    if divider is None:
+        return line.split()
+    return next(csv.reader([line], delimiter=divider, skipinitialspace=True), [])
+
+
+def joined(lines: Sequence[str]) -> list[tuple[int, str]]:
+    """Return the lines with their numbers; one with a quotation mark that is open, as
+    in a head of two lines, with those that follow to where it is closed."""
+    found, begin = list[tuple[int, str]](), 0
+    while begin < len(lines):
+        some = (lines[begin : begin + n] for n in (1, 2, 3))
+        block = next(
+            (b for b in some if "".join(b).count('"') % 2 == 0), [lines[begin]]
+        )
+        found.append((begin + 1, " ".join(block)))
+        begin += len(block)
+    return found
+
+
+def numeric(cells: Sequence[str]) -> float:
+    """Return the share of numbers in the cells of a row that are not empty, 0 where
+    there are fewer than two."""
+    numbers = sum(map(is_number, cells))
+    return numbers / sum(map(bool, cells)) if numbers > 1 else 0.0
+
+
+def grid_of_text(lines: Sequence[str]) -> tuple[Rows, str | None]:
+    """Return the rows of a table of text, and what divides its cells."""
+    kept = [
+        (row, line)
+        for row, line in joined(lines)
+        if line.strip(" \t,;") and not line.startswith("#")
+    ]
+    if kept and kept[0][1].lower().startswith("sep=") and len(kept[0][1]) > 4:
+        divider: str | None = kept[0][1][4]
+        kept = kept[1:]
+    else:
+        sample = [line for _, line in kept[-SAMPLE:]]
+        score = {m: sum(numeric(divided(x, m)) for x in sample) for m in DIVIDERS}
+        # of text alone, what divides the heads
+        divider = max(
+            DIVIDERS, key=lambda m: (score[m], any((m or " ") in x for x in sample))
+        )
+    return [(row, divided(line, divider)) for row, line in kept], divider
+
+
+def rows_of(sheet: Iterable[Sequence[object]]) -> Rows:
+    """Return the rows of a sheet that are not empty."""
+    rows = [
+        (row, ["" if x is None else printable(" ".join(str(x).split())) for x in cells])
+        for row, cells in enumerate(sheet, 1)
+    ]
+    return [(row, cells) for row, cells in rows if any(cells)]
+
+
+def first_without_value(values: Any, formulas: Any) -> int:
+    """Return the first row of a sheet with a formula where no formula has a stored
+    value, else 0. formulas: the same sheet, read with them."""
+    found = 0
+    sheets = (sheet.iter_rows(values_only=True) for sheet in (values, formulas))
+    for row, (stored, written) in enumerate(zip(*sheets), 1):
+        for value, text in zip(stored, written):
+            if isinstance(text, str) and text.startswith("="):
+                if value is not None:
+                    return 0
+                found = found or row
+    return found
+
+
+def grid_of_workbook(path: Path, sheet: str, has_names: bool) -> Rows:
+    """Return the rows of a sheet, "" for the only one that has the heads of a test, or
+    of numbers if the columns have names. Raises InputError."""
+    try:
+        import openpyxl  # which no other file needs
+    except ModuleNotFoundError as error:
+        raise InputError(
+            f"{path}: a workbook needs openpyxl: apt-get install python3-openpyxl, or"
+            " save the sheet as CSV"
+        ) from error
+    try:
+        with path.open("rb") as file:  # its name may end as it likes
+            book = openpyxl.load_workbook(file, read_only=True, data_only=True)
+            names = [name for name in book.sheetnames if sheet in ("", name)]
+            sheets = {
+                name: rows_of(book[name].iter_rows(values_only=True)) for name in names
+            }
+            every = list(map(printable, book.sheetnames))
+            formulas = openpyxl.load_workbook(file, read_only=True)
+            empty = {
+                name: first_without_value(book[name], formulas[name]) for name in names
+            }
+    except Exception as error:  # openpyxl hands on whatever its parts raise
+        raise InputError(
+            f"{path} is no workbook that can be read (.xlsx), but another archive or a"
+            " damaged one: save it as .xlsx, or as CSV in UTF-8"
+        ) from error
+    if sheet and not sheets:
+        raise InputError(
+            f"{path} has no sheet {sheet!r}; the sheets are {', '.join(every)}"
+        )
+    there = {name: rows for name, rows in sheets.items() if rows}
+    known = {n: rows for n, rows in there.items() if heads_in(rows) is not None}
+    some = known if known and not has_names else there
+    if len(some) != 1:
+        names = list(map(printable, some)) or every
+        raise InputError(
+            f"{path}: {len(some)} sheets may be the test, {', '.join(names)}; choose"
+            " one by --sheet"
+        )
+    name, rows = next(iter(some.items()))
+    if empty[name]:
+        raise InputError(
+            f"{path}, row {empty[name]} of sheet {printable(name)}: a formula without a"
+            " stored value; open the workbook in a spreadsheet program and save it"
+        )
+    return rows
+
+
+def with_units(row: int, texts: Sequence[str], below: Sequence[str]) -> list[Head]:
+    """Return the heads in a row; units are those of the row below where a head has
+    none."""
+    found = []
+    for place, text in enumerate(texts):
+        quantity, unit = head_of(text)
+        if unit_in(unit) not in EVERY_UNIT and place < len(below):
+            unit = below[place] if unit_in(below[place]) in EVERY_UNIT else unit
+        found.append(Head(place, text.strip(), quantity, unit, row))
+    return found
+
+
+def heads_in(rows: Rows) -> int | None:
+    """Return the place of the first row that names depth and cone resistance, None for
+    none."""
+    for i, (_, cells) in enumerate(rows):
+        found = {head_of(cell)[0] for cell in cells if cell and not is_number(cell)}
+        if found & {"depth", "rods"} and found & {"qc", "qt"}:
+            return i
+    return None
+
+
+def named(path: Path, columns: str) -> list[Head]:
+    """Return the heads that --columns gives, of a file without. Raises InputError."""
+    found = []
+    for place, text in enumerate(columns.replace(";", ",").split(",")):
+        quantity, unit = head_of(text)
+        if text.strip() not in ("", "-") and not quantity:
+            raise InputError(
+                f"--columns: {text.strip()!r} is no column that is known; an example is"
+                f" {EXAMPLE}, with - for a column that is not to be read"
+            )
+        if quantity and not unit:
+            unit = QUANTITIES[quantity].usual
+        found.append(Head(place, text.strip().strip("-"), quantity, unit, 1))
+    return found
+
+
+def facts_of(above: Rows) -> tuple[Facts, list[str]]:
+    """Return what the lines above the heads say, and in words what was made of it."""
+    said: dict[str, set[float]] = {}
+    for _, cells in above:
+        if fact := fact_of(cells):
+            said.setdefault(fact[0], set()).add(fact[1])
+    known = {fact: values.pop() for fact, values in said.items() if len(values) == 1}
+    unsure = [
+        f"the lines above the heads have two values: {x}" for x in said if said[x]
+    ]
+    texts = [" ".join(" ".join(c).split()) for _, c in above if fact_of(c) is None]
+    if texts:
+        words = "; ".join(text[:40] for text in texts[:4])
+        unsure.append(
+            f"lines above the heads that were not read: {len(texts)}: {words}"
+            + ("; ..." if len(texts) > 4 else "")
+        )
+    return (
+        Facts(known.get("area ratio"), known.get("predrilled"), known.get("water")),
+        unsure,
+    )
+
+
+def without_heads(path: Path, rows: Rows) -> InputError:
+    """Return the refusal of a file whose heads are not known."""
+    for row, cells in rows[:SAMPLE]:
+        for text in cells:
+            if is_level(text) and not fact_of(cells):
+                return InputError(
+                    f"{path}, row {row}: the column {text.strip()!r} is a level above a"
+                    " datum; subtract it from the level of the ground, and name the"
+                    " column depth_m"
+                )
+    row, cells = rows[0]
+    return InputError(
+        f"{path}: no row names a column of depth and one of cone resistance, as"
+        f" {EXAMPLE} or in English, German, Dutch or French; row {row} is"
+        f" {', '.join(cells)[:60]!r}. Name the columns: --columns {EXAMPLE}, with - for"
+        " one that is not to be read"
+    )
+
+
+def with_meters(heads: Sequence[Head]) -> tuple[list[Head], list[str]]:
+    """Return the heads, depths without a unit in m, and in words that this is so."""
+    lengths = [h for h in heads if h.quantity in ("depth", "rods") and not h.unit]
+    found = [h._replace(unit="m") if h in lengths else h for h in heads]
+    return found, [f"ASSUMED: {head.text!r} is in m" for head in lengths]
+
+
+def refuse_wide(path: Path, rows: Rows, number: int, divider: str | None) -> None:
+    """Refuse rows with more cells than heads, as decimal commas make them. Raises
+    InputError."""
+    advice = "each column needs a head"
+    if divider == ",":
+        advice = "where numbers have commas, divide cells by semicolons"
+    wrong = [
+        (row, f"{len(cells)} cells, and {number} columns; {advice}")
+        for row, cells in rows
+        if any(cell_of(cells, i) for i in range(number, len(cells)))
+    ]
+    refuse(path, wrong)
+
+
+def table(
+    path: Path, rows: Rows, divider: str | None, wanted: Sequence[str], columns: str
+) -> Table:
+    """Return the table of a test in rows of cells. columns: their names and units in
+    place of the heads. Raises InputError."""
+    if len(rows) < 2:
+        raise InputError(
+            f"{path}: a cone test needs a row of heads, as {EXAMPLE}, and two rows of"
+            " numbers"
+        )
+    place = heads_in(rows)
+    first = next((i for i, (_, c) in enumerate(rows) if numeric(c)), len(rows))
+    if columns:
+        heads, begin, where = named(path, columns), first, "--columns"
+    elif place is None:
+        raise without_heads(path, rows)
+    else:
+        row, texts = rows[place]
+        below = rows[place + 1][1] if place + 1 < len(rows) else []
+        heads, begin, where = with_units(row, texts, below), place + 1, "the heads"
+        units = [cell for cell in below if unit_in(cell) in EVERY_UNIT]
+        begin += bool(units) and not any(map(is_number, below))
+    refuse_wide(path, rows[begin:], len(heads), divider)
+    names = f"heads that are read are {EXAMPLE} and their like"
+    heads, said = with_meters(heads)
+    found = table_of(path, heads, rows[begin:], wanted, where, names)
+    found.facts, found.remarks = facts_of(rows[: begin if columns else place])
+    found.remarks += said
+    if columns and not all(head_of(c.text)[1] for c in found.columns.values()):
+        found.remarks.append(
+            "ASSUMED: units of --columns that has none: m, q_c in MPa, f_s and u_2 in"
+            " kPa"
+        )
+    return found

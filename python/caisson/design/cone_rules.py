@@ -1,0 +1,398 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the rows of a cone test must be, in whatever format they come: the only rules.
+
+A zero that drifts shows as small negative readings: as large as the accuracy of the
+application class 3 of ISO 22476-1 (2012) they are no mistake. Above the first row of a
+test that begins below the mudline, as in a predrilled hole or at the second push down a
+borehole, the soil is that which the user gives, or is ASSUMED to be that of the first
+readings.
+"""
+import re
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from caisson.disk import InputError
+from caisson.design.cone_table import Table, cell_of, more
+from caisson.design.cone_words import QUANTITIES
+
+# Pa; more and less than any test has
+RANGES = {
+    "qc": (-0.2e6, 200e6),
+    "qt": (-0.2e6, 200e6),
+    "fs": (-25e3, 5e6),
+    "u2": (-0.5e6, 20e6),
+}
+WEAKEST = 20e3  # Pa; the largest resistance of a test is more
+WEAK = 200e3  # Pa; less is doubtful
+THOUSANDS = re.compile(r"[1-9]\d{0,2}([.,])\d{3}")  # 1,424 for 1424
+WATER = 9.81e3  # N/m3, unit weight
+SMOOTHEST = 2e-4  # f_s / q_c; the median of a test is more
+START = 0.5  # m; a first row that is deeper leaves soil of which nothing is known
+FIRST = 0.5  # m of readings that tell of the soil above them
+DEEPEST = 200.0  # m
+FEW = 0.1  # of the rows may be left out where the cone met nothing
+ENOUGH = 0.2  # of the rows must have a friction or a pressure
+REPEATED, BACK = 0.02, 0.05  # of the rows that may go back, and how far (m)
+WIDEST_STEP = 0.1  # m between pushes; more is a gap
+GIVEN, ASSUMED = "GIVEN", "ASSUMED"  # how the soil above the first row is known
+DISAGREE = 0.5  # m, and a tenth: more is no correction of a depth
+
+
+def rows_text(rows: np.ndarray) -> str:
+    """Return the numbers of rows for a remark."""
+    text = ", ".join(map(str, rows[:5]))
+    return f"{len(rows)}, those of number {text}{', ...' if len(rows) > 5 else ''}"
+
+
+class Readings:
+    """The rows of a test: the number of each in the file, its values by quantity in m
+    and Pa (nan for none) and the number of its push, [n] each; and remarks on what was
+    made of them. Each rule changes or refuses them, by InputError."""
+
+    def __init__(
+        self,
+        path: Path,
+        table: Table,
+        row: np.ndarray,
+        values: dict[str, np.ndarray],
+        push: np.ndarray,
+    ) -> None:
+        self.path, self.table, self.row = path, table, row
+        self.values, self.push = values, push
+        self.tip = "qt" if "qt" in values else "qc"
+        self.remarks = list(table.remarks)
+
+    def keep(self, rows: np.ndarray) -> None:
+        """Keep some rows, or all in another order."""
+        self.row, self.push = self.row[rows], self.push[rows]
+        self.values = {name: values[rows] for name, values in self.values.items()}
+
+    def leave_out(self, rows: np.ndarray, what: str) -> None:
+        """Leave out rows [n], and say what they are."""
+        if rows.any():
+            self.remarks.append(f"{what}, left out: {rows_text(self.row[rows])}")
+            self.keep(~rows)
+        if len(self.row) < 2:
+            raise InputError(
+                f"{self.path}: a cone test needs two rows with a depth and a cone"
+                f" resistance; there are {len(self.row)}. {self.remarks[-1]}"
+            )
+
+    def refuse(self, rows: np.ndarray, why: Callable[[int], str]) -> None:
+        """Refuse the test if some rows [n] are wrong; why: of one."""
+        places = np.flatnonzero(rows)
+        if len(places):
+            others = more([(int(self.row[i]), "") for i in places[1:]])
+            row = self.row[places[0]]
+            raise InputError(f"{self.path}, row {row}: {why(places[0])}{others}")
+
+    def check_units(self) -> None:
+        """Refuse cone resistances that are thousands with separators, which would be
+        read as decimals."""
+        column = self.table.columns[self.tip]
+        texts = [cell_of(cells, column.place) for _, cells in self.table.rows]
+        there = [text for text in texts if re.search("[.,]", text)]
+        if column.unit >= 1e6 or not all(map(THOUSANDS.fullmatch, there)) or not there:
+            return
+        has_hundreds = any(re.fullmatch(r"\d{3}", text) for text in texts)
+        most = max(float(text.replace(",", ".")) for text in there) * column.unit
+        largest = float(np.nanmax(self.values[self.tip]))
+        if most < WEAK and (largest < WEAK or has_hundreds):
+            row, text = self.table.rows[texts.index(there[0])][0], there[0]
+            raise InputError(
+                f"{self.path}, row {row}: the cone resistance {text!r} seems to have a"
+                " separator of thousands, with which the largest one is"
+                f" {largest / 1e3:g} kPa: write {re.sub('[.,]', '', text)}; if decimals"
+                " are meant, write the column in MPa. The unit is that in"
+                f" {self.table.units_are}"
+            )
+
+    def make_depths(self) -> None:
+        """Take depths that are negative by their amount, and of a corrected depth and a
+        length the first if they agree; leave out rows without a depth or q_c."""
+        for name in ("depth", "rods"):
+            if name in self.values:
+                self.values[name] = self.downward(self.values[name])
+        rods = self.values.pop("rods", None)
+        depth = self.values.get("depth", rods)
+        assert depth is not None
+        if rods is not None and "depth" in self.values:
+            far = np.abs(depth - rods) > DISAGREE + 0.1 * np.abs(rods)
+            if np.mean(far[np.isfinite(depth + rods)]) > 0.5:
+                self.remarks.append(
+                    f"the column {self.table.columns['depth'].text!r} is no depth of"
+                    " this test; the penetration length is taken"
+                )
+                depth = rods
+        self.values["depth"] = depth
+        empty = np.isnan(depth) | np.isnan(self.values[self.tip])
+        self.leave_out(empty, "rows without a depth or a cone resistance")
+        self.refuse(
+            self.values["depth"] > DEEPEST,
+            lambda i: f"a depth of {self.values['depth'][i]:g} m is no length in meters"
+            " of a cone test",
+        )
+        below = self.values["depth"] < 0
+        if np.mean(below) < FEW:
+            self.leave_out(below, "rows above the ground")
+        self.refuse(
+            self.values["depth"] < 0,
+            lambda i: f"a depth of {self.values['depth'][i]:g} m; depths must all be"
+            " positive downward from the mudline, or all negative",
+        )
+
+    def downward(self, depth: np.ndarray) -> np.ndarray:
+        """Return depths [n] by their amount if all are negative and fall."""
+        known = depth[np.isfinite(depth)]
+        if len(known) < 2 or (known > 0).any() or np.median(np.diff(known)) >= 0:
+            return depth
+        self.remarks.append("depths are negative downward: taken by their amount")
+        return -depth
+
+    def turn_round(self) -> None:
+        """Begin at the top where the deepest row comes first."""
+        steps = np.diff(self.values["depth"])
+        if self.table.is_sorted and not self.table.pushes and (steps <= 0).all():
+            if steps.any() and len(steps) > 1:
+                self.remarks.append("the deepest row comes first: turned round")
+                self.keep(np.arange(len(self.row))[::-1])
+
+    def make_friction(self) -> None:
+        """Take the sleeve friction from the friction ratio where there is none."""
+        ratio = self.values.pop("rf", None)
+        if ratio is not None and "fs" not in self.values and np.isfinite(ratio).any():
+            self.values["fs"] = ratio * np.maximum(self.values[self.tip], 0.0)
+            text = self.table.columns["rf"].text
+            self.remarks.append(f"sleeve friction: from {text!r}, f_s = R_f q_c / 100")
+
+    def join_pushes(self) -> None:
+        """Put the pushes of a borehole below each other, and name the gaps; rows that
+        have no order are sorted."""
+        if not self.table.is_sorted:
+            self.keep(np.argsort(self.values["depth"], kind="stable"))
+        depth, numbers = self.values["depth"], np.unique(self.push)
+        if len(numbers) < 2:
+            return
+        names = list(dict.fromkeys(self.table.pushes))
+        ends = {
+            i: (depth[self.push == i].min(), depth[self.push == i].max())
+            for i in numbers
+        }
+        order = sorted(numbers, key=lambda i: ends[i])
+        drop, gaps = np.zeros(len(depth), dtype=bool), list[str]()
+        end = ends[order[0]][1]
+        for before, this in zip(order, order[1:]):
+            top, bottom = ends[this]
+            if end - top >= min(START, 0.5 * (bottom - top)):
+                raise InputError(
+                    f"{self.path}: the pushes {names[before]} and {names[this]} overlap"
+                    f" from {top:g} to {min(end, bottom):g} m: choose one by"
+                    f" --location, as in --location {names[this]!r}"
+                )
+            drop |= (self.push == this) & (depth <= end)
+            if top - end > WIDEST_STEP:
+                gaps.append(f"{end:g} to {top:g} m")
+            end = max(end, bottom)
+        text = f"gaps at {', '.join(gaps)}" if gaps else "without a gap"
+        self.remarks.append(f"{len(order)} pushes were joined, {text}")
+        self.leave_out(drop, "rows of a push that the one above it has reached")
+        place = np.argsort(order)
+        self.keep(np.argsort(place[np.searchsorted(numbers, self.push)], kind="stable"))
+
+    def leave_out_hole(self) -> None:
+        """Leave out rows above the depth of a hole, which are no soil."""
+        hole = self.table.facts.predrilled or 0.0
+        deepest = float(self.values["depth"].max())
+        if hole and hole >= deepest:
+            raise InputError(
+                f"{self.path}: the file says that the hole above the test is {hole:g} m"
+                f" deep, and the last row is at {deepest:g} m: correct one of the two"
+            )
+        above = self.values["depth"] < hole - 1e-6
+        self.leave_out(above, f"rows above the pre-excavated depth of {hole:g} m")
+
+    def leave_out_no_load(self) -> None:
+        """Leave out the rows in which the cone met no soil: a resistance of less than 0
+        or the sleeve friction; at the start of a test, or few."""
+        tip = self.values[self.tip]
+        friction = self.values.get("fs", np.zeros(len(tip)))
+        low = RANGES[self.tip][0]
+        empty = (tip >= low) & ((tip < 0) | (friction > np.maximum(tip, 0)))
+        first = int(np.argmin(empty)) if not empty.all() else len(tip)
+        few = empty[first:].sum() <= FEW * len(tip)
+        if few and first < len(tip) / 2:
+            self.leave_out(empty, "rows without load (q_c below 0 or below f_s)")
+            return
+        self.refuse(
+            empty & (friction > np.maximum(tip, 0)),
+            lambda i: f"the sleeve friction of {friction[i] / 1e3:g} kPa is more than"
+            f" the cone resistance of {tip[i] / 1e3:g} kPa; check both units in"
+            f" {self.table.units_are}",
+        )
+        self.refuse(
+            empty,
+            lambda i: f"the cone resistance of {tip[i] / 1e6:g} MPa is below 0, as in"
+            " other rows: too many to be left out; check the zero of the test",
+        )
+
+    def check_order(self) -> None:
+        """Leave out rows that repeat the depth of the row before, and few that go
+        back, and refuse others."""
+        depth = self.values["depth"]
+        above = np.maximum.accumulate(depth)
+        same = np.concatenate([[False], depth[1:] == above[:-1]])
+        self.leave_out(same, "rows that repeat the depth of the row before")
+        depth = self.values["depth"]
+        above = np.maximum.accumulate(depth)
+        back = np.concatenate([[False], depth[1:] <= above[:-1]])
+        few = back.sum() <= REPEATED * len(depth)
+        if few and (depth[1:] >= above[:-1] - BACK)[back[1:]].all():
+            self.leave_out(back, "rows that repeat a depth")
+            return
+        self.refuse(
+            back,
+            lambda i: f"the depth of {depth[i]:g} m is not below that of the row"
+            f" before, {above[i - 1]:g} m; leave out the row that is wrong, or divide"
+            " a file of two tests",
+        )
+
+    def out_of_range(self, name: str, value: float) -> str:
+        """Return the refusal of a value (Pa)."""
+        low, high = RANGES[name]
+        return (
+            f"the {QUANTITIES[name].name} is {value / 1e6:g} MPa, which is not between"
+            f" {low / 1e6:g} and {high / 1e6:g} MPa; check the unit in"
+            f" {self.table.units_are}"
+        )
+
+    def check_ranges(self) -> None:
+        """Refuse stresses that cannot be meant."""
+        for name, (low, high) in RANGES.items():
+            values = self.values.get(name, np.zeros(0))
+            wrong = (values < low) | (values > high)
+            self.refuse(wrong, lambda i: self.out_of_range(name, values[i]))
+
+    def complete_friction(self) -> None:
+        """Take a drift below 0 as 0, and where there is none the share of q_c of the
+        rows next to it; refuse a friction in another unit than its column says."""
+        if not self.has_values("fs"):
+            return
+        friction, tip = self.values["fs"], np.maximum(self.values[self.tip], 1.0)
+        depth, known = self.values["depth"], np.isfinite(self.values["fs"])
+        ratio = float(np.median(friction[known] / tip[known]))
+        if ratio < SMOOTHEST:
+            raise InputError(
+                f"{self.path}: the sleeve friction is {100 * ratio:.2g} % of the cone"
+                " resistance in the median, less than in any soil; check its unit, or"
+                " leave the column out and give --soil and --unit-weight"
+            )
+        drift = friction < 0
+        if drift.any():
+            self.remarks.append(
+                "rows of a sleeve friction below 0, down to"
+                f" {friction[drift].min() / 1e3:g} kPa, taken as 0:"
+                f" {rows_text(self.row[drift])}"
+            )
+        if not known.all():
+            self.remarks.append(
+                "ASSUMED: rows without a sleeve friction have that share of q_c which"
+                f" the rows next to them have: {(~known).sum()}, from"
+                f" {depth[~known][0]:g} to {depth[~known][-1]:g} m"
+            )
+        share = np.interp(depth, depth[known], (friction / tip)[known])
+        self.values["fs"] = np.maximum(np.where(known, friction, share * tip), 0.0)
+
+    def has_values(self, name: str) -> bool:
+        """Return whether a column has values in enough rows to tell of the others; one
+        that has not is left out, and said."""
+        if name not in self.values:
+            return False
+        number, rows = int(np.isfinite(self.values[name]).sum()), len(self.row)
+        if number < ENOUGH * rows:
+            del self.values[name]
+            some = f"values in only {number} of {rows} rows" if number else "no values"
+            self.remarks.append(f"the column of {QUANTITIES[name].name} has {some}")
+        return name in self.values
+
+    def complete_pressure(self) -> None:
+        """Take the pore pressure as hydrostatic where there is none."""
+        if not self.has_values("u2"):
+            return
+        depth, pressure = self.values["depth"], self.values["u2"]
+        missing = np.isnan(pressure)
+        if missing.any():
+            self.values["u2"] = np.where(missing, WATER * depth, pressure)
+            self.remarks.append(
+                "rows without a pore pressure, which is taken as hydrostatic there:"
+                f" {missing.sum()}, the first at {depth[missing][0]:g} m"
+            )
+        if (pressure < 0).any():
+            self.remarks.append(
+                f"rows of a pore pressure below 0, which dense soil has: kept,"
+                f" {(pressure < 0).sum()}, down to {np.nanmin(pressure) / 1e3:g} kPa"
+            )
+
+    def reach_up(self, given: Mapping[str, float]) -> tuple[float, str]:
+        """Add rows from the mudline down to the first one where that is deep. given:
+        stresses (Pa) of the soil above. Return the depth of the first row that was
+        measured, and how the rows above it are known; 0 and "" if none is added."""
+        depth = self.values["depth"]
+        start = float(depth[0])
+        if given and start < WIDEST_STEP:
+            raise InputError(
+                f"--above is for a test that begins below the mudline; {self.path}"
+                f" begins at {start:g} m"
+            )
+        if start <= START and not given:
+            return 0.0, ""
+        first = depth <= start + FIRST
+        tip = given.get("qc", float(np.median(self.values[self.tip][first])))
+        spacing = max(float(np.median(np.diff(depth))), 0.02)
+        new = {"depth": np.arange(0.0, start - spacing / 2, spacing)}
+        new[self.tip] = np.full(len(new["depth"]), tip)
+        if "fs" in self.values:
+            measured = np.maximum(self.values[self.tip], 1.0)
+            share = float(np.median((self.values["fs"] / measured)[first]))
+            new["fs"] = np.full_like(new[self.tip], given.get("fs", share * tip))
+        if "u2" in self.values:
+            new["u2"] = WATER * new["depth"]
+        for name, values in new.items():
+            self.values[name] = np.concatenate([values, self.values[name]])
+        how = GIVEN if given else ASSUMED
+        hole = self.table.facts.predrilled
+        why = f", pre-excavated to {hole:g} m" if hole else ""
+        soil = "by --above" if given else "as the first readings below it"
+        way = "" if given else '; --above "qc = 2 MPa, fs = 20 kPa" gives another'
+        self.remarks.append(
+            f"{how}: the soil above {start:g} m, where nothing was measured{why}, has a"
+            f" q_c of {tip / 1e6:.3g} MPa {soil}{way}"
+        )
+        return start, how
+
+    def say_rest(self) -> None:
+        """Refuse a test that is too weak for any soil, and say what is doubtful and
+        what was not read."""
+        largest = float(self.values[self.tip].max())
+        units_are = f"check the unit in {self.table.units_are}"
+        if largest < WEAKEST:
+            raise InputError(
+                f"{self.path}: the largest cone resistance is {largest:g} Pa, less than"
+                f" any soil has; {units_are}"
+            )
+        if largest < WEAK:
+            self.remarks.append(
+                f"the largest cone resistance is only {largest / 1e3:g} kPa:"
+                f" {units_are}"
+            )
+        if self.tip == "qt":
+            self.remarks.append("the file has q_t and no q_c: it is taken for both")
+        if self.table.facts.water is not None:
+            self.remarks.append(
+                f"the water level of the file, {self.table.facts.water:g} m, is not"
+                " used: the ground is below water"
+            )
+        if self.table.unread:
+            unread = ", ".join(self.table.unread)
+            self.remarks.append(f"columns that were not read: {unread}")

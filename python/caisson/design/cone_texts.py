@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The estimates as a table on the terminal and as layers.csv."""
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from caisson.table import markdown, write_csv
+from caisson.terminal import printable
+from caisson.design.cone_estimates import (
+    CAN,
+    ENDS,
+    INDEX,
+    K0,
+    REFERENCE,
+    RESISTANCE,
+    WEIGHT,
+    Estimate,
+    Estimates,
+)
+from caisson.design.cone_layers import BAND, Layer
+from caisson.design.correlations import (
+    ANGLE,
+    DENSITY,
+    EVERY,
+    MODULUS,
+    STRENGTH,
+)
+from caisson.design.ground import CLAY, CLAY_LIKE, DRAINED, OFFSET, SAND
+from caisson.design.ground import Ground, kind_of
+from caisson.design.interpretation import Interpretation
+
+WIDEST_GAP = 1.0  # m between rows; a wider one is reported
+
+
+class Shown(NamedTuple):
+    """How a quantity is shown: its head, the column of the file, and what it is
+    multiplied by for both."""
+
+    head: str
+    column: str
+    scale: float
+    digits: int
+
+
+SHOWN = {
+    RESISTANCE: Shown("q_c (MPa)", "qc_MPa", 1e-6, 1),
+    INDEX: Shown("I_c", "Ic", 1.0, 2),
+    WEIGHT: Shown("unit weight (kN/m3)", "unit_weight_kN_m3", 1e-3, 1),
+    DENSITY: Shown("D_r (%)", "relative_density_percent", 100.0, 0),
+    ANGLE: Shown("phi (deg)", "friction_angle_deg", 1.0, 1),
+    MODULUS: Shown("E (MPa)", "youngs_modulus_MPa", 1e-6, 1),
+    REFERENCE: Shown("E at 100 kPa (MPa)", "modulus_at_100_kPa_MPa", 1e-6, 1),
+    STRENGTH: Shown("s_u (kPa)", "undrained_strength_kPa", 1e-3, 0),
+    K0: Shown("K_0", "K0", 1.0, 2),
+}
+
+
+def text_of(estimate: Estimate | None, shown: Shown) -> str:
+    """Return low, best and high for the terminal."""
+    if estimate is None:
+        return ""
+    values = (estimate.low, estimate.best, estimate.high)
+    return " / ".join(f"{value * shown.scale:.{shown.digits}f}" for value in values)
+
+
+def quantities_of(every: Sequence[Estimates]) -> list[str]:
+    """Return the quantities that a layer has, in their order."""
+    return [name for name in SHOWN if any(name in e.values for e in every)]
+
+
+def cells_of(every: Sequence[Estimates]) -> tuple[list[str], list[list[str]]]:
+    """Return heads and rows of the table: low / best / high."""
+    names = quantities_of(every)
+    heads = ["layer", "from to (m)", "soil", *(SHOWN[name].head for name in names)]
+    rows = []
+    for number, e in enumerate(every, 1):
+        where = f"{e.layer.top:g} to {e.layer.bottom:g}"
+        cells = [text_of(e.values.get(name), SHOWN[name]) for name in names]
+        rows.append([str(number), where, e.layer.kind, *cells])
+    return heads, rows
+
+
+def text_of_test(test: Interpretation) -> str:
+    """Return table and remarks for the terminal."""
+    text = markdown(*cells_of(test.layers))
+    return "\n".join(
+        [f"{printable(str(test.file))}: low / best / high", text, *remarks(test)]
+    )
+
+
+def signs(ground: Ground, number: int, layer: Layer) -> list[str]:
+    """Return where I_c, friction ratio and pore pressure of a layer do not agree with
+    each other, or with the kind that is given."""
+    index, friction, behavior, pressure, excess = (
+        ground.median(values, layer.rows)
+        for values in (
+            ground.index,
+            ground.friction_ratio,
+            ground.behavior,
+            ground.pressure_ratio,
+            ground.excess,
+        )
+    )
+    if not np.isfinite(index):
+        return []
+    own, by_index = ground.kind(layer.rows), kind_of(index)
+    why = []
+    if behavior < CLAY_LIKE:
+        why.append(
+            f"its F_r of {friction:.1f} % (I_B of {behavior:.0f}) is that of clay"
+        )
+    if pressure >= DRAINED:
+        why.append(
+            f"its u_2 is {excess / 1e3:.0f} kPa above water at rest (B_q of"
+            f" {pressure:.2f}), as in soil that does not drain"
+        )
+    of_index = f"its I_c of {index:.2f}"
+    if layer.is_given:
+        text = " and ".join(why) or f"{of_index} is that of {own}"
+        taken = f"layer {number} is taken as {layer.kind} by --soil; {text}"
+        return [taken] if own != layer.kind else []
+    if own != by_index:
+        return [
+            f"layer {number} is taken as {own}, though {of_index} is that of"
+            f" {by_index}: {' and '.join(why)}; --soil {number}={SAND} overrules this"
+        ]
+    measured = ground.pore_pressure is not None and not ground.has_offset
+    if own == CLAY and measured and pressure < DRAINED / 2:
+        return [
+            f"layer {number} is clay by its friction, but its u_2 is not above water at"
+            " rest, as in soil that drains or in stiff clay: the two do not agree;"
+            f" --soil {number}=sand takes it as sand"
+        ]
+    return []
+
+
+def remarks(test: Interpretation) -> list[str]:
+    """Return what the table rests on, lenses and bands, what can be done with other
+    soil than sand, gaps, and columns that were not read."""
+    have = {name for e in test.layers for name in e.values}
+    found = [f"{WEIGHT}: {test.weight}"]
+    for c in EVERY:
+        if test.names[c.quantity] == c.name and c.quantity in have:
+            factor = test.ground.cone_factor
+            name = f"{c.name}, N_kt = {factor:g}" if c.quantity == STRENGTH else c.name
+            found.append(f"{c.quantity}: {name}, {c.source}; {c.holds}")
+    for number, e in enumerate(test.layers, 1):
+        lenses = [f"{kind} from {a:g} to {b:g} m" for a, b, kind in e.layer.lenses]
+        if lenses:
+            found.append(
+                f"layer {number} has {', '.join(lenses)}: no layer of its own, and left"
+                " out of its estimates and of a scene; --tops makes other layers"
+            )
+        bands = [f"{name} soil from {a:g} to {b:g} m" for a, b, name in e.layer.bands]
+        if bands:
+            found.append(
+                f"layer {number} has {', '.join(bands)}: more than a factor of {BAND:g}"
+                " from its usual resistance, and not in a scene; --tops makes other"
+                " layers"
+            )
+        found += signs(test.ground, number, e.layer)
+        if e.layer.kind != SAND:
+            found.append(f"layer {number} is {e.layer.kind}: {CAN[e.layer.kind]}")
+    if test.ground.has_offset:
+        found.append(
+            f"u_2 is {OFFSET / 1e3:g} kPa and more above water at rest in nearly all"
+            " rows, as if it had not been set to 0 at the mudline: it tells no soils"
+            " apart"
+        )
+    depth = test.ground.depth
+    found += [
+        f"no row lies between {a:g} and {b:g} m: the soil there is unknown"
+        for a, b in zip(depth, depth[1:])
+        if b - a > WIDEST_GAP
+    ]
+    return [*found, *test.test.remarks]
+
+
+def write(path: Path, every: Sequence[Estimates]) -> Path:
+    """Write layers.csv: a row for each layer, empty cells where it has no value."""
+    names = quantities_of(every)
+    heads = ["layer", "top_m", "bottom_m", "soil"]
+    heads += [f"{SHOWN[name].column}_{end}" for name in names for end in ENDS]
+    rows = []
+    for number, e in enumerate(every, 1):
+        row = [str(number), f"{e.layer.top:g}", f"{e.layer.bottom:g}", e.layer.kind]
+        for name in names:
+            estimate = e.values.get(name)
+            for end in ENDS:
+                value = estimate and estimate.at(end) * SHOWN[name].scale
+                row.append("" if value is None else f"{value:.4g}")
+        rows.append(row)
+    write_csv(path, heads, rows)
+    return path

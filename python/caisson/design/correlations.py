@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Published correlations between a cone test and parameters of the soil.
+
+Each gives a value for each row of a test, for its best estimate and at the ends of the
+scatter that its source states, about one standard deviation. p_a is 100 kPa, q_t the
+cone resistance, sigma_v and sigma'_v the total and the effective vertical stress, and
+sigma'_m = sigma'_v (1 + 2 K_0)/3. Formulas are those of the papers as two published
+programs and commercial manuals quote them, not copied from the papers.
+
+Relative density D_r of silica sand
+    jamiolkowski-2003  D_r = ln(q_c/p_a / (24.94 (sigma'_m/p_a)^0.46)) / 2.96
+        Jamiolkowski, Lo Presti & Manassero (2003), ASCE GSP 119, p. 201; chamber tests
+        on dry Ticino, Toyoura and Hokksund sand, sigma'_v 50 to 400 kPa, K_0 0.4 to
+        1.5; saturated sand is up to a tenth denser
+    baldi-1986         D_r = ln(q_c / (157 sigma'_v^0.55)) / 2.41, in kPa
+        Baldi et al. (1986), 4th Int. Geotech. Seminar, Singapore; normally consolidated
+        Ticino sand
+    Scatter: a factor of 1.3 in q_c. No source states it: it is the difference of the
+    two formulas.
+
+Friction angle of sand, in degrees
+    bolton-1986-tip    phi of bolton-1986 at the mean stress sqrt(q_t sigma'_v) in the
+        place of sigma'_m: sand under a tip fails under a stress between that of the
+        tip and that of the ground, and the more it is pressed the less it dilates.
+        The geometric mean is that of Randolph, Dolwin & Beck (1994), Geotechnique 44,
+        427, for piles; quoted, and unconfirmed
+    kulhawy-mayne-1990 phi = 17.6 + 11 log10(q_t/p_a / sqrt(sigma'_v/p_a))
+        Kulhawy & Mayne (1990), EPRI EL-6800; clean sands in chambers; a scatter of 2.8
+        degrees, which is quoted and unconfirmed
+    bolton-1986        phi = 33 + 3 I_R, I_R = D_r (10 - ln sigma'_m) - 1, in kPa
+        I_R from 0 to 4; Bolton (1986), doi 10.1680/geot.1986.36.1.65; quartz sand in
+        triaxial compression; scatter 2 degrees, and that of D_r
+
+Young's modulus of sand
+    schmertmann-1978   E = 2.5 q_c, from 2.0 to 3.5
+        Schmertmann, Hartman & Brown (1978), J. Geotech. Eng. Div. 104: 2.5 under round
+        and 3.5 under long footings; the 2.0 of Schmertmann (1970) is quoted and
+        unconfirmed
+    robertson-2009     E = 0.015 10^(0.55 I_c + 1.68) (q_t - sigma_v)
+        Robertson (2009), doi 10.1139/T09-065; young uncemented silica sand at strains
+        of about 0.1 %, small for a skirt that passes. The source states no scatter; a
+        factor of 1.5 is assumed
+
+Undrained strength of clay and silt
+    nkt                s_u = (q_t - sigma_v)/N_kt, N_kt = 14, from 10 to 18; another
+        N_kt has the same scatter
+        Robertson & Cabal (2015), Guide to cone penetration testing; CPT'18 has 8 to 25
+        (Mayne & Peuchen 2018)
+
+SI units; D_r is a share of 1, angles are in degrees.
+"""
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from caisson.design.density import bolton_angle, density_of_resistance
+from caisson.design.ground import ATMOSPHERE, Ground
+
+DENSITY, ANGLE = "relative density", "friction angle"
+MODULUS, STRENGTH = "Young's modulus", "undrained strength"
+SCATTER_OF_RESISTANCE = 1.3  # a factor of q_c, for D_r
+SCATTER_OF_ANGLE = 2.8  # degrees, of Kulhawy & Mayne
+SCATTER_OF_BOLTON = 2.0
+CONE_FACTORS = (18 / 14, 1.0, 10 / 14)  # times N_kt, for low, best and high strength
+MODULUS_RATIOS = (2.0, 2.5, 3.5)
+SCATTER_OF_MODULUS = 1.5  # a factor
+ANGLES = 25.0, 50.0  # between which an angle is held
+RESTS_OF_CLAY = 0.4, 1.5  # between which K_0 is held
+ROUNDS = 20
+
+LOW, BEST, HIGH = -1, 0, 1
+# ground, K_0 [n], and one of LOW, BEST, HIGH to D_r [n]
+Density = Callable[[Ground, np.ndarray, int], np.ndarray]
+
+
+class Correlation(NamedTuple):
+    """A correlation: what it gives, its name, its source and where it holds."""
+
+    quantity: str
+    name: str
+    source: str
+    holds: str
+
+
+EVERY = (
+    Correlation(
+        DENSITY,
+        "jamiolkowski-2003",
+        "Jamiolkowski, Lo Presti & Manassero (2003)",
+        "silica sand, vertical effective stress 50 to 400 kPa",
+    ),
+    Correlation(
+        DENSITY, "baldi-1986", "Baldi et al. (1986)", "normally consolidated sand"
+    ),
+    Correlation(
+        ANGLE,
+        "bolton-1986-tip",
+        "Bolton (1986) at the mean stress of Randolph, Dolwin & Beck (1994)",
+        "quartz sand under a tip, from relative density",
+    ),
+    Correlation(
+        ANGLE, "kulhawy-mayne-1990", "Kulhawy & Mayne (1990)", "clean silica sand"
+    ),
+    Correlation(
+        ANGLE, "bolton-1986", "Bolton (1986)", "quartz sand, from relative density"
+    ),
+    Correlation(
+        MODULUS,
+        "schmertmann-1978",
+        "Schmertmann, Hartman & Brown (1978)",
+        "sand under footings",
+    ),
+    Correlation(
+        MODULUS,
+        "robertson-2009",
+        "Robertson (2009)",
+        "young uncemented silica sand, strains of about 0.1 %",
+    ),
+    Correlation(
+        STRENGTH, "nkt", "Robertson & Cabal (2015)", "clay, and silt without drainage"
+    ),
+)
+BY_NAME = {correlation.name: correlation for correlation in EVERY}
+
+
+def chosen(names: Iterable[str]) -> dict[str, str]:
+    """Return the name for each quantity: the first of EVERY, or the one in names."""
+    found = {c.quantity: c.name for c in reversed(EVERY)}
+    return found | {BY_NAME[name].quantity: name for name in names}
+
+
+def mean_stress(ground: Ground, k0: np.ndarray) -> np.ndarray:
+    """Return sigma'_m (Pa) [n]."""
+    return ground.stress * (1 + 2 * k0) / 3
+
+
+def jamiolkowski(ground: Ground, k0: np.ndarray, end: int) -> np.ndarray:
+    """Return D_r [n] of Jamiolkowski et al. (2003)."""
+    resistance = ground.resistance * SCATTER_OF_RESISTANCE**end
+    return limited(density_of_resistance(resistance, mean_stress(ground, k0)))
+
+
+def baldi(ground: Ground, _: np.ndarray, end: int) -> np.ndarray:
+    """Return D_r [n] of Baldi et al. (1986)."""
+    resistance = ground.resistance * SCATTER_OF_RESISTANCE**end / 1e3
+    stress = (ground.stress / 1e3) ** 0.55
+    return limited(np.log(np.maximum(resistance, 1e-9) / (157 * stress)) / 2.41)
+
+
+def limited(density: np.ndarray) -> np.ndarray:
+    """Return D_r within 0 and 1."""
+    return np.clip(density, 0.0, 1.0)
+
+
+DENSITIES: dict[str, Density] = {"jamiolkowski-2003": jamiolkowski, "baldi-1986": baldi}
+
+
+def kulhawy_mayne(ground: Ground, end: int) -> np.ndarray:
+    """Return phi [n] of Kulhawy & Mayne (1990)."""
+    ratio = ground.tip / ATMOSPHERE / np.sqrt(ground.stress / ATMOSPHERE)
+    angle = 17.6 + 11 * np.log10(np.maximum(ratio, 1e-9))
+    return np.clip(angle + end * SCATTER_OF_ANGLE, *ANGLES)
+
+
+def stress_at_tip(ground: Ground, _: np.ndarray) -> np.ndarray:
+    """Return the mean stress (Pa) [n] under which sand fails at a tip."""
+    return np.sqrt(np.maximum(ground.tip, ground.stress) * ground.stress)
+
+
+STRESSES = {"bolton-1986": mean_stress, "bolton-1986-tip": stress_at_tip}
+
+
+def bolton(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
+    """Return phi [n] of Bolton (1986); K_0 = 1 - sin phi is found with it."""
+    stress_of, density = STRESSES[names[ANGLE]], DENSITIES[names[DENSITY]]
+    k0 = np.full(len(ground.depth), 0.5)
+    for _ in range(ROUNDS):
+        stress = stress_of(ground, k0)
+        angle = bolton_angle(density(ground, k0, BEST), stress)
+        k0 = at_rest(angle)
+    other = bolton_angle(density(ground, k0, end), stress_of(ground, k0))
+    angle = angle + end * np.hypot(SCATTER_OF_BOLTON, other - angle)
+    return np.clip(angle, *ANGLES)
+
+
+def at_rest(angle: np.ndarray) -> np.ndarray:
+    """Return K_0 = 1 - sin phi [n] (Jaky 1948), as the program does by itself."""
+    return 1 - np.sin(np.radians(angle))
+
+
+def angles_of(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
+    """Return phi [n] by the correlation chosen."""
+    if names[ANGLE] in STRESSES:
+        return bolton(ground, names, end)
+    return kulhawy_mayne(ground, end)
+
+
+def densities_of(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
+    """Return D_r [n] by the correlation chosen, with the K_0 of the best angle."""
+    k0 = at_rest(angles_of(ground, names, BEST))
+    return DENSITIES[names[DENSITY]](ground, k0, end)
+
+
+def moduli_of(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
+    """Return E (Pa) [n] by the correlation chosen."""
+    if names[MODULUS] == "robertson-2009":
+        ratio = 0.015 * 10 ** (0.55 * ground.index + 1.68)
+        return ratio * ground.net * SCATTER_OF_MODULUS**end
+    return MODULUS_RATIOS[end + 1] * ground.resistance
+
+
+def strengths_of(ground: Ground, _: dict[str, str], end: int) -> np.ndarray:
+    """Return s_u (Pa) [n]."""
+    return ground.net / (CONE_FACTORS[end + 1] * ground.cone_factor)
+
+
+def at_rest_of_clay(ground: Ground) -> np.ndarray:
+    """Return K_0 = 0.1 (q_t - sigma_v)/sigma'_v [n] (Kulhawy & Mayne 1990), held
+    within RESTS_OF_CLAY."""
+    return np.clip(0.1 * ground.net / ground.stress, *RESTS_OF_CLAY)

@@ -1,0 +1,304 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Penetration resistance of a caisson in layers of sand, also under suction.
+
+Houlsby and Byrne (2005), Design procedures for installation of suction
+caissons in sand, doi:10.1680/geng.2005.158.3.135. Plain: vertical stress
+gamma' z beside the wall. Enhanced: the friction on the wall adds to the
+vertical stress beside it, inside over the whole plug, outside out to m times
+the radius:
+
+    d sigma'_v / dz = gamma' + sigma'_v / Z,   Z_i = D_i / (4 K tan(delta_i)),
+                                               Z_o = D_o (m^2 - 1) / (4 K tan(delta_o)).
+
+K tan(delta) is a number of its own. The authors fitted it to installations in dense
+sand and found 0.45 to 0.8, because a wall pushes sand aside and so raises the stress on
+it. K0 tan(delta), of ground that no wall has disturbed, is a lower bound. A smooth wall
+has no friction.
+
+The paper has one layer. With several, gamma' and K are those of the layer at the
+depth, and the stress continues from layer to layer without a jump. The tip is a
+strip footing, in the layer in which it is, under the (unequal) stress of both
+sides.
+
+Suction makes water flow down outside and up inside. The paper takes both
+gradients as uniform over the embedment; so they are here, in layers too: flow
+adds the same to the unit weight of all layers on one side of the wall. No unit
+weight falls below 0. At the tip the unit weight is that of the inside.
+
+SI units, angles in degrees.
+"""
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import exp, inf, nan, pi, radians, tan
+from typing import NamedTuple
+
+from caisson.design.method import Forces
+
+# N_gamma of a rough strip footing by the method of characteristics (Martin
+# 2005, Exact bearing capacity calculations using the method of
+# characteristics): {friction angle in degrees: N_gamma}.
+N_GAMMA = {
+    15: 1.181,
+    20: 2.839,
+    25: 6.491,
+    30: 14.754,
+    35: 34.476,
+    40: 85.566,
+    45: 234.21,
+}
+
+
+def bearing_factor_surcharge(phi: float) -> float:
+    """Return N_q of a strip footing (Reissner 1924)."""
+    return exp(pi * tan(radians(phi))) * tan(radians(45 + phi / 2)) ** 2
+
+
+def bearing_factor_weight(phi: float) -> float:
+    """Return N_gamma; 0, on the safe side, outside the table of 15 to 45 degrees.
+
+    Between two entries N_gamma / ((N_q - 1) tan(phi)), which hardly changes
+    with phi, is interpolated.
+    """
+
+    def scale(angle: float) -> float:
+        return (bearing_factor_surcharge(angle) - 1) * tan(radians(angle))
+
+    if phi in N_GAMMA:
+        return N_GAMMA[int(phi)]
+    below = [angle for angle in N_GAMMA if angle < phi]
+    above = [angle for angle in N_GAMMA if angle > phi]
+    if not below or not above:
+        return 0.0
+    low, high = max(below), min(above)
+    weight = (phi - low) / (high - low)
+    ratio = (1 - weight) * N_GAMMA[low] / scale(low) + weight * N_GAMMA[high] / scale(
+        high
+    )
+    return ratio * scale(phi)
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A layer of sand, down to the top of the next one."""
+
+    top: float  # m below the surface
+    unit_weight: float  # effective, N/m3
+    friction_angle: float
+    lateral_stress_ratio: float  # K of undisturbed ground
+    wall_friction_angle: float | None = None  # None: that of the wall
+
+    def weight_under(self, added: float) -> float:
+        """Return the unit weight with what flow adds to it, but not below 0."""
+        return max(self.unit_weight + added, 0.0)
+
+
+@dataclass(frozen=True)
+class Seepage:
+    """What the flow of water adds to the unit weight on each side, N/m3."""
+
+    outer: float = 0.0
+    inner: float = 0.0
+
+
+STILL = Seepage()
+
+
+class Wall:
+    """One side of the wall: the vertical stress beside it, and its friction."""
+
+    def __init__(
+        self,
+        diameter: float,
+        reach: float,
+        friction_angle: float,
+        k_tan_delta: float | None,
+    ) -> None:
+        """reach: Z K tan(delta), m: D/4 inside, D (m^2 - 1)/4 outside. k_tan_delta:
+        of all layers, or None for that of undisturbed ground."""
+        self.diameter, self.reach = diameter, reach
+        self.tan_delta = tan(radians(friction_angle))
+        self.k_tan_delta = k_tan_delta
+
+    def k_tan_delta_in(self, layer: Layer) -> float:
+        """Return K tan(delta) in a layer, 0 where the wall is smooth."""
+        own = layer.wall_friction_angle
+        tan_delta = self.tan_delta if own is None else tan(radians(own))
+        if self.k_tan_delta is None or tan_delta == 0:
+            return layer.lateral_stress_ratio * tan_delta
+        return self.k_tan_delta
+
+    def step(
+        self,
+        layer: Layer,
+        stress: float,
+        thickness: float,
+        enhanced: bool,
+        added: float,
+    ) -> tuple[float, float]:
+        """Return the vertical stress below a piece of a layer, from that above
+        it, and the friction on the piece. added: to the unit weight, by flow."""
+        weight = layer.weight_under(added)
+        k_tan = self.k_tan_delta_in(layer)
+        d, z = thickness, self.reach / k_tan if k_tan > 0 else inf
+        if enhanced and z < inf:
+            growth = exp(d / z) - 1
+            below = stress + (stress + weight * z) * growth
+            integral = stress * z * growth + weight * z**2 * (growth - d / z)
+        else:
+            below = stress + weight * d
+            integral = stress * d + weight * d**2 / 2
+        return below, integral * k_tan * pi * self.diameter
+
+
+class Caisson:
+    """The resistance of one caisson; h is the embedment of its tip (m), and all
+    forces are N."""
+
+    def __init__(
+        self,
+        diameter: float,
+        wall_thickness: float,
+        layers: Sequence[Layer],
+        inner_friction_angle: float,
+        outer_friction_angle: float,
+        spread: float = 1.5,
+        k_tan_delta: tuple[float, float] | None = None,
+    ) -> None:
+        """diameter: outer one; layers: from the surface down; spread: m; k_tan_delta:
+        K tan(delta) of the inner and the outer wall, None for undisturbed ground."""
+        self.outer_diameter, self.t = diameter, wall_thickness
+        self.layers = sorted(layers, key=lambda layer: layer.top)
+        inner = diameter - 2 * wall_thickness
+        reach = diameter * (spread**2 - 1) / 4
+        k_inner, k_outer = k_tan_delta or (None, None)
+        self.inner = Wall(inner, inner / 4, inner_friction_angle, k_inner)
+        self.outer = Wall(diameter, reach, outer_friction_angle, k_outer)
+
+    def pieces(self, h: float) -> list[tuple[Layer, float]]:
+        """Return the layers down to h, with the thickness that counts."""
+        bottoms = [layer.top for layer in self.layers[1:]] + [inf]
+        pairs = zip(self.layers, bottoms)
+        return [
+            (layer, min(bottom, h) - layer.top)
+            for layer, bottom in pairs
+            if layer.top < h
+        ]
+
+    def _go_down(
+        self, wall: Wall, h: float, enhanced: bool, added: float
+    ) -> tuple[float, float]:
+        """Return the vertical stress at h and the friction down to it."""
+        stress = friction = 0.0
+        for layer, thickness in self.pieces(h):
+            stress, part = wall.step(layer, stress, thickness, enhanced, added)
+            friction += part
+        return stress, friction
+
+    def k_tan_delta_of(self, friction: float, h: float, seepage: Seepage) -> float:
+        """Return the K tan(delta) of a friction (N) on the outer wall: over the stress
+        beside it without enhancement; nan at the mudline."""
+        stress = integral = 0.0
+        for layer, d in self.pieces(h):
+            weight = layer.weight_under(seepage.outer)
+            integral += stress * d + weight * d**2 / 2
+            stress += weight * d
+        whole = pi * self.outer.diameter * integral
+        return friction / whole if whole > 0 else nan
+
+    def inner_friction(
+        self, h: float, enhanced: bool, seepage: Seepage = STILL
+    ) -> float:
+        """Return the friction on the inner wall."""
+        return self._go_down(self.inner, h, enhanced, seepage.inner)[1]
+
+    def outer_friction(
+        self, h: float, enhanced: bool, seepage: Seepage = STILL
+    ) -> float:
+        """Return the friction on the outer wall."""
+        return self._go_down(self.outer, h, enhanced, seepage.outer)[1]
+
+    def tip(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
+        """Return the force on the tip, with a flat end of the wall."""
+        low, high = sorted(
+            self._go_down(wall, h, enhanced, added)[0]
+            for wall, added in (
+                (self.inner, seepage.inner),
+                (self.outer, seepage.outer),
+            )
+        )
+        layer = [layer for layer in self.layers if layer.top < h or layer.top <= 0][-1]
+        n_q = bearing_factor_surcharge(layer.friction_angle)
+        n_gamma = bearing_factor_weight(layer.friction_angle)
+        weight, t = layer.weight_under(seepage.inner), self.t
+        x = t  # the part of the tip where the soil flows to the low side
+        if n_gamma > 0 and weight > 0:
+            x = t / 2 + (high - low) * n_q / (4 * weight * n_gamma)
+        if high > low and x >= t:
+            end = low * n_q + weight * t * n_gamma
+        else:
+            end = high * n_q + weight * n_gamma * (t - 2 * min(x, t) ** 2 / t)
+        return end * pi * (self.outer_diameter - t) * t
+
+    def resistance(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
+        """Return the friction on both walls and the force on the tip."""
+        parts = (self.outer_friction, self.inner_friction, self.tip)
+        return sum(part(h, enhanced, seepage) for part in parts)
+
+
+class Assumptions(NamedTuple):
+    """What the method assumes, which no ground investigation gives. K tan(delta) is
+    (low, high)."""
+
+    k_tan_delta_inside: tuple[float, float] = (0.45, 0.8)
+    k_tan_delta_outside: tuple[float, float] = (0.45, 0.8)
+    plug_permeability_ratio: float = 1.0  # of the plug to the soil outside
+    load_spread: float | None = 1.5  # m; None: no stress enhancement
+
+
+class Case(NamedTuple):
+    """A caisson whose walls have one K tan(delta), with or without enhancement."""
+
+    caisson: Caisson
+    enhanced: bool
+
+
+UNDISTURBED = "undisturbed"
+
+
+class HoulsbyByrne:
+    """The forces of jacking as a method: a range of K tan(delta), and below it
+    undisturbed ground without stress enhancement."""
+
+    cases = ("low", "high")
+
+    def __init__(self, by_name: Mapping[str, Case], permeability_ratio: float) -> None:
+        self.by_name, self.permeability_ratio = by_name, permeability_ratio
+
+    def forces(self, h: float, case: str) -> Forces:
+        """Return the forces at an embedment, of jacking."""
+        return self.forces_under(STILL, h, case)
+
+    def forces_under(self, flow: Seepage, h: float, case: str) -> Forces:
+        """Return the forces at an embedment under flow."""
+        caisson, enhanced = self.by_name[case]
+        parts = (caisson.tip, caisson.inner_friction, caisson.outer_friction)
+        return Forces(*(part(h, enhanced, flow) for part in parts))
+
+
+def method(
+    diameter: float,
+    wall_thickness: float,
+    layers: Sequence[Layer],
+    friction_angles: tuple[float, float],
+    assumed: Assumptions,
+) -> HoulsbyByrne:
+    """Return the method for sand. friction_angles: of the inner and outer wall."""
+    spread = assumed.load_spread
+    geometry = (diameter, wall_thickness, layers, *friction_angles, spread or 1.5)
+    ranges = zip(assumed.k_tan_delta_inside, assumed.k_tan_delta_outside)
+    by_name = {
+        name: Case(Caisson(*geometry, k_tan_delta=pair), spread is not None)
+        for name, pair in zip(HoulsbyByrne.cases, ranges)
+    }
+    by_name[UNDISTURBED] = Case(Caisson(*geometry), False)
+    return HoulsbyByrne(by_name, assumed.plug_permeability_ratio)

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Penetration resistance by Senders and Randolph, from a cone test in sand.
+
+Senders and Randolph (2009), CPT-based method for the installation of suction caissons
+in sand, J. Geotech. Geoenviron. Eng. 135(1): the tip bears k_p q_c with k_p = 0.2, and
+each wall k_f q_c with
+
+    k_f = C (1 - (D_i / D_o)^2)^0.3 tan(delta).
+
+This is the shaft friction of piles by UWA-05 (Lehane, Schneider and Xu 2005; also in
+API RP 2GEO),
+
+    tau = 0.03 A_r^0.3 max(h / D, 2)^-0.5 q_c tan(delta),   A_r = 1 - (D_i / D_o)^2,
+
+where the wall is less than two diameters above the tip, as on all of a caisson:
+C = 0.03 / sqrt(2) = 0.021, the upper case. The lower case has C = 0.012, which is
+quoted for caissons. The paper was not at hand: k_p = 0.2 and C = 0.012 are as others
+quote them, and have not been checked against it.
+
+What suction takes from these forces: suction_installation.
+"""
+from math import sqrt
+
+from caisson.design.cone import Coefficients, ConeMethod, Layer, Profile, Skirt
+
+CASES = ("low", "high")
+TIP = 0.2  # k_p
+WALL = {"low": 0.012, "high": 0.03 / sqrt(2)}  # C
+
+
+def wall_coefficient(skirt: Skirt, case: str, tan_delta: float) -> float:
+    """Return k_f of a wall."""
+    area_ratio = 1 - (skirt.inner_diameter / skirt.outer_diameter) ** 2
+    return WALL[case] * area_ratio**0.3 * tan_delta
+
+
+def method(skirt: Skirt, profile: Profile) -> ConeMethod:
+    """Return the method for sand, whose layers follow from q_c."""
+    k = {
+        case: Coefficients(
+            TIP,
+            wall_coefficient(skirt, case, skirt.tan_inner),
+            wall_coefficient(skirt, case, skirt.tan_outer),
+        )
+        for case in CASES
+    }
+    return ConeMethod(CASES, skirt, profile, [Layer(0.0, k)])

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Installation of a caisson by suction in layers of sand: how much suction it takes.
+
+Under its effective weight V' the caisson comes to rest where its resistance is V'.
+From there on, suction s beneath the lid pulls it down:
+
+    V' + s A_i = F_o + F_i + Q,    A_i = pi D_i^2 / 4,
+
+with the friction F on both walls and the force Q on the tip. Two methods say how
+suction changes these forces:
+
+    Houlsby and Byrne (2005), doi:10.1680/geng.2005.158.3.135: the forces are those
+    of jacking, but flow changes the unit weight by a s / h outside and by
+    -(1 - a) s / h inside and at the tip.
+    Senders and Randolph (2009), J. Geotech. Geoenviron. Eng. 135(1): F_o is that of
+    jacking, and F_i and Q decrease in proportion to 1 - s / s_cr. They take the
+    forces of jacking from a cone test (senders_randolph).
+
+The formulas are those of one unit weight. With several layers the gradient is the
+same in all of them, and s_cr follows from the mean unit weight down to the tip.
+Houlsby and Byrne's limit is then reached, on the safe side, when the lightest layer
+down to the tip has no weight left inside. The pressure of the water on the end of
+the wall is left out.
+
+SI units; h is the embedment of the tip (m), forces are N, suctions are Pa.
+"""
+from collections.abc import Callable
+from math import inf, nan, pi
+
+from scipy.optimize import brentq
+
+from caisson.design.houlsby_byrne import Caisson, Seepage
+from caisson.design.method import Forces
+from caisson.design.seepage import houlsby_byrne, pressure_factor, senders_randolph
+
+
+def bisect(is_beyond: Callable[[float], bool], low: float, high: float) -> float:
+    """Return where is_beyond turns from False, at low, to True, at high."""
+    for _ in range(100):
+        middle = (low + high) / 2
+        low, high = (low, middle) if is_beyond(middle) else (middle, high)
+    return high
+
+
+def plug_area(caisson: Caisson) -> float:
+    """Return the area that suction acts on (m2)."""
+    return pi * caisson.inner.diameter**2 / 4
+
+
+def self_weight_penetration(
+    caisson: Caisson, weight: float, enhanced: bool, deepest: float
+) -> float:
+    """Return the embedment at which the caisson first stands without suction.
+
+    weight: effective, V'; deepest: length of the skirt. Raises ValueError where
+    the caisson sinks in deeper than this. The resistance grows with depth inside a
+    layer, but may fall from layer to layer.
+    """
+
+    def stands(h: float) -> bool:
+        return caisson.resistance(h, enhanced) >= weight
+
+    if stands(0):
+        return 0.0
+    top = 0.0
+    for layer in caisson.layers[1:]:
+        bottom = min(layer.top, deepest)
+        if bottom > top and stands(bottom):
+            return bisect(stands, top, bottom)
+        top = max(top, bottom)
+    if not stands(deepest):
+        raise ValueError(
+            f"the caisson sinks in by its weight of {weight:g} N deeper than"
+            f" {deepest:g} m, where its resistance is"
+            f" {caisson.resistance(deepest, enhanced):g} N:"
+            " no suction is needed down to this depth"
+        )
+    return bisect(stands, top, deepest)
+
+
+def seepage(
+    caisson: Caisson, suction: float, h: float, permeability_ratio: float = 1.0
+) -> Seepage:
+    """Return what the flow under this suction adds to the unit weights."""
+    a = pressure_factor(h / caisson.outer_diameter, permeability_ratio)
+    return Seepage(outer=a * suction / h, inner=-(1 - a) * suction / h)
+
+
+def piping_suction(
+    caisson: Caisson, h: float, permeability_ratio: float = 1.0
+) -> float:
+    """Return the suction at which a layer inside has lost its weight, beyond which
+    the equations of Houlsby and Byrne do not hold."""
+    lightest = min((layer.unit_weight for layer, _ in caisson.pieces(h)), default=0.0)
+    return houlsby_byrne(lightest, h, caisson.outer_diameter, permeability_ratio)
+
+
+def required_suction(
+    caisson: Caisson,
+    weight: float,
+    h: float,
+    enhanced: bool,
+    permeability_ratio: float = 1.0,
+) -> float:
+    """Return the suction by Houlsby and Byrne that moves the tip on at h.
+
+    It is 0 where the weight suffices, and nan where no suction up to piping does.
+    The resistance less the pull is a concave function of the suction up to piping,
+    so that its sign at piping shows which is the case, and the root is the only
+    one. permeability_ratio: of the sand inside to that outside.
+    """
+    if caisson.resistance(h, enhanced) <= weight:
+        return 0.0
+    area = plug_area(caisson)
+
+    def missing(suction: float) -> float:
+        flow = seepage(caisson, suction, h, permeability_ratio)
+        return caisson.resistance(h, enhanced, flow) - weight - suction * area
+
+    most = piping_suction(caisson, h, permeability_ratio)
+    if h <= 0 or not missing(most) <= 0:
+        return nan
+    return float(brentq(missing, 0.0, most, xtol=1e-9, rtol=1e-14))
+
+
+def mean_unit_weight(caisson: Caisson, h: float) -> float:
+    """Return the mean effective unit weight down to h, 0 at the surface."""
+    pieces = caisson.pieces(h)
+    stress = sum(layer.unit_weight * thickness for layer, thickness in pieces)
+    return stress / h if h > 0 else 0.0
+
+
+def critical_suction(caisson: Caisson, h: float) -> float:
+    """Return s_cr of Senders and Randolph."""
+    return senders_randolph(mean_unit_weight(caisson, h), h, caisson.outer_diameter)
+
+
+def relieved_suction(
+    jacking: Forces, weight: float, area: float, critical: float
+) -> float:
+    """Return the suction by Senders and Randolph that moves the tip on.
+
+    jacking: the forces without suction; area: that suction acts on (m2); critical:
+    s_cr. It is 0 where the weight suffices, and nan where no suction up to s_cr does.
+    """
+    missing = jacking.total - weight
+    if missing <= 0:
+        return 0.0
+    relieved = jacking.inner_friction + jacking.tip
+    loss = relieved / critical if critical > 0 else inf
+    suction = missing / (area + loss)
+    return suction if 0 < suction <= critical else nan

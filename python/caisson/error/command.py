@@ -1,0 +1,379 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Computes the error bar of a scene: runs it on similar meshes, and with other mass
+scaling, steps, points and boundaries, and writes the file beside it that the
+report reads.
+
+The budget is the time of all runs on one core. The coarsest mesh, with two cells across
+the wall, costs little: it has the runs with other numerics. The error by the mesh comes
+from all meshes that the budget allows; with two of them the bar is wide, because
+nothing confirms it. The scene itself is not changed.
+"""
+import argparse
+import math
+import os
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from caisson import error_bounds
+from caisson.paths import PROGRAM, RESULTS, scene_or_study
+from caisson.progress import duration
+from caisson.ranks import Size
+from caisson.runner import Run, RunError, read_parameters
+from caisson.study import Options, Study, StudyError, StudyRun, execute
+from caisson.study_command import shares_of, to_do_of
+from caisson import disk
+from caisson.error import error_bar
+from caisson.error.windows import NUMBERS, Window, WindowedRun, windows_of
+
+UNITS = {"s": 1, "min": 60, "h": 3600}
+TIMES_THE_SCENE = 2  # the budget, if none is given
+ROUNDED = 1.05  # over the budget: not worth a word
+CELLS = [2, 3, 4, 6, 8, 12, 16, 24]  # across the wall
+PLAIN = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0]  # of a body without cells across
+QUIET = {
+    "Output/Frame interval": "never",
+    "Output/Frame penetrations": "",
+}
+# runs with other numerics on the coarsest mesh, and their cost over one without
+INERTIA, STEP, POINTS, SIDES = "inertia", "time step", "points", "boundaries"
+COST = {INERTIA: 2.0, STEP: 2.0, POINTS: 1.8, SIDES: 1.5}
+COST_OF_CHANGES = sum(COST.values())
+SHORTEST_WAY = 0.4  # m
+TOO_SHORT = (
+    f"the body is pushed by less than {SHORTEST_WAY} m, and the depths of an error bar"
+    " are 0.1 m apart: such a scene has none"
+)
+
+
+def seconds_of(text: str) -> float:
+    """Return a duration such as 90s, 30min or 2h in seconds. Raises
+    ArgumentTypeError."""
+    found = re.fullmatch(r"(\d+(?:\.\d*)?) *(s|min|h)", text.strip())
+    if found is None or not float(found[1]):
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not a duration such as 90s, 30min or 2h"
+        )
+    return float(found[1]) * UNITS[found[2]]
+
+
+def in_units(seconds: float) -> str:
+    """Return a duration as seconds_of() reads it, rounded up."""
+    unit = "s" if seconds < 60 else "min" if seconds < 5400 else "h"
+    return f"{math.ceil(seconds / UNITS[unit])}{unit}"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson error-bar`."""
+    add = parser.add_argument
+    add("scene", type=scene_or_study, metavar="FILE.prm")
+    text = "time of all runs on one core, such as 30min or 2h; default: twice"
+    add("--budget", type=seconds_of, metavar="TIME", help=f"{text} that of the scene")
+    text = "run the whole way of the scene, also where windows at some depths would do"
+    add("--whole", action="store_true", help=text)
+    text = "the file to write, default: FILE_error_bar.csv, which the report finds"
+    add("--output", type=Path, metavar="CSV", help=text)
+    add("--overwrite", action="store_true", help="replace the file if it is there")
+    add("--list", action="store_true", help="print the runs, and run nothing")
+    add("--again", action="store_true", help="repeat also runs that are complete")
+    add("--program", type=Path, default=PROGRAM, help="caisson_mpm")
+    text = "directory of the runs, default: results/error_bar/FILE"
+    add("--results", type=Path, help=text)
+
+
+def refinements(cells: int, even: bool) -> list[float]:
+    """Return the numbers for Grid/Refinement of a body with so many cells across its
+    wall, which must be even for a triangular tip; 0: a body without a wall."""
+    if not cells:
+        return PLAIN
+    wanted = sorted({*CELLS, cells, *(cells * n for n in (2, 3, 4))})
+    return [n / cells for n in wanted if n == cells or n >= 2 and not (even and n % 2)]
+
+
+def chosen_meshes(
+    known: list[float], seconds: float, budget: float, changes: float
+) -> list[float]:
+    """Return the refinements that the budget (s) allows, where a run of the scene takes
+    some seconds: a run costs the cube of its refinement; changes: the cost of those
+    with other numerics over that of the coarsest."""
+    chosen = [r for r in known if r <= 1]
+    left = budget - seconds * (sum(r**3 for r in chosen) + changes * min(chosen) ** 3)
+    for r in (r for r in known if r > 1):
+        left -= seconds * r**3
+        if left < 0:
+            break
+        chosen.append(r)
+    return chosen
+
+
+def changes_of(entries: dict[str, str]) -> dict[str, tuple[dict[str, Any], float]]:
+    """Return the runs with other numerics: what they change in the entries of the
+    scene, and the factor that extrapolates to the limit."""
+    found: dict[str, tuple[dict[str, Any], float]] = {}
+    tolerance = entries["Time/Inertia tolerance"]
+    if tolerance != "none":
+        quarter = {"Time/Inertia tolerance": float(tolerance) / 4}
+        found[INERTIA] = quarter, 4 / 3
+    elif (scaling := float(entries["Time/Mass scaling"])) > 1:
+        less = max(1.0, scaling / 4)
+        found[INERTIA] = {"Time/Mass scaling": less}, scaling / (scaling - less)
+    courant = float(entries["Time/Courant number"])
+    found[STEP] = {"Time/Courant number": courant / 2}, 1
+    points = [f"Material points/Per direction {zone}" for zone in ("in path", "near")]
+    points.append("Material points/Per direction far")
+    found[POINTS] = {name: int(entries[name]) + 1 for name in points}, 1
+    sides = ("Grid/Outer radius", "Grid/Bottom")
+    found[SIDES] = {name: 1.5 * float(entries[name]) for name in sides}, 1
+    return found
+
+
+class Plan:
+    """The runs for the error bar of a scene."""
+
+    def __init__(self, arguments: argparse.Namespace) -> None:
+        """Ask the program for the scene. Raises RunError and StudyError."""
+        self.scene: Path = arguments.scene.resolve()
+        if self.scene.suffix == ".toml":
+            raise StudyError(
+                f"{self.scene.name} is a study. Give the scene, a .prm file, or call"
+                " caisson study"
+            )
+        self.program: Path = arguments.program.resolve()
+        self.results = arguments.results or RESULTS / "error_bar" / self.scene.stem
+        self.entries = read_parameters([str(self.scene)], self.program)
+        self.output: Path = arguments.output or error_bounds.beside(self.scene)
+        self.check_way()
+        self.check_output()
+        self.size = self.size_of_scene()
+        self.budget = arguments.budget or TIMES_THE_SCENE * self.size.seconds
+        known = self.meshes()
+        self.choose(known, (0,) if arguments.whole else NUMBERS)
+        self.next = next((r for r in known if r not in self.chosen), 0.0)
+        if len(self.chosen) < 2:
+            needed = self.seconds * (1 + self.cost_of_changes + self.next**3)
+            raise StudyError(
+                f"{duration(self.budget)} is not enough for a second mesh. Set --budget"
+                f" {in_units(needed)}, or more cells across the wall: the coarser"
+                " meshes then cost little."
+            )
+
+    def choose(self, known: list[float], numbers: Sequence[int]) -> None:
+        """Choose the first of these numbers of windows that leaves a part of the budget
+        for a second mesh, the last one where none does, and the meshes."""
+        for number in numbers:
+            self.windows = windows_of(self.entries, number)
+            self.seconds = self.size.seconds * self.share_of_way()
+            changes = self.cost_of_changes
+            self.chosen = chosen_meshes(known, self.seconds, self.budget, changes)
+            if len(self.chosen) > 1:
+                break
+
+    def share_of_way(self) -> float:
+        """Return the share of the way of the scene that a run takes."""
+        if not self.windows:
+            return 1.0
+        last, length = self.windows[-1].depth, self.windows[0].length
+        start = float(self.entries["Rigid body/Initial penetration"])
+        return len(self.windows) * length / (last - start)
+
+    @property
+    def cost_of_changes(self) -> float:
+        """The cost of all runs with other numerics over that of one without. Windows
+        have them at one depth, and there the run without once more."""
+        if not self.windows:
+            return COST_OF_CHANGES
+        return (1 + COST_OF_CHANGES) / len(self.windows)
+
+    def check_way(self) -> None:
+        """Raise StudyError where the body is not pushed far enough."""
+        if self.entries["Rigid body/Velocity"].startswith("-"):
+            raise StudyError("the body is pulled out: error bars are for its way down")
+        try:
+            end = float(self.entries["Time/End penetration"])
+        except ValueError:  # another end: a short way is seen after the runs
+            return
+        if end - float(self.entries["Rigid body/Initial penetration"]) < SHORTEST_WAY:
+            raise StudyError(TOO_SHORT)
+
+    def check_output(self) -> None:
+        """Raise StudyError where the file cannot be written."""
+        folder = self.output.resolve().parent
+        if not os.access(folder, os.W_OK):
+            raise StudyError(f"{folder} cannot be written. Choose --output")
+        if self.output.is_dir():
+            raise StudyError(f"{self.output} is a directory. Choose --output")
+
+    def check_free(self, runs: list[StudyRun]) -> None:
+        """Raise StudyError where the file is there and runs are missing, so that it
+        will be another one."""
+        if self.output.exists() and not all(run.run.is_complete() for run in runs):
+            raise StudyError(
+                f"{self.output} exists. Choose --output, or replace it by --overwrite"
+            )
+
+    def size_of_scene(self) -> Size:
+        """Return the points of the scene and how long it takes on one core. The program
+        does not say it where its first steps took no time that it could measure."""
+        for _ in range(3):
+            size = self.run("default", {}).run.validate()
+            if size.seconds:
+                return size
+        raise StudyError("the time of the scene is not known; repeat the command")
+
+    def sized(self, r: float, cost: float = 1.0) -> Size:
+        """Return the size of a run on a mesh, where a step costs more by a factor."""
+        return Size(round(self.size.points * r**2), cost * self.seconds * r**3)
+
+    def run(
+        self, name: str, entries: dict[str, Any], windows: Sequence[Window] = ()
+    ) -> StudyRun:
+        """Return a run of the scene, in windows if there are any."""
+        directory = (self.results / name.replace(" ", "_")).resolve()
+        changed = {**QUIET, **entries}
+        run = Run(self.scene, changed, directory, program=self.program)
+        if windows:
+            depths = [window.depth for window in self.windows]
+            run = WindowedRun(
+                self.scene, changed, directory, windows, depths, self.program
+            )
+        return StudyRun(self.scene.stem, name, "", "", 0, {}, run)
+
+    def meshes(self) -> list[float]:
+        """Return the refinements that fit the body and that the program accepts."""
+        kind = self.entries["Rigid body/Kind"]
+        if kind not in ("caisson", "box", "cone", "pile"):
+            raise StudyError("the scene has no body that is pushed into the soil")
+        has_wall = kind != "box"
+        cells = 0
+        if has_wall:
+            refined = float(self.entries["Grid/Refinement"])
+            cells = round(
+                int(self.entries["Rigid body/Cells across the wall"]) * refined
+            )
+        even = kind == "caisson" and self.entries["Rigid body/Tip"] == "triangular"
+        return [r for r in refinements(cells, even) if self.fits(r, cells)]
+
+    def fits(self, r: float, cells: int) -> bool:
+        """Return whether a mesh can be made: the program is asked for coarse ones."""
+        name = "Grid/Refinement levels"
+        levels = int({**self.entries, **self.mesh(r)}[name])
+        if round(cells * r) % 2**levels:
+            return False
+        try:
+            if r < 1:
+                self.run("", self.mesh(r)).run.validate()
+        except RunError:
+            return False
+        return True
+
+    def mesh(self, r: float) -> dict[str, Any]:
+        """Return the entries of a mesh, none of that of the scene. Cells that are
+        halved at the tip are halved less often on a coarser one: lines of the mesh
+        cannot be wider apart than the wall."""
+        if r == 1:
+            return {}
+        found: dict[str, Any] = {
+            "Grid/Refinement": r * float(self.entries["Grid/Refinement"])
+        }
+        less = math.ceil(-math.log2(r)) if r < 1 else 0
+        for name in ("Grid/Refinement levels", "Grid/Refinement levels along wall"):
+            if levels := int(self.entries[name]):
+                found[name] = max(0, levels - less)
+        return found
+
+    def run_on(self, r: float, name: str) -> StudyRun:
+        """Return the run of a mesh."""
+        run = self.run(name, self.mesh(r), self.windows)
+        run.size = self.sized(r)
+        return run
+
+    def changed(self, r: float, of: str) -> tuple[list[StudyRun], list[dict[str, Any]]]:
+        """Return the runs with other numerics on a mesh, and their terms of the error
+        bar; of: the name of the run of the mesh itself."""
+        runs, terms = [], []
+        middle = len(self.windows) // 2
+        one = self.windows[middle : middle + 1]
+        share = 1 / max(1, len(self.windows))
+        if one:
+            of = "one window"
+            runs.append(self.run(of, self.mesh(r), one))
+            runs[-1].size = self.sized(r, share)
+        for name, (entries, factor) in changes_of(self.entries).items():
+            runs.append(self.run(name, {**entries, **self.mesh(r)}, one))
+            runs[-1].size = self.sized(r, COST[name] * share)
+            terms.append({"name": name, "from": of, "to": name, "factor": factor})
+        return runs, terms
+
+    def study(self) -> Study:
+        """Return the runs and the terms of the error bar."""
+        names = {r: f"refinement {r:g}" if r != 1 else "default" for r in self.chosen}
+        runs = [self.run_on(r, name) for r, name in names.items()]
+        coarsest = min(names)
+        changed, terms = self.changed(coarsest, names[coarsest])
+        errors = [{"name": "mesh", "meshes": list(names.values())}, *terms]
+        keys = {"errors": errors, "output": str(self.output.resolve())}
+        return Study(self.scene.stem, self.scene.stem, self.scene, runs + changed, keys)
+
+    def execute(self, runs: list[StudyRun], again: bool) -> None:
+        """Run what is not complete. Raises StudyError where a run has no result."""
+        self.results.mkdir(parents=True, exist_ok=True)
+        execute(shares_of(to_do_of(runs, again), None), again)
+        if missing := [run for run in runs if not run.run.is_complete()]:
+            raise StudyError(f"{missing[0].name}: {missing[0].trouble}")
+
+
+def set_depths(study: Study, windows: Sequence[Window]) -> None:
+    """Set the depths of the bar: those of the windows, or all that the run of the scene
+    passes on its way down, without half a window at both ends and without the first
+    0.3 m."""
+    if windows:
+        first, second, last = windows[0].depth, windows[1].depth, windows[-1].depth
+        study.keys["depths"] = [first, last, second - first]
+        return
+    depth = study.run("default").results.history["penetration_m"]
+    first, last = depth[0] + 0.3, depth.max() - 0.1
+    if last < first:
+        raise StudyError(TOO_SHORT)
+    study.keys["depths"] = [round(first, 1), round(last, 6), 0.1]
+
+
+def advise(plan: Plan, study: Study) -> None:
+    """Print how the report finds the bar, and what the next finer mesh would cost."""
+    if plan.output.resolve() != error_bounds.beside(plan.scene).resolve():
+        print(f"Give it to the report: caisson report --error-bar {plan.output} DIR.")
+    if plan.next:
+        cost = duration(plan.seconds * plan.next**3)
+        what = (
+            "With it the safety factor of the error by the mesh is 1.25 instead of 3,"
+            " where the meshes agree."
+            if len(plan.chosen) < 3
+            else "If the scene used it, its error by the mesh would be about"
+            f" {1 / plan.next:.2f} times the one above, where the meshes have an order."
+        )
+        print(
+            f"The next finer mesh, {plan.next:g} times as fine as that of the scene,"
+            f" takes about {cost} on one core. {what}"
+        )
+
+
+def main(arguments: argparse.Namespace) -> int:
+    """Run and write the file."""
+    plan = Plan(arguments)
+    study = plan.study()
+    total = sum(run.duration for run in study.runs)
+    for run in study.runs:
+        print(f"{run.name}: about {duration(run.duration)}")
+    print(f"all runs: about {duration(total)} on one core", flush=True)
+    if total > ROUNDED * plan.budget:
+        print(f"This is more than the budget, {duration(plan.budget)}.")
+    if arguments.list:
+        return 0
+    if not arguments.overwrite:
+        plan.check_free(study.runs)
+    plan.execute(study.runs, arguments.again)
+    set_depths(study, plan.windows)
+    with disk.all_or_none(arguments.overwrite):
+        error_bar.evaluate([study], Options(), 0)
+    advise(plan, study)
+    return 0

@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Windows: short ways shortly above some depths, instead of the whole way of a scene.
+
+In a window the body begins wished in place, and is pushed by WIDTHS thicknesses of its
+wall until it is at one of the depths. The mean of a number over the last third counts.
+The inertia is that of the scene at this depth: where the tolerance grows with the way
+(theory, section 12), the window has a larger one.
+
+A window does not see what the way above it did to the soil, as to the friction of the
+walls. So it is for differences between runs, relative to their values.
+"""
+import functools
+import hashlib
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from caisson import curves, table
+from caisson.results import Results, Table
+from caisson.runner import Entries, Run, Status, query, read_parameters, set_options
+from caisson import disk
+
+WIDTHS, SHARE_OF_MEAN = 12.0, 1 / 3
+NUMBERS = 4, 3, 2  # of windows, the first as a rule
+MOST = 0.5  # of the way of the scene: else its whole way costs little more
+LEAST_WAY = 6 * curves.FORCE_WINDOW  # m: the means of two depths must not overlap
+ROWS = 20  # of history.csv in a mean
+# Simulation::stress_over_inertia_at_tip(): the tolerance over the way in radii
+FIRST_SHARE, WHOLE_AFTER = 0.15, 1 / 3
+LARGEST_TOLERANCE = 10.0
+
+
+@dataclass(frozen=True)
+class Window:
+    """The way to a depth, in m."""
+
+    start: float
+    depth: float
+
+    @property
+    def name(self) -> str:
+        """The directory of its run."""
+        return f"to_{self.depth:.4g}_m"
+
+    @property
+    def length(self) -> float:
+        """The way (m)."""
+        return self.depth - self.start
+
+    @property
+    def averaged(self) -> float:
+        """The length of the mean (m)."""
+        return SHARE_OF_MEAN * self.length
+
+    def entries(self, scene: Entries) -> dict[str, Any]:
+        """Return what the window changes in the entries of the scene."""
+        speed = float(scene["Rigid body/Velocity"])
+        changed = {
+            "Rigid body/Initial penetration": self.start,
+            "Time/End penetration": self.depth,
+            "Output/Record interval": self.averaged / ROWS / speed,
+        }
+        if (tolerance := scene["Time/Inertia tolerance"]) != "none":
+            radius = float(scene["Rigid body/Outer diameter"]) / 2
+            way = self.depth - self.averaged / 2 - self.start
+            share = min(1.0, max(FIRST_SHARE, way / radius / WHOLE_AFTER))
+            changed["Time/Inertia tolerance"] = min(
+                LARGEST_TOLERANCE, float(tolerance) / share
+            )
+        return changed
+
+
+def windows_of(scene: Entries, number: int) -> list[Window]:
+    """Return so many windows of a scene by its entries: none of a body without a wall
+    or with another way than one down to a depth at one speed, and of a way that is
+    short or hardly longer than they are."""
+    names = ["Rigid body/Wall thickness", "Rigid body/Velocity"]
+    names += ["Rigid body/Initial penetration", "Time/End penetration"]
+    try:
+        thickness, speed, start, end = (float(scene[name]) for name in names)
+    except ValueError:
+        return []
+    length = WIDTHS * thickness
+    prescribed = scene["Rigid body/Motion"] == "prescribed" and speed > 0
+    prescribed &= scene["Rigid body/Velocity table"] == ""
+    hollow = scene["Rigid body/Kind"] == "caisson"
+    is_long = end - start >= max(LEAST_WAY, number * length / MOST)
+    if not (hollow and prescribed and is_long):
+        return []
+    depths = start + (end - start) * np.arange(1, number + 1) / max(number, 1)
+    return [Window(float(depth) - length, float(depth)) for depth in depths]
+
+
+class WindowedRun(Run):
+    """The runs of a scene in its windows, and one history of their means."""
+
+    def __init__(
+        self,
+        scene: Path,
+        entries: Entries,
+        directory: Path,
+        windows: Sequence[Window],
+        depths: Sequence[float],
+        program: Path,
+    ) -> None:
+        """depths: of the history (m); each has the means of the nearest window."""
+        super().__init__(scene, entries, directory, program=program)
+        self.windows, self.depths = list(windows), list(depths)
+        in_effect = read_parameters([str(scene), *set_options(entries)], program)
+        self.parts = [
+            Run(
+                scene,
+                {**entries, **window.entries(in_effect)},
+                directory / window.name,
+                program=program,
+            )
+            for window in windows
+        ]
+
+    @functools.cached_property
+    def key(self) -> str:
+        """A hash of what the results depend on."""
+        text = json.dumps([self.depths, *(part.key for part in self.parts)])
+        return hashlib.sha256(text.encode()).hexdigest()
+
+    def share_done(self, elapsed: float) -> float:
+        """Return what part is over."""
+        done = sum(part.is_complete() for part in self.parts)
+        return done / len(self.parts)
+
+    def execute(
+        self, time_limit: float | None = None, ranks: int | None = None
+    ) -> Status | None:
+        """Run what is missing, and write the history of the means; see Run."""
+        records = []
+        for part in self.parts:
+            if not part.is_complete():
+                status = part.execute(time_limit, ranks)
+                if status != Status.SUCCESS:
+                    return status
+            records.append(part.completion_record() or {})
+        results = [Results(part.directory) for part in self.parts]
+        self.write(results, fingerprint(self.scene, self.entries, self.program))
+        record = {
+            "key": self.key,
+            "entries": self.entry_texts(),
+            "status": Status.SUCCESS,
+            "wall_s": sum(record["wall_s"] for record in records),
+            "cpu_s": sum(record["cpu_s"] for record in records),
+        }
+        disk.write(self.directory / self.RECORD, json.dumps(record))
+        return Status.SUCCESS
+
+    def write(self, results: Sequence[Results], of_scene: str) -> None:
+        """Write history.csv, in which each mean is constant about its depth, and
+        run.json with the fingerprint of the scene."""
+        columns = list(results[0].history)
+        means = [means_of(r.history, w.averaged) for r, w in zip(results, self.windows)]
+        centers = np.array([window.depth for window in self.windows])
+        half = curves.FORCE_WINDOW / 2
+        # the first row of a history is no mean
+        places = [self.depths[0] - 2 * half]
+        places += [depth + side for depth in self.depths for side in (-half, half)]
+        rows = []
+        for place in places:
+            mean = means[int(np.argmin(abs(centers - place)))]
+            rows.append([{**mean, "penetration_m": place}[c] for c in columns])
+        table.write_csv(self.directory / "history.csv", columns, rows)
+        found = {
+            "entries": {**results[0].summary["entries"], **self.entry_texts()},
+            "fingerprint": of_scene,
+            "wall_time_s": sum(r.summary["wall_time_s"] for r in results),
+        }
+        disk.write(self.directory / "run.json", json.dumps(found))
+
+
+def fingerprint(scene: Path, entries: Entries, program: Path) -> str:
+    """Return the fingerprint of a scene, by which it knows its error bar. Raises
+    RunError."""
+    arguments = [str(scene), *set_options(entries), "--print-parameters"]
+    return query(arguments, program).rpartition("# fingerprint: ")[2]
+
+
+def means_of(history: Table, length: float) -> dict[str, float]:
+    """Return the means of all columns over the last length (m) of a way."""
+    depth = history["penetration_m"]
+    last = depth > depth[-1] - length
+    return {name: float(np.mean(column[last])) for name, column in history.items()}

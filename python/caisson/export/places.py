@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The points of a table at which values are asked for: numbers within the soil."""
+import csv
+import io
+from pathlib import Path
+
+import numpy as np
+
+from caisson.results import ResultsError
+from caisson import disk
+from caisson.export.mesh import default_window, steps, surface_of
+from caisson.export.state import TOLERANCE, State
+
+COLUMNS = ("r_m", "z_m")
+
+
+def read_table(path: Path) -> tuple[np.ndarray, list[int]]:
+    """Return the points [n, 2] (m) of a table, and the line of each. Raises
+    ResultsError where a row has no two numbers."""
+    points, numbers = [], []
+    text = io.StringIO(disk.read_text(path, ResultsError), newline="")
+    lines = list(enumerate(csv.reader(text), 1))
+    rows = [(n, row) for n, row in lines if row and not row[0].startswith("#")]
+    names = [name.strip() for name in rows[0][1]] if rows else []
+    if not set(COLUMNS) <= set(names):
+        raise ResultsError(f"{path} has no columns r_m and z_m")
+    for n, row in rows[1:]:
+        try:
+            point = [float(row[names.index(name)]) for name in COLUMNS]
+        except (ValueError, IndexError):
+            point = [np.nan]
+        if not np.isfinite(point).all():
+            raise ResultsError(
+                f"{path}, line {n}: {','.join(row)!r} has no numbers r_m and z_m"
+            )
+        points.append(point)
+        numbers.append(n)
+    if not points:
+        raise ResultsError(f"{path} has no point")
+    return np.array(points), numbers
+
+
+def surface_at(state: State, r: np.ndarray) -> np.ndarray:
+    """Return the height of the ground at radii [n] (m)."""
+    spacing, wall = default_window(state).spacing, state.wall
+    sides = [(0.0, state.outer_radius)]
+    if wall is not None:
+        sides = [(0.0, wall.inner), (wall.outer, state.outer_radius)]
+    result = np.full(len(r), np.inf)
+    for low, high in sides:
+        here = (r >= low) & (r <= high)
+        if here.any() and high > low:
+            edges = steps(low, high, spacing)
+            result[here] = np.interp(r[here], edges, surface_of(state, edges, spacing))
+    return result
+
+
+def read_places(path: Path, state: State) -> np.ndarray:
+    """Return the points [n, 2] (m) of a table. Raises ResultsError with the line of
+    the first one that is not in the soil; half of the usual spacing above the ground
+    counts as in it, since the surface is not known better."""
+    points, numbers = read_table(path)
+    r, z = points.T
+    surface = surface_at(state, r)
+    outside = [(r < 0, "beyond the axis: r is at least 0")]
+    outside.append(
+        (
+            r > state.outer_radius + TOLERANCE,
+            f"beyond the domain of the run, which ends at r = {state.outer_radius:g} m",
+        )
+    )
+    outside.append(
+        (
+            z < state.bottom - TOLERANCE,
+            f"below the domain of the run, which ends at z = {state.bottom:g} m",
+        )
+    )
+    if state.wall is not None:
+        outside.append((state.wall.contains(points), "in the wall"))
+    above = z > surface + default_window(state).spacing / 2
+    outside.append((above, "above the ground"))
+    for are, words in outside:
+        if are.any():
+            i = int(np.argmax(are))
+            if words == "above the ground":
+                words += f", whose surface is at z = {surface[i]:.3g} m there"
+            raise ResultsError(
+                f"{path}, line {numbers[i]}: the point r = {r[i]:g} m, z = {z[i]:g} m"
+                f" lies {words}"
+            )
+    return points

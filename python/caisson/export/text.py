@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What an exported state says of itself: signs, balance and forces."""
+from caisson.export.exported import Exported, force_of_run
+from caisson.export.state import STIFFNESS, State
+
+SIGNS = (
+    "Stresses are effective, in Pa, positive in tension: rr radial, zz vertical, tt"
+    " hoop, rz shear. Excess pore pressure is positive in compression.",
+    "r is the distance from the axis, z is upward from the surface of the ground at the"
+    " start (m). Forces are for the whole circumference.",
+)
+TOTAL = (
+    "Stress here is effective stress less excess pore pressure, which buoyant weight"
+    " balances: without pore water, it is the effective stress."
+)
+NOT_BALANCED = (
+    "The stress is interpolated between the points of the run. The first step of the"
+    " other program must find its equilibrium."
+)
+
+
+def percent(share: float) -> str:
+    """Return a share in percent: two digits, and no power of ten where it is large."""
+    return f"{float(f'{100 * share:.2g}'):.9g} %"
+
+
+def about_state(state: State) -> list[str]:
+    """Return what run and frame it is."""
+    depth = f", penetration {state.penetration:.6g} m" if state.wall else ""
+    where = f"at {state.time:.6g} s{depth}"
+    return [f"caisson_mpm: {state.title}", where, *SIGNS, NOT_BALANCED]
+
+
+def about_balance(state: Exported) -> list[str]:
+    """Return the lines on the balance of the whole, and on the forces on the wall."""
+    lines = [
+        f"Vertical balance: the weight of the soil is {state.weight / 1e3:.6g} kN, and"
+        f" the stress on its boundary carries {state.boundary / 1e3:.6g} kN, which"
+        f" differs by {percent(abs(state.boundary / state.weight - 1))}."
+    ]
+    for name, force in state.wall.items():
+        run = force_of_run(state.state, name)
+        known = "unknown" if run is None else f"{run / 1e3:.5g}"
+        lines.append(
+            f"{name}: vertical force of the soil, upward: run {known}, of the"
+            f" interpolated stress {force / 1e3:.5g} kN."
+        )
+    volumes = state.mesh.volumes
+    tension = state.values.stress[:, :3].sum(axis=1) > 0
+    share = percent(volumes[tension].sum() / volumes.sum())
+    return [*lines, f"Mean stress is tensile in {share} of the volume."]
+
+
+def about_stiffness(state: State) -> list[str]:
+    """Return the lines on Young's moduli that are assumed."""
+    return [
+        f"Layer {layer.number}: its law has no Young's modulus. Input files assume"
+        f" {layer.youngs_modulus:.3g} Pa, {STIFFNESS:g} times the norm of its stress."
+        for layer in state.layers
+        if layer.assumed
+    ]
+
+
+def about(state: Exported) -> list[str]:
+    """Return all lines on a state on a mesh."""
+    lines = [*about_state(state.state), *about_stiffness(state.state)]
+    return [*lines, *filter(None, [state.mesh.remark]), *about_balance(state)]

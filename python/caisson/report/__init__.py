@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""One page on a run, report.html in its directory: curves, tables, pictures, and what
+the program warned of. It needs no other file and no network. Until the run ends, the
+page reloads itself, and `caisson run` renews it."""
+import argparse
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from caisson import error_bounds
+from caisson.plot import add_method_arguments, draw, keep_methods
+from caisson.results import Results, ResultsError
+from caisson.disk import InputError
+from caisson import disk
+
+NAME = "report.html"
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+
+
+def write(directory: Path, rate: float | None = None) -> Path:
+    """Write the report of a run, with a pump for a rate of penetration (m/h), or an
+    assumed one; return its path. Raises ResultsError."""
+    from caisson.report import page
+    from caisson.report.installation import Rate
+
+    if not directory.is_dir():
+        raise ResultsError(f"no directory {directory}")
+    error_bounds.adopt(directory)
+    text = page.html(Results(directory), Rate() if rate is None else Rate(rate, False))
+    return disk.write(directory / NAME, text)
+
+
+def find_browser() -> str:
+    """Return the path of a browser that can run without a window, or nothing."""
+    for name in BROWSERS:
+        path = shutil.which(name)
+        if path:
+            return path
+    return ""
+
+
+def print_pdf(path: Path) -> Path:
+    """Print a report to a file of the same name. Raises ResultsError."""
+    browser = find_browser()
+    if not browser:
+        raise ResultsError(
+            "--pdf needs a browser: install the package chromium, or print"
+            f" {path} from yours"
+        )
+    new, pdf = path.with_name(".report.pdf"), path.with_suffix(".pdf")
+    subprocess.run(
+        [
+            browser,
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--no-pdf-header-footer",
+            "--virtual-time-budget=10000",  # ms, in which the curves are drawn
+            f"--print-to-pdf={new}",
+            path.resolve().as_uri(),
+        ],
+        check=True,
+        capture_output=True,
+    )
+    disk.write(pdf, disk.read_bytes(new))
+    new.unlink()
+    return pdf
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson report`."""
+    add_method_arguments(parser)
+    parser.add_argument(
+        "--jacked",
+        type=Path,
+        metavar="DIR",
+        help="the scene of a run under suction, jacked: it tells what suction leaves of"
+        " tip and friction; its history is kept as jacked.csv",
+    )
+    parser.add_argument("directories", nargs="+", type=Path, metavar="DIR")
+    parser.add_argument(
+        "--error-bar",
+        type=Path,
+        metavar="CSV",
+        help="the error bar of the scene, by caisson error-bar; default: that beside"
+        " FILE.prm, FILE_error_bar.csv",
+    )
+    parser.add_argument(
+        "--rate",
+        type=float,
+        metavar="M/H",
+        help="rate of penetration that the pump is made for, in m/h; 1 is assumed",
+    )
+    parser.add_argument("--pdf", action="store_true", help="print it to report.pdf too")
+
+
+def main(options: argparse.Namespace) -> int:
+    """Write the report of each run; a run that has none is named."""
+    from caisson.report import relief
+
+    status = 0
+    for directory in options.directories:
+        try:
+            if keep_methods(options, directory):
+                draw(directory)
+            if options.jacked is not None:
+                relief.adopt(options.jacked, directory)
+            if options.error_bar is not None:
+                error_bounds.adopt(directory, options.error_bar)
+            if options.rate is not None and not options.rate > 0:
+                raise ResultsError(f"--rate {options.rate:g}: give m/h above 0")
+            path = write(directory, options.rate)
+            print(f"report: {path}")
+            if options.pdf:
+                print(f"report: {print_pdf(path)}")
+        except (InputError, OSError, subprocess.CalledProcessError) as error:
+            print(f"report: {error}", file=sys.stderr)
+            status = 1
+    return status

@@ -1,0 +1,394 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Curves of a report, and what it says of the numbers in plain words."""
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from caisson import curves
+from caisson.evaluation import depths_of
+from caisson.curves import error_band
+from caisson.plot import design, suction_methods, theory
+from caisson.plot.forces import (
+    COLORS,
+    WATER_COLOR,
+    WITH_WATER,
+    column_of,
+    penetration,
+    remark_on,
+    smooth,
+)
+from caisson.plot.suction import COLOR_OF, CRITICAL, GREEN, RED
+from caisson.results import Results, Table
+from caisson.shown import Units, units_for
+from caisson.report.installation import (
+    BOILING,
+    COMPUTED,
+    PUMP,
+    Installation,
+    texts_of,
+)
+from caisson.report.pull import PULL, is_pull, pull_parts
+
+SHOWN = ("tip", "total")  # parts of the methods in the interactive picture
+LIGHT = {  # of Houlsby & Byrne
+    "total": "#7f7f7f",
+    "tip": "#e59a90",
+    "inner friction": "#8fb4dc",
+    "outer friction": "#93c4a6",
+}
+CRITICAL_COLORS = ("#b35806", "#e08214", "#8c6d31", "#bd9e39")  # as CRITICAL
+MANY = 1500  # points of a curve that a screen can show
+
+Curve = dict[str, Any]  # label, color, kind, x, y; see page.js
+
+
+def thinned(depth: np.ndarray) -> np.ndarray:
+    """Return the numbers of the rows that a curve shows."""
+    return np.unique(np.linspace(0, len(depth) - 1, MANY).astype(int))
+
+
+def listed(values: Iterable[float]) -> list[float | None]:
+    """Return values for JSON, which has no nan."""
+    return [float(f"{v:.6g}") if math.isfinite(v) else None for v in values]
+
+
+def line(
+    label: str, color: str, x: np.ndarray, depth: np.ndarray, **more: Any
+) -> Curve:
+    """Return a curve x over depth."""
+    rows = thinned(depth)
+    return {
+        "label": label,
+        "color": color,
+        "x": listed(x[rows]),
+        "y": listed(depth[rows]),
+        **more,
+    }
+
+
+def band(
+    label: str, color: str, low: np.ndarray, high: np.ndarray, depth: np.ndarray
+) -> Curve:
+    """Return an area between two curves."""
+    return line(label, color, low, depth, to=listed(high[thinned(depth)]))
+
+
+def method_curves(run: Results, deepest: float) -> list[Curve]:
+    """Return the ranges of the design methods (kN) over depth (m). Only tip and total
+    by Houlsby & Byrne are shown at first, and nothing where there is suction."""
+    found, remark = [], remark_on(run.history)
+    for answer in theory.answers_to(theory.site_of(run), deepest):
+        first = answer.method is theory.METHODS[0]
+        for part in (theory.PARTS if first else SHOWN) if answer.forces else ():
+            low, high = [force / 1e3 for force in answer.band(part)]
+            label = f"{part}, {answer.name}{remark}"
+            color = LIGHT[part] if first else answer.method.color
+            curve = band(label, color, low, high, answer.depth)
+            found.append(
+                curve | {"hidden": bool(remark) or not first or part not in SHOWN}
+            )
+            for bound in answer.method.bound if part == "total" else ():
+                force = answer.forces[bound][part] / 1e3
+                label = f"{part}, {theory.LOWER_BOUND}{remark}"
+                curve = line(label, color, force, answer.depth)
+                found.append(curve | {"hidden": bool(remark)})
+    return found
+
+
+def force_curves(run: Results) -> list[Curve]:
+    """Return the forces (kN) over depth (m) with their error bars and the range of
+    Houlsby & Byrne."""
+    history, depth = run.history, run.history["penetration_m"]
+    found = []
+    for name, color in COLORS.items():
+        bar = error_band(run.error_bounds, column_of(name).removesuffix("_N"), "N")
+        if bar is not None:
+            at, low, high = bar
+            label = f"{name}, error bar"
+            found.append(band(label, color, low / 1e3, high / 1e3, at))
+    found += method_curves(run, max(depth.max(), 0))
+    for name, color in COLORS.items():
+        if column_of(name) in history:
+            force = smooth(depth, history[column_of(name)])
+            found.append(line(name, color, force, depth, thick=True))
+    if (total := history.get(curves.WITH_WATER)) is not None:
+        mean = smooth(depth, total)
+        found.append(line(WITH_WATER, WATER_COLOR, mean, depth, thick=True))
+    return found
+
+
+def method_suctions(run: Results) -> list[Curve]:
+    """Return the required and the critical suctions of the methods (kPa) over depth."""
+    site, depth = theory.site_of(run), design.depths_of(run.history)
+    answers = suction_methods.answers_of(site, depth)
+    if not answers.suctions:
+        return []
+    found = []
+    for method in answers.required:
+        color = COLOR_OF.get(method.name, GREEN)
+        low, high = (end / 1e3 for end in method.band)
+        found.append(band(f"required, {method.name}", color, low, high, depth))
+        for bound in method.bounds.values():
+            label = f"required, {theory.LOWER_BOUND}"
+            found.append(line(label, color, bound / 1e3, depth))
+    for color, (column, (name, _)) in zip(CRITICAL_COLORS, CRITICAL.items()):
+        found.append(
+            line(f"critical, {name}", color, answers.suctions[column] / 1e3, depth)
+        )
+    return found
+
+
+def limit_curves(found: Installation) -> list[Curve]:
+    """Return the other limits of the suction, and where the caisson rests."""
+    curves_of_limits = [
+        line(label, color, found.limits[name], found.depth, far=name == BOILING)
+        for name, label, color in (
+            (COMPUTED, "critical, by the exit gradient computed", "#d6604d"),
+            (BOILING, "water boils below the lid", RED),
+            (PUMP, "largest suction of the pump", "#762a83"),
+        )
+        if name in found.limits
+    ]
+    if found.rest is not None:
+        ends = np.array([0.0, found.required.max()])
+        label = f"rests by weight at {found.shown.depth(found.rest)}"
+        curves_of_limits.append(line(label, "#888888", ends, np.full(2, found.rest)))
+    return curves_of_limits
+
+
+def axis_end(shown: list[Curve]) -> float:
+    """Return where the axis of the suction ends (kPa), as in limits() of page.js."""
+    own = max(x for c in shown if c.get("thick") for x in c["x"] if x is not None)
+    ends = [
+        x
+        for curve in shown
+        if not curve.get("hidden") and not curve.get("far")
+        for x in [*curve["x"], *curve.get("to", [])]
+        if x is not None
+    ]
+    return 1.03 * (min(max(ends), 1.5 * own) if own > 0 else max(ends))
+
+
+def beyond_the_chart(found: Installation, shown: list[Curve]) -> str:
+    """Return which limits are beyond the axis of the curves, in a sentence."""
+    words, end = [], axis_end(shown)
+    for name, text in ((BOILING, "water boils below the lid at"), (PUMP, "the pump")):
+        limit = found.limits.get(name, np.full(1, np.nan))
+        if limit.min() > end:
+            factor, unit = found.shown.factor("kPa"), found.shown.name("kPa")
+            limits = (factor * limit.min(), factor * limit.max())
+            ends = dict.fromkeys(f"{v:.0f}" for v in limits)
+            can = "" if name == BOILING else " can draw"
+            words.append(f"{text}{can} {' to '.join(ends)} {unit}")
+    return f"Beyond the right end of the chart: {', '.join(words)}." if words else ""
+
+
+def suction_curves(run: Results, found: Installation) -> list[Curve]:
+    """Return the required suction (kPa) over depth (m), beside methods and limits."""
+    history, depth = run.history, run.history["penetration_m"]
+    shown = [*method_suctions(run), *limit_curves(found)]
+    bar = error_band(run.error_bounds, "required_suction", "Pa")
+    if bar is not None:
+        at, low, high = [bar[0], *(np.maximum(bound, 0) / 1e3 for bound in bar[1:])]
+        shown.append(band("required, error bar", "black", low, high, at))
+    required = np.maximum(history["required_suction_Pa"], 0) / 1e3
+    label = "required, computed"
+    shown.append(line(label, "black", required, depth, thick=True))
+    return shown
+
+
+def with_points(found: list[Curve]) -> list[Curve]:
+    """Return the curves that have a point to draw."""
+    return [
+        curve
+        for curve in found
+        if any(x is not None for x in [*curve["x"], *curve.get("to", [])])
+    ]
+
+
+def in_units(figure: dict[str, Any], shown: Units) -> dict[str, Any]:
+    """Return an interactive figure in the units of a run; that of its depths is its
+    key depth, and a rise is in mm anyway."""
+    is_pull = bool(figure.get("upward"))
+    across = shown.factor_of(figure["axis"])
+    down = 1.0 if is_pull else shown.factor("m")
+
+    def scaled(values: list[float | None], factor: float) -> list[float | None]:
+        return [None if x is None else factor * x for x in values]
+
+    factors = {"x": across, "to": across, "y": down}
+    found = [
+        curve | {k: scaled(curve[k], f) for k, f in factors.items() if k in curve}
+        for curve in figure["curves"]
+    ]
+    axis, depth = shown.named(figure["axis"]), "mm" if is_pull else shown.name("m")
+    return figure | {"axis": axis, "depth": depth, "curves": found}
+
+
+def pull_figure(run: Results) -> dict[str, Any]:
+    """Return the interactive figure of a pull: its parts (kN) over the rise (mm)."""
+    rise, parts = pull_parts(run)
+    shown = [
+        line(name, color, force, rise, thick=name == PULL)
+        for name, (color, force) in parts.items()
+    ]
+    return {
+        "id": "pull",
+        "title": "Pull, and what bears it, over the rise",
+        "axis": "force (kN)",
+        "upward": True,  # the other axis, which is in mm
+        "note": "What soil and water bear; the submerged weight is none of it.",
+        "curves": with_points(shown),
+    }
+
+
+def figures_of(run: Results, found: Installation | None) -> list[dict[str, Any]]:
+    """Return the interactive figures: id, title, axis, note and curves that have
+    points; the suction, where there is any, before the forces."""
+    if penetration(run.history) is None:
+        return []
+    if is_pull(run):
+        return [in_units(pull_figure(run), run.shown)]
+    figures = []
+    if found is not None and found.has_suction:
+        suctions = with_points(suction_curves(run, found))
+        figures.append(
+            {
+                "id": "suction",
+                "title": "Installation chart: required suction and its limits",
+                "axis": "suction (kPa)",
+                "note": beyond_the_chart(found, suctions),
+                "curves": suctions,
+            }
+        )
+    figures.append(
+        {
+            "id": "forces",
+            "title": "Forces on the caisson",
+            "axis": "force (kN)",
+            "note": "",
+            "curves": with_points(force_curves(run)),
+        }
+    )
+    return [in_units(figure, run.shown) for figure in figures]
+
+
+def unit_table(run: Results) -> dict[str, Any]:
+    """Return the unit resistances at each half meter: heads and rows of text.
+
+    They are those of the way down, or of the way up where there is none. Friction is
+    over the wall below the mudline of the start, the tip force over the area of the
+    flat tip.
+    """
+    history, scene = run.history, run.scene
+    nothing: dict[str, Any] = {"heads": [], "rows": []}
+    if penetration(history) is None or not scene.get("wall_thickness_m"):
+        return nothing
+    way = curves.main_way(history["penetration_m"])
+    if len(way) < 2:
+        return nothing
+    depth = history["penetration_m"][way]
+    at = depths_of(depth)
+    at = at[at > 0]
+
+    def mean(column: str) -> np.ndarray:
+        return curves.smoothed_at(depth, history[column][way], at)
+
+    outer, wall = float(scene["diameter_m"]), float(scene["wall_thickness_m"])
+    inner = outer - 2 * wall
+    tip_area = math.pi / 4 * (outer**2 - inner**2)
+    tip = mean("tip_force_N") / 1e3 / tip_area
+    columns = {"tip depth (m)": at, "tip (kPa)": tip}
+    for side, width in (("inner", inner), ("outer", outer)):
+        friction = mean(f"{side}_friction_N") / 1e3
+        columns[f"mean {side} friction over the embedded wall (kPa)"] = friction / (
+            math.pi * width * at
+        )
+    stress = 1e3 * max(float(np.abs(x).max()) for x in list(columns.values())[1:])
+    of_length = run.shown.smaller & {"m"}
+    shown = Units(units_for(np.inf, stress, np.inf).smaller | of_length)
+    texts = [texts_of(shown.factor_of(head) * x) for head, x in columns.items()]
+    heads = [shown.named(head) for head in columns]
+    return {"heads": heads, "rows": [list(row) for row in zip(*texts)]}
+
+
+def averaged(run: Results) -> str:
+    """Return over how much penetration the numbers of the tables are averaged."""
+    depth = run.history.get("penetration_m", np.zeros(1))
+    way = depth[curves.main_way(depth)]
+    window = curves.window_of(float(np.ptp(way))) if len(way) else 0.0
+    return f"Averaged over {run.shown.words(window, 'm', '.2g')} of penetration"
+
+
+def remarks_on_numbers(run: Results) -> list[str]:
+    """Return what energy, points and steps say of the run, in plain words."""
+    if run.is_running:
+        return []
+    summary, history, found = run.summary, run.history, []
+    residual = (summary.get("energies") or {}).get("energy_residual")
+    if residual is not None:
+        share = 100 * abs(residual)
+        found.append(
+            f"Energy error: {share:.2g} % of the work; the forces are uncertain by"
+            " about as much."
+        )
+    if "plug_balance_error" in history:
+        share = 100 * abs(history["plug_balance_error"][-1])
+        if share > 5:
+            found.append(
+                f"Heave and room below the lid are not reliable: {share:.2g} % of the"
+                " volume that the plug gained is unaccounted for."
+            )
+    if "total_force_N" in history and penetration(history) is not None:
+        depth = history["penetration_m"]
+        if (depth >= curves.FROM).sum() > 10:
+            rough = 100 * curves.roughness(depth, history["total_force_N"])
+            energy = 100 * curves.largest_energy_ratio(history)
+            if math.isfinite(rough):
+                found.append(
+                    f"The curve scatters by {rough:.2g} % about its mean over"
+                    f" {curves.FORCE_WINDOW} m."
+                )
+            words = "slow enough" if energy < 1 else "fast; halve the velocity to see"
+            if math.isfinite(energy):
+                found.append(
+                    f"Kinetic energy is at most {energy:.2g} % of the work: the run is"
+                    f" {words}."
+                )
+    inside = summary.get("max_points_in_body", 0)
+    found.append(
+        "No material point was inside the body."
+        if not inside
+        else f"{inside} material points were inside the body at once."
+    )
+    return found
+
+
+def error_remark(run: Results) -> str:
+    """Return what is known of the error of the curve."""
+    bounds = run.error_bounds
+    if not bounds or "total_force_low_N" not in bounds:
+        return (
+            "This scene has no error bar of its own. Those of the reference scenes are"
+            " in the manual; caisson error-bar computes its own."
+        )
+    force = np.where(bounds["total_force_N"] == 0, np.nan, bounds["total_force_N"])
+    below, above = [
+        100
+        * np.nanmean(np.abs(bounds[f"total_force_{side}_N"] - force) / np.abs(force))
+        for side in ("low", "high")
+    ]
+    return (
+        f"Error bar of the total force: -{below:.2g} % to +{above:.2g} % in the mean,"
+        " from runs with other meshes, steps and numbers of points."
+    )
+
+
+def csv_of(history: Table) -> str:
+    """Return history.csv as it is, for the download."""
+    names = list(history)
+    rows = zip(*(history[name].tolist() for name in names))
+    lines = [",".join(names), *(",".join(f"{v:.10g}" for v in row) for row in rows)]
+    return "\n".join(lines) + "\n"

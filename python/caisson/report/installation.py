@@ -1,0 +1,512 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The installation in numbers: what it takes at each half meter and at the end, what
+is allowed, and the pump.
+
+The allowable suction is the least of the suction at which the exit gradient that was
+computed becomes critical, of that at which Houlsby & Byrne (2005) expect piping, of
+the boiling of water below the lid, and of Water/Largest suction. No safety factor is
+in it. The pump moves the water that the lid displaces at a stated rate of penetration
+and that which seeps through the plug; a run is usually far faster than a caisson.
+"""
+import re
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from caisson import curves
+from caisson.evaluation import (
+    GRADIENT,
+    at_depths,
+    pump_limit,
+    rest_of_run,
+    results_of,
+    way_down,
+)
+from caisson.paths import INSTALLED
+from caisson.plot import design, suction_methods, theory
+from caisson.plot.forces import penetration
+from caisson.results import Results, Table
+from caisson.design.reasons import text_of
+from caisson.shown import USUAL, Units
+from caisson.report.scene import plug_area
+
+HOUR = 3600.0
+LEAST_SHARE = 0.02  # of the critical gradient, below which the gradient is noise
+COMPUTED = "exit gradient computed"
+PIPING, BOILING, PUMP = "piping, Houlsby & Byrne", "water boils", "pump"
+NOTHING = 5e-4  # of a unit of the tables
+HELD = 0.7  # m, below the error bar, over which its last width still stands
+
+
+class Rate(NamedTuple):
+    """The rate of penetration that the pump is made for."""
+
+    meters_per_hour: float = 1.0
+    assumed: bool = True
+
+    @property
+    def words(self) -> str:
+        """The rate in words."""
+        mark = " (ASSUMED)" if self.assumed else ""
+        return f"{self.meters_per_hour:g} m/h{mark}"
+
+
+class Bounds(NamedTuple):
+    """Error bar of values [n]; below the depth end (m) it has the width of that."""
+
+    low: np.ndarray
+    high: np.ndarray
+    end: float
+
+    def scaled(self, factor: float, least: float = -np.inf) -> "Bounds":
+        """Return them times a factor, and not below the least one."""
+        low, high = (np.maximum(factor * side, least) for side in (self.low, self.high))
+        return Bounds(low, high, self.end)
+
+
+@dataclass
+class Installation:
+    """Columns [n] at depths [n] (m) of the way down: forces in kN, suctions in kPa;
+    those of suction are empty in a jacked run."""
+
+    depth: np.ndarray
+    forces: dict[str, np.ndarray]
+    shown: Units = USUAL  # in which tables and cards have them
+    force_bounds: Bounds | None = None
+    required: np.ndarray = field(default_factory=lambda: np.empty(0))
+    required_bounds: Bounds | None = None
+    excess: float | None = None  # kN, of the weight at the end, without any suction
+    limits: dict[str, np.ndarray] = field(default_factory=dict)
+    gradient: np.ndarray = field(default_factory=lambda: np.empty(0))  # over critical
+    heave: np.ndarray = field(default_factory=lambda: np.empty(0))  # m
+    room: np.ndarray = field(default_factory=lambda: np.empty(0))  # m, below the lid
+    flow: np.ndarray = field(default_factory=lambda: np.empty(0))  # m3/h
+    seepage: np.ndarray = field(default_factory=lambda: np.empty(0))  # m3/h, of it
+    rest: float | None = None  # m
+    # kN, of the whole body, where water presses on its tip, too
+    with_water: np.ndarray = field(default_factory=lambda: np.empty(0))
+
+    @property
+    def has_suction(self) -> bool:
+        """Whether the caisson goes in by suction: its weight alone does not suffice."""
+        return bool((self.required > NOTHING).any())
+
+    @property
+    def has_bar(self) -> bool:
+        """Whether the tables have an error bar."""
+        return bool(self.force_bounds or self.required_bounds)
+
+    @property
+    def allowable(self) -> np.ndarray:
+        """The least limit (kPa), [n], nan without any."""
+        found = np.array(list(self.limits.values()))
+        return np.where(np.isnan(found), np.inf, found).min(axis=0)
+
+    def governing(self, i: int) -> str:
+        """Return which limit is the least at a depth."""
+        known = {k: v[i] for k, v in self.limits.items() if np.isfinite(v[i])}
+        return min(known, key=lambda name: known[name]) if known else ""
+
+
+def needs_suction(run: Results) -> bool:
+    """Return whether the weight of a caisson does not suffice at any depth of the
+    tables; False without suction."""
+    required = at_depths(run).get(design.SUCTION, np.empty(0))
+    return bool((required > 1e3 * NOTHING).any())
+
+
+def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
+    """Return the bounds of a column of at_depths() in its unit, [n]; below the error
+    bar, up to HELD, those of the same width; None without an error bar."""
+    name, sides = f"{quantity}_{unit}", [
+        f"{quantity}_{s}_{unit}" for s in ("low", "high")
+    ]
+    if sides[0] not in numbers:
+        return None
+    values, depth = numbers[name], numbers["penetration_m"]
+    last = int(np.flatnonzero(np.isfinite(numbers[sides[0]]))[-1])
+    held = (depth > depth[last]) & (depth <= depth[last] + HELD)
+    found = []
+    for side in sides:
+        ratio, change = numbers[side][last] / values[last], numbers[side] - values
+        below = values * ratio if unit == "N" else values + change[last]
+        found.append(np.where(held, below, numbers[side]))
+    return Bounds(found[0], found[1], float(depth[last]))
+
+
+def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
+    """Return the suction (kPa) at which the exit gradient of the run becomes critical,
+    at depths [n], nan before there is suction. The flow is linear in the suction."""
+    history = run.history
+    rows = curves.way_down(history["penetration_m"])[1:]
+    depth, suction = history["penetration_m"][rows], history["suction_Pa"][rows]
+    share = curves.gradient_share(history)[rows]
+    pulled = (suction > 0) & (share > LEAST_SHARE)
+    if not pulled.any():
+        return np.full(len(at), np.nan)
+    found = suction[pulled] / share[pulled] / 1e3
+    means = curves.smoothed_at(depth[pulled], found, at)
+    return np.where(at >= depth[pulled][0], means, np.nan)
+
+
+def limits_of(run: Results, at: np.ndarray, boiling: np.ndarray) -> dict[str, Any]:
+    """Return the limits of the suction (kPa) at depths [n]."""
+    limits = {COMPUTED: critical_by_gradient(run, at)}
+    answers = suction_methods.answers_of(theory.site_of(run), at)
+    if answers.suctions:
+        limits[PIPING] = answers.suctions[suction_methods.PIPING] / 1e3
+    limits[BOILING] = boiling
+    pump = pump_limit(run)
+    if pump is not None:
+        limits[PUMP] = np.full(len(at), pump)
+    return limits
+
+
+def installation_of(run: Results, rate: Rate) -> Installation | None:
+    """Return the installation; None for a run that does not go down."""
+    history = run.history
+    if penetration(history) is None or not design.goes_down(history):
+        return None
+    numbers = at_depths(run)
+    if not numbers or not set(design.FORCES) <= set(numbers):
+        return None
+    at = numbers["penetration_m"]
+    forces = {name: numbers[name] / 1e3 for name in design.FORCES}
+    found = Installation(at, forces, run.shown)
+    if bars := bounds_of(numbers, "total_force", "N"):
+        found.force_bounds = bars.scaled(1e-3)
+    if curves.WITH_WATER in numbers:
+        found.with_water = numbers[curves.WITH_WATER] / 1e3
+    if design.SUCTION in numbers:
+        add_suction(found, run, numbers, rate)
+    return found
+
+
+def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -> None:
+    """Add the columns of a run with suction."""
+    scene, at = run.scene, found.depth
+    found.required = np.maximum(numbers[design.SUCTION], 0) / 1e3
+    if bars := bounds_of(numbers, "required_suction", "Pa"):
+        found.required_bounds = bars.scaled(1e-3, 0.0)
+    if weight := scene.get("submerged_weight_N"):
+        found.excess = (float(weight) - found.forces["total_force_N"][-1] * 1e3) / 1e3
+    found.gradient, found.heave = numbers[GRADIENT], numbers["plug_heave_m"]
+    if length := scene.get("skirt_length_m"):
+        found.room = float(length) - at - found.heave
+    boils = numbers.get("cavitation_suction_Pa", np.full(len(at), np.nan)) / 1e3
+    if found.has_suction:
+        found.limits = limits_of(run, at, boils)
+    found.rest = rest_of_run(run.history)
+    if scene.get("diameter_m") and "seepage_flow_m3_s" in numbers:
+        found.seepage = HOUR * np.maximum(numbers["seepage_flow_m3_s"], 0)
+        rise = np.gradient(found.heave, at) if len(at) > 1 else np.zeros(len(at))
+        speed = rate.meters_per_hour * (1 + rise)
+        found.flow = plug_area(scene) * speed + found.seepage
+
+
+def way_to_an_error(run: Results) -> str:
+    """Return the command that computes the error bar of a scene, for the error of its
+    mesh where the title says that."""
+    known = run.summary if run.scene else {}
+    said = re.search(r"error of about (\d+) ?%", str(known.get("title", "")))
+    command = "caisson run" if INSTALLED else "scripts/run"
+    scene = known.get("scene_file") or "FILE.prm"
+    return f"{command} --error {said[1] if said else 10}% {scene}"
+
+
+def bar_in_words(
+    run: Results, found: Installation, bounds: Bounds | None, unit: str
+) -> str:
+    """Return where the end is, and its error bar, or what computes it."""
+    place = f"at {found.shown.depth(found.depth[-1])}"
+    factor, unit = found.shown.factor(unit), found.shown.name(unit)
+    if bounds is None:
+        return f"{place}; error bar not known, {way_to_an_error(run)} computes it"
+    low, high = factor * bounds.low[-1], factor * bounds.high[-1]
+    end = found.shown.length(float(f"{bounds.end:.4g}"))
+    if not np.isfinite([low, high]).all():
+        return f"{place}; error bar known only to {end}"
+    if found.depth[-1] <= bounds.end + 1e-2:
+        return f"{place}; error bar {text_of(low)} to {text_of(high)} {unit}"
+    words = f"about {text_of(low)} to {text_of(high)} {unit}"
+    return f"{place}; {words} (error bar of {end})"
+
+
+def three_digits(value: float, bounds: Bounds | None) -> str:
+    """Return a number of a card: without an error bar no more digits than three."""
+    return f"{value if bounds else float(f'{value:.3g}'):.0f}"
+
+
+def in_range(
+    found: Installation, values: np.ndarray, bounds: Bounds | None, unit: str
+) -> list[str]:
+    """Return values [n] in the unit shown, with their bounds where they have any:
+    about, below the end of these."""
+    factor, texts = found.shown.factor(unit), list[str]()
+    for i, value in enumerate(values):
+        text = text_of(factor * float(value))
+        if bounds is not None and np.isfinite([bounds.low[i], bounds.high[i]]).all():
+            about = "about " if found.depth[i] > bounds.end + 1e-2 else ""
+            ends = [text_of(factor * float(x[i])) for x in (bounds.low, bounds.high)]
+            text += f" ({about}{ends[0]} to {ends[1]})"
+        texts.append(text)
+    return texts
+
+
+def rows_of(columns: dict[str, list[str]]) -> dict[str, Any]:
+    """Return heads and rows of columns that are not empty."""
+    known = {head: texts for head, texts in columns.items() if texts}
+    return {"heads": list(known), "rows": [list(row) for row in zip(*known.values())]}
+
+
+def texts_of(values: np.ndarray) -> list[str]:
+    """Return numbers as text, those that are next to nothing as 0."""
+    return [text_of(0.0 if abs(v) < NOTHING else float(v)) for v in values]
+
+
+def trimmed(words: str) -> str:
+    """Return the number of "4.50 m" without its last zeros."""
+    return words.split()[0].rstrip("0").rstrip(".")
+
+
+def flow_head(found: Installation) -> str:
+    """Return what moves the water out of the caisson."""
+    return "pump flow" if found.has_suction else "water to vent"
+
+
+def tables_of(found: Installation) -> list[dict[str, Any]]:
+    """Return the tables of the installation, each with heads and rows of text: what it
+    takes and, with suction, what is allowed."""
+    n, shown = range(len(found.depth)), found.shown
+    depth = [trimmed(shown.depth(float(depth))) for depth in found.depth]
+    total = found.forces["total_force_N"]
+    takes = {
+        shown.named("depth (m)"): depth,
+        shown.named("resistance (kN)"): in_range(
+            found, total, found.force_bounds, "kN"
+        ),
+    }
+
+    def add(columns: dict[str, list[str]], head: str, values: np.ndarray) -> None:
+        columns[shown.named(head)] = texts_of(shown.factor_of(head) * values)
+
+    for name in design.FORCES[:3]:
+        words = name.removesuffix("_N").removesuffix("_force").replace("_", " ")
+        add(takes, f"{words} (kN)", found.forces[name])
+    if len(found.with_water):
+        add(takes, "with water (kN)", found.with_water)
+    if found.has_suction:
+        takes[shown.named("required suction (kPa)")] = in_range(
+            found, found.required, found.required_bounds, "kPa"
+        )
+    takes[f"{flow_head(found)} (m³/h)"] = texts_of(found.flow)
+    if not found.has_suction:
+        add(takes, "plug heave (m)", found.heave)
+        add(takes, "room below the lid (m)", found.room)
+        return [rows_of(takes)]
+    if len(found.flow):
+        takes["of which seepage (m³/h)"] = texts_of(found.seepage)
+        power = found.flow / HOUR * found.required
+        takes["power of the water (kW)"] = texts_of(power)
+    allowable = found.allowable
+    margins = {shown.named("depth (m)"): depth}
+    add(margins, "required suction (kPa)", found.required)
+    add(margins, "allowable (kPa)", allowable)
+    margins["governed by"] = [found.governing(i) for i in n]
+    add(margins, "required / allowable", found.required / allowable)
+    add(margins, "exit gradient / critical", found.gradient)
+    add(margins, "margin to piping (%)", 100 * (1 - found.gradient))
+    add(margins, "plug heave (m)", found.heave)
+    add(margins, "room below the lid (m)", found.room)
+    return [rows_of(takes), rows_of(margins)]
+
+
+def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
+    """Return (name, value, remark) of what matters most."""
+    if not len(found.required):
+        return force_cards(run, found)
+    cards: list[tuple[str, ...]] = []
+    weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
+    shown = found.shown
+    if found.has_suction:
+        value = shown.words(found.required[-1], "kPa", ".1f")
+        remark = bar_in_words(run, found, found.required_bounds, "kPa")
+        cards.append(("Required suction", value, remark))
+        most, depth = largest_of(run, design.SUCTION)
+        if most > 1.02 * found.required[-1]:
+            remark = f"at {shown.depth(depth)}"
+            value = shown.words(most, "kPa", ".1f")
+            cards.append(("Largest required suction", value, remark))
+        if found.rest is not None:
+            remark = (
+                f"under {shown.words(weight, 'kN', '.4g')} in water" if weight else ""
+            )
+            value = shown.depth(found.rest)
+            cards.append(("Self-weight penetration", value, remark))
+        return cards + margin_cards(run, found) + pump_cards(run, found, rate)
+    remark = "no suction needed to this depth"
+    if found.excess is not None:
+        more = shown.words(found.excess, "kN", ".0f")
+        remark = f"the weight exceeds the resistance by {more}: {remark}"
+    value = f"more than {shown.depth(found.depth[-1])}"
+    cards.append(("Self-weight penetration", value, remark))
+    return cards + force_cards(run, found)[:1] + pump_cards(run, found, rate)
+
+
+def force_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
+    """Return the cards of the forces."""
+    total, depth = found.forces["total_force_N"], found.depth
+    remark = bar_in_words(run, found, found.force_bounds, "kN")
+
+    def words(force: float) -> str:
+        value = found.shown.factor("kN") * float(force)
+        return f"{three_digits(value, found.force_bounds)} {found.shown.name('kN')}"
+
+    name = "Resistance at the end" if len(found.required) else "Force at the end"
+    cards: list[tuple[str, ...]] = [(name, words(total[-1]), remark)]
+    most, at = largest_of(run, "total_force_N")
+    if depth[-1] - at > 1e-3 * min(1.0, float(depth[-1])):
+        remark = f"at {found.shown.depth(at)}"
+        cards.append(("Largest force", words(most), remark))
+    tip, inner, outer = (words(found.forces[k][-1]) for k in design.FORCES[:3])
+    cards.append(("Of which tip", tip, f"friction inside {inner}, outside {outer}"))
+    if len(found.with_water):
+        value = found.shown.factor("kN") * float(found.with_water[-1])
+        force = f"{three_digits(value, None)} {found.shown.name('kN')}"
+        remark = "what the caisson feels: effective force and excess pore pressure"
+        cards.insert(0, ("Force with water", force, remark))
+        cards[1] = ("Effective " + name[0].lower() + name[1:], *cards[1][1:])
+    length = run.scene.get("skirt_length_m")
+    of_skirt = f"of {found.shown.length(float(length))} of skirt" if length else ""
+    return [*cards, ("Penetration reached", found.shown.depth(depth[-1]), of_skirt)]
+
+
+def least_margin(run: Results) -> tuple[float, float]:
+    """Return the least margin to piping (a share of 1) and its depth (m)."""
+    piping = results_of(run)["margins"]["piping"]
+    return float(piping["least"]), float(piping["penetration_m"])
+
+
+def largest_of(run: Results, column: str) -> tuple[float, float]:
+    """Return the largest value (kN or kPa) of a column and its depth (m)."""
+    way = way_down(run)
+    most, depth = way.largest(way.columns[column])
+    return most / 1e3, depth
+
+
+def piping_bar(run: Results, least: float, depth: float) -> Bounds | None:
+    """Return the error bar of the least margin to piping at its depth (m), [1]."""
+    history, bounds = run.history, run.error_bounds
+    names = ("exit_gradient_wall", "exit_gradient_axis")
+    i = int(np.argmin(np.abs(history["penetration_m"] - depth)))
+    name = max(names, key=lambda key: float(history[key][i]))
+    known = bounds.get("penetration_m", np.full(1, np.inf))
+    inside = known[0] - 1e-2 <= depth <= known[-1] + HELD
+    if not inside or f"{name}_low" not in bounds:
+        return None
+    more, less = (
+        np.interp([depth], known, bounds[f"{name}_{side}"] - bounds[name])
+        / history["critical_gradient"][i]
+        for side in ("high", "low")
+    )
+    return Bounds(least - more, least - less, float(known[-1]))
+
+
+def piping_warning(run: Results, found: Installation | None) -> list[str]:
+    """Return a warning where the error bar of the margin to piping includes 0."""
+    if found is None or not found.has_suction:
+        return []
+    least, depth = least_margin(run)
+    bar = piping_bar(run, least, depth)
+    if bar is None or least <= 0 or bar.low[0] > 0:
+        return []
+    return [
+        f"the margin to piping is {100 * least:.0f} % at {found.shown.depth(depth)},"
+        " and its error bar includes 0: the run does not show that piping stays away"
+    ]
+
+
+def margin_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
+    """Return the cards of the margins."""
+    (least, depth), shown = least_margin(run), found.shown
+    remark = (
+        f"least, at {found.shown.depth(depth)}: exit gradient {1 - least:.2f} of the"
+        " critical one"
+    )
+    if (bar := piping_bar(run, least, depth)) is not None:
+        ends = [f"{100 * float(side[0]) + 0.0:.0f}" for side in (bar.low, bar.high)]
+        held = (
+            f" of {shown.words(bar.end, 'm', '.4g')}" if depth > bar.end + 1e-2 else ""
+        )
+        remark = f"error bar{held} {ends[0]} to {ends[1]} %; {remark}"
+    cards: list[tuple[str, ...]] = [
+        ("Margin to piping", f"{100 * least:.0f} %", remark)
+    ]
+    ratio = np.nan_to_num(found.required / found.allowable)
+    worst = int(np.argmax(ratio))
+    if found.governing(worst):
+        cards.append(
+            (
+                "Required / allowable",
+                f"{ratio[worst]:.2f}" + (", exceeded" if ratio[worst] > 1 else ""),
+                f"at {shown.depth(found.depth[worst])}:"
+                f" {shown.factor('kPa') * found.required[worst]:.1f} of"
+                f" {shown.words(found.allowable[worst], 'kPa', '.1f')}"
+                f" ({found.governing(worst)})",
+            )
+        )
+    return cards
+
+
+def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
+    """Return the largest flow, under suction where there is any."""
+    pumped = (
+        found.required > NOTHING
+        if found.has_suction
+        else np.full(len(found.flow), True)
+    )
+    most = int(np.argmax(np.where(pumped, found.flow, -np.inf)))
+    words = (
+        f"at {found.shown.depth(found.depth[most])} and a penetration of {rate.words}"
+    )
+    if found.has_suction:
+        words += (
+            f", of which seepage {found.seepage[most]:.2g} m³/h; against"
+            f" {found.shown.words(found.required[most], 'kPa', '.1f')}"
+        )
+    name = "Pump" if found.has_suction else "Water to vent"
+    return name, f"{found.flow[most]:.3g} m³/h", words
+
+
+def room_card(run: Results, found: Installation) -> tuple[str, ...]:
+    """Return the room below the lid and, from half the skirt on, where heave would use
+    it up if it went on as over the last meter."""
+    depth, heave, room = found.depth, found.heave, float(found.room[-1])
+    shown = found.shown
+    remark = f"at {shown.depth(depth[-1])}; heave of the plug {shown.depth(heave[-1])}"
+    last = depth >= depth[-1] - 1.0
+    if last.sum() > 1 and room > 0:
+        rise = (heave[-1] - heave[last][0]) / (depth[-1] - depth[last][0])
+        meets = depth[-1] + room / max(1 + rise, 0.1)
+        length = float(run.scene["skirt_length_m"])
+        if length / 2 < depth[-1] and meets < length - 5e-3:
+            remark += (
+                f"; it would meet the lid at about {shown.depth(meets).split()[0]} of"
+                f" {shown.length(length)}"
+            )
+    return "Room below the lid", shown.depth(room), remark
+
+
+def pump_cards(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
+    """Return the cards of plug, pump and boiling."""
+    cards = [flow_card(found, rate)] if len(found.flow) else []
+    boiling = found.limits.get(BOILING, np.full(1, np.nan))[-1]
+    if np.isfinite(boiling):
+        pump = found.limits.get(PUMP)
+        words = "no pump limit is set"
+        if pump is not None:
+            words = f"pump: {found.shown.words(pump[-1], 'kPa', '.4g')}"
+        remark = f"at {found.shown.depth(found.depth[-1])}; {words}"
+        cards.append(("Water boils at", f"{boiling:.0f} kPa", remark))
+    return [*cards, room_card(run, found)] if len(found.room) else cards

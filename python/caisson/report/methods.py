@@ -1,0 +1,417 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a report says of the design methods: their numbers beside those of the run,
+computed over method, and why the run is where it is."""
+import math
+import re
+from typing import Any
+
+import numpy as np
+
+from caisson import curves
+from caisson.evaluation import depths_of
+from caisson.plot import design, suction_methods, theory
+from caisson.plot.forces import penetration
+from caisson.plot.suction import CRITICAL
+from caisson.results import Results
+from caisson.design import suction_installation as installation
+from caisson.design.houlsby_byrne import STILL, UNDISTURBED
+from caisson.design.method import Forces
+from caisson.design.reasons import (
+    ASSUMED_CONE,
+    ByCone,
+    Compared,
+    Walls,
+    cause_by_cone,
+    of_cause,
+    of_cone,
+    of_houlsby_byrne,
+    of_undisturbed,
+    ratio_in_words,
+    relieved,
+    text_of,
+)
+from caisson.shown import SMALLER, USUAL, Units
+from caisson.report import relief
+from caisson.report.installation import needs_suction
+
+RATIO = "computed / "  # before the name of a method
+# the lower case of a method: the upper one
+LOWER = {"low": "high", "most probable": "highest"}
+UNDISTURBED_IS = (
+    f"{UNDISTURBED}: K0 tan \N{GREEK SMALL LETTER DELTA} without stress enhancement, a"
+    " lower bound"
+)
+# the critical suctions that a table has
+SHOWN_LIMITS = (suction_methods.PIPING, suction_methods.CRITICAL_SENDERS_RANDOLPH)
+AT_DEPTH = 0.05  # m, between a depth and the frame that is taken for it
+NO_ANSWER = "none (piping)"
+NOTHING: dict[str, Any] = {"tables": [], "why": [], "reasons": [], "notes": []}
+
+
+def in_ranges(heads: list[str], rows: list[list[str]]) -> dict[str, list[str]]:
+    """Return columns in which the lower and the upper case of a method are one."""
+    columns = {head: [row[i] for row in rows] for i, head in enumerate(heads)}
+    found: dict[str, list[str]] = {}
+    skip = ""
+    for head, after in zip(heads, [*heads[1:], ""]):
+        name, _, case = head.rpartition(", ")
+        if head == skip:
+            continue
+        if case in LOWER and after == f"{name}, {LOWER[case]}":
+            skip = after
+            pairs = zip(columns[head], columns[after])
+            found[f"{name}, {case} to {LOWER[case]}"] = [
+                " to ".join(dict.fromkeys(filter(None, pair))) for pair in pairs
+            ]
+        else:
+            found[head] = columns[head]
+    return found
+
+
+def for_a_page(table: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the numbers of a table, the cases of a method as ranges, and below them
+    the ratios: as many columns beside each other as a page can show."""
+    columns = in_ranges(table["heads"], table["rows"])
+    is_ratio = [head.startswith(RATIO) for head in columns]
+    depth = table["heads"][0]
+    found = []
+    for title, wanted in ((table["title"], False), ("Computed / method", True)):
+        part = {h: c for (h, c), r in zip(columns.items(), is_ratio) if r is wanted}
+        if wanted:
+            part = {h.removeprefix(RATIO): c for h, c in part.items()}
+            title = f"{title}: {table['title'][0].lower()}{table['title'][1:]}"
+        part = {depth: columns[depth], **part}
+        if len(part) > 1:
+            rows = [list(row) for row in zip(*part.values())]
+            found.append({"title": title, "heads": list(part), "rows": rows})
+    return found
+
+
+def ratios(computed: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[str]:
+    """Return ratio_in_words() of each row."""
+    return [ratio_in_words(*map(float, row)) for row in zip(computed, low, high)]
+
+
+def place_of(ratio: str) -> str:
+    """Return where a run is beside the band of a method, from ratio_in_words()."""
+    ends = [float(end) for end in re.findall(r"[\d.]+", ratio)]
+    if ends[0] > 1 and not ratio.startswith("at most"):
+        return "above"
+    return "below" if ends[-1] < 1 and not ratio.startswith("at least") else "within"
+
+
+def beside_the_band(rows: list[tuple[str, str]]) -> str:
+    """Return where a run is beside the band of a method over (depth, ratio), the
+    deepest last: "above the band to 4 m, within it deeper"."""
+    places = [(depth, place_of(ratio)) for depth, ratio in rows]
+    parts = [
+        f"{place} {{}} to {depth}"
+        for (depth, place), (_, after) in zip(places, places[1:])
+        if after != place
+    ]
+    parts.append(f"{places[-1][1]} {{}} deeper" if parts else f"{places[0][1]} {{}}")
+    return ", ".join(p.format("it" if i else "the band") for i, p in enumerate(parts))
+
+
+def table(title: str, columns: dict[str, Any], shown: Units = USUAL) -> dict[str, Any]:
+    """Return title, heads and rows of columns of numbers or words [n], in the units
+    shown. The title has the unit of columns that name none; ratios have none."""
+
+    def factor(head: str) -> float:
+        if RATIO in head or any(f"({unit})" in head for unit in SMALLER):
+            return shown.factor_of(head)
+        return shown.factor_of(title)
+
+    texts = [
+        [
+            cell if isinstance(cell, str) else text_of(factor(head) * float(cell))
+            for cell in values
+        ]
+        for head, values in columns.items()
+    ]
+    return {
+        "title": shown.named(title),
+        "heads": [shown.named(head) for head in columns],
+        "rows": [list(row) for row in zip(*texts)],
+    }
+
+
+def beside(
+    title: str,
+    columns: dict[str, Any],
+    computed: np.ndarray | None,
+    methods: list[theory.Beside],
+    shown: Units,
+    what: str = "",
+    last: dict[str, Any] = {},
+) -> dict[str, Any]:
+    """Return a table of what a run has (N or Pa), if it has this, and methods say
+    behind other columns, and last ones. what: before the names of methods."""
+    if computed is not None:
+        columns["computed"] = computed / 1e3
+    for method in methods:
+        for case, values in (method.cases | method.bounds).items():
+            texts = or_piping(values / 1e3) if method.may_end else values / 1e3
+            columns[f"{what}{method.name}, {case}"] = texts
+        if computed is not None:
+            columns[f"{RATIO}{method.name}"] = ratios(computed, *method.cases.values())
+            for bound, values in method.bounds.items():
+                columns[f"{RATIO}{bound}"] = ratios(computed, values, values)
+    return table(title, columns | last, shown)
+
+
+def under_suction(
+    run: Results, at: np.ndarray, site: theory.Site, answers: list[theory.Answer]
+) -> list[theory.Beside]:
+    """Return the resistance that methods for suction have at depths [n] under the
+    suction of the run; answers: of jacking."""
+    suction = np.maximum(design.suction_at(run.history, at), 0)
+    try:
+        byrne = theory.houlsby_byrne_of(site, float(at.max()))
+    except theory.NotApplicable:
+        return []
+    caisson, _ = byrne.by_name[UNDISTURBED]
+    pairs = list(zip(map(float, suction), map(float, at)))
+    flows = [
+        installation.seepage(caisson, s, h, byrne.permeability_ratio) for s, h in pairs
+    ]
+
+    def of_byrne(case: str) -> np.ndarray:
+        both = zip(flows, at)
+        return np.array([byrne.forces_under(f, float(h), case).total for f, h in both])
+
+    cases = {case: of_byrne(case) for case in byrne.cases}
+    found = [theory.Beside(suction_methods.HOULSBY_BYRNE, cases)]
+    left = [1 - s / installation.critical_suction(caisson, h) for s, h in pairs]
+    for answer in answers:
+        if answer.method.key == "senders_randolph" and answer.forces:
+            cases = {
+                case: np.array(
+                    [
+                        relieved(by_case(answer, case, i), x).total
+                        for i, x in enumerate(left)
+                    ]
+                )
+                for case in answer.method.cases
+            }
+            found.append(theory.Beside(answer.name, cases))
+    return found
+
+
+def or_piping(values: np.ndarray) -> list[str]:
+    """Return suctions as text; NO_ANSWER below the depth where a method ends, as the
+    suction exceeds its critical one."""
+    known = np.flatnonzero(np.isfinite(values))
+    last = int(known[-1]) if len(known) else -1
+    return [text_of(float(v)) if i <= last else NO_ANSWER for i, v in enumerate(values)]
+
+
+def suction_tables(
+    run: Results, at: np.ndarray, site: theory.Site, answers: list[theory.Answer]
+) -> list[dict[str, Any]]:
+    """Return the tables of required and critical suctions, and of the resistance under
+    the suction of the run; answers: of jacking."""
+    required = np.maximum(design.suction_at(run.history, at), 0)
+    found = suction_methods.answers_of(site, at)
+    critical = {
+        f"critical, {CRITICAL[column][0]}": found.suctions[column] / 1e3
+        for column in SHOWN_LIMITS
+        if found.suctions
+    }
+    title, columns = "Required and critical suction (kPa)", {"depth (m)": at}
+    suctions = beside(
+        title, columns, required, found.required, run.shown, "required, ", critical
+    )
+    methods = under_suction(run, at, site, answers)
+    resistance = beside(
+        "Resistance under the suction of the run (kN)",
+        {"depth (m)": at, "suction (kPa)": required / 1e3},
+        design.compared_at(run.history, at)[design.FORCES[-1]],
+        methods,
+        run.shown,
+    )
+    return [suctions, resistance] if methods else [suctions]
+
+
+# ------------------------------------------------------------------ why
+
+
+def compared(run: Results, h: float) -> Compared | None:
+    """Return the run beside Houlsby & Byrne at a depth, None where the method has no
+    answer there or the run lacks a force."""
+    site, at = theory.site_of(run), np.array([h])
+    known = design.compared_at(run.history, at)
+    try:
+        byrne = theory.houlsby_byrne_of(site, h)
+    except theory.NotApplicable:
+        return None
+    if set(known) != set(design.FORCES):
+        return None
+    computed = Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
+    suction, flow, mine = 0.0, STILL, computed.total
+    ends = [byrne.forces(h, case).total for case in byrne.cases]
+    caisson, _ = byrne.by_name[UNDISTURBED]
+    if needs_suction(run):
+        suction = mine = float(design.suction_at(run.history, at)[0])
+        found = suction_methods.answers_of(site, at).suctions
+        ends = [float(found[name][0]) for name in suction_methods.RANGE if found]
+        flow = installation.seepage(
+            caisson, max(suction, 0.0), h, byrne.permeability_ratio
+        )
+    ratio = ratio_in_words(mine, *ends) if ends else ""
+    if not ratio:
+        return None
+    low, high = (byrne.forces_under(flow, h, case) for case in byrne.cases)
+    frictions = computed.outer_friction, caisson.outer_friction(h, False, flow)
+    walls = (caisson.k_tan_delta_of(friction, h, flow) for friction in frictions)
+    enhanced = byrne.by_name["low"].enhanced
+    return Compared(h, suction, ratio, computed, low, high, enhanced, *walls)
+
+
+def why_of(run: Results, at: np.ndarray) -> str:
+    """Return a sentence on where the run is beside Houlsby & Byrne, and why, at the
+    deepest of depths [n] (m) with an answer; nothing without one."""
+    answers = (compared(run, float(h)) for h in at[::-1])
+    found = next((answer for answer in answers if answer), None)
+    if found is None:
+        return ""
+    return of_houlsby_byrne(found)
+
+
+def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]:
+    """Return why the run is not like undisturbed ground and the methods from a cone, a
+    sentence for each that is not, at a depth; answers: of jacking, at this depth. With
+    suction only methods for suction are compared."""
+    at, history = np.array([h]), run.history
+    known = design.compared_at(history, at)
+    if set(known) != set(design.FORCES):
+        return []
+    computed = Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
+    mine, what, left, suctions = computed.total, "force", None, dict[str, Any]()
+    if needs_suction(run):
+        mine, what = float(design.suction_at(run.history, at)[0]), "suction"
+        suctions = suction_methods.answers_of(theory.site_of(run), at).suctions
+        if not suctions:
+            return []
+        left = 1 - mine / suctions[suction_methods.CRITICAL_SENDERS_RANDOLPH][0]
+    found, sentences, causes = list[str](), list[str](), dict[str, None]()
+    for answer in filter(lambda answer: answer.forces, answers):
+        parts = {c: by_case(answer, c) for c in answer.method.all_cases}
+        low, high = (parts[case] for case in answer.method.cases)
+        ends = mine, low.total, high.total
+        for bound in answer.method.bound:
+            force = parts[bound].total
+            if suctions:
+                force = float(suctions[suction_methods.LOWER_BOUND][0])
+            found.append(of_undisturbed(h, mine, force, what))
+        if left is not None and answer.method.key == "senders_randolph":
+            low, high = relieved(low, left), relieved(high, left)
+            cases = suction_methods.CONE_LOW, suction_methods.CONE_HIGH
+            needed = [float(suctions[case][0]) for case in cases]
+            ends = mine, needed[0], needed[1]
+        elif answer.method.bound or left is not None or answer.method.key == "clay":
+            continue
+        name = answer.name
+        by_cone = ByCone(name, h, what, ends, computed, low, high, left)
+        if sentence := of_cone(by_cone):
+            sentences.append(sentence)
+            causes[of_cause(cause_by_cone(by_cone), h, walls_of(run, h))] = None
+    sentences += causes
+    if any(sentences) and any(answer.assumed for answer in answers):
+        sentences.append(ASSUMED_CONE)
+    return [sentence for sentence in [*found, *sentences] if sentence]
+
+
+def walls_of(run: Results, h: float) -> Walls | None:
+    """Return the stress on the walls at the frame at a depth; None without one."""
+    table, scene = run.walls, run.scene
+    rows = np.abs(table.get("penetration_m", np.empty(0)) - h) < AT_DEPTH
+    layers = [x for x in scene["layers"] if theory.top_of(x) < h]
+    angles = [float(x.get("friction_angle_deg") or 0) for x in layers]
+    at_rest = [float(x.get("K0") or 0) for x in layers]
+    if not {"inner_area_m2", "outer_area_m2"} <= set(table) or not rows.any():
+        return None
+    rows &= table["time_s"] == table["time_s"][rows][-1]
+    rows &= table["vertical_stress_at_rest_Pa"] > 0
+    means = []
+    for side in ("inner", "outer"):
+        area = table[f"{side}_area_m2"][rows]
+        normal = table[f"{side}_normal_stress_Pa"][rows]
+        below = table["vertical_stress_at_rest_Pa"][rows] @ area
+        means.append(float(np.nansum(normal * area) / below))
+    passive = [math.tan(math.radians(45 + angle / 2)) ** 2 for angle in angles]
+    ends = [(min(values), max(values)) for values in (at_rest, passive)]
+    return Walls(means[0], means[1], ends[0], ends[1])
+
+
+def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
+    """Return the forces of an answer at one of its depths."""
+    return Forces(*(float(answer.forces[case][part][i]) for part in theory.PARTS[:3]))
+
+
+# ------------------------------------------------------------------ all
+
+
+def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
+    """Return a card with computed over method, of the first table of the methods, at
+    the deepest depth with an answer of a method that is fitted to field data, without
+    an assumed cone if possible, else of the lower bound; nothing where none has an
+    answer."""
+    answers = [
+        (f"{row[0]} {table['heads'][0][7:-1]}", head.removeprefix(RATIO), cell)
+        for table in found["tables"][:1]
+        for row in reversed(table["rows"])
+        for head, cell in zip(table["heads"], row)
+        if head.startswith(RATIO) and cell
+    ]
+    fitted = [answer for answer in answers if answer[1] != UNDISTURBED]
+    measured = [answer for answer in fitted if theory.ASSUMED_CONE not in answer[1]]
+    for depth, name, value in (measured or fitted or answers)[:1]:
+        rows = [(d, v) for d, n, v in reversed(answers) if n == name]
+        words = f"of {name}, at {depth}; {beside_the_band(rows)}"
+        more = "; other methods below" if len({n for _, n, _ in answers}) > 1 else ""
+        return [("Computed / method", value, words + more)]
+    return []
+
+
+def methods_of(run: Results) -> dict[str, Any]:
+    """Return the tables of the design methods at each meter, (methods, why they say
+    nothing), and sentences on them; nothing for a run without a way down."""
+    history = run.history
+    if penetration(history) is None or not design.goes_down(history):
+        return NOTHING
+    rows_down = curves.way_down(history["penetration_m"])[1:]
+    site = theory.site_of(run)
+    at = depths_of(history["penetration_m"][rows_down], 1.0)
+    answers = theory.answers_of(site, at)
+    with_suction, total = needs_suction(run), design.FORCES[-1]
+    computed = None
+    if total in history and not with_suction:
+        computed = design.compared_at(history, at)[total]
+    title = "Total force (kN)"
+    if computed is None:
+        title = "Force of jacking, without suction (kN)"
+    forces = [answer.total for answer in answers if answer.forces]
+    tables = [beside(title, {"depth (m)": at}, computed, forces, run.shown)]
+    meaning = ""
+    if with_suction:
+        columns, meaning = relief.table_of(run, at)
+        title = "What suction leaves of the forces"
+        left = [table(title, columns, run.shown)] if columns else []
+        tables = [*suction_tables(run, at, site, answers), *left, *tables]
+    # the deepest of them that a cone test reaches
+    end = site.cone.depth[-1] if site.cone else np.inf
+    h = float(max((z for z in at if z <= end), default=at[-1]))
+    why = [why_of(run, at), *others_of(run, h, theory.answers_of(site, np.array([h])))]
+    notes = [theory.about_cone(site, float(at.max()))]
+    if meaning:
+        notes.append(f"What suction leaves: {meaning[0].lower()}{meaning[1:]}")
+    if answers[0].forces:
+        assumed = theory.assumptions_in_words(site.scene)
+        notes.insert(0, f"{assumed}; {UNDISTURBED_IS}.")
+    return {
+        "tables": [table for table in tables if len(table["heads"]) > 2],
+        "why": [sentence for sentence in why if sentence],
+        "reasons": theory.reasons(answers),
+        "notes": [note for note in notes if note],
+    }

@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The page of a report: contents, pictures and scripts in one file."""
+import base64
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from caisson.template import template
+from caisson import plot
+from caisson.lock import is_locked
+from caisson.progress import duration
+from caisson.needed import JAVASCRIPT, SCRIPTS
+from caisson.results import Results
+from caisson.report import content, installation, methods, pull, scene, sketch
+from caisson.report.installation import Installation, Rate
+
+HERE = Path(__file__).parent
+REFRESH = 30  # s, of the page of a run that has not ended
+# name of a picture without its suffix: what it shows
+PICTURES = {
+    "stress": "Vertical effective stress",
+    "pore_pressure": "Excess pore pressure and flow lines, beside effective stress",
+    "suction": "Suction, exit gradients and heave of the plug",
+    "walls": "Stresses along the walls",
+    "displacement": "Displacement",
+    "void_ratio": "Void ratio",
+    "forces": "Forces",
+}
+CHARTS = ("suction", "walls", "forces")  # pictures of lines, not of fields
+AS_IT_IS = ("Self-weight penetration", "Water boils at", "Computed / method")
+LAST_ROWS = "The run failed: do not use the last rows."
+
+
+def script(name: str) -> str:
+    """Return a script of Debian's for the page."""
+    text = (JAVASCRIPT / name).read_text(encoding="utf-8")
+    return text.replace("</script", "<\\/script")
+
+
+def pictures_of(run: Results) -> list[dict[str, str]]:
+    """Return the run's pictures as data, each with what it shows; drawn where the run
+    has left none."""
+    if not (run.directory / "forces.png").is_file() and not run.is_running:
+        plot.draw(run.directory)
+    found = []
+    for name, shows in PICTURES.items():
+        path = run.directory / f"{name}.png"
+        if path.is_file():
+            data = base64.b64encode(path.read_bytes()).decode("ascii")
+            found.append({"name": name, "shows": shows, "data": data})
+    return found
+
+
+def facts_of(run: Results) -> list[tuple[str, str]]:
+    """Return versions, sizes and times; of a run that failed, those that are known."""
+    if run.is_running:
+        return []
+    summary = run.summary
+    points = summary.get("material_points", "not known")
+    facts = [
+        ("Results", str(run.directory)),
+        ("Cells, material points", f"{summary['cells']}, {points}"),
+        ("Steps", steps_of(run)),
+        ("Limit of the step", str(summary["time_step_limit"])),
+        ("Ranks", str(summary["ranks"])),
+        ("Time", f"{summary['wall_time_s']:.0f} s"),
+        ("Fingerprint of the scene", str(summary["fingerprint"])),
+    ]
+    if words := scene.mass_scaling_of(run):
+        facts.insert(3, ("Mass scaling", words))
+    if command := summary.get("command"):
+        facts.insert(1, ("Command", str(command)))
+    if "peak_memory_bytes" in summary:
+        facts.append(("Memory", f"{summary['peak_memory_bytes'] / 1e6:.0f} MB"))
+    return facts
+
+
+def steps_of(run: Results) -> str:
+    """Return the number of steps, and their range of lengths."""
+    steps = run.history.get("time_step_s", np.array([run.summary["time_step_s"]]))
+    steps = steps[np.isfinite(steps) & (steps > 0)]
+    ends = dict.fromkeys(f"{end:.2g}" for end in (steps.min(), steps.max()))
+    return f"{run.summary['steps']} of {' to '.join(ends)} s"
+
+
+def progress_of(run: Results) -> tuple[float, str]:
+    """Return how much of a run is done (%), and in words how long it takes still."""
+    known = run.summary.get("progress") or {} if run.scene else {}
+    done = 100 * float(known.get("fraction_done") or 0)
+    left = known.get("remaining_s")
+    words = f"{done:.0f} % done"
+    return done, words + (f", about {duration(left)} left" if left else "")
+
+
+def status_of(run: Results) -> str:
+    """Return how the run ended, in words."""
+    if run.is_running:
+        done, words = progress_of(run)
+        if not is_locked(run.directory) and done:
+            return f"The run was ended before it was finished: {words.split(',')[0]}."
+        said = f"Running: {words}. " if done else "The run has not ended. "
+        return f"{said}This page reloads itself every {REFRESH} seconds."
+    if failure := run.summary.get("failure"):
+        return f"Failed: {failure}"
+    reason = run.scene.get("end_reason")
+    status = str(run.summary.get("status", "finished"))
+    return f"Ended early: {reason}." if reason else f"Status: {status}."
+
+
+def job_of(run: Results, summary: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return what a first page must name: scene, program and date."""
+    if not summary:
+        return []
+    written = str(summary.get("written", ""))[:16].replace("T", " ")
+    version, library = summary["version"], summary["dealii_version"]
+    return [
+        ("Scene", str(summary["scene_file"])),
+        ("Computed", written or "not known"),
+        ("Program", f"caisson_mpm {version}, deal.II {library}"),
+    ] + ([("Use", use)] if (use := scene.use_of(run)) else [])
+
+
+def warnings_of(summary: dict[str, Any]) -> dict[str, list[str]]:
+    """Return the warnings by their rank; older files have none, so that all count."""
+    found: dict[str, list[str]] = {"result": [], "input": [], "cosmetic": []}
+    ranked = (summary.get("results") or {}).get("warnings")
+    if ranked is None:
+        return {**found, "result": list(summary.get("warnings", []))}
+    for warning in ranked:
+        found[warning["rank"]].append(warning["text"])
+    return found
+
+
+def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any]:
+    """Return sketch and tables of caisson and soil."""
+    if not run.scene:
+        return {"sketch": "", "caisson": [], "layers": {"rows": []}, "assumed": False}
+    depth = float(np.max(run.history.get("penetration_m", np.zeros(1))))
+    caisson, layers = scene.caisson_of(run), scene.layers_table(run)
+    cells = [assumed for row in layers["rows"] for _, assumed in row]
+    return {
+        "sketch": sketch.of_run(run, depth, found.rest if found else None),
+        "caisson": caisson,
+        "layers": layers,
+        "assumed": any([*cells, *(item.assumed for item in caisson)]),
+    }
+
+
+def has_ended_early(run: Results) -> bool:
+    """Return whether a run was stopped, or failed, before its end."""
+    if run.is_running:
+        return not is_locked(run.directory)
+    ended = run.summary.get("failure") or run.scene.get("end_reason")
+    return bool(ended) or run.summary.get("status", "finished") != "finished"
+
+
+def incomplete_of(run: Results) -> str:
+    """Return what a run that did not come to its end is good for; nothing of others."""
+    depth = run.history.get("penetration_m")
+    if not has_ended_early(run) or depth is None:
+        return ""
+    wanted = scene.end_of(run)
+    of_end = f" of {run.shown.depth(wanted)}" if wanted else ""
+    words = (
+        f"Stopped at {run.shown.depth(depth.max())}{of_end}: no number below holds for"
+        " the end"
+    )
+    failed = not run.is_running and run.summary.get("failure")
+    return f"{words}. {LAST_ROWS}" if failed else f"{words}."
+
+
+def so_far(cards: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
+    """Return the cards of a run that has not come to its end."""
+    return [
+        (
+            name if name in AS_IT_IS else f"{name.removesuffix(' at the end')} so far",
+            *rest,
+        )
+        for name, *rest in cards
+    ]
+
+
+def css_text(words: str) -> str:
+    """Return a text for a string of a style sheet."""
+    return "".join(c if c.isalnum() else f"\\{ord(c):x} " for c in words)
+
+
+def html(run: Results, rate: Rate) -> str:
+    """Return the page. Raises ResultsError or OSError."""
+    is_pull = pull.is_pull(run)
+    found = None if is_pull else installation.installation_of(run, rate)
+    beside = methods.NOTHING if is_pull else methods.methods_of(run)
+    cards = [] if found is None else installation.cards_of(run, found, rate)
+    data: dict[str, Any] = {
+        "figures": content.figures_of(run, found),
+        "csv": content.csv_of(run.history),
+        "name": run.directory.resolve().name,
+    }
+    summary = run.summary if run.scene or not run.is_running else {}
+    title = str(summary.get("title") or run.directory.resolve().name)
+    cards = cards + methods.card_of(beside) if cards else pull.cards_of(run)
+    warnings = warnings_of(summary)
+    warnings["result"] += installation.piping_warning(run, found)
+    return template(HERE / "page.html").render(
+        title=title,
+        footer=css_text(title),
+        job=job_of(run, summary),
+        status=status_of(run),
+        progress=progress_of(run)[0] if run.is_running else 0,
+        refresh=REFRESH if run.is_running else 0,
+        incomplete=incomplete_of(run),
+        cards=so_far(cards) if run.is_running or has_ended_early(run) else cards,
+        computed=what_was_computed(run, found),
+        averaged=content.averaged(run),
+        has_bar=found is not None and found.has_bar,
+        rate=rate.words,
+        tables=[] if found is None else installation.tables_of(found),
+        has_suction=found is not None and found.has_suction,
+        error=content.error_remark(run),
+        figures=data["figures"],
+        units=content.unit_table(run),
+        methods=beside,
+        method_tables=[t for x in beside["tables"] for t in methods.for_a_page(x)],
+        pictures=pictures_of(run),
+        charts=CHARTS,
+        remarks=content.remarks_on_numbers(run),
+        warnings=warnings,
+        entries=scene.entries_of(run) if summary else {},
+        defaults=scene.defaults_of(run) if summary else {},
+        facts=facts_of(run),
+        style=(HERE / "page.css").read_text(encoding="utf-8"),
+        scripts=[script(name) for name in SCRIPTS],
+        own_script=(HERE / "page.js").read_text(encoding="utf-8"),
+        data=json.dumps(data, allow_nan=False).replace("<", "\\u003c"),
+    )

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A caisson that is pulled: how much it bears, what bears it, and the pull over the
+rise."""
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from caisson import curves
+from caisson.evaluation import NO_CAPACITY, results_of
+from caisson.plot.forces import COLORS, WATER_COLOR, column_of
+from caisson.results import Results
+from caisson.design.reasons import text_of
+from caisson.report.scene import is_sealed
+
+PULL, WATER = "pull", "water beneath lid and tip"
+
+
+def is_pull(run: Results) -> bool:
+    """Return whether a run is about the pull: whether the body ends higher than it
+    began, or rises with a sealed lid, as in cycles."""
+    depth = run.history.get("penetration_m", np.zeros(1))
+    rises = bool((np.diff(depth) < 0).any())
+    return bool(depth[-1] < depth[0]) or (is_sealed(run) and rises)
+
+
+def largest_pull(run: Results) -> Mapping[str, Any]:
+    """Return the largest pull; nothing of another run."""
+    return results_of(run).get("largest_pull", {}) if is_pull(run) else {}
+
+
+def cards_of(run: Results) -> list[tuple[str, ...]]:
+    """Return (name, value, remark) of the largest pull; nothing without one."""
+    most = largest_pull(run)
+    if not most:
+        return []
+
+    def force(name: str) -> str:
+        value = float(f"{run.shown.factor('kN') * most[name] / 1e3:.3g}")
+        return f"{text_of(value)} {run.shown.name('kN')}"
+
+    weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
+    remark = f"after a rise of {1e3 * most['rise_m']:.3g} mm"
+    if weight:
+        words = run.shown.words(weight, "kN", ".4g")
+        remark += f"; the submerged weight of {words} adds to it"
+    cards: list[tuple[str, ...]] = [
+        ("Largest pull", force("pull_N"), remark),
+        (
+            "Of which friction outside",
+            force("outer_friction_N"),
+            f"inside {force('inner_friction_N')}, tip {force('tip_N')}",
+        ),
+    ]
+    if curves.WITH_WATER in run.history:
+        name = f"Of which {WATER}"
+        cards.append((name, force("water_N"), "negative where it presses up"))
+    if not most["is_capacity"]:
+        return [*cards, ("Capacity", f"more than {force('pull_N')}", NO_CAPACITY)]
+    words = most.get("mechanism", "")
+    how, _, what = words.partition(": ")
+    return [*cards, ("What fails", how, what)] if words else cards
+
+
+def pull_parts(run: Results) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:
+    """Return the rise above the deepest place [n_rows] (mm), and color and values
+    [n_rows] (kN) of the pull and of its parts, by their names."""
+    history = run.history
+    total = history["total_force_N"]
+    borne = history.get(curves.WITH_WATER, total)
+    parts = {PULL: ("black", -borne / 1e3)}
+    for name in ("outer friction", "inner friction", "tip"):
+        parts[name] = (COLORS[name], -history[column_of(name)] / 1e3)
+    if curves.WITH_WATER in history:
+        parts[WATER] = (WATER_COLOR, (total - borne) / 1e3)
+    depth = history["penetration_m"]
+    rise = 1e3 * (depth.max() - depth)
+    if is_sealed(run):
+        return rise, parts
+    up = int(np.argmax(depth))  # a way down before it is an installation
+    return rise[up:], {name: (color, x[up:]) for name, (color, x) in parts.items()}
