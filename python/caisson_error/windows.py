@@ -135,10 +135,13 @@ class WindowedRun(Run):
     def execute(
         self, time_limit: float | None = None, ranks: int | None = None
     ) -> Status | None:
-        """Run what is missing, and write the history of the means; see Run."""
+        """Run the windows that have no result, or all of them again where none is
+        missing, and write the history of the means; see Run."""
+        again = self.is_complete()
+        (self.directory / self.RECORD).unlink(missing_ok=True)
         records = []
         for part in self.parts:
-            if not part.is_complete():
+            if again or not part.is_complete():
                 status = part.execute(time_limit, ranks)
                 if status != Status.SUCCESS:
                     return status

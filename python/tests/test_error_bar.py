@@ -7,13 +7,14 @@ import tempfile
 import unittest
 import unittest.mock
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from synthetic import write_run
 
 from caisson import curves
 from caisson.results import Results, ResultsError, Table, read_table
-from caisson.runner import Entries
+from caisson.runner import Entries, Run, Status
 from caisson.study import Options, Reader, Study, StudyError
 from caisson_error import command, error_bar, windows
 from caisson_error.mesh_error import mesh_error
@@ -322,6 +323,67 @@ class Windows(unittest.TestCase):
             np.testing.assert_allclose(means, [100, 300, 300])
             self.assertEqual(found.summary["wall_time_s"], 4.0)
             self.assertEqual(found.summary["fingerprint"], "f00d")
+
+
+class Part(Run):
+    """A window whose run ends with a status, and is counted."""
+
+    def __init__(self, directory: Path, status: Status | None) -> None:
+        self.directory, self.status, self.calls = directory, status, 0
+        self.record: dict[str, Any] | None = None
+
+    def is_complete(self) -> bool:
+        return self.record is not None
+
+    def completion_record(self) -> dict[str, Any] | None:
+        return self.record
+
+    def execute(
+        self, time_limit: float | None = None, ranks: int | None = None
+    ) -> Status | None:
+        self.calls += 1
+        depth = np.linspace(0.64, 1.0, 37)
+        history = {"time_s": depth, "penetration_m": depth, "F": depth}
+        write_run(self.directory, history, {"entries": {}, "wall_time_s": 2.0})
+        if self.status in (Status.SUCCESS, Status.FAILURE):
+            self.record = {"status": self.status, "wall_s": 2.0, "cpu_s": 2.0}
+        return self.status
+
+
+class RunsOfWindows(unittest.TestCase):
+    """What is run, and what counts as a result."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        path = Path(temporary.name)
+        self.whole = windows.WindowedRun.__new__(windows.WindowedRun)
+        self.whole.directory, self.whole.entries = path, {}
+        self.whole.scene = self.whole.program = path
+        self.whole.windows = [windows.Window(0.64, 1.0), windows.Window(1.64, 2.0)]
+        self.whole.depths = [1.0, 2.0]
+        self.whole.key = "k"
+        known = unittest.mock.patch.object(windows, "fingerprint", return_value="f00d")
+        known.start()
+        self.addCleanup(known.stop)
+
+    def give(self, *statuses: Status | None) -> list[Part]:
+        """Let the windows end in this way; return them."""
+        path = self.whole.directory
+        parts = [Part(path / str(i), status) for i, status in enumerate(statuses)]
+        self.whole.parts = list[Run](parts)
+        return parts
+
+    def test_again(self) -> None:
+        """What is missing runs; a run without anything missing is repeated, since it
+        is asked for with --again only."""
+        first, second = self.give(Status.SUCCESS, Status.SUCCESS)
+        first.execute()
+        self.assertEqual(self.whole.execute(), Status.SUCCESS)
+        self.assertTrue(self.whole.is_complete())
+        self.assertEqual((first.calls, second.calls), (1, 1))
+        self.assertEqual(self.whole.execute(), Status.SUCCESS)
+        self.assertEqual((first.calls, second.calls), (2, 2))
 
 
 if __name__ == "__main__":
