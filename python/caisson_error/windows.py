@@ -21,7 +21,15 @@ import numpy as np
 
 from caisson import curves, table
 from caisson.results import Results, Table
-from caisson.runner import Entries, Run, Status, query, read_parameters, set_options
+from caisson.runner import (
+    Entries,
+    Run,
+    RunError,
+    Status,
+    query,
+    read_parameters,
+    set_options,
+)
 from caisson_design import disk
 
 WIDTHS, SHARE_OF_MEAN = 12.0, 1 / 3
@@ -136,16 +144,18 @@ class WindowedRun(Run):
         self, time_limit: float | None = None, ranks: int | None = None
     ) -> Status | None:
         """Run the windows that have no result, or all of them again where none is
-        missing, and write the history of the means; see Run."""
+        missing, and write the history of the means; see Run. Raises RunError also where
+        a window does not reach its depth."""
         again = self.is_complete()
         (self.directory / self.RECORD).unlink(missing_ok=True)
         records = []
         for part in self.parts:
             if again or not part.is_complete():
-                status = part.execute(time_limit, ranks)
-                if status != Status.SUCCESS:
-                    return status
-            records.append(part.completion_record() or {})
+                part.execute(time_limit, ranks)
+            record = part.completion_record()
+            if record is None or record["status"] != Status.SUCCESS:
+                raise RunError(f"a window ended early, see {part.directory / 'log'}")
+            records.append(record)
         results = [Results(part.directory) for part in self.parts]
         self.write(results, fingerprint(self.scene, self.entries, self.program))
         record = {

@@ -14,7 +14,7 @@ from synthetic import write_run
 
 from caisson import curves
 from caisson.results import Results, ResultsError, Table, read_table
-from caisson.runner import Entries, Run, Status
+from caisson.runner import Entries, Run, RunError, Status
 from caisson.study import Options, Reader, Study, StudyError
 from caisson_error import command, error_bar, windows
 from caisson_error.mesh_error import mesh_error
@@ -384,6 +384,16 @@ class RunsOfWindows(unittest.TestCase):
         self.assertEqual((first.calls, second.calls), (1, 1))
         self.assertEqual(self.whole.execute(), Status.SUCCESS)
         self.assertEqual((first.calls, second.calls), (2, 2))
+
+    def test_a_window_that_breaks_off(self) -> None:
+        """It is no result, also when the command is given again; the message names the
+        log of the window."""
+        for status in (Status.FAILURE, Status.STOPPED, None):
+            self.give(Status.SUCCESS, status)
+            for _ in range(2):
+                with self.assertRaisesRegex(RunError, "window ended early.*/1/log"):
+                    self.whole.execute()
+                self.assertFalse(self.whole.is_complete())
 
 
 if __name__ == "__main__":
