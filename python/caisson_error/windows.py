@@ -74,12 +74,20 @@ class Window:
         }
         if (tolerance := scene["Time/Inertia tolerance"]) != "none":
             radius = float(scene["Rigid body/Outer diameter"]) / 2
-            way = self.depth - self.averaged / 2 - self.start
-            share = min(1.0, max(FIRST_SHARE, way / radius / WHOLE_AFTER))
+            counted = self.depth - self.averaged / 2
+            start = float(scene["Rigid body/Initial penetration"])
+            factor = share_of_tolerance(counted - start, radius) / share_of_tolerance(
+                counted - self.start, radius
+            )
             changed["Time/Inertia tolerance"] = min(
-                LARGEST_TOLERANCE, float(tolerance) / share
+                LARGEST_TOLERANCE, factor * float(tolerance)
             )
         return changed
+
+
+def share_of_tolerance(way: float, radius: float) -> float:
+    """Return what part of the inertia tolerance acts after a way (m)."""
+    return min(1.0, max(FIRST_SHARE, way / radius / WHOLE_AFTER))
 
 
 def windows_of(scene: Entries, number: int) -> list[Window]:

@@ -294,13 +294,16 @@ class Windows(unittest.TestCase):
 
     def test_inertia(self) -> None:
         """In the middle of the mean it is that of the scene: the program gives a share
-        of the way over a third of the radius, at least 0.15."""
+        of the way over a third of the radius, at least 0.15, to both of them."""
         (window, *_) = windows.windows_of(self.THIN, 2)
         changed = window.entries(self.THIN)
         share = 0.3 / (4 / 3)
         self.assertAlmostEqual(changed["Time/Inertia tolerance"], 0.8 / share)
-        short = windows.Window(1.0, 1.12).entries(self.THIN)
+        short = windows.Window(2.0, 2.12).entries(self.THIN)
         self.assertAlmostEqual(short["Time/Inertia tolerance"], 0.8 / 0.15)
+        wide = window.entries({**self.THIN, "Rigid body/Outer diameter": "40"})
+        ratio = (4 - 0.06 - 0.5) / (20 / 3) / 0.15
+        self.assertAlmostEqual(wide["Time/Inertia tolerance"], 0.8 * ratio)
 
     def test_history(self) -> None:
         """Each depth has the means over the last third of its window."""
