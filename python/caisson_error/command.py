@@ -225,7 +225,9 @@ class Plan:
 
     def sized(self, r: float, cost: float = 1.0) -> Size:
         """Return the size of a run on a mesh, where a step costs more by a factor."""
-        return Size(round(self.size.points * r**2), cost * self.seconds * r**3)
+        seconds = cost * self.seconds * r**3
+        least = seconds * self.size.least / self.size.seconds
+        return Size(round(self.size.points * r**2), seconds, least)
 
     def run(
         self, name: str, entries: dict[str, Any], windows: Sequence[Window] = ()

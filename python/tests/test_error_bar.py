@@ -13,6 +13,7 @@ import numpy as np
 from synthetic import write_run
 
 from caisson import curves
+from caisson.ranks import Size
 from caisson.results import Results, ResultsError, Table, read_table
 from caisson.runner import Entries, Run, RunError, Status
 from caisson.study import Options, Reader, Study, StudyError
@@ -246,6 +247,13 @@ class Plan(unittest.TestCase):
             self.assertEqual(chosen, meshes[:number])
         chosen = command.chosen_meshes([1.0, 2.0], 100.0, 300.0, changes)
         self.assertEqual(chosen, [1.0])
+
+    def test_size(self) -> None:
+        """A finer mesh costs the cube; of a range of times both ends do."""
+        plan = command.Plan.__new__(command.Plan)
+        plan.size, plan.seconds = Size(1000, 60.0, 10.0), 6.0
+        self.assertEqual(plan.sized(2.0), Size(4000, 48.0, 8.0))
+        self.assertEqual(plan.sized(1.0, 2.0), Size(1000, 12.0, 2.0))
 
     def test_durations(self) -> None:
         for text, seconds in {
