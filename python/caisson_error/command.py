@@ -19,7 +19,7 @@ from typing import Any
 from caisson.paths import PROGRAM, RESULTS, scene_or_study, short
 from caisson.progress import duration
 from caisson.ranks import Size
-from caisson.runner import Run, RunError, read_parameters
+from caisson.runner import Entries, Run, RunError, read_parameters
 from caisson.study import Options, Study, StudyError, StudyRun, execute
 from caisson.study_command import shares_of, to_do_of
 from caisson_design import disk
@@ -128,6 +128,20 @@ def changes_of(entries: dict[str, str]) -> dict[str, tuple[dict[str, Any], float
     return found
 
 
+def check_entries(entries: Entries) -> None:
+    """Raise StudyError where a scene cannot have other meshes."""
+    if entries["Installation/Directory"]:
+        raise StudyError(
+            "the scene goes on from an installation, and has its mesh. Only the scene"
+            " of the installation can have an error bar"
+        )
+    if entries["Time/Time step"] != "auto":
+        raise StudyError(
+            "a finer mesh needs shorter steps. Set Time/Time step = auto, so that they"
+            " follow from the mesh"
+        )
+
+
 class Plan:
     """The runs for the error bar of a scene."""
 
@@ -145,6 +159,7 @@ class Plan:
         self.output: Path = arguments.output or self.scene.parent / (
             self.entries["Output/Error bar"] or f"{self.scene.stem}_error_bar.csv"
         )
+        check_entries(self.entries)
         self.check_way()
         self.check_output()
         self.size = self.size_of_scene()

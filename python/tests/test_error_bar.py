@@ -248,6 +248,14 @@ class Plan(unittest.TestCase):
         chosen = command.chosen_meshes([1.0, 2.0], 100.0, 300.0, changes)
         self.assertEqual(chosen, [1.0])
 
+    def test_scenes_without_other_meshes(self) -> None:
+        entries = {"Installation/Directory": "", "Time/Time step": "auto"}
+        command.check_entries(entries)
+        with self.assertRaisesRegex(StudyError, "from an installation"):
+            command.check_entries({**entries, "Installation/Directory": "a"})
+        with self.assertRaisesRegex(StudyError, "Set Time/Time step = auto"):
+            command.check_entries({**entries, "Time/Time step": "0.001"})
+
     def test_size(self) -> None:
         """A finer mesh costs the cube; of a range of times both ends do."""
         plan = command.Plan.__new__(command.Plan)
