@@ -7,7 +7,8 @@ The inertia is that of the scene at this depth: where the tolerance grows with t
 (theory, section 12), the window has a larger one.
 
 A window does not see what the way above it did to the soil, as to the friction of the
-walls. So it is for differences between runs, relative to their values.
+walls. So it is for differences between runs, relative to their values. Errors of the
+suction and of what follows from it are absolute, so windows give none.
 """
 import functools
 import hashlib
@@ -31,6 +32,7 @@ from caisson.runner import (
     set_options,
 )
 from caisson_design import disk
+from caisson_error.error_bar import SUCTION
 
 WIDTHS, SHARE_OF_MEAN = 12.0, 1 / 3
 NUMBERS = 4, 3, 2  # of windows, the first as a rule
@@ -177,9 +179,10 @@ class WindowedRun(Run):
         return Status.SUCCESS
 
     def write(self, results: Sequence[Results], of_scene: str) -> None:
-        """Write history.csv, in which each mean is constant about its depth, and
-        run.json with the fingerprint of the scene."""
-        columns = list(results[0].history)
+        """Write history.csv without the suction, in which each mean is constant about
+        its depth, and run.json with the fingerprint of the scene."""
+        absolute = {quantity.column for quantity in SUCTION}
+        columns = [name for name in results[0].history if name not in absolute]
         means = [means_of(r.history, w.averaged) for r, w in zip(results, self.windows)]
         centers = np.array([window.depth for window in self.windows])
         half = curves.FORCE_WINDOW / 2

@@ -322,13 +322,15 @@ class Windows(unittest.TestCase):
         self.assertAlmostEqual(wide["Time/Inertia tolerance"], 0.8 * ratio)
 
     def test_history(self) -> None:
-        """Each depth has the means over the last third of its window."""
+        """Each depth has the means over the last third of its window, of what has
+        relative errors."""
         with tempfile.TemporaryDirectory() as folder:
             results = []
             for i, force in enumerate((100.0, 300.0)):
                 depth = np.linspace(0.64, 1.0, 37) + i
                 rising = np.where(depth > depth[-1] - 0.1201, force, 0)
                 history = {"time_s": depth, "penetration_m": depth, "F": rising}
+                history |= {q.column: rising for q in error_bar.SUCTION}
                 place = Path(folder, str(i))
                 write_run(place, history, {"entries": {}, "wall_time_s": 2.0})
                 results.append(Results(place))
@@ -340,6 +342,7 @@ class Windows(unittest.TestCase):
             found = Results(run.directory)
             means = curves.forces_at(found.history, "F", np.array(run.depths))
             np.testing.assert_allclose(means, [100, 300, 300])
+            self.assertEqual(list(found.history), ["time_s", "penetration_m", "F"])
             self.assertEqual(found.summary["wall_time_s"], 4.0)
             self.assertEqual(found.summary["fingerprint"], "f00d")
 
