@@ -220,6 +220,8 @@ class Plan:
             raise StudyError(f"{folder} cannot be written. Choose --output")
         if self.output.is_dir():
             raise StudyError(f"{self.output} is a directory. Choose --output")
+        if self.output.resolve() == self.scene:
+            raise StudyError(f"{self.output} is the scene. Choose another --output")
 
     def check_free(self, runs: list[StudyRun]) -> None:
         """Raise StudyError where the file is there and runs are missing, so that it

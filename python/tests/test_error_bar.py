@@ -256,6 +256,20 @@ class Plan(unittest.TestCase):
         with self.assertRaisesRegex(StudyError, "Set Time/Time step = auto"):
             command.check_entries({**entries, "Time/Time step": "0.001"})
 
+    def test_output(self) -> None:
+        """The scene and a directory are not replaced, also with --overwrite."""
+        with tempfile.TemporaryDirectory() as folder:
+            plan = command.Plan.__new__(command.Plan)
+            plan.scene = Path(folder).resolve() / "a.prm"
+            plan.output = plan.scene.with_name("a.csv")
+            plan.check_output()
+            plan.output = Path(folder, ".", "a.prm")
+            with self.assertRaisesRegex(StudyError, "is the scene"):
+                plan.check_output()
+            plan.output = Path(folder)
+            with self.assertRaisesRegex(StudyError, "is a directory"):
+                plan.check_output()
+
     def test_size(self) -> None:
         """A finer mesh costs the cube; of a range of times both ends do."""
         plan = command.Plan.__new__(command.Plan)
