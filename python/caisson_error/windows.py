@@ -13,6 +13,7 @@ suction and of what follows from it are absolute, so windows give none.
 import functools
 import hashlib
 import json
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -128,6 +129,7 @@ class WindowedRun(Run):
         """depths: of the history (m); each has the means of the nearest window."""
         super().__init__(scene, entries, directory, program=program)
         self.windows, self.depths = list(windows), list(depths)
+        self.began = time.monotonic()  # the window that is running
         in_effect = read_parameters([str(scene), *set_options(entries)], program)
         self.parts = [
             Run(
@@ -145,10 +147,13 @@ class WindowedRun(Run):
         text = json.dumps([self.depths, *(part.key for part in self.parts)])
         return hashlib.sha256(text.encode()).hexdigest()
 
-    def share_done(self, elapsed: float) -> float:
-        """Return what part is over."""
-        done = sum(part.is_complete() for part in self.parts)
-        return done / len(self.parts)
+    def share_done(self, _: float) -> float:
+        """Return what part is over, with that of the window that is running."""
+        shares = [float(part.is_complete()) for part in self.parts]
+        if 0.0 in shares:
+            i = shares.index(0.0)
+            shares[i] = self.parts[i].share_done(time.monotonic() - self.began)
+        return sum(shares) / len(shares)
 
     def execute(
         self, time_limit: float | None = None, ranks: int | None = None
@@ -161,6 +166,7 @@ class WindowedRun(Run):
         records = []
         for part in self.parts:
             if again or not part.is_complete():
+                self.began = time.monotonic()
                 part.execute(time_limit, ranks)
             record = part.completion_record()
             if record is None or record["status"] != Status.SUCCESS:

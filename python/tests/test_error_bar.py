@@ -4,6 +4,7 @@ import argparse
 import contextlib
 import io
 import tempfile
+import time
 import unittest
 import unittest.mock
 from pathlib import Path
@@ -420,6 +421,17 @@ class RunsOfWindows(unittest.TestCase):
         self.assertEqual((first.calls, second.calls), (1, 1))
         self.assertEqual(self.whole.execute(), Status.SUCCESS)
         self.assertEqual((first.calls, second.calls), (2, 2))
+
+    def test_share_done(self) -> None:
+        """One window is over, and the second says that half of its time is left."""
+        first, second = self.give(Status.SUCCESS, Status.SUCCESS)
+        first.execute()
+        second.directory.mkdir()
+        (second.directory / "log").write_text("| ETA 00:00:30\n", encoding="utf-8")
+        self.whole.began = time.monotonic() - 30
+        self.assertAlmostEqual(self.whole.share_done(500.0), 0.75, places=2)
+        second.execute()
+        self.assertEqual(self.whole.share_done(500.0), 1.0)
 
     def test_a_window_that_breaks_off(self) -> None:
         """It is no result, also when the command is given again; the message names the
