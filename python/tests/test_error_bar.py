@@ -117,6 +117,12 @@ class ErrorBar(unittest.TestCase):
         with self.assertRaisesRegex(StudyError, "'mesh' counts to 5 m.*set its depths"):
             error_bar.evaluate([study], Options(), 0)
 
+    def test_shown_depths(self) -> None:
+        """All of a few, as those of windows; else some round ones."""
+        few = np.array([1.19, 2.12, 3.06, 4.0])
+        self.assertEqual(error_bar.chosen_depths(few), [0, 1, 2, 3])
+        self.assertEqual(error_bar.chosen_depths(np.linspace(1, 3, 21)), [10, 20])
+
     def test_drained_runs_have_forces_only(self) -> None:
         bars, _ = self.bars(self.study((None, None, None)))
         self.assertEqual([name for name in bars if "suction" in name], [])
