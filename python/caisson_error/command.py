@@ -8,6 +8,8 @@ from all meshes that the budget allows; with two of them the bar is wide, becaus
 nothing confirms it. The scene itself is not changed.
 """
 import argparse
+import dataclasses
+import json
 import math
 import os
 import re
@@ -28,6 +30,7 @@ from caisson_error.windows import NUMBERS, Window, WindowedRun, windows_of
 
 UNITS = {"s": 1, "min": 60, "h": 3600}
 TIMES_THE_SCENE = 2  # the budget, if none is given
+SIZE = "size.json"  # of the scene, beside the runs
 ROUNDED = 1.05  # over the budget: not worth a word
 CELLS = [2, 3, 4, 6, 8, 12, 16, 24]  # across the wall
 PLAIN = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0]  # of a body without cells across
@@ -232,13 +235,28 @@ class Plan:
             )
 
     def size_of_scene(self) -> Size:
-        """Return the points of the scene and how long it takes on one core. The program
-        does not say it where its first steps took no time that it could measure."""
+        """Return the points of the scene and how long it takes on one core: as an
+        earlier call has found it, so that the same budget allows the same runs, or as
+        the program says. It does not where its first steps took no time that it could
+        measure."""
+        run = self.run("default", {}).run
+        try:
+            found = json.loads((self.results / SIZE).read_text("utf-8"))
+            if found.pop("key") == run.key:
+                return Size(**found)
+        except (OSError, ValueError, TypeError, KeyError, AttributeError):
+            pass  # there is none, or a broken one
         for _ in range(3):
-            size = self.run("default", {}).run.validate()
+            size = run.validate()
             if size.seconds:
                 return size
         raise StudyError("the time of the scene is not known; repeat the command")
+
+    def keep_size(self) -> None:
+        """Write the size of the scene for later calls."""
+        key = self.run("default", {}).run.key
+        content = {"key": key, **dataclasses.asdict(self.size)}
+        disk.write(self.results / SIZE, json.dumps(content))
 
     def sized(self, r: float, cost: float = 1.0) -> Size:
         """Return the size of a run on a mesh, where a step costs more by a factor."""
@@ -339,6 +357,7 @@ class Plan:
     def execute(self, runs: list[StudyRun], again: bool) -> None:
         """Run what is not complete. Raises StudyError where a run has no result."""
         self.results.mkdir(parents=True, exist_ok=True)
+        self.keep_size()
         execute(shares_of(to_do_of(runs, again), None), again)
         if missing := [run for run in runs if not run.run.is_complete()]:
             raise StudyError(f"{missing[0].name}: {missing[0].trouble}")

@@ -263,6 +263,27 @@ class Plan(unittest.TestCase):
         with self.assertRaisesRegex(StudyError, "Set Time/Time step = auto"):
             command.check_entries({**entries, "Time/Time step": "0.001"})
 
+    def test_kept_size(self) -> None:
+        """A later call takes the time of the scene from the first one, unless the scene
+        or the program has changed, or the file is broken."""
+        with tempfile.TemporaryDirectory() as folder:
+            run = unittest.mock.Mock(key="k")
+            run.validate.side_effect = [Size(9, seconds, 1.0) for seconds in (5, 6, 7)]
+            plan = command.Plan.__new__(command.Plan)
+            plan.results = Path(folder)
+            of_plan = unittest.mock.Mock(return_value=unittest.mock.Mock(run=run))
+            patch = unittest.mock.patch.object(plan, "run", of_plan)
+            patch.start()
+            self.addCleanup(patch.stop)
+            plan.size = plan.size_of_scene()
+            self.assertEqual(plan.size, Size(9, 5, 1.0))
+            plan.keep_size()
+            self.assertEqual(plan.size_of_scene(), plan.size)
+            run.key = "another"
+            self.assertEqual(plan.size_of_scene().seconds, 6)
+            (plan.results / command.SIZE).write_text("[", encoding="utf-8")
+            self.assertEqual(plan.size_of_scene().seconds, 7)
+
     def test_output(self) -> None:
         """The scene and a directory are not replaced, also with --overwrite."""
         with tempfile.TemporaryDirectory() as folder:
