@@ -18,6 +18,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from caisson.paths import PROGRAM, RESULTS, scene_or_study, short
 from caisson.progress import duration
 from caisson.ranks import Size
@@ -379,7 +381,14 @@ def set_depths(study: Study, windows: Sequence[Window]) -> None:
 
 
 def advise(plan: Plan, study: Study) -> None:
-    """Print how the scene finds the bar, and what the next finer mesh would cost."""
+    """Print how the scene finds the bar, what it does not hold, and what the next finer
+    mesh would cost."""
+    suction = study.run("default").results.history.get("suction_Pa", np.zeros(1))
+    if plan.windows and suction.any():
+        print(
+            "Suction moves soil on the way to a depth, and windows do not see this: the"
+            " bar may be wrong where the flow is strong. --whole runs all of the way."
+        )
     if plan.entries["Output/Error bar"] == "":
         path = os.path.relpath(plan.output.resolve(), plan.scene.parent)
         print(f"Set Output/Error bar = {path} in {short(plan.scene)}.")

@@ -284,6 +284,19 @@ class Plan(unittest.TestCase):
             (plan.results / command.SIZE).write_text("[", encoding="utf-8")
             self.assertEqual(plan.size_of_scene().seconds, 7)
 
+    def test_caution_with_suction(self) -> None:
+        """Windows do not see what it has done to the soil."""
+        plan = unittest.mock.Mock(entries={"Output/Error bar": "a.csv"}, next=0)
+        study = unittest.mock.Mock()
+        for whether, suction, has in ((True, 5.0, 1), (True, 0.0, 0), (False, 5.0, 0)):
+            plan.windows = [windows.Window(1.0, 1.4)] * whether
+            history = {"suction_Pa": np.array([0.0, suction])}
+            study.run.return_value.results.history = history
+            printed = io.StringIO()
+            with contextlib.redirect_stdout(printed):
+                command.advise(plan, study)
+            self.assertEqual(printed.getvalue().count("--whole"), has)
+
     def test_output(self) -> None:
         """The scene and a directory are not replaced, also with --overwrite."""
         with tempfile.TemporaryDirectory() as folder:
