@@ -4,16 +4,19 @@ import argparse
 import contextlib
 import io
 import tempfile
+import time
 import unittest
 import unittest.mock
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from synthetic import write_run
 
 from caisson import curves
+from caisson.ranks import Size
 from caisson.results import Results, ResultsError, Table, read_table
-from caisson.runner import Entries
+from caisson.runner import Entries, Run, RunError, Status
 from caisson.study import Options, Reader, Study, StudyError
 from caisson.error import command, error_bar, windows
 from caisson.error.mesh_error import mesh_error
@@ -113,6 +116,12 @@ class ErrorBar(unittest.TestCase):
         study.keys["depths"] = [1.0, 5.0, 0.1]
         with self.assertRaisesRegex(StudyError, "'mesh' counts to 5 m.*set its depths"):
             error_bar.evaluate([study], Options(), 0)
+
+    def test_shown_depths(self) -> None:
+        """All of a few, as those of windows; else some round ones."""
+        few = np.array([1.19, 2.12, 3.06, 4.0])
+        self.assertEqual(error_bar.chosen_depths(few), [0, 1, 2, 3])
+        self.assertEqual(error_bar.chosen_depths(np.linspace(1, 3, 21)), [10, 20])
 
     def test_drained_runs_have_forces_only(self) -> None:
         bars, _ = self.bars(self.study((None, None, None)))
@@ -246,6 +255,69 @@ class Plan(unittest.TestCase):
         chosen = command.chosen_meshes([1.0, 2.0], 100.0, 300.0, changes)
         self.assertEqual(chosen, [1.0])
 
+    def test_scenes_without_other_meshes(self) -> None:
+        entries = {"Installation/Directory": "", "Time/Time step": "auto"}
+        command.check_entries(entries)
+        with self.assertRaisesRegex(StudyError, "from an installation"):
+            command.check_entries({**entries, "Installation/Directory": "a"})
+        with self.assertRaisesRegex(StudyError, "Set Time/Time step = auto"):
+            command.check_entries({**entries, "Time/Time step": "0.001"})
+
+    def test_kept_size(self) -> None:
+        """A later call takes the time of the scene from the first one, unless the scene
+        or the program has changed, or the file is broken."""
+        with tempfile.TemporaryDirectory() as folder:
+            run = unittest.mock.Mock(key="k")
+            run.validate.side_effect = [Size(9, seconds, 1.0) for seconds in (5, 6, 7)]
+            plan = command.Plan.__new__(command.Plan)
+            plan.results = Path(folder)
+            of_plan = unittest.mock.Mock(return_value=unittest.mock.Mock(run=run))
+            patch = unittest.mock.patch.object(plan, "run", of_plan)
+            patch.start()
+            self.addCleanup(patch.stop)
+            plan.size = plan.size_of_scene()
+            self.assertEqual(plan.size, Size(9, 5, 1.0))
+            plan.keep_size()
+            self.assertEqual(plan.size_of_scene(), plan.size)
+            run.key = "another"
+            self.assertEqual(plan.size_of_scene().seconds, 6)
+            (plan.results / command.SIZE).write_text("[", encoding="utf-8")
+            self.assertEqual(plan.size_of_scene().seconds, 7)
+
+    def test_caution_with_suction(self) -> None:
+        """Windows do not see what it has done to the soil."""
+        plan = unittest.mock.Mock(entries={"Output/Error bar": "a.csv"}, next=0)
+        study = unittest.mock.Mock()
+        for whether, suction, has in ((True, 5.0, 1), (True, 0.0, 0), (False, 5.0, 0)):
+            plan.windows = [windows.Window(1.0, 1.4)] * whether
+            history = {"suction_Pa": np.array([0.0, suction])}
+            study.run.return_value.results.history = history
+            printed = io.StringIO()
+            with contextlib.redirect_stdout(printed):
+                command.advise(plan, study)
+            self.assertEqual(printed.getvalue().count("--whole"), has)
+
+    def test_output(self) -> None:
+        """The scene and a directory are not replaced, also with --overwrite."""
+        with tempfile.TemporaryDirectory() as folder:
+            plan = command.Plan.__new__(command.Plan)
+            plan.scene = Path(folder).resolve() / "a.prm"
+            plan.output = plan.scene.with_name("a.csv")
+            plan.check_output()
+            plan.output = Path(folder, ".", "a.prm")
+            with self.assertRaisesRegex(StudyError, "is the scene"):
+                plan.check_output()
+            plan.output = Path(folder)
+            with self.assertRaisesRegex(StudyError, "is a directory"):
+                plan.check_output()
+
+    def test_size(self) -> None:
+        """A finer mesh costs the cube; of a range of times both ends do."""
+        plan = command.Plan.__new__(command.Plan)
+        plan.size, plan.seconds = Size(1000, 60.0, 10.0), 6.0
+        self.assertEqual(plan.sized(2.0), Size(4000, 48.0, 8.0))
+        self.assertEqual(plan.sized(1.0, 2.0), Size(1000, 12.0, 2.0))
+
     def test_durations(self) -> None:
         for text, seconds in {
             "90s": 90,
@@ -293,22 +365,27 @@ class Windows(unittest.TestCase):
 
     def test_inertia(self) -> None:
         """In the middle of the mean it is that of the scene: the program gives a share
-        of the way over a third of the radius, at least 0.15."""
+        of the way over a third of the radius, at least 0.15, to both of them."""
         (window, *_) = windows.windows_of(self.THIN, 2)
         changed = window.entries(self.THIN)
         share = 0.3 / (4 / 3)
         self.assertAlmostEqual(changed["Time/Inertia tolerance"], 0.8 / share)
-        short = windows.Window(1.0, 1.12).entries(self.THIN)
+        short = windows.Window(2.0, 2.12).entries(self.THIN)
         self.assertAlmostEqual(short["Time/Inertia tolerance"], 0.8 / 0.15)
+        wide = window.entries({**self.THIN, "Rigid body/Outer diameter": "40"})
+        ratio = (4 - 0.06 - 0.5) / (20 / 3) / 0.15
+        self.assertAlmostEqual(wide["Time/Inertia tolerance"], 0.8 * ratio)
 
     def test_history(self) -> None:
-        """Each depth has the means over the last third of its window."""
+        """Each depth has the means over the last third of its window, of what has
+        relative errors."""
         with tempfile.TemporaryDirectory() as folder:
             results = []
             for i, force in enumerate((100.0, 300.0)):
                 depth = np.linspace(0.64, 1.0, 37) + i
                 rising = np.where(depth > depth[-1] - 0.1201, force, 0)
                 history = {"time_s": depth, "penetration_m": depth, "F": rising}
+                history |= {q.column: rising for q in error_bar.SUCTION}
                 place = Path(folder, str(i))
                 write_run(place, history, {"entries": {}, "wall_time_s": 2.0})
                 results.append(Results(place))
@@ -320,8 +397,91 @@ class Windows(unittest.TestCase):
             found = Results(run.directory)
             means = curves.forces_at(found.history, "F", np.array(run.depths))
             np.testing.assert_allclose(means, [100, 300, 300])
+            self.assertEqual(list(found.history), ["time_s", "penetration_m", "F"])
             self.assertEqual(found.summary["wall_time_s"], 4.0)
             self.assertEqual(found.summary["fingerprint"], "f00d")
+
+
+class Part(Run):
+    """A window whose run ends with a status, and is counted."""
+
+    def __init__(self, directory: Path, status: Status | None) -> None:
+        self.directory, self.status, self.calls = directory, status, 0
+        self.record: dict[str, Any] | None = None
+
+    def is_complete(self) -> bool:
+        return self.record is not None
+
+    def completion_record(self) -> dict[str, Any] | None:
+        return self.record
+
+    def execute(
+        self, time_limit: float | None = None, ranks: int | None = None
+    ) -> Status | None:
+        self.calls += 1
+        depth = np.linspace(0.64, 1.0, 37)
+        history = {"time_s": depth, "penetration_m": depth, "F": depth}
+        write_run(self.directory, history, {"entries": {}, "wall_time_s": 2.0})
+        if self.status in (Status.SUCCESS, Status.FAILURE):
+            self.record = {"status": self.status, "wall_s": 2.0, "cpu_s": 2.0}
+        return self.status
+
+
+class RunsOfWindows(unittest.TestCase):
+    """What is run, and what counts as a result."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        path = Path(temporary.name)
+        self.whole = windows.WindowedRun.__new__(windows.WindowedRun)
+        self.whole.directory, self.whole.entries = path, {}
+        self.whole.scene = self.whole.program = path
+        self.whole.windows = [windows.Window(0.64, 1.0), windows.Window(1.64, 2.0)]
+        self.whole.depths = [1.0, 2.0]
+        self.whole.key = "k"
+        known = unittest.mock.patch.object(windows, "fingerprint", return_value="f00d")
+        known.start()
+        self.addCleanup(known.stop)
+
+    def give(self, *statuses: Status | None) -> list[Part]:
+        """Let the windows end in this way; return them."""
+        path = self.whole.directory
+        parts = [Part(path / str(i), status) for i, status in enumerate(statuses)]
+        self.whole.parts = list[Run](parts)
+        return parts
+
+    def test_again(self) -> None:
+        """What is missing runs; a run without anything missing is repeated, since it
+        is asked for with --again only."""
+        first, second = self.give(Status.SUCCESS, Status.SUCCESS)
+        first.execute()
+        self.assertEqual(self.whole.execute(), Status.SUCCESS)
+        self.assertTrue(self.whole.is_complete())
+        self.assertEqual((first.calls, second.calls), (1, 1))
+        self.assertEqual(self.whole.execute(), Status.SUCCESS)
+        self.assertEqual((first.calls, second.calls), (2, 2))
+
+    def test_share_done(self) -> None:
+        """One window is over, and the second says that half of its time is left."""
+        first, second = self.give(Status.SUCCESS, Status.SUCCESS)
+        first.execute()
+        second.directory.mkdir()
+        (second.directory / "log").write_text("| ETA 00:00:30\n", encoding="utf-8")
+        self.whole.began = time.monotonic() - 30
+        self.assertAlmostEqual(self.whole.share_done(500.0), 0.75, places=2)
+        second.execute()
+        self.assertEqual(self.whole.share_done(500.0), 1.0)
+
+    def test_a_window_that_breaks_off(self) -> None:
+        """It is no result, also when the command is given again; the message names the
+        log of the window."""
+        for status in (Status.FAILURE, Status.STOPPED, None):
+            self.give(Status.SUCCESS, status)
+            for _ in range(2):
+                with self.assertRaisesRegex(RunError, "window ended early.*/1/log"):
+                    self.whole.execute()
+                self.assertFalse(self.whole.is_complete())
 
 
 if __name__ == "__main__":

@@ -9,6 +9,8 @@ from all meshes that the budget allows; with two of them the bar is wide, becaus
 nothing confirms it. The scene itself is not changed.
 """
 import argparse
+import dataclasses
+import json
 import math
 import os
 import re
@@ -16,19 +18,21 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from caisson import error_bounds
+import numpy as np
+
+from caisson import disk, error_bounds
 from caisson.paths import PROGRAM, RESULTS, scene_or_study
 from caisson.progress import duration
 from caisson.ranks import Size
-from caisson.runner import Run, RunError, read_parameters
+from caisson.runner import Entries, Run, RunError, read_parameters
 from caisson.study import Options, Study, StudyError, StudyRun, execute
 from caisson.study_command import shares_of, to_do_of
-from caisson import disk
 from caisson.error import error_bar
 from caisson.error.windows import NUMBERS, Window, WindowedRun, windows_of
 
 UNITS = {"s": 1, "min": 60, "h": 3600}
 TIMES_THE_SCENE = 2  # the budget, if none is given
+SIZE = "size.json"  # of the scene, beside the runs
 ROUNDED = 1.05  # over the budget: not worth a word
 CELLS = [2, 3, 4, 6, 8, 12, 16, 24]  # across the wall
 PLAIN = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0]  # of a body without cells across
@@ -128,6 +132,20 @@ def changes_of(entries: dict[str, str]) -> dict[str, tuple[dict[str, Any], float
     return found
 
 
+def check_entries(entries: Entries) -> None:
+    """Raise StudyError where a scene cannot have other meshes."""
+    if entries["Installation/Directory"]:
+        raise StudyError(
+            "the scene goes on from an installation, and has its mesh. Only the scene"
+            " of the installation can have an error bar"
+        )
+    if entries["Time/Time step"] != "auto":
+        raise StudyError(
+            "a finer mesh needs shorter steps. Set Time/Time step = auto, so that they"
+            " follow from the mesh"
+        )
+
+
 class Plan:
     """The runs for the error bar of a scene."""
 
@@ -143,6 +161,7 @@ class Plan:
         self.results = arguments.results or RESULTS / "error_bar" / self.scene.stem
         self.entries = read_parameters([str(self.scene)], self.program)
         self.output: Path = arguments.output or error_bounds.beside(self.scene)
+        check_entries(self.entries)
         self.check_way()
         self.check_output()
         self.size = self.size_of_scene()
@@ -203,6 +222,8 @@ class Plan:
             raise StudyError(f"{folder} cannot be written. Choose --output")
         if self.output.is_dir():
             raise StudyError(f"{self.output} is a directory. Choose --output")
+        if self.output.resolve() == self.scene:
+            raise StudyError(f"{self.output} is the scene. Choose another --output")
 
     def check_free(self, runs: list[StudyRun]) -> None:
         """Raise StudyError where the file is there and runs are missing, so that it
@@ -213,17 +234,34 @@ class Plan:
             )
 
     def size_of_scene(self) -> Size:
-        """Return the points of the scene and how long it takes on one core. The program
-        does not say it where its first steps took no time that it could measure."""
+        """Return the points of the scene and how long it takes on one core: as an
+        earlier call has found it, so that the same budget allows the same runs, or as
+        the program says. It does not where its first steps took no time that it could
+        measure."""
+        run = self.run("default", {}).run
+        try:
+            found = json.loads((self.results / SIZE).read_text("utf-8"))
+            if found.pop("key") == run.key:
+                return Size(**found)
+        except (OSError, ValueError, TypeError, KeyError, AttributeError):
+            pass  # there is none, or a broken one
         for _ in range(3):
-            size = self.run("default", {}).run.validate()
+            size = run.validate()
             if size.seconds:
                 return size
         raise StudyError("the time of the scene is not known; repeat the command")
 
+    def keep_size(self) -> None:
+        """Write the size of the scene for later calls."""
+        key = self.run("default", {}).run.key
+        content = {"key": key, **dataclasses.asdict(self.size)}
+        disk.write(self.results / SIZE, json.dumps(content))
+
     def sized(self, r: float, cost: float = 1.0) -> Size:
         """Return the size of a run on a mesh, where a step costs more by a factor."""
-        return Size(round(self.size.points * r**2), cost * self.seconds * r**3)
+        seconds = cost * self.seconds * r**3
+        least = seconds * self.size.least / self.size.seconds
+        return Size(round(self.size.points * r**2), seconds, least)
 
     def run(
         self, name: str, entries: dict[str, Any], windows: Sequence[Window] = ()
@@ -318,6 +356,7 @@ class Plan:
     def execute(self, runs: list[StudyRun], again: bool) -> None:
         """Run what is not complete. Raises StudyError where a run has no result."""
         self.results.mkdir(parents=True, exist_ok=True)
+        self.keep_size()
         execute(shares_of(to_do_of(runs, again), None), again)
         if missing := [run for run in runs if not run.run.is_complete()]:
             raise StudyError(f"{missing[0].name}: {missing[0].trouble}")
@@ -339,7 +378,14 @@ def set_depths(study: Study, windows: Sequence[Window]) -> None:
 
 
 def advise(plan: Plan, study: Study) -> None:
-    """Print how the report finds the bar, and what the next finer mesh would cost."""
+    """Print how the report finds the bar, what it does not hold, and what the next finer
+    mesh would cost."""
+    suction = study.run("default").results.history.get("suction_Pa", np.zeros(1))
+    if plan.windows and suction.any():
+        print(
+            "Suction moves soil on the way to a depth, and windows do not see this: the"
+            " bar may be wrong where the flow is strong. --whole runs all of the way."
+        )
     if plan.output.resolve() != error_bounds.beside(plan.scene).resolve():
         print(f"Give it to the report: caisson report --error-bar {plan.output} DIR.")
     if plan.next:

@@ -49,6 +49,7 @@ RUN_KEYS = set[str]()
 ERROR_WINDOW = 0.5  # m
 LEAST = 0.01  # of a force: less is chance
 SIDES = ("below", "above")
+MOST_SHOWN = 6  # depths in a table, about
 
 
 @dataclass(frozen=True)
@@ -349,9 +350,12 @@ def print_tables(
 
 
 def chosen_depths(depths: np.ndarray) -> list[int]:
-    """Return the numbers of some round depths [n] for a table."""
+    """Return the numbers of some round depths [n] for a table, or of the few that there
+    are."""
+    if len(depths) <= MOST_SHOWN:
+        return list(range(len(depths)))
     wanted = curves.round_depths(depths)
-    wanted = wanted[:: max(1, round(len(wanted) / 6))]
+    wanted = wanted[:: max(1, round(len(wanted) / MOST_SHOWN))]
     return sorted({int(np.argmin(abs(depths - depth))) for depth in wanted})
 
 

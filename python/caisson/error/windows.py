@@ -7,11 +7,13 @@ The inertia is that of the scene at this depth: where the tolerance grows with t
 (theory, section 12), the window has a larger one.
 
 A window does not see what the way above it did to the soil, as to the friction of the
-walls. So it is for differences between runs, relative to their values.
+walls. So it is for differences between runs, relative to their values. Errors of the
+suction and of what follows from it are absolute, so windows give none.
 """
 import functools
 import hashlib
 import json
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,10 +21,18 @@ from typing import Any
 
 import numpy as np
 
-from caisson import curves, table
+from caisson import curves, disk, table
 from caisson.results import Results, Table
-from caisson.runner import Entries, Run, Status, query, read_parameters, set_options
-from caisson import disk
+from caisson.runner import (
+    Entries,
+    Run,
+    RunError,
+    Status,
+    query,
+    read_parameters,
+    set_options,
+)
+from caisson.error.error_bar import SUCTION
 
 WIDTHS, SHARE_OF_MEAN = 12.0, 1 / 3
 NUMBERS = 4, 3, 2  # of windows, the first as a rule
@@ -66,12 +76,20 @@ class Window:
         }
         if (tolerance := scene["Time/Inertia tolerance"]) != "none":
             radius = float(scene["Rigid body/Outer diameter"]) / 2
-            way = self.depth - self.averaged / 2 - self.start
-            share = min(1.0, max(FIRST_SHARE, way / radius / WHOLE_AFTER))
+            counted = self.depth - self.averaged / 2
+            start = float(scene["Rigid body/Initial penetration"])
+            factor = share_of_tolerance(counted - start, radius) / share_of_tolerance(
+                counted - self.start, radius
+            )
             changed["Time/Inertia tolerance"] = min(
-                LARGEST_TOLERANCE, float(tolerance) / share
+                LARGEST_TOLERANCE, factor * float(tolerance)
             )
         return changed
+
+
+def share_of_tolerance(way: float, radius: float) -> float:
+    """Return what part of the inertia tolerance acts after a way (m)."""
+    return min(1.0, max(FIRST_SHARE, way / radius / WHOLE_AFTER))
 
 
 def windows_of(scene: Entries, number: int) -> list[Window]:
@@ -110,6 +128,7 @@ class WindowedRun(Run):
         """depths: of the history (m); each has the means of the nearest window."""
         super().__init__(scene, entries, directory, program=program)
         self.windows, self.depths = list(windows), list(depths)
+        self.began = time.monotonic()  # the window that is running
         in_effect = read_parameters([str(scene), *set_options(entries)], program)
         self.parts = [
             Run(
@@ -127,22 +146,31 @@ class WindowedRun(Run):
         text = json.dumps([self.depths, *(part.key for part in self.parts)])
         return hashlib.sha256(text.encode()).hexdigest()
 
-    def share_done(self, elapsed: float) -> float:
-        """Return what part is over."""
-        done = sum(part.is_complete() for part in self.parts)
-        return done / len(self.parts)
+    def share_done(self, _: float) -> float:
+        """Return what part is over, with that of the window that is running."""
+        shares = [float(part.is_complete()) for part in self.parts]
+        if 0.0 in shares:
+            i = shares.index(0.0)
+            shares[i] = self.parts[i].share_done(time.monotonic() - self.began)
+        return sum(shares) / len(shares)
 
     def execute(
         self, time_limit: float | None = None, ranks: int | None = None
     ) -> Status | None:
-        """Run what is missing, and write the history of the means; see Run."""
+        """Run the windows that have no result, or all of them again where none is
+        missing, and write the history of the means; see Run. Raises RunError also where
+        a window does not reach its depth."""
+        again = self.is_complete()
+        (self.directory / self.RECORD).unlink(missing_ok=True)
         records = []
         for part in self.parts:
-            if not part.is_complete():
-                status = part.execute(time_limit, ranks)
-                if status != Status.SUCCESS:
-                    return status
-            records.append(part.completion_record() or {})
+            if again or not part.is_complete():
+                self.began = time.monotonic()
+                part.execute(time_limit, ranks)
+            record = part.completion_record()
+            if record is None or record["status"] != Status.SUCCESS:
+                raise RunError(f"a window ended early, see {part.directory / 'log'}")
+            records.append(record)
         results = [Results(part.directory) for part in self.parts]
         self.write(results, fingerprint(self.scene, self.entries, self.program))
         record = {
@@ -156,9 +184,10 @@ class WindowedRun(Run):
         return Status.SUCCESS
 
     def write(self, results: Sequence[Results], of_scene: str) -> None:
-        """Write history.csv, in which each mean is constant about its depth, and
-        run.json with the fingerprint of the scene."""
-        columns = list(results[0].history)
+        """Write history.csv without the suction, in which each mean is constant about
+        its depth, and run.json with the fingerprint of the scene."""
+        absolute = {quantity.column for quantity in SUCTION}
+        columns = [name for name in results[0].history if name not in absolute]
         means = [means_of(r.history, w.averaged) for r, w in zip(results, self.windows)]
         centers = np.array([window.depth for window in self.windows])
         half = curves.FORCE_WINDOW / 2
