@@ -42,7 +42,7 @@ class Cards(WithPage):
         leave_run(self.path, SUMMARY)
         self.leave_bar(4.4, 0.1)
         page = report.write(self.path).read_text(encoding="utf-8")
-        self.assertIn("about 28 to 32 kPa (error bar of 4.4 m)", page)
+        self.assertIn("about 28 to 32 kPa (error bar of 4 m)", page)
         takes, _ = installation.tables_of(self.installation())
         cells = [
             row[takes["heads"].index("required suction (kPa)")] for row in takes["rows"]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Where the blocks of the points lie in memory, and what is kept of them.
+// Where the blocks of the points lie: in the memory of the ParticleHandler, and
+// on which rank.
 #include <caisson_mpm/domain/material_points.h>
 
 #include <sys/mman.h>
@@ -86,6 +87,49 @@ namespace CaissonMPM
     headers.swap(ordered_headers);
     find_blocks();
     use_large_pages();
+  }
+
+  void
+  MaterialPoints::prepare_for_repartition()
+  {
+    // the blocks of a cell travel in the order that the handler has
+    put_blocks_in_order();
+    for (unsigned int block = 0; block < headers.size(); ++block)
+      {
+        double *const properties    = blocks[block].r - Place::block;
+        properties[Place::material] = headers[block].material;
+        properties[Place::count]    = headers[block].count;
+      }
+    handler->prepare_for_coarsening_and_refinement();
+  }
+
+  void
+  MaterialPoints::unpack_after_repartition()
+  {
+    handler->unpack_after_coarsening_and_refinement();
+    n_reserved = handler->get_property_pool().n_slots();
+    headers.assign(n_reserved, {-1, 0, 0});
+    find_blocks();
+    clear_lists();
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      if (grid.is_owned(cell))
+        {
+          int *link = &first_block[cell];
+          for (const auto &particle :
+               handler->particles_in_cell(grid.cell_iterator(cell)))
+            {
+              const auto properties = particle.get_properties();
+              *link                 = particle.get_local_index();
+              headers[*link]        = {-1,
+                                       static_cast<short>(properties[Place::count]),
+                                       static_cast<short>(
+                                  properties[Place::material])};
+              n_points_ += headers[*link].count;
+              link = &headers[*link].next;
+            }
+        }
+    rebuild_sums();
+    settle();
   }
 
   void

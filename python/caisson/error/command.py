@@ -378,8 +378,8 @@ def set_depths(study: Study, windows: Sequence[Window]) -> None:
 
 
 def advise(plan: Plan, study: Study) -> None:
-    """Print how the report finds the bar, what it does not hold, and what the next finer
-    mesh would cost."""
+    """Print how the report finds the bar, what it does not hold, and what the next
+    finer mesh would cost."""
     suction = study.run("default").results.history.get("suction_Pa", np.zeros(1))
     if plan.windows and suction.any():
         print(
