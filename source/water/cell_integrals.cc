@@ -1,51 +1,47 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/kernels/cell_map.h>
 #include <caisson_mpm/water/cell_integrals.h>
 
-#include <cmath>
+#include <deal.II/base/quadrature_lib.h>
 
 namespace CaissonMPM
 {
-  CellIntegrals::CellIntegrals(const Kernels::CellGeometry &geometry,
-                               const double                 axisymmetric)
+  using namespace dealii;
+
+  CellIntegrals::CellIntegrals(const BackgroundGrid &grid)
+    : grid(grid)
+    , values(grid.mapping(),
+             grid.dof_handler().get_fe(),
+             QGauss<2>(2),
+             update_values | update_gradients | update_quadrature_points |
+               update_JxW_values)
+  {}
+
+  void
+  CellIntegrals::reinit(const unsigned int cell)
   {
-    const Kernels::CellMap<> map(geometry);
-    const double             low = .5 - std::sqrt(1. / 12.);
-    for (unsigned int q = 0; q < n_points; ++q)
-      {
-        const double xi  = q % 2 == 0 ? low : 1. - low,
-                     eta = q / 2 == 0 ? low : 1. - low;
-        const auto   p   = map.at_reference(xi, eta);
-        const double r   = map.left + map.width * xi;
-        GaussPoint  &g   = points[q];
-        g.weight = .25 * map.width * p.height * (axisymmetric > 0. ? r : 1.);
-        g.hoop   = axisymmetric / (axisymmetric > 0. ? r : 1.);
-        const double shape[4] = {(1. - xi) * (1. - eta),
-                                 xi * (1. - eta),
-                                 (1. - xi) * eta,
-                                 xi * eta},
-                     d_xi[4]  = {eta - 1., 1. - eta, -eta, eta},
-                     d_eta[4] = {xi - 1., -xi, 1. - xi, xi};
-        for (unsigned int i = 0; i < 4; ++i)
-          {
-            g.shape[i] = shape[i];
-            g.gradient[i][0] =
-              (d_xi[i] - d_eta[i] * p.slope) * map.inverse_width;
-            g.gradient[i][1] = d_eta[i] * p.inverse_height;
-          }
-      }
+    values.reinit(grid.cell_iterator(cell));
+  }
+
+  double
+  CellIntegrals::weight(const unsigned int q) const
+  {
+    return values.JxW(q) *
+           (grid.axisymmetric() ? values.quadrature_point(q)[radial] : 1.);
   }
 
   PressureSolver::CellMatrix
   CellIntegrals::stiffness(const Conductance &c) const
   {
     PressureSolver::CellMatrix result = {};
-    for (const GaussPoint &g : points)
-      for (unsigned int i = 0; i < 4; ++i)
-        for (unsigned int j = 0; j < 4; ++j)
-          result[4 * i + j] +=
-            g.weight * (c.horizontal * g.gradient[i][0] * g.gradient[j][0] +
-                        c.vertical * g.gradient[i][1] * g.gradient[j][1]);
+    for (const unsigned int q : values.quadrature_point_indices())
+      for (const unsigned int i : values.dof_indices())
+        for (const unsigned int j : values.dof_indices())
+          {
+            const auto a = values.shape_grad(i, q), b = values.shape_grad(j, q);
+            result[4 * i + j] +=
+              weight(q) * (c.horizontal * a[radial] * b[radial] +
+                           c.vertical * a[vertical] * b[vertical]);
+          }
     return result;
   }
 
@@ -53,11 +49,15 @@ namespace CaissonMPM
   CellIntegrals::divergence() const
   {
     std::array<double, 8> result = {};
-    for (const GaussPoint &g : points)
-      for (unsigned int j = 0; j < 4; ++j)
+    for (const unsigned int q : values.quadrature_point_indices())
+      for (const unsigned int j : values.dof_indices())
         {
-          result[2 * j] += g.weight * (g.gradient[j][0] + g.hoop * g.shape[j]);
-          result[2 * j + 1] += g.weight * g.gradient[j][1];
+          const auto   gradient = values.shape_grad(j, q);
+          const double hoop =
+            grid.axisymmetric() ? 1. / values.quadrature_point(q)[radial] : 0.;
+          result[2 * j] +=
+            weight(q) * (gradient[radial] + hoop * values.shape_value(j, q));
+          result[2 * j + 1] += weight(q) * gradient[vertical];
         }
     return result;
   }
@@ -66,9 +66,9 @@ namespace CaissonMPM
   CellIntegrals::shares() const
   {
     std::array<double, 4> result = {};
-    for (const GaussPoint &g : points)
-      for (unsigned int j = 0; j < 4; ++j)
-        result[j] += g.weight * g.shape[j];
+    for (const unsigned int q : values.quadrature_point_indices())
+      for (const unsigned int j : values.dof_indices())
+        result[j] += weight(q) * values.shape_value(j, q);
     return result;
   }
 
@@ -76,8 +76,8 @@ namespace CaissonMPM
   CellIntegrals::volume() const
   {
     double result = 0.;
-    for (const GaussPoint &g : points)
-      result += g.weight;
+    for (const unsigned int q : values.quadrature_point_indices())
+      result += weight(q);
     return result;
   }
 } // namespace CaissonMPM

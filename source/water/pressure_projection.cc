@@ -166,13 +166,14 @@ namespace CaissonMPM
   }
 
   void
-  PressureProjection::find_integrals(const unsigned int cell)
+  PressureProjection::find_integrals(const unsigned int cell,
+                                     CellIntegrals     &integrals)
   {
     const Kernels::CellGeometry &now = grid->geometry(cell);
     if (have_same_shape(now, shapes[cell]))
       return;
     shapes[cell] = now;
-    const CellIntegrals integrals(now, grid->axisymmetric() ? 1. : 0.);
+    integrals.reinit(cell);
     volumes[cell]    = integrals.volume();
     shares[cell]     = integrals.shares();
     divergence[cell] = integrals.divergence();
@@ -195,9 +196,10 @@ namespace CaissonMPM
     mudline   = &mudline_now;
     find_known_nodes(sides);
     solver_.find_faces(*mudline, sides, conditions);
+    CellIntegrals integrals(grid);
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       if (!grid.is_rigid(cell))
-        find_integrals(cell);
+        find_integrals(cell, integrals);
     begin_in_new_cells();
     find_conductances(properties);
     find_volume_of_nodes();

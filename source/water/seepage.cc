@@ -30,15 +30,16 @@ namespace CaissonMPM
                  const PressureSolver::OpenSides &sides)
   {
     solver_.find_states(grid, mudline, sides);
-    const double scale = largest_conductance(grid, permeability);
+    const double  scale = largest_conductance(grid, permeability);
+    CellIntegrals integrals(grid);
     for (std::size_t i = 0; i < solver_.cells().size(); ++i)
       {
         const unsigned int cell = solver_.cells()[i];
         const Conductance  k =
           of_lower_part(permeability[cell], mudline.filled()[cell]);
+        integrals.reinit(cell);
         solver_.matrices()[i] =
-          CellIntegrals(grid.geometry(cell), grid.axisymmetric() ? 1. : 0.)
-            .stiffness({k.horizontal / scale, k.vertical / scale});
+          integrals.stiffness({k.horizontal / scale, k.vertical / scale});
       }
     phi.zero_out_ghost_values();
     for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)

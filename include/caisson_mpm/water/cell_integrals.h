@@ -5,8 +5,10 @@
 #ifndef caisson_mpm_water_cell_integrals_h
 #define caisson_mpm_water_cell_integrals_h
 
-#include <caisson_mpm/kernels/cells.h>
+#include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/water/pressure_solver.h>
+
+#include <deal.II/fe/fe_values.h>
 
 #include <array>
 
@@ -18,13 +20,16 @@ namespace CaissonMPM
     double horizontal = 0., vertical = 0.;
   };
 
-  /** Shape functions and gradients at the Gauss points of a cell. */
+  /** The integrals over cells of the mesh where it is now. An object is for one
+   * position of the mesh: deal.II keeps what it knows of a cell that has not
+   * changed its shape from one cell to the next. */
   class CellIntegrals
   {
   public:
-    /** @p axisymmetric: 1, or 0 in plane strain. */
-    CellIntegrals(const Kernels::CellGeometry &geometry,
-                  const double                 axisymmetric);
+    explicit CellIntegrals(const BackgroundGrid &grid);
+
+    void
+    reinit(const unsigned int cell);
 
     /** int c_r dN_i/dr dN_j/dr + c_z dN_i/dz dN_j/dz. */
     PressureSolver::CellMatrix
@@ -42,14 +47,12 @@ namespace CaissonMPM
     volume() const;
 
   private:
-    static constexpr unsigned int n_points = 4;
+    /** The weight of a Gauss point, by the volume per radian. */
+    double
+    weight(const unsigned int q) const;
 
-    struct GaussPoint
-    {
-      double weight, hoop; // of the volume; kappa / r
-      double shape[4], gradient[4][2];
-    };
-    std::array<GaussPoint, n_points> points;
+    const BackgroundGrid &grid;
+    dealii::FEValues<2>   values;
   };
 } // namespace CaissonMPM
 

@@ -193,7 +193,7 @@ namespace CaissonMPM
     find_known_nodes(const PressureSolver::OpenSides &open);
     /** Find the integrals over a cell whose shape has changed. */
     void
-    find_integrals(const unsigned int cell);
+    find_integrals(const unsigned int cell, CellIntegrals &integrals);
     void
     find_conductances(const std::vector<WaterProperties> &properties);
     /** Find how much volume below the mudline belongs to each node.
