@@ -131,6 +131,8 @@ namespace CaissonMPM
                                           iterator)
                         ->get_local_index();
     find_blocks();
+    if (headers.empty()) // before memory is touched
+      use_large_pages(*handler);
     if (headers.size() < pool.n_slots())
       headers.resize(pool.n_slots());
     int &link      = after >= 0 ? headers[after].next : first_block[cell];
@@ -566,7 +568,6 @@ namespace CaissonMPM
   MaterialPoints::settle()
   {
     collect_active_cells();
-    use_large_pages();
     is_settled = true;
     if (grid.n_ranks() == 1)
       return;

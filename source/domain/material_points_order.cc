@@ -14,12 +14,15 @@ namespace CaissonMPM
   using namespace Kernels;
 
   void
-  MaterialPoints::use_large_pages() const
+  MaterialPoints::use_large_pages(const ParticleHandler &handler) const
   {
 #ifdef MADV_HUGEPAGE
-    constexpr std::uintptr_t page = 1u << 21;
-    const auto begin = reinterpret_cast<std::uintptr_t>(blocks.begin),
-               end   = begin + headers.size() * blocks.distance,
+    auto                    &pool  = handler.get_property_pool();
+    constexpr std::uintptr_t page  = 1u << 21;
+    const auto               begin = reinterpret_cast<std::uintptr_t>(
+                 pool.get_properties(0).data()),
+               end = begin + std::uintptr_t(n_reserved) *
+                               pool.n_properties_per_slot() * sizeof(double),
                first = (begin + page - 1) / page * page,
                last  = end / page * page;
     if (first < last)
@@ -78,6 +81,8 @@ namespace CaissonMPM
                                      pool.get_id(block),
                                      grid.cell_iterator(cell),
                                      pool.get_properties(block));
+            if (ordered_headers.empty()) // before memory is touched
+              use_large_pages(*ordered);
             ordered_headers.push_back(headers[block]);
             if (headers[block].next >= 0)
               ordered_headers.back().next = ordered_headers.size();
@@ -86,7 +91,6 @@ namespace CaissonMPM
     handler = std::move(ordered);
     headers.swap(ordered_headers);
     find_blocks();
-    use_large_pages();
   }
 
   void

@@ -308,9 +308,10 @@ namespace CaissonMPM
     /** Find the blocks in the memory of the handler. */
     void
     find_blocks();
-    /** Ask for pages of 2 MiB for the blocks; only a hint. */
+    /** Ask for pages of 2 MiB for the blocks that a handler with one of them
+     * has room for; only a hint. */
     void
-    use_large_pages() const;
+    use_large_pages(const ParticleHandler &handler) const;
     void
     remove(const unsigned int cell, const int block, const int lane);
     std::vector<PlacedPoint>
