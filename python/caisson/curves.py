@@ -18,7 +18,6 @@ EDGE = 1e-9  # m, by which a row may lie outside of a window and still count
 FORCE_WINDOW = 0.2  # m, of a way of 0.8 m and more; see window_of()
 # with excess pressure on the tip and beneath a sealed lid, where a run has such
 WITH_WATER = "total_force_with_water_N"
-HELD = 0.7  # m, below the error bar, over which its last width still stands
 FROM = 1.0  # m, of roughness and energy ratio: the start is left out
 
 

@@ -14,9 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson import curves
+from caisson import curves, disk
 from caisson.results import Results, ResultsError, Table, read_table
-from caisson import disk
 
 NAME, HISTORY = "error_bar.csv", "history_error.csv"
 DEPTH = "penetration_m"
