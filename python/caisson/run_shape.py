@@ -28,6 +28,7 @@ RUN: dict[str, Any] = {
     "results": RESULTS,
     "scene": {
         "end_reason": str,
+        "infeasible": {"penetration_m": NUMBER, "reason": str},
         "design_methods": {"load_spread": OR_NONE},
         "frame_penetrations_m": [NUMBER],
         "layers": [LAYER],

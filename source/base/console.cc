@@ -92,12 +92,13 @@ namespace CaissonMPM
                                                          std::abs(line.tip),
                                                          std::abs(water)}));
       const int n_digits      = length.factor > 1. ? 1 : 3;
-      if (line.has_suction)
-        rest = format(" | suction %5.1f %s, gradient %3.0f %% of critical",
-                      suction.factor * line.suction,
-                      suction.name.c_str(),
-                      100. * line.gradient_ratio) +
+      if (line.gradient_ratio)
+        rest = format(", gradient %3.0f %% of critical",
+                      100. * *line.gradient_ratio) +
                rest;
+      if (line.has_suction)
+        rest = format(" | suction %5.1f ", suction.factor * line.suction) +
+               suction.name + rest;
       if (line.with_water)
         rest = format(", with water %7.1f ", force.factor * water) +
                force.name + rest;

@@ -120,6 +120,13 @@ namespace CaissonMPM
     return law_value("Cohesion");
   }
 
+  bool
+  SoilMaterial::has_undrained_strength() const
+  {
+    return shear_strength().value_or(0.) > 0. &&
+           friction_angle().value_or(0.) == 0.;
+  }
+
   double
   SoilMaterial::cohesion_after(const double plastic_deviatoric) const
   {

@@ -63,8 +63,11 @@ namespace CaissonMPM
     bool
     is_not_physics(const DeclaredEntry &entry)
     {
-      for (const std::string free :
-           {"Output/", "Run control/", "Verification/", "Time/End"})
+      for (const std::string free : {"Output/",
+                                     "Run control/",
+                                     "Verification/",
+                                     "Time/End",
+                                     "Installation/End"})
         if (begins_with(entry.path, free))
           return true;
       return false;

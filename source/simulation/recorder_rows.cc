@@ -280,10 +280,12 @@ namespace CaissonMPM
     };
     line.has_suction = number_named("suction_Pa", row.counts).has_value();
     line.suction     = column("suction_Pa");
-    if (const double critical = column("critical_gradient"); critical > 0.)
+    if (const auto critical = number_named("critical_gradient", row.counts))
       line.gradient_ratio =
-        std::max(column("exit_gradient_wall"), column("exit_gradient_axis")) /
-        critical;
+        *critical > 0. ?
+          std::max(column("exit_gradient_wall"), column("exit_gradient_axis")) /
+            *critical :
+          0.;
     line.fraction_done = done;
     line.eta_seconds =
       is_first ? std::numeric_limits<double>::quiet_NaN() : seconds_left(done);

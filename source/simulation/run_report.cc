@@ -6,6 +6,7 @@
 #include <caisson_mpm/materials/umat_law.h>
 #include <caisson_mpm/output/json.h>
 #include <caisson_mpm/simulation/run_report.h>
+#include <caisson_mpm/water/lid_compartment.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_acceptor.h>
@@ -275,13 +276,20 @@ namespace CaissonMPM
       append(members,
              {{"layers", "[" + layers + "]"},
               {"frame_penetrations_m", "[" + frames + "]"}});
-      if (parts.water->traits().uses_permeability) // design methods need it
+      const LidCompartment *const lid = parts.water->traits().lid;
+      if (parts.water->traits().uses_permeability || lid != nullptr)
         append(members,
                {{"submerged_weight_N",
                  Json::number(parts.body.submerged_weight())}});
       if (const std::string reason = parts.water->reason_to_end();
           !reason.empty())
         append(members, {{"end_reason", Json::text(reason)}});
+      if (const auto place = lid != nullptr ? lid->infeasible() : std::nullopt)
+        append(members,
+               {{"infeasible",
+                 Json::flat_object(
+                   {{"penetration_m", Json::number(place->penetration)},
+                    {"reason", Json::text(place->reason)}})}});
       if (const auto travel = parts.body.motion().travel_at_rest())
         append(members,
                {{"rest_penetration_m",

@@ -531,6 +531,7 @@ namespace CaissonMPM
         const double        angle    = soil.friction_angle().value_or(0.);
         const double friction = std::tan(angle * pi / 180.) * weight_above();
         if (soil.top_depth < depth_of_skirt() && cohesion > 0. &&
+            !soil.has_undrained_strength() &&
             (angle < least_angle ||
              (angle < usual_angle && cohesion > part * friction)))
           origins.add_warning(
@@ -538,9 +539,9 @@ namespace CaissonMPM
             to_text(cohesion, 4) + " Pa with a friction angle of " +
             to_text(angle, 4) +
             " degrees, but with Water/Level = seepage water flows through it "
-            "as through sand, and takes its stress away. Set Water/Level = "
-            "drained and a Velocity instead of suction, or give the clay its "
-            "drained strength.");
+            "as through sand, and takes its stress away. Set its Friction angle "
+            "= 0, with which it is undrained clay, or give it its drained "
+            "strength.");
       }
   }
 

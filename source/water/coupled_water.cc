@@ -99,7 +99,8 @@ namespace CaissonMPM
     return {&scene.settings.coupled,
             &scene.settings.open_sides,
             &scene.settings.sea,
-            &scene.settings.suction};
+            &scene.settings.suction,
+            &scene.settings.feasibility};
   }
 
   void

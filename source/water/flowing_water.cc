@@ -38,9 +38,10 @@ namespace CaissonMPM
     if (lid)
       scene.settings.suction.check_parameters();
     if (!scene.soil.is_submerged() || scene.soil.unit_weight_of_water() <= 0.)
-      throw BadInput("Water/Level is not drained, but the soil is dry: set "
+      throw BadInput("There is pore water or suction, but the soil is dry: set "
                      "Soil/Submerged = true, Soil/Fluid density and a Soil/"
-                     "Gravity that points downward, or Level = drained.");
+                     "Gravity that points downward, or Level = drained with "
+                     "Suction control = automatic.");
     if (lid)
       lid->check_parameters();
   }
@@ -143,29 +144,36 @@ namespace CaissonMPM
   {
     if (!is_solved)
       return;
-    const std::vector<double> &p = nodal_pressure();
-    scene.points.set_pore_pressure([&](const unsigned int      cell,
-                                       const dealii::Point<2> &place) {
-      const Kernels::CellMap<> map(scene.grid.geometry(cell));
-      double                   at_corner[4], field[4];
-      for (unsigned int k = 0; k < 4; ++k)
-        at_corner[k] = p[scene.grid.cell_nodes(cell).node[k]];
-      Kernels::coefficients(at_corner, field);
-      return Kernels::evaluate(field,
-                               map.at_position(place[radial], place[vertical]));
-    });
+    nodal_pressure();
+    scene.points.set_pore_pressure(
+      [this](const unsigned int cell, const dealii::Point<2> &place) {
+        return pressure_at(cell, place);
+      });
+  }
+
+  double
+  FlowingWater::pressure_at(const unsigned int      cell,
+                            const dealii::Point<2> &place) const
+  {
+    const Kernels::CellMap<> map(scene.grid.geometry(cell));
+    double                   at_corner[4], field[4];
+    for (unsigned int k = 0; k < 4; ++k)
+      at_corner[k] = pressure[scene.grid.cell_nodes(cell).node[k]];
+    Kernels::coefficients(at_corner, field);
+    return Kernels::evaluate(field,
+                             map.at_position(place[radial], place[vertical]));
   }
 
   NamedNumbers
   FlowingWater::columns()
   {
     prepare_columns();
-    if (is_solved && lid)
-      lid->update_exit_gradient(mudline, soil_in_cells.permeability, outflow());
+    if (is_solved && lid && flow().flows)
+      lid->update_exit_gradient(mudline, soil_in_cells.of_flow(), outflow());
     Mudline now = mudline;
     now.find(scene.grid, scene.points);
     if (lid)
-      lid->update_strength(now);
+      lid->update_limits(now, flow());
     return columns_with(now);
   }
 

@@ -20,6 +20,9 @@ namespace CaissonMPM
     // is not known better.
     constexpr double near_critical = .9;
 
+    // Of the radius, over which a rise of the plug is measured.
+    constexpr double window_of_lift = .04;
+
     // A flow that lifts less than this share of the plug is ignored.
     constexpr double least_lifted_share = .1;
   } // namespace
@@ -29,6 +32,7 @@ namespace CaissonMPM
     , suction_(scene.settings.suction, scene.settings.sea)
     , plug_balance(scene.grid, scene.points, scene.body)
     , plug_strength(scene.grid, scene.points, scene.soil, scene.body)
+    , feasibility(scene.settings.feasibility)
   {
     RunTotals &totals = scene.totals;
     suction_.register_totals(totals);
@@ -36,6 +40,7 @@ namespace CaissonMPM
     totals.keep("time_of_suction", time_of_suction);
     recent_heave.register_totals(totals, "recent_heave");
     plug_balance.register_totals(totals);
+    feasibility.register_totals(totals);
     totals.keep("seepage_volume", seepage_volume);
     totals.keep("volume_at_start", volume_at_start);
     totals.carry("plug_height_at_start", plug_height);
@@ -51,13 +56,14 @@ namespace CaissonMPM
     const BodyMotion      &motion   = scene.body.motion();
     const SuctionSettings &settings = scene.settings.suction;
     const auto             control  = settings.control;
-    if (motion.follows_loads() && control == SuctionSettings::Control::required)
+    if (motion.follows_loads() && settings.is_required())
       throw BadInput(
         "Rigid body/Motion is " + motion.name() +
         ": the suction moves the body, and must be given. Set Water/Suction "
         "control = table or flow, or Rigid body/Motion = prescribed, for which "
         "the suction is a result.");
-    if (control == SuctionSettings::Control::flow && !motion.follows_loads())
+    if (control == SuctionSettings::Control::flow && !motion.follows_loads() &&
+        motion.usual_velocity() != 0.)
       throw BadInput(
         "Water/Suction control is flow, but Rigid body/Motion is " +
         motion.name() +
@@ -65,14 +71,14 @@ namespace CaissonMPM
         "dropped, or Suction control = required or table.");
     if (!scene.grid.axisymmetric())
       throw BadInput(
-        "Water/Level is not drained, but Grid/Geometry is plane strain: the "
-        "lid of a caisson is round. Set Geometry = axisymmetric, or Level = "
-        "drained or undrained.");
+        "There is suction beneath the lid, but Grid/Geometry is plane strain: "
+        "the lid of a caisson is round. Set Geometry = axisymmetric, or Level "
+        "= drained or undrained with Suction control = automatic.");
     if (scene.body.shape().initial_depth() <= 0.)
-      throw BadInput("Water/Level is not drained, and Rigid body/Initial "
+      throw BadInput("There is suction beneath the lid, and Rigid body/Initial "
                      "penetration is 0: water would flow in below the skirt. "
                      "Begin with a penetration of some cells, or set Level = "
-                     "drained or undrained.");
+                     "drained or undrained with Suction control = automatic.");
   }
 
   void
@@ -188,9 +194,31 @@ namespace CaissonMPM
   }
 
   void
-  LidCompartment::update_strength(const Mudline &now)
+  LidCompartment::update_limits(const Mudline &now, const WaterFlow &flow)
   {
-    withstood = plug_strength.find(now);
+    if (flow.flows)
+      withstood = plug_strength.find(now);
+    if (is_sealed())
+      return;
+    const double gradient = flow.scale * std::max(exit.wall, exit.axis);
+    feasibility.update(
+      {scene.body.penetration(),
+       heave(now) - heave_by_wall(),
+       suction(),
+       withstood.surface > 0. ? gradient / withstood.surface : 0.,
+       window_of_lift * scene.body.shape().right()});
+  }
+
+  std::optional<Feasibility::Place>
+  LidCompartment::infeasible() const
+  {
+    if (const auto place = feasibility.place())
+      return place;
+    if (const std::string limit = suction_.limit_reached(height_of_lid());
+        !limit.empty() && !is_sealed())
+      return Feasibility::Place{scene.body.penetration(),
+                                suction_.exceeds_pump() ? "pump" : "boiling"};
+    return {};
   }
 
   NamedNumbers
@@ -201,26 +229,28 @@ namespace CaissonMPM
       return mudline.is_found() ? mudline.height_at_wall(side) : 0.;
     };
     const double rise   = heave(mudline);
-    NamedNumbers result = {
-      {"suction_Pa", suction()},
-      {"cavitation_suction_Pa", suction_.cavitation(height_of_lid())},
-      {"suction_force_N", load()},
-      {"tip_water_force_N", flow.tip_force},
-      {"pore_pressure_factor", flow.pressure_factor},
-      {"exit_gradient_wall", flow.scale * exit.wall},
-      {"exit_gradient_axis", flow.scale * exit.axis},
-      {"critical_gradient", withstood.surface},
-      {"seepage_flow_m3_s", flow.scale * flow.out},
-      {"seepage_inflow_m3_s", flow.scale * flow.in},
-      {"seepage_volume_m3", seepage_volume},
-      {"plug_heave_m", rise},
-      {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
-      {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
-      {"flow_iterations", 1. * flow.n_iterations}};
-    const NamedNumbers of_plug = plug_balance.columns(area() * rise);
-    result.insert(result.end(), of_plug.begin(), of_plug.end());
-    const NamedNumbers more = is_sealed() ? sealed.columns() : of_pump(rise);
-    result.insert(result.end(), more.begin(), more.end());
+    NamedNumbers result = {{"suction_Pa", suction()},
+                           {"cavitation_suction_Pa",
+                            suction_.cavitation(height_of_lid())},
+                           {"suction_force_N", load()},
+                           {"tip_water_force_N", flow.tip_force},
+                           {"pore_pressure_factor", flow.pressure_factor}};
+    const auto   add    = [&result](const NamedNumbers &more) {
+      result.insert(result.end(), more.begin(), more.end());
+    };
+    if (flow.flows)
+      add({{"exit_gradient_wall", flow.scale * exit.wall},
+           {"exit_gradient_axis", flow.scale * exit.axis},
+           {"critical_gradient", withstood.surface},
+           {"seepage_flow_m3_s", flow.scale * flow.out},
+           {"seepage_inflow_m3_s", flow.scale * flow.in},
+           {"seepage_volume_m3", seepage_volume}});
+    add({{"plug_heave_m", rise},
+         {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
+         {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
+         {"flow_iterations", 1. * flow.n_iterations}});
+    add(plug_balance.columns(area() * rise));
+    add(is_sealed() ? sealed.columns() : of_pump(rise));
     return result;
   }
 
@@ -298,7 +328,9 @@ namespace CaissonMPM
         mudline->mean_height(Mudline::Side::plug) >= height_of_lid())
       return "the plug fills the caisson: it has reached the lid, or the top of "
              "the skirt where the mesh has no lid (refusal)";
-    return suction_.limit_reached(height_of_lid());
+    const std::string limit = suction_.limit_reached(height_of_lid());
+    return limit.empty() ? feasibility.reason_to_end(scene.body.penetration()) :
+                           limit;
   }
 
   std::string

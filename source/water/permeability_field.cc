@@ -13,11 +13,15 @@ namespace CaissonMPM
   {
     permeability.assign(grid.n_cells(), {});
     properties.assign(grid.n_cells(), {});
+    is_clay.assign(grid.n_cells(), false);
+    std::vector<bool> undrained;
+    for (unsigned int i = 0; i < soil.n_materials(); ++i)
+      undrained.push_back(soil.material(i).has_undrained_strength());
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       {
         if (!grid.is_owned(cell) || grid.is_rigid(cell))
           continue;
-        double volume = 0., mass = 0., along = 0., across = 0.;
+        double volume = 0., mass = 0., along = 0., across = 0., clay = 0.;
         points.for_each_in(cell, [&](const MaterialPoint &p) {
           const SoilMaterial &material = soil.material(p.material);
           const double        k        = faster * material.permeability_at(
@@ -26,7 +30,9 @@ namespace CaissonMPM
           mass += p.mass;
           along += p.volume * k * material.anisotropy;
           across += p.volume / k;
+          clay += undrained[p.material] ? p.volume : 0.;
         });
+        is_clay[cell] = clay > .5 * volume;
         if (volume > 0.)
           permeability[cell] = {along / volume, volume / across};
         else // a gap
@@ -44,5 +50,15 @@ namespace CaissonMPM
                                permeability[cell].vertical / gamma},
                               volume / mass};
       }
+  }
+
+  std::vector<Conductance>
+  PermeabilityField::of_flow() const
+  {
+    std::vector<Conductance> result = permeability;
+    for (std::size_t cell = 0; cell < result.size(); ++cell)
+      if (is_clay[cell])
+        result[cell] = {};
+    return result;
   }
 } // namespace CaissonMPM

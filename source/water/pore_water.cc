@@ -20,7 +20,7 @@ namespace CaissonMPM
     if (traits_.uses_permeability)
       return;
     scene.soil.name_unused_permeability(origins, why);
-    if (!scene.body.motion().follows_loads())
+    if (!scene.body.motion().follows_loads() && traits_.lid == nullptr)
       origins.add_unused({"Rigid body/Submerged weight"},
                          why + ", and Rigid body/Motion is " +
                            scene.body.motion().name());

@@ -2,6 +2,7 @@
 #include <caisson_mpm/water/coupled_water.h>
 #include <caisson_mpm/water/pore_water_factory.h>
 #include <caisson_mpm/water/steady_seepage.h>
+#include <caisson_mpm/water/undrained_suction.h>
 #include <caisson_mpm/water/undrained_water.h>
 
 namespace CaissonMPM
@@ -30,6 +31,8 @@ namespace CaissonMPM
         case WaterLevel::coupled:
           return std::make_unique<CoupledWater>(scene);
         case WaterLevel::drained:
+          if (UndrainedSuction::is_wanted(scene))
+            return std::make_unique<UndrainedSuction>(scene);
           break;
       }
     return std::make_unique<DrainedWater>(scene);

@@ -12,6 +12,9 @@ namespace CaissonMPM
 {
   namespace
   {
+    // So much more easily the field passes clay in the plug than below it.
+    constexpr double faster_in_plug = 1e3;
+
     /** Minus the gradient of the excess pressure, per volume. */
     class SeepageForce : public NodalForce
     {
@@ -73,7 +76,8 @@ namespace CaissonMPM
     return {&scene.settings.seepage,
             &scene.settings.open_sides,
             &scene.settings.sea,
-            &scene.settings.suction};
+            &scene.settings.suction,
+            &scene.settings.feasibility};
   }
 
   void
@@ -121,11 +125,13 @@ namespace CaissonMPM
   SteadySeepage::solve()
   {
     find_mudline();
-    soil_in_cells.compute(scene.grid, scene.points, scene.soil, 1.);
+    find_permeability();
     seepage.solve(scene.grid,
                   mudline,
                   soil_in_cells.permeability,
                   scene.settings.sides);
+    if (!tip_is_in_clay())
+      fill_clay_of_plug();
     tip.integrate(scene.grid,
                   [this](const unsigned int cell, const unsigned int corner) {
                     return seepage.field().local_element(
@@ -138,6 +144,61 @@ namespace CaissonMPM
     travel_at_solve  = scene.body.motion().travel();
     steps_since_look = 0;
     finish_flow();
+  }
+
+  void
+  SteadySeepage::find_permeability()
+  {
+    soil_in_cells.compute(scene.grid, scene.points, scene.soil, 1.);
+    if (tip_is_in_clay())
+      spread_in_plug();
+  }
+
+  bool
+  SteadySeepage::tip_is_in_clay() const
+  {
+    const unsigned int i = scene.soil.material_at(-scene.body.penetration());
+    return scene.soil.material(i).has_undrained_strength();
+  }
+
+  bool
+  SteadySeepage::is_in_plug(const unsigned int cell) const
+  {
+    const auto &g = scene.grid.geometry(cell);
+    return mudline.side_of(cell) == Mudline::Side::plug &&
+           g.bottom_left + .5 * g.height_left > -scene.body.penetration();
+  }
+
+  void
+  SteadySeepage::spread_in_plug()
+  {
+    for (unsigned int cell = 0; cell < scene.grid.n_cells(); ++cell)
+      if (soil_in_cells.is_clay[cell] && is_in_plug(cell))
+        for (double *const k : {&soil_in_cells.permeability[cell].horizontal,
+                                &soil_in_cells.permeability[cell].vertical})
+          *k *= faster_in_plug;
+  }
+
+  void
+  SteadySeepage::fill_clay_of_plug()
+  {
+    // whether a node belongs to clay of the plug, and to other soil
+    NodalData of_clay, of_rest;
+    for (NodalData *const v : {&of_clay, &of_rest})
+      scene.grid.reinit(*v, 1);
+    for (unsigned int cell = 0; cell < scene.grid.n_cells(); ++cell)
+      if (scene.grid.is_owned(cell) && mudline.filled()[cell] > 0.)
+        for (const unsigned int node : scene.grid.cell_nodes(cell).node)
+          (soil_in_cells.is_clay[cell] && is_in_plug(cell) ? of_clay : of_rest)
+            .local_element(node) = 1.;
+    for (NodalData *const v : {&of_clay, &of_rest})
+      {
+        v->compress(dealii::VectorOperation::add);
+        v->update_ghost_values();
+      }
+    for (unsigned int node = 0; node < scene.grid.n_nodes(); ++node)
+      if (of_clay.local_element(node) > 0. && of_rest.local_element(node) == 0.)
+        seepage.field().local_element(node) = 1.;
   }
 
   WaterFlow

@@ -53,7 +53,8 @@ namespace CaissonMPM
     add_choice(*this,
                "Suction control",
                control,
-               {{"required", Control::required},
+               {{"automatic", Control::automatic},
+                {"required", Control::required},
                 {"table", Control::table},
                 {"flow", Control::flow},
                 {"sealed", Control::sealed}},
@@ -61,7 +62,9 @@ namespace CaissonMPM
                "prescribed (required), that of Suction table (table), the "
                "one at which the pump takes the flow of Pumped flow table "
                "(flow), or the one of water that no pump takes and that only "
-               "the plug and a leak let in or out (sealed). Units: none.");
+               "the plug and a leak let in or out (sealed). Automatic is "
+               "required where water flows (Level = seepage or coupled), and "
+               "no suction elsewhere. Units: none.");
     add_parameter("Suction table",
                   table_text,
                   "Pairs time : suction, separated by commas; linear in "
@@ -157,19 +160,18 @@ namespace CaissonMPM
   SuctionSettings::name_unused_entries(ParameterOrigins &origins) const
   {
     const std::vector<std::pair<Control, std::vector<std::string>>> entries = {
-      {Control::required, {"Water/Suction delay"}},
       {Control::table, {"Water/Suction table"}},
       {Control::flow, {"Water/Pumped flow table", "Water/Pump delay"}},
       {Control::sealed, {"Water/Lid water modulus", "Water/Lid leak"}}};
-    const std::string why[] = {"required: the suction is a result",
-                               "table",
-                               "flow",
-                               "sealed"};
+    const std::string required = "required: the suction is a result",
+                      why[] = {required, required, "table", "flow", "sealed"},
+                      now   = "Water/Suction control is " +
+                            why[static_cast<int>(control)];
     for (const auto &[other, names] : entries)
       if (other != control)
-        origins.add_unused(names,
-                           "Water/Suction control is " +
-                             why[static_cast<int>(control)]);
+        origins.add_unused(names, now);
+    if (!is_required())
+      origins.add_unused({"Water/Suction delay"}, now);
     if (control == Control::sealed)
       origins.add_unused({"Water/Largest suction"},
                          "Water/Suction control is sealed: there is no pump");
@@ -195,7 +197,7 @@ namespace CaissonMPM
   {
     using Control = SuctionSettings::Control;
     required_     = (load.resistance - load.weight) / load.area;
-    if (settings.control == Control::required)
+    if (settings.is_required())
       {
         suction -= std::expm1(-dt / settings.delay) * (required_ - suction);
         suction = std::max(suction, 0.);
@@ -253,7 +255,7 @@ namespace CaissonMPM
     const auto kilopascals = [](const double p) {
       return to_text(1e-3 * p, 4) + " kPa";
     };
-    if (settings.largest && suction > *settings.largest)
+    if (exceeds_pump())
       return "the suction exceeds Water/Largest suction = " +
              kilopascals(*settings.largest) + ", that of the pump";
     const double boiling = cavitation(height);

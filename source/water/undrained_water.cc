@@ -28,7 +28,15 @@ namespace CaissonMPM
     traits_.has_excess_pressure = true;
     traits_.resists_body        = true;
     traits_.bulk_modulus        = scene.settings.undrained.bulk_modulus;
-    scene.totals.keep("water_time", time);
+    if (UndrainedSuction::is_wanted(scene))
+      {
+        suction     = std::make_unique<UndrainedSuction>(scene);
+        traits_.lid = suction->traits().lid;
+        of_suction  = suction->present_columns();
+      }
+    else
+      of_suction = {{"tip_water_force_N", 0.}};
+    scene.totals.keep("undrained_water_time", time);
     extremes.register_totals(scene.totals);
   }
 
@@ -38,12 +46,29 @@ namespace CaissonMPM
     if (!scene.soil.is_submerged())
       throw BadInput("Water/Level is undrained, but the soil is dry: set "
                      "Soil/Submerged = true, or Level = drained.");
+    if (suction)
+      suction->check_parameters();
+  }
+
+  void
+  UndrainedWater::name_unused_entries(ParameterOrigins &origins) const
+  {
+    PoreWater::name_unused_entries(origins);
+    if (suction)
+      scene.settings.suction.name_unused_entries(origins);
   }
 
   std::vector<const Section *>
   UndrainedWater::used_groups() const
   {
-    return {&scene.settings.undrained, &scene.settings.sea};
+    std::vector<const Section *> used = {&scene.settings.undrained,
+                                         &scene.settings.sea};
+    if (suction)
+      used.insert(used.end(),
+                  {&scene.settings.seepage,
+                   &scene.settings.suction,
+                   &scene.settings.feasibility});
+    return used;
   }
 
   void
@@ -68,44 +93,57 @@ namespace CaissonMPM
   }
 
   void
-  UndrainedWater::begin_step(const double,
-                             const BoundaryConditions &,
-                             Contact &)
+  UndrainedWater::begin_step(const double              dt,
+                             const BoundaryConditions &conditions,
+                             Contact                  &contact)
   {
     compute_pressure();
+    if (suction)
+      suction->begin_step(dt, conditions, contact);
   }
 
   double
   UndrainedWater::end_step(const double time,
                            const double dt,
-                           const double,
+                           const double force_on_body,
                            const double travel)
   {
     this->time = time + dt;
+    if (suction)
+      suction->end_step(time, dt, force_on_body - tip.value(), travel);
     return tip.value() * travel;
   }
 
   void
   UndrainedWater::write_pressure_to_points()
   {
-    if (!pressure.empty())
-      scene.points.set_pore_pressure(
-        [this](const unsigned int cell, const dealii::Point<2> &) {
-          return pressure[cell];
-        });
+    if (pressure.empty())
+      return;
+    if (suction)
+      suction->nodal_pressure();
+    scene.points.set_pore_pressure(
+      [this](const unsigned int cell, const dealii::Point<2> &place) {
+        return pressure[cell] +
+               (suction ? suction->pressure_at(cell, place) : 0.);
+      });
   }
 
   NamedNumbers
   UndrainedWater::present_columns() const
   {
     NamedNumbers result = extremes.columns();
-    result.emplace_back("tip_water_force_N", tip.value());
+    for (const auto &[name, value] : of_suction)
+      result.emplace_back(name,
+                          value +
+                            (name == "tip_water_force_N" ? tip.value() : 0.));
     return result;
   }
 
   NamedNumbers
   UndrainedWater::columns()
   {
+    if (suction)
+      of_suction = suction->columns();
     const double gamma = scene.soil.unit_weight_of_water();
     extremes.begin(gamma, scene.settings.sea.cavitation(gamma, 0.));
     for (const double p : pressure)
@@ -121,11 +159,10 @@ namespace CaissonMPM
   UndrainedWater::take_warnings()
   {
     std::vector<std::string> warnings;
-    warn_of_open_lid(0.,
-                     "Water/Level = undrained has no suction beneath it: take "
-                     "Level = coupled with a Permeability of 1e-9 m/s, and "
-                     "Suction control = sealed",
-                     warnings);
+    if (suction)
+      warnings = suction->take_warnings();
+    else
+      warn_of_open_lid(0., "Set Water/Suction control = sealed", warnings);
     extremes.warn(time, place_in_words(), warnings);
     return warnings;
   }
@@ -133,7 +170,7 @@ namespace CaissonMPM
   WaterReport
   UndrainedWater::report(const std::vector<Kernels::Material> &materials) const
   {
-    WaterReport result;
+    WaterReport result = suction ? suction->report(materials) : WaterReport();
     for (const unsigned int i : scene.soil.uppermost_materials())
       {
         const double      share = share_of_load(materials[i]);
@@ -154,8 +191,11 @@ namespace CaissonMPM
   }
 
   void
-  UndrainedWater::continue_after(const std::string &, const NamedFields &)
+  UndrainedWater::continue_after(const std::string &level,
+                                 const NamedFields &fields)
   {
     compute_pressure();
+    if (suction)
+      suction->continue_after(level, fields);
   }
 } // namespace CaissonMPM

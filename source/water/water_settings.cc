@@ -104,9 +104,14 @@ namespace CaissonMPM
                                     const std::vector<const Section *> &used,
                                     const std::string &why) const
   {
-    const std::vector<const Section *> groups = {
-      &undrained, &seepage, &coupled, &open_sides, &sea, &suction};
-    std::vector<std::string> unused;
+    const std::vector<const Section *> groups = {&undrained,
+                                                 &seepage,
+                                                 &coupled,
+                                                 &open_sides,
+                                                 &sea,
+                                                 &suction,
+                                                 &feasibility};
+    std::vector<std::string>           unused;
     for (const Section *const group : groups)
       if (std::find(used.begin(), used.end(), group) == used.end())
         unused.insert(unused.end(),

@@ -279,13 +279,14 @@ test_console()
   body.fraction_done = 0.2345678;
   body.eta_seconds   = 83.4;
   RecordLine model; // in N, Pa and mm
-  model.has_body    = true;
-  model.has_suction = true;
-  model.length      = .2;
-  model.penetration = .0123456;
-  model.tip         = 12.3456;
-  model.total       = 999.9;
-  model.suction     = 456.7;
+  model.has_body       = true;
+  model.has_suction    = true;
+  model.gradient_ratio = 0.;
+  model.length         = .2;
+  model.penetration    = .0123456;
+  model.tip            = 12.3456;
+  model.total          = 999.9;
+  model.suction        = 456.7;
   RecordLine column;
   column.time           = 0.0123456789;
   column.kinetic_energy = 1.23456789e-5;

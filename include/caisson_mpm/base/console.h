@@ -30,11 +30,11 @@ namespace CaissonMPM
     std::optional<double> with_water;
     /** Where there is suction: Pa, and the exit gradient over the critical one.
      */
-    bool   has_suction    = false;
-    double suction        = 0.;
-    double gradient_ratio = 0.;
-    double kinetic_energy = 0.;
-    double max_speed      = 0.;
+    bool                  has_suction = false;
+    double                suction     = 0.;
+    std::optional<double> gradient_ratio;
+    double                kinetic_energy = 0.;
+    double                max_speed      = 0.;
     /** Of the whole run, from 0 to 1. */
     double fraction_done = 0.;
     /** Not finite where it is not known: then it is left out. */

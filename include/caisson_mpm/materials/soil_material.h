@@ -110,6 +110,11 @@ namespace CaissonMPM
     std::optional<double>
     shear_strength() const;
 
+    /** Whether the strength is that of undrained soil by total stress, which
+     * depends on no mean stress: water does not flow through it. */
+    bool
+    has_undrained_strength() const;
+
     /** Return the cohesion after some plastic shear, see LawState; 0 where the
      * law has none. Units: Pa. */
     double

@@ -60,6 +60,11 @@ namespace CaissonMPM
     const std::vector<double> &
     nodal_pressure();
 
+    /** Return the excess pressure at a place in a cell, after
+     * nodal_pressure(). Units: m; Pa. */
+    double
+    pressure_at(const unsigned int cell, const dealii::Point<2> &place) const;
+
     /** Return the share of each cell below the mudline. [n_cells] */
     const std::vector<double> &
     filled() const

@@ -6,6 +6,7 @@
 #define caisson_mpm_water_lid_compartment_h
 
 #include <caisson_mpm/bodies/rest.h>
+#include <caisson_mpm/water/feasibility.h>
 #include <caisson_mpm/water/plug_balance.h>
 #include <caisson_mpm/water/plug_strength.h>
 #include <caisson_mpm/water/pore_water.h>
@@ -20,6 +21,7 @@ namespace CaissonMPM
   /** The flow of the water as the compartment sees it. */
   struct WaterFlow
   {
+    bool   flows = true;           // false in undrained soil
     double scale = 1.;             // of both flows
     double out = 0., in = 0.;      // of the plug, into the rest; m3/s
     double tip_force       = 0.;   // on the tip, upward; N
@@ -111,9 +113,14 @@ namespace CaissonMPM
                          const std::vector<Conductance> &permeability,
                          const NodalData                &outflow);
 
-    /** Compute which gradients the plug withstands. Collective. */
+    /** Compute which gradients the plug withstands, and whether the
+     * installation is still feasible. Collective. */
     void
-    update_strength(const Mudline &now);
+    update_limits(const Mudline &now, const WaterFlow &flow);
+
+    /** Return from where on the installation is not feasible, and why. */
+    std::optional<Feasibility::Place>
+    infeasible() const;
 
     /** Return the numbers of a record. Collective. */
     NamedNumbers
@@ -164,6 +171,7 @@ namespace CaissonMPM
     SealedLid           sealed;
     PlugBalance         plug_balance;
     PlugStrength        plug_strength;
+    Feasibility         feasibility;
     std::vector<double> filled;               // [n_cells], at the last look
     double              touched = 0.;         // share of the area of the lid
     ExitGradient        exit;                 // over the scale of the flow

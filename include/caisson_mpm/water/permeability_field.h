@@ -24,8 +24,14 @@ namespace CaissonMPM
             const Soil           &soil,
             const double          faster);
 
+    /** Return the permeability of the cells, 0 where water does not flow in a
+     * time that counts. [n_cells], m/s */
+    std::vector<Conductance>
+    of_flow() const;
+
     std::vector<Conductance>     permeability; // [n_cells], m/s
-    std::vector<WaterProperties> properties;   // [n_cells]
+    std::vector<unsigned char>   is_clay;    // [n_cells], undrained by strength
+    std::vector<WaterProperties> properties; // [n_cells]
   };
 } // namespace CaissonMPM
 

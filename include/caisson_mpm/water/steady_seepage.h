@@ -41,13 +41,22 @@ namespace CaissonMPM
     /** The name of the share of the suction at the nodes among the fields. */
     static const std::string name_of_field;
 
-  private:
-    std::vector<const Section *>
-    used_groups() const override;
+  protected:
     void
     reinit() override;
+    std::vector<const Section *>
+    used_groups() const override;
+    /** Find how permeable the soil in the cells is. */
+    virtual void
+    find_permeability();
+    /** Let the suction reach all clay in the plug, down to the tip, before the
+     * field is found; see undrained_suction.h. */
+    void
+    spread_in_plug();
     WaterFlow
     flow() const override;
+
+  private:
     const NodalData &
     outflow() override
     {
@@ -65,6 +74,16 @@ namespace CaissonMPM
     still_serves();
     void
     solve();
+    bool
+    tip_is_in_clay() const;
+    /** Whether a cell is beneath the lid and above the tip. */
+    bool
+    is_in_plug(const unsigned int cell) const;
+    /** Let the suction reach all nodes of the plug that only clay has around
+     * them: where the tip has left the clay, the field then falls at the lower
+     * side of the clay, where the water of the sand lifts it. Collective. */
+    void
+    fill_clay_of_plug();
 
     Seepage seepage;
     double  travel_at_solve = 0.;

@@ -49,6 +49,7 @@ namespace CaissonMPM
   public:
     enum class Control
     {
+      automatic, // required where water flows, elsewhere no suction
       required,
       table,
       flow,
@@ -70,7 +71,14 @@ namespace CaissonMPM
     double
     largest_of_table() const;
 
-    Control                                control = Control::required;
+    /** Whether the suction is the one that the body requires. */
+    bool
+    is_required() const
+    {
+      return control == Control::required || control == Control::automatic;
+    }
+
+    Control                                control = Control::automatic;
     double                                 delay = 0.02, pump_delay = 0.1; // s
     std::optional<double>                  largest;    // of the pump, Pa
     double                                 gas = 0.;   // at p_0, m3
@@ -171,6 +179,13 @@ namespace CaissonMPM
      * height: of the lid's lower face over the original mudline, m. */
     std::string
     limit_reached(const double height) const;
+
+    /** Whether the suction is more than the pump has. */
+    bool
+    exceeds_pump() const
+    {
+      return settings.largest && suction > *settings.largest;
+    }
 
     void
     register_totals(RunTotals &totals);

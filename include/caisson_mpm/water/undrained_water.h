@@ -7,16 +7,19 @@
 // The points change their volume with the mean divergence of their cell, and
 // carry V / V_0 through the mesh. One value in each cell does not lock. Points
 // of a cell that came from different cells differ in V / V_0, and no strain
-// would level them: they share the mean.
+// would level them: they share the mean. What suction adds is
+// undrained_suction.h.
 #ifndef caisson_mpm_water_undrained_water_h
 #define caisson_mpm_water_undrained_water_h
 
 #include <caisson_mpm/water/pore_water.h>
 #include <caisson_mpm/water/pressure_extremes.h>
 #include <caisson_mpm/water/tip_integral.h>
+#include <caisson_mpm/water/undrained_suction.h>
 
 #include <boost/signals2/connection.hpp>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,29 +34,42 @@ namespace CaissonMPM
     void
     check_parameters() const override;
     void
+    name_unused_entries(ParameterOrigins &origins) const override;
+    void
     begin_step(const double              dt,
                const BoundaryConditions &conditions,
                Contact                  &contact) override;
     double
     load_on_body() const override
     {
-      return -tip.value();
+      return (suction ? suction->load_on_body() : 0.) - tip.value();
     }
     double
     resistance_to_body() const override
     {
-      return tip.value();
+      return (suction ? suction->resistance_to_body() : 0.) + tip.value();
     }
     const double *
     cell_pressure() const override
     {
       return pressure.data();
     }
+    const double *
+    volume_rates(const Kernels::NodalVector             *velocity,
+                 const std::vector<Kernels::CornerView> &corners) override
+    {
+      return suction ? suction->volume_rates(velocity, corners) : nullptr;
+    }
     double
     end_step(const double time,
              const double dt,
              const double force_on_body,
              const double travel) override;
+    std::string
+    reason_to_end() const override
+    {
+      return suction ? suction->reason_to_end() : "";
+    }
     void
     write_pressure_to_points() override;
     NamedNumbers
@@ -62,6 +78,11 @@ namespace CaissonMPM
     take_warnings() override;
     WaterReport
     report(const std::vector<Kernels::Material> &materials) const override;
+    std::vector<GridField>
+    fields() override
+    {
+      return suction ? suction->fields() : std::vector<GridField>();
+    }
     void
     continue_after(const std::string &level,
                    const NamedFields &fields) override;
@@ -77,6 +98,8 @@ namespace CaissonMPM
     void
     compute_pressure();
 
+    std::unique_ptr<UndrainedSuction>  suction;    // where there is any
+    NamedNumbers                       of_suction; // of the last record
     boost::signals2::scoped_connection connection;
     std::vector<double> pressure;  // [n_cells], Pa; empty until it is computed
     TipIntegral         tip;       // N

@@ -5,6 +5,7 @@
 #define caisson_mpm_water_water_settings_h
 
 #include <caisson_mpm/base/section.h>
+#include <caisson_mpm/water/feasibility.h>
 #include <caisson_mpm/water/pressure_solver.h>
 #include <caisson_mpm/water/suction.h>
 
@@ -80,6 +81,7 @@ namespace CaissonMPM
     OpenSideSettings          open_sides;
     SeaSettings               sea;
     SuctionSettings           suction;
+    FeasibilitySettings       feasibility;
   };
 } // namespace CaissonMPM
 

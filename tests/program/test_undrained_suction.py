@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Suction beneath the lid of a caisson in undrained clay."""
+import math
+import unittest
+from pathlib import Path
+
+from program import SUCCESS, Entries, ProgramTest, history, summary
+
+INNER_RADIUS = 2.8  # m, of simulation/jack.prm
+STRENGTH = 5e3  # Pa
+WEIGHT = 6e4  # N, of water/suction.prm
+CLAY: Entries = {
+    "Rigid body/Friction angle of the outer wall": 0,
+    "Rigid body/Friction angle of the inner wall": 0,
+    "Rigid body/Friction angle of the tip": 0,
+    "Soil/Layer 1/Youngs modulus": 300 * STRENGTH,
+    "Soil/Layer 1/Poisson ratio": 0.49,
+    "Soil/Layer 1/Friction angle": 0,
+    "Soil/Layer 1/Cohesion": STRENGTH,
+    "Soil/Layer 1/K0": 1,
+    "Soil/Layer 1/Adhesion factor of the walls": 1,
+    "Water/Water depth": 100,
+    "Water/Suction control": "required",
+    "Output/Frame interval": "never",
+}
+TOTAL_STRESS: Entries = {**CLAY, "Water/Level": "drained"}
+LEVELS: dict[str, Entries] = {
+    "drained": {},
+    "undrained": {"Water/Bulk modulus": 5e7},
+    "seepage": {"Soil/Layer 1/Permeability": 1e-10},
+    "coupled": {
+        "Soil/Layer 1/Permeability": 1e-10,
+        "Material points/Per direction in path": 4,
+    },
+}
+# so much suction draws in the plug of this scene before the caisson
+LIFTED: Entries = {
+    **TOTAL_STRESS,
+    "Rigid body/Initial penetration": 1.5,
+    "Rigid body/Submerged weight": 0,
+    "Soil/Layer 1/Cohesion": "if(d < 1, 20e3, 1e3)",
+    "Soil/Layer 1/Youngs modulus": 1e6,
+    "Time/End penetration": 1.9,
+}
+
+
+class Lift(ProgramTest):
+    """A caisson that is held, whose plug a growing suction lifts."""
+
+    def suction_at(self, heave: float, name: str, entries: Entries) -> float:
+        """Return the suction (Pa) at which the plug has risen so far (m)."""
+        path = self.directory(name)
+        held: Entries = {
+            **CLAY,
+            "Rigid body/Velocity": 1e-9,
+            "Rigid body/Initial penetration": 1,
+            "Water/Suction control": "table",
+            "Water/Suction table": "0:0, 4:100e3",
+            "Time/End penetration": "never",
+            "Time/End time": 3,
+            "Output/Record interval": 0.05,
+        }
+        self.run_scene("suction", path, entries={**held, **entries})
+        rows = history(path)
+        before = max(i for i, row in enumerate(rows) if row["plug_heave_m"] < heave)
+        (s, h), (s_1, h_1) = (
+            (row["suction_Pa"], row["plug_heave_m"]) for row in rows[before:][:2]
+        )
+        return s + (s_1 - s) * (heave - h) / (h_1 - h)
+
+    def test_all_levels_agree(self) -> None:
+        """Total stress, undrained water, and water that flows too slowly to count."""
+        found = {
+            level: self.suction_at(0.05, level, {"Water/Level": level, **entries})
+            for level, entries in LEVELS.items()
+        }
+        # the adhesion of the inner wall, and at least what clay on a smooth wall bears
+        adhesion = STRENGTH * 2 / INNER_RADIUS
+        for level, suction in found.items():
+            with self.subTest(level=level):
+                self.assertAlmostEqual(suction / found["undrained"], 1, delta=0.05)
+                self.assertGreater(suction, adhesion + 5 * STRENGTH)
+                self.assertLess(suction, adhesion + 10 * STRENGTH)
+
+    def test_tension_cut_off_does_not_count(self) -> None:
+        """The suction takes the total stress of the plug, but no gap opens."""
+        found = [
+            self.suction_at(
+                0.05,
+                f"of_{cut_off:g}",
+                {"Water/Level": "drained", "Soil/Layer 1/Tension cut-off": cut_off},
+            )
+            for cut_off in (0, 1e9)
+        ]
+        self.assertAlmostEqual(found[1] / found[0], 1, delta=0.02)
+
+
+class Installation(ProgramTest):
+    """A caisson that suction draws into clay."""
+
+    def run_clay(self, name: str, *options: str, **more: int | str) -> Path:
+        """Return the results of a run, ranks and entries given."""
+        path = self.directory(name)
+        ranks = int(more.pop("ranks", 1))
+        entries: Entries = {
+            **TOTAL_STRESS,
+            "Output/Record interval": 0.05,
+            **{key.replace("_", " "): value for key, value in more.items()},
+        }
+        self.run_scene("suction", path, SUCCESS, *options, entries=entries, ranks=ranks)
+        return path
+
+    def test_equilibrium(self) -> None:
+        """Weight and suction bear the soil's force; nothing flows, so that the pump
+        takes what the lid and the plug displace."""
+        rows = history(self.run_clay("whole"))
+        area = math.pi * INNER_RADIUS**2
+        self.assertGreater(rows[-1]["suction_Pa"], 2e3)
+        for name in ("exit_gradient_wall", "seepage_flow_m3_s", "critical_gradient"):
+            self.assertNotIn(name, rows[0])
+        for row in rows[-3:]:
+            loads = WEIGHT + area * row["suction_Pa"]
+            self.assertAlmostEqual(
+                loads / row["total_force_with_water_N"], 1, delta=0.05
+            )
+            self.assertAlmostEqual(
+                row["pumped_volume_m3"],
+                area * (row["penetration_m"] - 0.5 + row["plug_heave_m"]),
+                delta=1e-3,
+            )
+
+    def test_ranks_and_restart(self) -> None:
+        whole = history(self.run_clay("one"))[-1]
+        shared = history(self.run_clay("two", ranks=2))[-1]
+        path = self.directory("restarted")
+        runs: list[tuple[float, list[str]]] = [(0.62, []), (0.75, ["--restart"])]
+        for end, options in runs:
+            self.run_scene(
+                "suction",
+                path,
+                SUCCESS,
+                *options,
+                entries={
+                    **TOTAL_STRESS,
+                    "Output/Record interval": 0.05,
+                    "Time/End penetration": end,
+                },
+            )
+        again = history(path)[-1]
+        for name in ("suction_Pa", "total_force_N", "plug_heave_m"):
+            self.assertAlmostEqual(shared[name] / whole[name], 1, delta=0.01, msg=name)
+            self.assertAlmostEqual(again[name] / whole[name], 1, delta=1e-3, msg=name)
+
+    def test_end_where_infeasible(self) -> None:
+        """Stiff clay on soft: the suction that the friction of the upper clay takes
+        lifts the plug, whose base bears little. The run says so, and ends."""
+        path = self.directory()
+        entries: Entries = {**LIFTED, "Installation/End where infeasible": 0.05}
+        text = self.run_scene("suction", path, entries=entries)
+        self.assert_words(["not been feasible", "plug lift", "0.05 m"], text)
+        found = summary(path)["scene"]["infeasible"]
+        self.assertEqual(found["reason"], "plug lift")
+        last = history(path)[-1]["penetration_m"]
+        self.assertGreaterEqual(last, found["penetration_m"] + 0.05)
+        self.assertLess(last, 1.85)
+
+    def test_feasible_run_says_nothing(self) -> None:
+        path = self.run_clay("feasible")
+        self.assertNotIn("infeasible", summary(path)["scene"])
+
+
+class BadInput(ProgramTest):
+    """Scenes without an answer."""
+
+    def test_messages(self) -> None:
+        cases: list[tuple[Entries, list[str]]] = [
+            ({"Soil/Layer 1/Friction angle": 5}, ["Layer 1", "undrained strength"]),
+            ({"Grid/Geometry": "plane strain"}, ["suction", "plane strain"]),
+            ({"Rigid body/Initial penetration": 0}, ["Initial penetration"]),
+        ]
+        for entries, words in cases:
+            with self.subTest(entries=entries):
+                self.assert_invalid(words, "suction", {**TOTAL_STRESS, **entries})
+
+    def test_no_suction_unless_asked(self) -> None:
+        path = self.directory()
+        entries: Entries = {**TOTAL_STRESS, "Water/Suction control": "automatic"}
+        text = self.run_scene("suction", path, entries=entries)
+        self.assertNotIn("suction_Pa", history(path)[-1])
+        self.assert_words(["Submerged weight", "not used"], text)
+
+
+if __name__ == "__main__":
+    unittest.main()
