@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What is assumed of undrained clay from its strength s_u.
 
-Youngs modulus is that of `caisson cpt`, a multiple of s_u. The rest follows from s_u
+Youngs modulus is that of `caisson cpt`, a multiple of s_u, and the walls have half of
+s_u, as clay of sensitivity 2 that the wall has remoulded. The rest follows from s_u
 and the vertical effective stress sigma'_v in the middle of the layer, as far as the
 skirt reaches into it:
 
@@ -59,9 +60,8 @@ def modulus_of(strength: str) -> Entry:
         value = f"{ratio * float(strength):.10g}"
     except ValueError:
         value = f"{ratio:g}*({strength})"
-    return Entry(
-        "Youngs modulus", value, f"{ASSUMPTION}: {ratio:g} s_u, as caisson cpt"
-    )
+    why = f"{ratio:g} s_u, a rigidity G/s_u of 100 (Duncan & Buchignani 1976)"
+    return Entry("Youngs modulus", value, f"{ASSUMPTION}: {why}")
 
 
 def number_of(layer: Layer, name: str, depth: float) -> float | None:
