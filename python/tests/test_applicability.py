@@ -63,7 +63,7 @@ class Applicability(unittest.TestCase):
         unknown = {**LAYER, "law": "hypoplastic sand"}
         bare = {k: v for k, v in LAYER.items() if not k.startswith("submerged")}
         for layers, words in (
-            ((LAYER, clay), "none is assumed for layer 2, which is clay"),
+            ((LAYER, clay), "none is assumed: layer 2 is clay"),
             ((unknown,), "none is assumed: layer 1 is hypoplastic sand, and run.json"),
             (
                 (Read(Path("run.json"), bare),),
