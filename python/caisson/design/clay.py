@@ -38,8 +38,7 @@ class Layer(NamedTuple):
 
 
 def tip_layer(layers: Sequence[Layer], h: float) -> int:
-    """Return the place of the layer in which the tip is, at a boundary the upper one.
-    """
+    """Clay down to the top of the next layer; sand has no strength and adhesion."""
     return max([i for i, layer in enumerate(layers) if layer.top < h], default=0)
 
 

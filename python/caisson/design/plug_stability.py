@@ -23,7 +23,7 @@ clay of the plug. No safety factor is in any of this.
 SI units; h is the embedment of the tip (m), s is above the pressure of the open water.
 """
 from collections.abc import Sequence
-from math import inf, nan, pi
+from math import inf, nan
 
 import numpy as np
 
@@ -66,7 +66,9 @@ def bottom_of_clay(layers: Sequence[Layer], h: float) -> float:
     sand, below the clay that it has passed; nan without such sand or clay."""
     is_sand, tip = [not layer.strength for layer in layers], tip_layer(layers, h)
     if not is_sand[tip]:
-        return min((x.top for x, s in zip(layers[tip:], is_sand[tip:]) if s), default=nan)
+        return min(
+            (x.top for x, s in zip(layers[tip:], is_sand[tip:]) if s), default=nan
+        )
     last = max([i for i in range(tip) if not is_sand[i]], default=-1)
     return layers[last + 1].top if last >= 0 else nan
 

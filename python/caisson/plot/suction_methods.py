@@ -87,7 +87,9 @@ class Answers:
             f" {' dashed, '.join(self.in_clay.cases)} dotted"
         )
         names = ", ".join(self.plug)
-        return found + (f"; limits of the plug, no safety factor: {names}" if names else "")
+        return found + (
+            f"; limits of the plug, no safety factor: {names}" if names else ""
+        )
 
     @property
     def required(self) -> list[Beside]:
