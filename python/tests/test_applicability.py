@@ -103,7 +103,7 @@ class Applicability(unittest.TestCase):
         """The method of clay takes sand from a cone that is given or assumed; below
         clay the cone feels its weight. Clay and sand far below limit the suction, and
         soil that nobody knows there does not."""
-        below = {**LAYER, "top_depth_m": 3, "relative_density": 0.8}
+        below: dict[str, Any] = {**LAYER, "top_depth_m": 3, "relative_density": 0.8}
         layers = LAYER, {**CLAY, "top_depth_m": 1}, below
         site = self.site(*layers)
         for known, name in (
@@ -117,8 +117,8 @@ class Applicability(unittest.TestCase):
         tip = answer.forces["strip"]["tip"] / np.pi / 5.8 / 0.2
         np.testing.assert_allclose(tip, [8829 * 2 + 7.5 * 20e3, 0.3 * cone], rtol=1e-3)
         self.assertNotIn("from 1 m", answer.assumed)
-        at, unknown = np.array([2.0]), {**below, "law": "linear elastic"}
-        for bottom, n in ((below, 2), (unknown, 1)):
+        at = np.array([2.0])
+        for bottom, n in ((below, 2), ({**below, "law": "linear elastic"}, 1)):
             found = theory.plug_limits(self.site(*layers[:2], bottom), at)
             self.assertEqual(len(found), n)
         self.assertEqual(theory.plug_limits(self.site(LAYER), at), {})
