@@ -271,6 +271,25 @@ class Studies(unittest.TestCase):
         self.assertEqual(choices["0.65"], {entry: 0.65})
         self.assertIn("relative density", content["title"])
 
+    def test_study_of_clay(self) -> None:
+        """Clay becomes stronger and stiffer, alone or in step with sand."""
+        clays = ["--layer", "0: su = 2 kPa + 1.5 kPa*z, E = 4 MPa"]
+        options = options_of(*clays, "--study", "study_of_test_sand.toml")
+        content = tomllib.loads(suggest.study_of(options, layers_in(*clays)))
+        choices = content["parameters"]["strength"]["choices"]
+        self.assertEqual(list(choices)[::2], ["0.7 su", "1 su", "1.3 su"])
+        self.assertEqual(
+            choices["0.7 su"],
+            {
+                "Soil/Layer 1/Cohesion": "0.7*(2000 + 1500*d)",
+                "Soil/Layer 1/Youngs modulus": "0.7*(4000000)",
+            },
+        )
+        both = [*clays, "--layer", "3: Dr = 85%"]
+        content = tomllib.loads(suggest.study_of(options, layers_in(*both)))
+        choices = content["parameters"]["relative density"]["choices"]
+        self.assertEqual(len(choices["0.65"]), 3)
+
 
 class Refusals(unittest.TestCase):
     """One clear line each."""

@@ -66,6 +66,7 @@ from caisson.shown import units_for
 HERE = Path(__file__).parent
 CHANGES = (-4, -2, 0, 2, 4)
 CHANGES_OF_DENSITY = (-0.2, -0.1, 0, 0.1, 0.2)
+FACTORS_OF_STRENGTH = (0.7, 0.85, 1, 1.15, 1.3)  # and of the stiffness of clay
 VELOCITY = 0.1  # m/s
 RAMP_SHARE = 0.05  # of the way, at most, until the velocity is reached
 LEAST_RECORDS = 100
@@ -305,32 +306,48 @@ def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
 
 def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
     """Return the text of a study with five friction angles or, of sand by its density,
-    relative densities of each layer. Raises SuggestError where a layer has none."""
-    by_density = all(map(is_by_density, layers))
-    follows = options.wall_friction is None and not by_density
+    relative densities of each layer; clay becomes stronger in step. Raises SuggestError
+    where a layer has neither."""
+    sands = [layer for layer in layers if not clay.is_undrained(layer)]
+    by_density = bool(sands) and all(map(is_by_density, sands))
+    quantity = "relative density" if by_density else "friction angle"
+    changes = CHANGES_OF_DENSITY if by_density else CHANGES
+    follows = options.wall_friction is None and len(sands) == len(layers)
+    follows = follows and not by_density
     choices = {}
-    for change in CHANGES_OF_DENSITY if by_density else CHANGES:
-        change_of = density_after if by_density else angle_after
-        numbers = [change_of(layer, change) for layer in layers]
-        entries = {
-            f"Soil/Layer {i}/{density_law.DENSITY if by_density else angle_entry(x)}": n
-            for i, (x, n) in enumerate(zip(layers, numbers), 1)
-        }
-        name = ", ".join(f"{number:g}" for number in numbers)
+    for change, factor in zip(changes, FACTORS_OF_STRENGTH):
+        entries, numbers = dict[str, float | str](), list[float]()
+        for i, layer in enumerate(layers, 1):
+            if clay.is_undrained(layer):
+                entries |= strength_after(f"Soil/Layer {i}", layer, factor)
+                continue
+            change_of = density_after if by_density else angle_after
+            name = density_law.DENSITY if by_density else angle_entry(layer)
+            numbers.append(change_of(layer, change))
+            entries[f"Soil/Layer {i}/{name}"] = numbers[-1]
         if follows:
             least = min(numbers[: len(reached(options, layers))])
             wall = float(f"{2 / 3 * least:.3g}")
             for side in ("outer", "inner"):
                 entries[f"Rigid body/Friction angle of the {side} wall"] = wall
-        choices[name] = entries
-    scene = os.path.relpath(options.file, options.study.parent)
+        words = [f"{number:g}" for number in numbers] or [f"{factor:g} su"]
+        choices[", ".join(words)] = entries
     return template(HERE / "study.toml.jinja").render(
-        scene=scene,
+        scene=os.path.relpath(options.file, options.study.parent),
         follows=follows,
         choices=choices,
-        by_density=by_density,
+        quantity=quantity if sands else "strength",
+        has_clay=len(sands) < len(layers),
         layers=len(layers),
     )
+
+
+def strength_after(head: str, layer: Layer, factor: float) -> dict[str, float | str]:
+    """Return the entries of clay with a strength, and a stiffness, times a factor."""
+    return {
+        f"{head}/{name}": f"{factor:g}*({layer.value(name)})"
+        for name in ("Cohesion", "Youngs modulus")
+    }
 
 
 def angle_after(layer: Layer, change: float) -> float:

@@ -37,6 +37,7 @@ from caisson.design.ground import (
 
 POISSON = "0.45"  # hardly any change of volume, as without drainage
 ADHESION_FACTOR = "0.5"
+MODULUS_REMARK = f"{ASSUMPTION}: {CLAY_RATIOS[1]:g} s_u (Duncan & Buchignani 1976)"
 NORMAL_RATIO, EXPONENT = 0.22, 0.8  # s_u/sigma'_v at OCR 1, and of OCR
 SINE = math.sin(math.radians(24))
 LIGHTEST = 15e3  # N/m3, of the wet clay
@@ -60,8 +61,7 @@ def modulus_of(strength: str) -> Entry:
         value = f"{ratio * float(strength):.10g}"
     except ValueError:
         value = f"{ratio:g}*({strength})"
-    why = f"{ratio:g} s_u, a rigidity G/s_u of 100 (Duncan & Buchignani 1976)"
-    return Entry("Youngs modulus", value, f"{ASSUMPTION}: {why}")
+    return Entry("Youngs modulus", value, MODULUS_REMARK)
 
 
 def number_of(layer: Layer, name: str, depth: float) -> float | None:

@@ -140,7 +140,7 @@ def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
         Entry("Law", ASSUMED["Law"]),
         Entry("Friction angle", "0", f" # {e.layer.kind}, undrained"),
         Entry("Cohesion", number(e.values[STRENGTH].best), remark(found, e, STRENGTH)),
-        Entry("Youngs modulus", modulus, f"{ASSUMPTION}: a multiple of s_u"),
+        Entry("Youngs modulus", modulus, clay.MODULUS_REMARK),
         Entry("Poisson ratio", clay.POISSON, ASSUMPTION),
         Entry("K0", number(e.values[K0].best), " # FROM CPT"),
         Entry("Friction angle of the walls", "0"),
