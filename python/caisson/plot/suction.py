@@ -66,8 +66,9 @@ def draw_required(axes: Axes, answers: methods.Answers) -> None:
 
 def draw_critical(axes: Axes, answers: methods.Answers) -> None:
     """Draw the critical suctions as thin lines of one color, in kPa."""
-    for name, limit in answers.plug.items():
-        axes.plot(limit / 1e3, answers.depth, color=PLUG_COLOR, lw=0.9, label=name)
+    for (name, limit), dashes in zip(answers.plug.items(), ("-", "--")):
+        color, x = PLUG_COLOR, limit / 1e3
+        axes.plot(x, answers.depth, dashes, color=color, linewidth=0.9, label=name)
     for column, (name, line) in CRITICAL.items():
         if not has_line(answers.suctions.get(column, np.empty(0))):
             continue

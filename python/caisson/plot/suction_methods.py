@@ -82,13 +82,10 @@ class Answers:
         """Return what the lines in ground with clay are."""
         if self.in_clay is None:
             return ""
-        found = (
-            f"{self.in_clay.name}: (jacking force - weight) / area inside;"
-            f" {' dashed, '.join(self.in_clay.cases)} dotted"
-        )
-        names = ", ".join(self.plug)
-        return found + (
-            f"; limits of the plug, no safety factor: {names}" if names else ""
+        low, high = self.in_clay.cases
+        return (
+            f"{self.in_clay.name}: (jacking force - weight) / area inside, {low} dashed,"
+            f" {high} dotted; the limits of the plug have no safety factor"
         )
 
     @property
