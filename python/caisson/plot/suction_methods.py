@@ -84,8 +84,8 @@ class Answers:
             return ""
         low, high = self.in_clay.cases
         return (
-            f"{self.in_clay.name}: (jacking force - weight) / area inside, {low} dashed,"
-            f" {high} dotted; the limits of the plug have no safety factor"
+            f"{self.in_clay.name}: (jacking force - weight) / area inside,"
+            f" {low} dashed, {high} dotted; the limits of the plug have no safety factor"
         )
 
     @property
