@@ -63,7 +63,7 @@ class Applicability(unittest.TestCase):
         unknown = {**LAYER, "law": "hypoplastic sand"}
         bare = {k: v for k, v in LAYER.items() if not k.startswith("submerged")}
         for layers, words in (
-            ((LAYER, clay), "none is assumed for layer 2, which is clay"),
+            ((LAYER, clay), "none is assumed: layer 2 is clay"),
             ((unknown,), "none is assumed: layer 1 is hypoplastic sand, and run.json"),
             (
                 (Read(Path("run.json"), bare),),
@@ -98,6 +98,31 @@ class Applicability(unittest.TestCase):
             np.testing.assert_allclose(found, expected)
         np.testing.assert_allclose(inner[0], [0, np.pi * 5.6 * 7.5e3])
         np.testing.assert_allclose(outer[0], [np.pi * 6 * 2e3, np.pi * 6 * 10.5e3])
+
+    def test_sand_and_clay(self) -> None:
+        """The method of clay takes sand from a cone that is given or assumed; below
+        clay the cone feels its weight. Clay and sand far below limit the suction, and
+        soil that nobody knows there does not."""
+        below: dict[str, Any] = {**LAYER, "top_depth_m": 3, "relative_density": 0.8}
+        layers = LAYER, {**CLAY, "top_depth_m": 1}, below
+        site = self.site(*layers)
+        for known, name in (
+            (site, "Strength of clay, DNV in sand"),
+            (site._replace(cone=None), "Strength of clay, DNV in sand (cone ASSUMED)"),
+        ):
+            answer = theory.answer_of(theory.OF_CLAY, known, np.array([2.0, 4.0]))
+            self.assertEqual((answer.name, answer.why_not), (name, ""))
+        stress = 8829 * 4 * 2 / 3
+        cone = 2.494e6 * (stress / 1e5) ** 0.46 * np.exp(2.96 * 0.8)
+        tip = answer.forces["strip"]["tip"] / np.pi / 5.8 / 0.2
+        np.testing.assert_allclose(tip, [8829 * 2 + 7.5 * 20e3, 0.3 * cone], rtol=1e-3)
+        self.assertNotIn("from 1 m", answer.assumed)
+        at = np.array([2.0])
+        for bottom, n in ((below, 2), ({**below, "law": "linear elastic"}, 1)):
+            found = theory.plug_limits(self.site(*layers[:2], bottom), at)
+            self.assertEqual(len(found), n)
+        self.assertEqual(theory.plug_limits(self.site(LAYER), at), {})
+        self.assertEqual(theory.plug_limits(theory.Site({}), at), {})
 
     def test_undrained_sand(self) -> None:
         for found in self.why(self.site(LAYER, level="undrained")):

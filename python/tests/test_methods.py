@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson.design import andersen, cone, dnv, senders_randolph
+from caisson.design import andersen, clay, cone, dnv, layered, senders_randolph
 from caisson.design import houlsby_byrne
 from caisson.disk import InputError
 from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, Layer
@@ -43,6 +43,24 @@ class ByHand(unittest.TestCase):
         # at its lower boundary the tip is still in the clay: 0.6 2 MPa 1.853540 m2
         found = method.forces(1, "highest")
         assert_forces(found, (2224.248, 50 * pi * 5.8, 50 * pi * 6))
+
+    def test_layers_of_sand_and_clay(self) -> None:
+        """Clay of 20 kPa and 9 kN/m3 down to 1 m, with an adhesion of 10 kPa inside and
+        8 kPa outside; below, sand has 0.001 or 0.003 of 15 MN/m on both walls. Where
+        the clay is below, 1 MN/m of the 16 are in the sand."""
+        of_clay, of_sand = (9e3, 20e3, 10e3, 8e3), (10e3, 0, 0, 0)
+        layers = [clay.Layer(0, *of_clay), clay.Layer(1, *of_sand)]
+        method = layered.Layered(clay.Clay(SKIRT, layers), LINEAR)
+        for case, tip, wall in (("strip", 4448.495, 15), ("circle", 8896.990, 45)):
+            walls = (10 + wall) * pi * 5.8, (8 + wall) * pi * 6
+            assert_forces(method.forces(4, case), (tip, *walls))
+        tip = 1.853540 * (9 + 7.5 * 20)
+        assert_forces(method.forces(1, "strip"), (tip, 10 * pi * 5.8, 8 * pi * 6))
+        layers = [clay.Layer(0, *of_sand), clay.Layer(1, *of_clay)]
+        method = layered.Layered(clay.Clay(SKIRT, layers), LINEAR)
+        tip = 1.853540 * (10 + 9 + 9 * 20)
+        walls = (3 + 10) * pi * 5.8, (3 + 8) * pi * 6
+        assert_forces(method.forces(2, "circle"), (tip, *walls))
 
     def test_senders_randolph(self) -> None:
         """1 - (5.8 / 6)^2 = 0.0655556, to the power of 0.3 0.441554; times

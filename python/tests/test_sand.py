@@ -7,6 +7,7 @@ import tempfile
 import tomllib
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
@@ -23,8 +24,16 @@ from caisson.design.correlations import DENSITY
 
 EXAMPLE = SCENES / "cpt_example.csv"
 KNOWN = ["Cohesion", "Friction angle", "K0", "Permeability", "Youngs modulus"]
-KNOWN += ["Law", "Porosity", density_law.DENSITY, density_law.DENSEST]
-UNITS = dict.fromkeys(KNOWN, "")
+KNOWN += [
+    "Poisson ratio",
+    "Solid density",
+    "Dilatancy angle",
+    "Law",
+    "Porosity",
+    density_law.DENSITY,
+    density_law.DENSEST,
+]
+UNITS = dict.fromkeys(KNOWN, "") | {"Cohesion": "Pa", "Youngs modulus": "Pa"}
 # not that of a user, who may have an own.prm where the tests run
 SCENE = "scene_of_test_sand.prm"
 SIZES = ["--diameter", "4", "--skirt", "2.5", "--wall", "20mm", SCENE]
@@ -206,6 +215,48 @@ class FromACone(unittest.TestCase):
                 self.assertTrue(low < best < high, entry)
 
 
+@mock.patch.object(suggest, "knows_infeasible", return_value=True)
+class UnderSuction(unittest.TestCase):
+    """With --weight."""
+
+    def scene(self, *texts: str) -> dict[str, str]:
+        """Return the entries of a scene under suction."""
+        layers = [word for text in texts for word in ("--layer", text)]
+        return scene_in("--weight", "100kN", "--water-depth", "20", *layers)
+
+    def test_all_clay(self, _: mock.Mock) -> None:
+        """No water flows through it, so that it needs no permeability."""
+        found = self.scene("0: su = 2 kPa + 1.5 kPa*z", "2: su = 5 kPa")
+        self.assertEqual(found["Suction control"].split()[0], "required")
+        self.assertEqual(found["Water depth"].split()[0], "20")
+        self.assertEqual(found["End where infeasible"].split()[0], "0.25")
+        for name in ("Level", "Permeability", "Drained outer side"):
+            self.assertNotIn(name, found)
+
+    def test_clay_and_sand(self, _: mock.Mock) -> None:
+        """Also sand that only lies below the skirt is drained from its far side."""
+        for texts in (
+            ("0: dense", "1: su = 60 kPa", "2: dense"),
+            ("0: su = 60 kPa", "9: dense"),
+        ):
+            found = self.scene(*texts)
+            self.assertEqual(found["Level"].split()[0], "seepage")
+            self.assertEqual(found["Drained outer side"].split()[0], "true")
+            self.assertNotIn("Suction control", found)
+        found = self.scene("0: dense")
+        self.assertEqual(found["Level"].split()[0], "seepage")
+        self.assertNotIn("Drained outer side", found)
+
+    def test_permeability(self, _: mock.Mock) -> None:
+        """That of clay is assumed, also where that of sand is given."""
+        soil = layers_in("--layer", "0: dense, k = 1e-3", "--layer", "1: su = 6 kPa")
+        found = suggest.with_permeability(soil)
+        self.assertEqual([x.value("Permeability") for x in found], ["1e-3", "1e-9"])
+        soil = layers_in("--layer", "0: dense, k = 1e-3", "--layer", "1: loose")
+        with self.assertRaisesRegex(SuggestError, "for all layers of sand, or for"):
+            suggest.with_permeability(soil)
+
+
 class Studies(unittest.TestCase):
     """Of the density."""
 
@@ -219,6 +270,25 @@ class Studies(unittest.TestCase):
         entry = f"Soil/Layer 1/{density_law.DENSITY}"
         self.assertEqual(choices["0.65"], {entry: 0.65})
         self.assertIn("relative density", content["title"])
+
+    def test_study_of_clay(self) -> None:
+        """Clay becomes stronger and stiffer, alone or in step with sand."""
+        clays = ["--layer", "0: su = 2 kPa + 1.5 kPa*z, E = 4 MPa"]
+        options = options_of(*clays, "--study", "study_of_test_sand.toml")
+        content = tomllib.loads(suggest.study_of(options, layers_in(*clays)))
+        choices = content["parameters"]["strength"]["choices"]
+        self.assertEqual(list(choices)[::2], ["0.7 su", "1 su", "1.3 su"])
+        self.assertEqual(
+            choices["0.7 su"],
+            {
+                "Soil/Layer 1/Cohesion": "0.7*(2000 + 1500*d)",
+                "Soil/Layer 1/Youngs modulus": "0.7*(4000000)",
+            },
+        )
+        both = [*clays, "--layer", "3: Dr = 85%"]
+        content = tomllib.loads(suggest.study_of(options, layers_in(*both)))
+        choices = content["parameters"]["relative density"]["choices"]
+        self.assertEqual(len(choices["0.65"]), 3)
 
 
 class Refusals(unittest.TestCase):

@@ -15,6 +15,7 @@ from synthetic import write_columns, write_run
 from caisson import evaluation, plot
 from caisson.plot import design, suction, theory
 from caisson.plot import suction_methods as methods
+from caisson.report import installation as report
 from caisson.results import Results
 from caisson.design import seepage, senders_randolph
 from caisson.design import suction_installation as installation
@@ -244,6 +245,32 @@ class MadeUpRun(unittest.TestCase):
         answers = methods.answers_of(site, np.array([1.0, 6.0]))
         self.assertEqual(answers.rest, {})
         self.assertIn("suffices down to 6 m", suction.caption(answers, site))
+
+    def test_clay(self) -> None:
+        """The weight of 1 MN rests where the walls and the tip bear it; below, suction
+        bears what is more, up to what the plug bears."""
+        layer = {**SAND, "friction_angle_deg": 0, "cohesion_Pa": 40e3}
+        layer["wall_adhesion_Pa"] = 20e3
+        run = self.write(synthetic(), layers=[layer])
+        lines = self.drawn(theory.site_of(run))
+        for name in ("required, Strength of clay", "plug fails (reverse bearing)"):
+            self.assertIn(name, lines)
+        design.write(self.path / "design.csv", run)
+        row = self.design()[25]  # 3 m
+        tip = np.pi * 5.9 * 0.1 * (3 * GAMMA + 7.5 * 40e3)
+        force, area = tip + 3 * 20e3 * np.pi * 11.8, np.pi * 5.8**2 / 4
+        self.assertAlmostEqual(float(row["clay_strip_Pa"]) * area / (force - WEIGHT), 1)
+        plug = 6.6 * 40e3 + 3 * 20e3 * 4 / 5.8
+        self.assertAlmostEqual(float(row["plug_reverse_bearing_Pa"]) / plug, 1)
+        answers = methods.answers_of(theory.site_of(run), np.array([3.0]))
+        rest = answers.rest["strip"]
+        tip = np.pi * 5.9 * 0.1 * (rest * GAMMA + 7.5 * 40e3)
+        self.assertAlmostEqual((tip + rest * 20e3 * np.pi * 11.8) / WEIGHT, 1, 3)
+        self.assertIn("area inside", suction.caption(answers, SITE))
+        for name in ("exit_gradient_wall", "exit_gradient_axis", "critical_gradient"):
+            del run.history[name]
+        limits = report.limits_of(run, np.array([3.0]), np.array([300.0]))
+        self.assertEqual(list(limits), ["plug fails (reverse bearing)", report.BOILING])
 
     def test_drained_run(self) -> None:
         """It has forces in design.csv, and no suction. There is but one record within

@@ -33,6 +33,7 @@ class Sand(NamedTuple):
     lateral_stress_ratio: float  # K0
     density: float | None  # D_r, if it is known
     friction_angle: float  # degrees; where D_r is known the critical one
+    is_clay: bool = False  # of which no cone resistance is assumed: 0
 
 
 class SandGround:
@@ -69,6 +70,8 @@ class SandGround:
 
     def resistance_at(self, z: float) -> float:
         """Return q_c (Pa)."""
+        if self.layer_at(z).is_clay:
+            return 0.0
         return float(
             density.cone_resistance(self.density_at(z), self.mean_stress_at(z))
         )
@@ -112,9 +115,10 @@ class AssumedCone(Profile):
         layers = [x for x in self.ground.layers if x.top < deepest or x.top <= 0]
         by_layer = []
         for layer, found in zip(layers, self.densities(layers, deepest)):
-            if found:
+            if found and not layer.is_clay:
                 ends = dict.fromkeys(f"{100 * x:.0f}" for x in (min(found), max(found)))
                 by_layer.append(f"{' to '.join(ends)} % from {max(layer.top, 0):g} m")
+        layers = [x for x in layers if not x.is_clay]
         from_angle = [x for x in layers if x.density is None]
         source = "from the friction angle by Bolton (1986)"
         if not from_angle:

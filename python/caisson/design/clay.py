@@ -28,13 +28,18 @@ N_C = dict(zip(CASES, (7.5, 9.0)))
 
 
 class Layer(NamedTuple):
-    """Clay down to the top of the next layer."""
+    """Clay down to the top of the next layer; of sand strength and adhesion are 0."""
 
     top: float  # m below the mudline
     unit_weight: float  # effective, N/m3
     strength: float  # s_u, Pa
     inner_adhesion: float  # Pa
     outer_adhesion: float
+
+
+def tip_layer(layers: Sequence[Layer], h: float) -> int:
+    """Clay down to the top of the next layer; sand has no strength and adhesion."""
+    return max([i for i, layer in enumerate(layers) if layer.top < h], default=0)
 
 
 class Clay:
@@ -50,15 +55,13 @@ class Clay:
     def forces(self, h: float, case: str) -> Forces:
         """Return the forces at an embedment."""
         bottoms = [layer.top for layer in self.layers[1:]] + [inf]
-        stress = inner = outer = strength = 0.0
+        stress = inner = outer = 0.0
         for layer, bottom in zip(self.layers, bottoms):
-            thickness = min(bottom, h) - layer.top
-            if thickness < 0 or (thickness == 0 and layer.top > 0):
-                break
+            thickness = max(min(bottom, h) - layer.top, 0.0)
             stress += layer.unit_weight * thickness
             inner += layer.inner_adhesion * thickness
             outer += layer.outer_adhesion * thickness
-            strength = layer.strength
+        strength = self.layers[tip_layer(self.layers, h)].strength
         return Forces(
             self.skirt.tip_area * (stress + N_C[case] * strength),
             pi * self.skirt.inner_diameter * inner,

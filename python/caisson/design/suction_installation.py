@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Installation of a caisson by suction in layers of sand: how much suction it takes.
+"""Installation of a caisson by suction: how much suction it takes, in layers of sand.
 
 Under its effective weight V' the caisson comes to rest where its resistance is V'.
 From there on, suction s beneath the lid pulls it down:
@@ -22,11 +22,14 @@ Houlsby and Byrne's limit is then reached, on the safe side, when the lightest l
 down to the tip has no weight left inside. The pressure of the water on the end of
 the wall is left out.
 
+Through clay hardly any water flows, so that suction leaves the forces as they are.
+
 SI units; h is the embedment of the tip (m), forces are N, suctions are Pa.
 """
 from collections.abc import Callable
 from math import inf, nan, pi
 
+import numpy as np
 from scipy.optimize import brentq
 
 from caisson.design.houlsby_byrne import Caisson, Seepage
@@ -45,6 +48,26 @@ def bisect(is_beyond: Callable[[float], bool], low: float, high: float) -> float
 def plug_area(caisson: Caisson) -> float:
     """Return the area that suction acts on (m2)."""
     return pi * caisson.inner.diameter**2 / 4
+
+
+def suction_without_flow(
+    resistance: np.ndarray, weight: float, area: float
+) -> np.ndarray:
+    """Return the suction that bears what the weight does not, [n] (Pa), where no water
+    flows: (R - V') / A_i, at least 0. resistance: [n] (N)."""
+    return np.maximum(resistance - weight, 0.0) / area
+
+
+def rest_without_flow(
+    depth: np.ndarray, resistance: np.ndarray, weight: float
+) -> float:
+    """Return the embedment at which a resistance [n] at depths [n] first bears the
+    weight; nan where it does not."""
+    stands = np.flatnonzero(resistance >= weight)
+    if not len(stands):
+        return nan
+    ends = slice(max(int(stands[0]) - 1, 0), int(stands[0]) + 1)
+    return float(np.interp(weight, resistance[ends], depth[ends]))
 
 
 def self_weight_penetration(

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from caisson import curves
+from caisson.design import plug_stability
 from caisson.plot import suction_methods, theory
 from caisson.results import Results, Table
 from caisson.table import write_columns
@@ -14,6 +15,10 @@ from caisson.table import write_columns
 INTERVAL = 0.1  # m, between the rows
 FORCES = ("tip_force_N", "inner_friction_N", "outer_friction_N", "total_force_N")
 SUCTION = "required_suction_Pa"
+PLUG = {
+    plug_stability.REVERSE_BEARING: "plug_reverse_bearing_Pa",
+    plug_stability.LIFT: "plug_lift_Pa",
+}
 
 
 def goes_down(history: Table) -> bool:
@@ -79,6 +84,11 @@ def columns_of(run: Results) -> Table:
         for name in suction_methods.METHODS:
             head = name.replace("_cone", "_assumed_cone") if found.assumed else name
             columns[head] = found.suctions.get(name, nothing)
+        if found.in_clay:
+            head = "clay_assumed_cone" if found.assumed else "clay"
+            cases = found.in_clay.cases.items()
+            columns |= {f"{head}_{case}_Pa": values for case, values in cases}
+        columns |= {PLUG[name]: values for name, values in found.plug.items()}
     return columns
 
 

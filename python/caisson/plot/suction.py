@@ -22,6 +22,7 @@ BLUE, GREEN, RED = (
 COLOR_OF = {methods.HOULSBY_BYRNE: BLUE}  # of a required suction; others are green
 # column of design.csv: label and line of a critical suction; a required one is a band
 CRITICAL_COLOR = "#b35806"
+PLUG_COLOR = "#542788"
 CRITICAL = {
     methods.PIPING: ("Houlsby & Byrne (2005)", "-"),
     methods.CRITICAL_SENDERS_RANDOLPH: ("Senders & Randolph (2009)", "--"),
@@ -65,8 +66,11 @@ def draw_required(axes: Axes, answers: methods.Answers) -> None:
 
 def draw_critical(axes: Axes, answers: methods.Answers) -> None:
     """Draw the critical suctions as thin lines of one color, in kPa."""
+    for (name, limit), dashes in zip(answers.plug.items(), ("-", "--")):
+        color, x = PLUG_COLOR, limit / 1e3
+        axes.plot(x, answers.depth, dashes, color=color, linewidth=0.9, label=name)
     for column, (name, line) in CRITICAL.items():
-        if not has_line(answers.suctions[column]):
+        if not has_line(answers.suctions.get(column, np.empty(0))):
             continue
         axes.plot(
             answers.suctions[column] / 1e3,
@@ -80,7 +84,7 @@ def draw_critical(axes: Axes, answers: methods.Answers) -> None:
 
 def draw_rest(axes: Axes, history: Table, answers: methods.Answers) -> None:
     """Mark the penetrations by weight alone at zero suction."""
-    marks = [(h, BLUE, "Houlsby & Byrne") for h in answers.rest.values()]
+    marks = [(h, BLUE, answers.rest_by) for h in answers.rest.values()]
     computed = rest_of_run(history)
     if computed is not None:
         marks.append((computed, "black", "computed"))
@@ -139,10 +143,11 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
     band = error_band(run.error_bounds, "required_suction", "Pa")
     draw_error_bar(axes, band, 1e-3, "black", ERROR_BAR)
     lines = [applied]
-    if answers.suctions:
-        draw_required(axes, answers)
-        draw_critical(axes, answers)
-        lines += [s / 1e3 for s in answers.suctions.values() if has_line(s)]
+    draw_required(axes, answers)
+    draw_critical(axes, answers)
+    known = [*answers.suctions.values(), *answers.plug.values()]
+    known += [s for method in answers.required for s in method.cases.values()]
+    lines += [s / 1e3 for s in known if has_line(s)]
     most = max(np.nanmax(line, initial=1e-3) for line in lines)
     axes.set_xlim(-0.02 * most, 1.08 * most)
     draw_limits(axes, run)
@@ -201,7 +206,7 @@ def ends_early(answers: methods.Answers, names: list[str], site: theory.Site) ->
 def caption(answers: methods.Answers, site: theory.Site) -> str:
     """Return what the lines of the methods mean, or why there are none."""
     if not answers.suctions:
-        return f"no design methods: {answers.why_not}"
+        return answers.words or f"no design methods: {answers.why_not}"
     required, lines = list(methods.CASES), []
     if has_line(*[from_rest_on(answers.suctions[name]) for name in required]):
         words = theory.assumptions_in_words(site.scene)

@@ -1,21 +1,28 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the design methods say about the suction of a run, over depth.
 
-In layers, fits of a critical suction take the mean unit weight down to the tip.
+In layers of sand, fits of a critical suction take the mean unit weight down to the tip.
+In clay, and in sand and clay, the required suction is what the weight does not bear of
+the forces of jacking: flow takes nothing from sand there, although it does in sand
+above the first clay.
 """
 from dataclasses import dataclass, field
-from math import nan
+from math import nan, pi
 
 import numpy as np
 
 from caisson.plot.theory import (
     ASSUMED_CONE,
+    OF_CLAY,
     Beside,
     NotApplicable,
     Scene,
     Site,
+    answer_of,
     houlsby_byrne_of,
+    plug_limits,
     senders_randolph_of,
+    skirt_of,
 )
 from caisson.design import suction_installation as installation
 from caisson.design.cone import ConeMethod
@@ -23,6 +30,7 @@ from caisson.design.houlsby_byrne import UNDISTURBED, Caisson, HoulsbyByrne
 from caisson.design.method import Method
 from caisson.design.seepage import feld, ibsen_thilsted
 
+WEIGHT = "submerged_weight_N"  # of run.json
 HOULSBY_BYRNE = "Houlsby & Byrne (2005)"
 SENDERS_RANDOLPH = "Senders & Randolph (2009)"
 LOW, HIGH = "houlsby_byrne_low_Pa", "houlsby_byrne_high_Pa"
@@ -51,6 +59,8 @@ class Answers:
     suctions: [n] (Pa) at embedments depth [n] (m) by column of design.csv, nan
     where a method has no answer; rest: the penetration (m) by the weight alone,
     by column, where the weight comes to rest; neither of them, and why not.
+    in_clay: the required suctions of ground with clay, and with rest those of its
+    method, rest_by; plug: at which suctions (Pa) a plug of clay gives way, [n].
     """
 
     depth: np.ndarray
@@ -58,6 +68,9 @@ class Answers:
     rest: dict[str, float] = field(default_factory=dict)
     why_not: str = ""
     assumed: str = ""  # of the cone resistance: what it rests on
+    in_clay: Beside | None = None
+    rest_by: str = "Houlsby & Byrne"
+    plug: dict[str, np.ndarray] = field(default_factory=dict)
 
     @property
     def senders_randolph(self) -> str:
@@ -65,11 +78,22 @@ class Answers:
         return SENDERS_RANDOLPH + (ASSUMED_CONE if self.assumed else "")
 
     @property
+    def words(self) -> str:
+        """Return what the lines in ground with clay are."""
+        if self.in_clay is None:
+            return ""
+        low, high = self.in_clay.cases
+        return (
+            f"{self.in_clay.name}: (jacking force - weight) / area inside,"
+            f" {low} dashed, {high} dotted; the limits of a plug have no safety factor"
+        )
+
+    @property
     def required(self) -> list[Beside]:
         """The required suctions of the methods that have any."""
         found = self.suctions
         if not found:
-            return []
+            return [self.in_clay] if self.in_clay else []
         byrne = {case: found[column] for column, case in CASES.items()}
         bound = {UNDISTURBED: byrne.pop(UNDISTURBED)}
         cone = {"low": found[CONE_LOW], "high": found[CONE_HIGH]}
@@ -83,9 +107,9 @@ class Answers:
 
 def weight_of(scene: Scene) -> float:
     """Return the submerged weight of the caisson in N. Raises NotApplicable."""
-    if scene.get("submerged_weight_N") is None:
-        raise NotApplicable("run.json has no submerged_weight_N")
-    return float(scene["submerged_weight_N"])
+    if scene.get(WEIGHT) is None:
+        raise NotApplicable(f"run.json has no {WEIGHT}")
+    return float(scene[WEIGHT])
 
 
 def by_cone(
@@ -147,13 +171,40 @@ def cone_method_of(site: Site, deepest: float) -> ConeMethod | None:
         return None
 
 
+def in_clay(site: Site, depth: np.ndarray, why_not: str) -> Answers:
+    """Return what the method of clay says at embedments [n]. why_not: of the others."""
+    answer, plug = answer_of(OF_CLAY, site, depth), plug_limits(site, depth)
+    if not answer.forces or site.scene.get(WEIGHT) is None:
+        return Answers(depth, why_not=why_not, plug=plug)
+    weight = weight_of(site.scene)
+    area = pi / 4 * skirt_of(site).inner_diameter ** 2
+    needed = {
+        case: installation.suction_without_flow(total, weight, area)
+        for case, total in answer.total.cases.items()
+    }
+    fine = np.linspace(0, float(depth.max()), 200)
+    rests = {
+        case: installation.rest_without_flow(fine, total, weight)
+        for case, total in answer_of(OF_CLAY, site, fine).total.cases.items()
+    }
+    return Answers(
+        depth,
+        rest={case: h for case, h in rests.items() if np.isfinite(h)},
+        why_not=why_not,
+        assumed=answer.assumed,
+        in_clay=Beside(answer.name, needed),
+        rest_by=answer.method.name,
+        plug=plug,
+    )
+
+
 def answers_of(site: Site, depth: np.ndarray) -> Answers:
     """Return what the methods say at embedments [n]."""
     deepest = float(depth.max())
     try:
         byrne, weight = houlsby_byrne_of(site, deepest), weight_of(site.scene)
     except NotApplicable as reason:
-        return Answers(depth, why_not=str(reason))
+        return in_clay(site, depth, str(reason))
     cone = cone_method_of(site, deepest)
     rows = [suctions_at(byrne, cone, weight, float(h)) for h in depth]
     suctions = {name: np.array([row[name] for row in rows]) for name in METHODS}

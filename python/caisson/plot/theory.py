@@ -13,7 +13,8 @@ import numpy as np
 
 from caisson.density_law import BY_DENSITY
 from caisson.results import Results, ResultsError
-from caisson.design import andersen, assumed, clay, dnv, houlsby_byrne, senders_randolph
+from caisson.design import andersen, assumed, clay, dnv, houlsby_byrne, layered
+from caisson.design import plug_stability, senders_randolph
 from caisson.design.assumed_cone import STEP, Sand, SandGround, assumed_cone
 from caisson.design.cone import ConeMethod, Profile, Skirt, of_run
 from caisson.design.houlsby_byrne import (
@@ -32,6 +33,7 @@ ANISOTROPIC = "NGI-ADP"  # cohesion_Pa is its strength in direct simple shear
 SIZES = ("diameter_m", "wall_thickness_m")
 PARTS = ("tip", "inner friction", "outer friction", "total")
 ASSUMED_CONE = " (cone ASSUMED)"  # behind the name of a method
+IN_SAND = ", DNV in sand"
 # in pictures, of Houlsby & Byrne with K0 tan(delta) and without enhancement
 LOWER_BOUND = "undisturbed ground (K0), a lower bound"
 
@@ -211,23 +213,28 @@ def only(site: Site, deepest: float, soil: str) -> None:
 CONE_NEEDED = "a cone test is needed (--cpt FILE)"
 
 
-def cone_of(site: Site, deepest: float) -> Profile:
+def cone_of(site: Site, deepest: float, with_clay: bool = False) -> Profile:
     """Return the cone test or, without one, what is assumed for sand down to a depth
-    (m). Raises NotApplicable."""
+    (m). with_clay: none is needed there. Raises NotApplicable."""
     if site.cone is not None:
         return site.cone
-    for (number, _), (_, soil) in zip(site.layers(deepest), soils_of(site, deepest)):
-        if soil != "sand":
-            raise NotApplicable(
-                f"{CONE_NEEDED}; none is assumed for layer {number}, which is {soil}"
-            )
+    sands = list[Sand]()
     try:
-        sands = tuple(sand_of(entry, i) for i, entry in site.layers(deepest))
+        for (i, entry), (top, soil) in zip(
+            site.layers(deepest), soils_of(site, deepest)
+        ):
+            if soil == "sand":
+                sands.append(sand_of(entry, i))
+            elif with_clay:
+                weight = float(entry["submerged_unit_weight_N_m3"])
+                sands.append(Sand(top, weight, 0.5, 0.0, 0.0, is_clay=True))
+            else:
+                raise NotApplicable(f"layer {i} is {soil}")
     except ResultsError as error:  # run.json lacks something
         raise NotApplicable(str(error)) from error
     except NotApplicable as reason:
         raise NotApplicable(f"{CONE_NEEDED}; none is assumed: {reason}") from reason
-    return assumed_cone(sands, deepest)
+    return assumed_cone(tuple(sands), deepest)
 
 
 def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
@@ -268,20 +275,45 @@ def andersen_of(site: Site, deepest: float) -> Method:
     return andersen.method(skirt, cone_of(site, deepest))
 
 
+def clay_layers_of(site: Site, deepest: float) -> list[clay.Layer]:
+    """Return the layers of clay and sand down to a depth (m). Raises NotApplicable."""
+    found = []
+    for (_, entry), (top, soil) in zip(site.layers(deepest), soils_of(site, deepest)):
+        weight = float(entry["submerged_unit_weight_N_m3"])
+        numbers = [0.0] * 3
+        if soil == "clay":
+            walls = [adhesion(site.scene, entry, side) for side in ("inner", "outer")]
+            numbers = [float(entry["cohesion_Pa"]), *walls]
+        found.append(clay.Layer(top, weight, *numbers))
+    return found
+
+
 def clay_of(site: Site, deepest: float) -> Method:
-    """Return the method of clay for a site. Raises NotApplicable."""
-    skirt = skirt_of(site)
-    only(site, deepest, "clay")
-    layers = [
-        clay.Layer(
-            top_of(entry),
-            float(entry["submerged_unit_weight_N_m3"]),
-            float(entry["cohesion_Pa"]),
-            *(adhesion(site.scene, entry, side) for side in ("inner", "outer")),
-        )
-        for _, entry in site.layers(deepest)
-    ]
-    return clay.Clay(skirt, layers)
+    """Return the method of clay for a site, in which there may be sand, too. Raises
+    NotApplicable."""
+    skirt, soils = skirt_of(site), {soil for _, soil in soils_of(site, deepest)}
+    if "clay" not in soils:
+        only(site, deepest, "clay")
+    found = clay.Clay(skirt, clay_layers_of(site, deepest))
+    if soils == {"clay"}:
+        return found
+    return layered.Layered(found, cone_of(site, deepest, with_clay=True))
+
+
+def plug_limits(site: Site, depth: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the suctions (Pa) at which a plug of clay gives way, [n] at embedments
+    [n]; none without clay."""
+    try:
+        skirt, deepest = skirt_of(site), float(depth.max())
+        soils_of(site, deepest)
+    except NotApplicable:
+        return {}
+    tops = [top_of(entry) for _, entry in site.layers(np.inf)]
+    for end in [np.inf, *sorted(filter(deepest.__lt__, tops), reverse=True), deepest]:
+        with suppress(NotApplicable):  # what soil is far below the tip may be unknown
+            layers = clay_layers_of(site, end)
+            return plug_stability.allowable(skirt, layers, depth)
+    return {}
 
 
 def adhesion(scene: Scene, entry: Scene, side: str) -> float:
@@ -328,6 +360,7 @@ METHODS = (
     ),
     Description("Strength of clay", "clay", "#666666", clay.CASES, clay_of),
 )
+OF_CLAY = METHODS[-1]
 
 
 @dataclass(frozen=True)
@@ -364,11 +397,12 @@ class Answer:
     forces: dict[str, dict[str, np.ndarray]] = field(default_factory=dict)
     why_not: str = ""
     assumed: str = ""  # of a cone resistance: what it rests on
+    in_sand: str = ""  # behind the name of a method of clay: what sand beside it has
 
     @property
     def name(self) -> str:
         """The name of the method, marked where its cone resistance is assumed."""
-        return self.method.name + (ASSUMED_CONE if self.assumed else "")
+        return self.method.name + self.in_sand + (ASSUMED_CONE if self.assumed else "")
 
     @property
     def total(self) -> Beside:
@@ -410,22 +444,25 @@ def by_part(rows: list[Forces]) -> dict[str, np.ndarray]:
     return {part: np.array(column) for part, column in zip(PARTS, columns)}
 
 
+def answer_of(method: Description, site: Site, depth: np.ndarray) -> Answer:
+    """Return what a method says at embedments [n] (m)."""
+    try:
+        known = method.of_site(site, float(depth.max()))
+    except NotApplicable as reason:
+        return Answer(method, depth, why_not=str(reason))
+    forces = {
+        case: by_part([known.forces(float(h), case) for h in depth])
+        for case in method.all_cases
+    }
+    in_sand = IN_SAND if isinstance(known, layered.Layered) else ""
+    by_cone = ConeMethod, layered.Layered
+    assumed = known.profile.assumed if isinstance(known, by_cone) else ""
+    return Answer(method, depth, forces, assumed=assumed, in_sand=in_sand)
+
+
 def answers_of(site: Site, depth: np.ndarray) -> list[Answer]:
     """Return what each method says at embedments [n] (m)."""
-    found = []
-    for method in METHODS:
-        try:
-            known = method.of_site(site, float(depth.max()))
-        except NotApplicable as reason:
-            found.append(Answer(method, depth, why_not=str(reason)))
-            continue
-        forces = {
-            case: by_part([known.forces(float(h), case) for h in depth])
-            for case in method.all_cases
-        }
-        assumed = known.profile.assumed if isinstance(known, ConeMethod) else ""
-        found.append(Answer(method, depth, forces, assumed=assumed))
-    return found
+    return [answer_of(method, site, depth) for method in METHODS]
 
 
 def answers_to(site: Site, deepest: float) -> list[Answer]:

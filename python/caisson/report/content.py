@@ -19,7 +19,7 @@ from caisson.plot.forces import (
     remark_on,
     smooth,
 )
-from caisson.plot.suction import COLOR_OF, CRITICAL, GREEN, RED
+from caisson.plot.suction import COLOR_OF, CRITICAL, GREEN, PLUG_COLOR, RED
 from caisson.results import Results, Table
 from caisson.shown import Units, units_for
 from caisson.report.installation import (
@@ -123,8 +123,6 @@ def method_suctions(run: Results) -> list[Curve]:
     """Return the required and the critical suctions of the methods (kPa) over depth."""
     site, depth = theory.site_of(run), design.depths_of(run.history)
     answers = suction_methods.answers_of(site, depth)
-    if not answers.suctions:
-        return []
     found = []
     for method in answers.required:
         color = COLOR_OF.get(method.name, GREEN)
@@ -133,10 +131,12 @@ def method_suctions(run: Results) -> list[Curve]:
         for bound in method.bounds.values():
             label = f"required, {theory.LOWER_BOUND}"
             found.append(line(label, color, bound / 1e3, depth))
+    for name, limit in answers.plug.items():
+        found.append(line(name, PLUG_COLOR, limit / 1e3, depth))
     for color, (column, (name, _)) in zip(CRITICAL_COLORS, CRITICAL.items()):
-        found.append(
-            line(f"critical, {name}", color, answers.suctions[column] / 1e3, depth)
-        )
+        if column in answers.suctions:
+            critical = answers.suctions[column] / 1e3
+            found.append(line(f"critical, {name}", color, critical, depth))
     return found
 
 

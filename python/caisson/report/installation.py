@@ -3,8 +3,9 @@
 is allowed, and the pump.
 
 The allowable suction is the least of the suction at which the exit gradient that was
-computed becomes critical, of that at which Houlsby & Byrne (2005) expect piping, of
-the boiling of water below the lid, and of Water/Largest suction. No safety factor is
+computed becomes critical, of that at which Houlsby & Byrne (2005) expect piping or a
+plug of clay gives way (design/plug_stability), of the boiling of water below the lid,
+and of Water/Largest suction. No safety factor is
 in it. The pump moves the water that the lid displaces at a stated rate of penetration
 and that which seeps through the plug; a run is usually far faster than a caisson.
 """
@@ -152,10 +153,13 @@ def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
 
 def limits_of(run: Results, at: np.ndarray, boiling: np.ndarray) -> dict[str, Any]:
     """Return the limits of the suction (kPa) at depths [n]."""
-    limits = {COMPUTED: critical_by_gradient(run, at)}
+    limits = {}
+    if "critical_gradient" in run.history:
+        limits[COMPUTED] = critical_by_gradient(run, at)
     answers = suction_methods.answers_of(theory.site_of(run), at)
     if answers.suctions:
         limits[PIPING] = answers.suctions[suction_methods.PIPING] / 1e3
+    limits |= {name: values / 1e3 for name, values in answers.plug.items()}
     limits[BOILING] = boiling
     pump = pump_limit(run)
     if pump is not None:

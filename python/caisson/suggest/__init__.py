@@ -25,9 +25,9 @@ import os
 import re
 import tempfile
 from collections.abc import Sequence
-from math import inf, pi
+from math import inf
 from pathlib import Path
-
+from typing import Any
 
 from caisson import density_law
 from caisson.design import cone_texts
@@ -66,6 +66,7 @@ from caisson.shown import units_for
 HERE = Path(__file__).parent
 CHANGES = (-4, -2, 0, 2, 4)
 CHANGES_OF_DENSITY = (-0.2, -0.1, 0, 0.1, 0.2)
+FACTORS_OF_STRENGTH = (0.7, 0.85, 1, 1.15, 1.3)  # and of the stiffness of clay
 VELOCITY = 0.1  # m/s
 RAMP_SHARE = 0.05  # of the way, at most, until the velocity is reached
 LEAST_RECORDS = 100
@@ -194,28 +195,27 @@ def check(options: argparse.Namespace) -> None:
         raise SuggestError(f"--study {options.study}: its name must end with .toml")
 
 
-def refuse_clay(layers: Sequence[Layer], area: float) -> None:
-    """Refuse clay that the skirt reaches under suction. area: inside the skirt (m2).
-    Raises SuggestError."""
+def refuse_quick_clay(layers: Sequence[Layer]) -> None:
+    """Refuse clay with the strength of a quick test where water flows: it would flow
+    through it as through sand. Raises SuggestError."""
     for i, layer in enumerate(layers, 1):
-        if is_clay(layer) or is_quick_clay(layer):
-            what = "undrained clay"
-            if not is_clay(layer):
-                angle = angle_of(layer)
-                what += f" (phi = {angle} beside a cohesion is no drained strength)"
+        if is_quick_clay(layer):
             raise SuggestError(
-                f"layer {i} is {what}, and with --weight water would seep through it"
-                " as through sand: leave out --weight, and take the suction from the"
-                f" jacked force, (force - weight) / {area:.3g} m2"
+                f"layer {i}: phi = {angle_of(layer)} beside a cohesion is no drained"
+                " strength, and with --weight water would flow through it as through"
+                f" sand. Give undrained clay as su = {layer.value('Cohesion')} Pa"
             )
 
 
 def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
     """Return the layers with a permeability, which follows the density in sand by
-    density. Raises SuggestError where only some have one."""
-    have = [bool(layer.value("Permeability")) for layer in layers]
-    if any(have) and not all(have):
-        raise SuggestError("give Permeability (m/s) for all layers, or for none")
+    density. Raises SuggestError where only some layers of sand have one."""
+    tight = [is_clay(x) or x.value("Law") == CAM_CLAY for x in layers]
+    sands = [bool(x.value("Permeability")) for x, t in zip(layers, tight) if not t]
+    if any(sands) and not all(sands):
+        raise SuggestError(
+            "give Permeability (m/s) for all layers of sand, or for none of them"
+        )
     assumed = {
         False: Entry("Permeability", "1e-4", " # ASSUMED: sand; scales the flow"),
         True: Entry("Permeability", "1e-9", " # ASSUMED: clay; hardly any flow"),
@@ -223,13 +223,33 @@ def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
     name = "Permeability by void ratio"
     follows = Entry(name, "true", " # ASSUMED: a loosened plug conducts more")
     found = []
-    for layer in layers:
-        is_fine = is_clay(layer) or layer.value("Law") == CAM_CLAY
-        added = [] if all(have) else [assumed[is_fine]]
+    for layer, is_tight in zip(layers, tight):
+        added = [] if layer.value("Permeability") else [assumed[is_tight]]
         if is_by_density(layer) and not layer.value(name):
             added.append(follows)
         found.append(Layer(layer.top, [*layer.entries, *added]))
     return found
+
+
+def flow_of(
+    options: argparse.Namespace, layers: Sequence[Layer], soil: Sequence[Layer]
+) -> dict[str, Any]:
+    """Return what the template takes of weight and water. Where all of the soil is
+    undrained clay no water flows. soil: the layers with all of their entries."""
+    if not options.weight:
+        return {"weight": None, "layers": soil}
+    clays = list(map(is_clay, layers))
+    if not all(clays):
+        refuse_quick_clay(reached(options, layers))
+        soil = with_permeability(soil)
+    return {
+        "weight": options.weight,
+        "water_depth": options.water_depth,
+        "flows": not all(clays),
+        "has_clay": any(clays),
+        "ends_early": knows_infeasible(),
+        "layers": soil,
+    }
 
 
 def begin_of(options: argparse.Namespace) -> float:
@@ -286,32 +306,48 @@ def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
 
 def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
     """Return the text of a study with five friction angles or, of sand by its density,
-    relative densities of each layer. Raises SuggestError where a layer has none."""
-    by_density = all(map(is_by_density, layers))
-    follows = options.wall_friction is None and not by_density
+    relative densities of each layer; clay becomes stronger in step. Raises SuggestError
+    where a layer has neither."""
+    sands = [layer for layer in layers if not clay.is_undrained(layer)]
+    by_density = bool(sands) and all(map(is_by_density, sands))
+    quantity = "relative density" if by_density else "friction angle"
+    changes = CHANGES_OF_DENSITY if by_density else CHANGES
+    follows = options.wall_friction is None and len(sands) == len(layers)
+    follows = follows and not by_density
     choices = {}
-    for change in CHANGES_OF_DENSITY if by_density else CHANGES:
-        change_of = density_after if by_density else angle_after
-        numbers = [change_of(layer, change) for layer in layers]
-        entries = {
-            f"Soil/Layer {i}/{density_law.DENSITY if by_density else angle_entry(x)}": n
-            for i, (x, n) in enumerate(zip(layers, numbers), 1)
-        }
-        name = ", ".join(f"{number:g}" for number in numbers)
+    for change, factor in zip(changes, FACTORS_OF_STRENGTH):
+        entries, numbers = dict[str, float | str](), list[float]()
+        for i, layer in enumerate(layers, 1):
+            if clay.is_undrained(layer):
+                entries |= strength_after(f"Soil/Layer {i}", layer, factor)
+                continue
+            change_of = density_after if by_density else angle_after
+            name = density_law.DENSITY if by_density else angle_entry(layer)
+            numbers.append(change_of(layer, change))
+            entries[f"Soil/Layer {i}/{name}"] = numbers[-1]
         if follows:
             least = min(numbers[: len(reached(options, layers))])
             wall = float(f"{2 / 3 * least:.3g}")
             for side in ("outer", "inner"):
                 entries[f"Rigid body/Friction angle of the {side} wall"] = wall
-        choices[name] = entries
-    scene = os.path.relpath(options.file, options.study.parent)
+        words = [f"{number:g}" for number in numbers] or [f"{factor:g} su"]
+        choices[", ".join(words)] = entries
     return template(HERE / "study.toml.jinja").render(
-        scene=scene,
+        scene=os.path.relpath(options.file, options.study.parent),
         follows=follows,
         choices=choices,
-        by_density=by_density,
+        quantity=quantity if sands else "strength",
+        has_clay=len(sands) < len(layers),
         layers=len(layers),
     )
+
+
+def strength_after(head: str, layer: Layer, factor: float) -> dict[str, float | str]:
+    """Return the entries of clay with a strength, and a stiffness, times a factor."""
+    return {
+        f"{head}/{name}": f"{factor:g}*({layer.value(name)})"
+        for name in ("Cohesion", "Youngs modulus")
+    }
 
 
 def angle_after(layer: Layer, change: float) -> float:
@@ -341,8 +377,6 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
     size = units_for(inf, inf, body.skirt)
     ramp = to_two_digits(min(0.5, RAMP_SHARE * (end - start) / VELOCITY))
     deep = reached(options, layers)
-    if options.weight:
-        refuse_clay(deep, area_inside(options))
     soil = with_walls(
         clay.with_states(layers, end, -mesh.bottom), options.wall_friction, deep
     )
@@ -359,15 +393,13 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         record=to_two_digits(min(0.1, (end - start) / VELOCITY / LEAST_RECORDS)),
         velocity=VELOCITY,
         wall_friction=wall_friction_of(options.wall_friction, deep),
-        layers=with_permeability(soil) if options.weight else soil,
         interfaces=len(deep) > 1,
         is_clay=all(map(is_clay, deep)),
         smooth_tip=all(map(is_clay, deep)) or options.wall_friction == 0,
         default_row=DEFAULT_ROW,
-        weight=options.weight,
-        water_depth=options.water_depth,
         directory=f"results/{options.file.stem}",
         frames=frames_of(start, end),
+        **flow_of(options, layers, soil),
     )
 
 
@@ -390,14 +422,15 @@ def entries_of_layers() -> dict[str, str]:
     return found
 
 
-def area_inside(options: argparse.Namespace) -> float:
-    """Return the area inside the skirt (m2)."""
-    return float(pi / 4 * (options.diameter - 2 * options.wall) ** 2)
+@functools.lru_cache
+def knows_infeasible() -> bool:
+    """Return whether the program can end a run where suction becomes infeasible.
+    Raises RunError."""
+    return "End where infeasible" in query(["--print-parameters"])
 
 
-def remarks_on(options: argparse.Namespace, layers: Sequence[Layer]) -> list[str]:
-    """Return what the scene leaves out: a part of the skirt, and the suction. layers:
-    those that the skirt reaches."""
+def remarks_on(options: argparse.Namespace) -> list[str]:
+    """Return what the scene leaves out: a part of the skirt, and the suction."""
     end, skirt, found = end_of(options), options.skirt, list[str]()
     if end < skirt - 1e-9:
         found.append(
@@ -405,12 +438,7 @@ def remarks_on(options: argparse.Namespace, layers: Sequence[Layer]) -> list[str
             f" --penetration {skirt:g} pushes all of it in, until the lid may press on"
             " the plug"
         )
-    if not options.weight and any(map(is_clay, layers)):
-        found.append(
-            "The caisson is jacked, without suction. In clay the suction is (force -"
-            f" weight) / {area_inside(options):.3g} m2, the area inside the skirt"
-        )
-    elif not options.weight:
+    if not options.weight:
         found.append(
             "Without --weight the caisson is jacked, without suction. For suction add"
             " --weight and --water-depth"
@@ -454,9 +482,7 @@ def write(options: argparse.Namespace) -> None:
         deepest = cone.REACH * options.skirt
         found = interpretation.interpret(options.cpt, options, deepest)
         print(cone_texts.text_of_test(found))
-        layers = cone.layers_of(
-            found, end_of(options), law_of(options), bool(options.weight)
-        )
+        layers = cone.layers_of(found, end_of(options), law_of(options))
         if warning := cone.end_of_test(found, end_of(options)):
             print(warning)
     else:
@@ -480,7 +506,7 @@ def write(options: argparse.Namespace) -> None:
     print(cost)
     assumed = texts[options.file].count(ASSUMPTION)
     print(f"assumed: {assumed} lines of {options.file} are marked ASSUMED: check them")
-    for remark in remarks_on(options, reached(options, layers)):
+    for remark in remarks_on(options):
         print(remark)
 
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What is assumed of undrained clay from its strength s_u.
 
-Youngs modulus is that of `caisson cpt`, a multiple of s_u. The rest follows from s_u
+Youngs modulus is that of `caisson cpt`, a multiple of s_u, and the walls have half of
+s_u, as clay of sensitivity 2 that the wall has remoulded. The rest follows from s_u
 and the vertical effective stress sigma'_v in the middle of the layer, as far as the
 skirt reaches into it:
 
@@ -36,6 +37,7 @@ from caisson.design.ground import (
 
 POISSON = "0.45"  # hardly any change of volume, as without drainage
 ADHESION_FACTOR = "0.5"
+MODULUS_REMARK = f"{ASSUMPTION}: {CLAY_RATIOS[1]:g} s_u (Duncan & Buchignani 1976)"
 NORMAL_RATIO, EXPONENT = 0.22, 0.8  # s_u/sigma'_v at OCR 1, and of OCR
 SINE = math.sin(math.radians(24))
 LIGHTEST = 15e3  # N/m3, of the wet clay
@@ -59,9 +61,7 @@ def modulus_of(strength: str) -> Entry:
         value = f"{ratio * float(strength):.10g}"
     except ValueError:
         value = f"{ratio:g}*({strength})"
-    return Entry(
-        "Youngs modulus", value, f"{ASSUMPTION}: {ratio:g} s_u, as caisson cpt"
-    )
+    return Entry("Youngs modulus", value, MODULUS_REMARK)
 
 
 def number_of(layer: Layer, name: str, depth: float) -> float | None:

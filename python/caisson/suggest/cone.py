@@ -24,9 +24,8 @@ from caisson.design.interpretation import Interpretation
 REACH = 1.5  # times the skirt: the test counts to this depth
 
 
-def refuse_silt(found: Interpretation, end: float, flows: bool) -> None:
-    """Refuse silt that the skirt reaches. flows: water flows through the ground, so
-    that none of it can be undrained. Raises SuggestError."""
+def refuse_silt(found: Interpretation, end: float) -> None:
+    """Refuse silt that the skirt reaches. Raises SuggestError."""
     silt = [
         number
         for number, e in enumerate(found.layers, 1)
@@ -42,11 +41,10 @@ def refuse_silt(found: Interpretation, end: float, flows: bool) -> None:
             " ".join(f"--soil {number}={kind}" for number in silt)
             for kind in (SAND, CLAY)
         )
-        undrained = f"{clay} if it does not" + (", without --weight" if flows else "")
         raise SuggestError(
             f"{found.name}: {'; '.join(where)}, is silt, of which a cone test does not"
             f" tell how far it drains while the skirt passes. Say it: {sand} if it"
-            f" drains, {undrained}"
+            f" drains, {clay} if it does not"
         )
 
 
@@ -142,7 +140,7 @@ def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
         Entry("Law", ASSUMED["Law"]),
         Entry("Friction angle", "0", f" # {e.layer.kind}, undrained"),
         Entry("Cohesion", number(e.values[STRENGTH].best), remark(found, e, STRENGTH)),
-        Entry("Youngs modulus", modulus, f"{ASSUMPTION}: a multiple of s_u"),
+        Entry("Youngs modulus", modulus, clay.MODULUS_REMARK),
         Entry("Poisson ratio", clay.POISSON, ASSUMPTION),
         Entry("K0", number(e.values[K0].best), " # FROM CPT"),
         Entry("Friction angle of the walls", "0"),
@@ -162,13 +160,10 @@ def entries_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
     ]
 
 
-def layers_of(
-    found: Interpretation, end: float, law: str, flows: bool = False
-) -> list[Layer]:
+def layers_of(found: Interpretation, end: float, law: str) -> list[Layer]:
     """Return the layers of a scene whose skirt ends at a depth (m). law: of sand, a
-    name of sand.LAWS or sand.ONE_ANGLE; flows: water flows through the ground. Raises
-    SuggestError."""
-    refuse_silt(found, end, flows)
+    name of sand.LAWS or sand.ONE_ANGLE. Raises SuggestError."""
+    refuse_silt(found, end)
     refuse_no_strength(found)
     return [Layer(e.layer.top, entries_of(found, e, law)) for e in found.layers]
 

@@ -10,7 +10,11 @@ from caisson.suggest.soil import CAM_CLAY, NGI_ADP
 
 LEAST_DRAINED = 10.0  # degrees
 FRICTION, ADHESION = "Friction angle of the walls", "Adhesion factor of the walls"
-ADHESION_OF_CLAY = Entry(ADHESION, clay.ADHESION_FACTOR, f"{ASSUMPTION}: remoulded")
+ADHESION_OF_CLAY = Entry(
+    ADHESION,
+    clay.ADHESION_FACTOR,
+    f"{ASSUMPTION}: sensitivity 2, remoulded (DNV-RP-E303)",
+)
 
 
 def is_by_density(layer: Layer) -> bool:

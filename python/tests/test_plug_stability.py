@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Clay under suction, against numbers worked out by hand: resistance, required suction,
+and the suction at which the plug gives way."""
+import unittest
+from math import inf, nan
+
+import numpy as np
+
+from caisson.design import suction_installation as installation
+from caisson.design.clay import Clay, Layer
+from caisson.design.cone import Skirt
+from caisson.design.plug_stability import (
+    LIFT,
+    REVERSE_BEARING,
+    allowable,
+    bearing_factor,
+)
+
+SKIRT = Skirt(6, 0.1, 0, 0)  # 4 / D_i = 0.689655 1/m
+# an anchor of 5 m in clay of 2 kPa + 1.5 kPa/m with an adhesion of half of it
+ANCHOR, DEEP = Skirt(5, 0.035, 0, 0), 14.1
+
+
+def growing() -> list[Layer]:
+    """Return the layers of the anchor, of 1 cm each."""
+    found = []
+    for i in range(1500):
+        strength = 2e3 + 1.5e3 * (i + 0.5) / 100
+        found.append(Layer(i / 100, 6e3, strength, strength / 2, strength / 2))
+    return found
+
+
+class Plug(unittest.TestCase):
+    """A caisson of 6 m with a wall of 0.1 m."""
+
+    def test_bearing_factor(self) -> None:
+        """6 (1 + 0.2 h / D), and 9 from two and a half diameters on."""
+        found = [bearing_factor(h, 6) for h in (0, 3, 15, 20)]
+        np.testing.assert_allclose(found, [6, 6.6, 9, 9])
+
+    def test_uniform_clay(self) -> None:
+        """20 kPa and an adhesion of 10 kPa: at 3 m 6.6 20 + 10 3 0.689655, at 15 m
+        9 20 + 10 15 0.689655. No sand is there to lift it."""
+        found = allowable(SKIRT, [Layer(0, 6e3, 20e3, 10e3, 10e3)], np.array([3, 15]))
+        self.assertEqual(list(found), [REVERSE_BEARING])
+        values = found[REVERSE_BEARING] / 1e3
+        np.testing.assert_allclose(values, [152.690, 283.448], rtol=1e-5)
+
+    def test_clay_between_sand(self) -> None:
+        """At 2 m 6.4 40 + 20 0.689655 fail, and 10 + 14 kPa of weight, 20 0.689655 of
+        adhesion and 40 0.689655 of the clay below are lifted; from 3 m on, 24 kPa and
+        20 2 0.689655."""
+        sand, clay = (10e3, 0, 0, 0), (7e3, 40e3, 20e3, 20e3)
+        layers = [Layer(0, *sand), Layer(1, *clay), Layer(3, *sand)]
+        found = allowable(SKIRT, layers, np.array([0.5, 2, 3, 4]))
+        np.testing.assert_allclose(
+            found[REVERSE_BEARING] / 1e3, [nan, 269.793, 291.586, nan], rtol=1e-5
+        )
+        lifted = found[LIFT] / 1e3
+        np.testing.assert_allclose(lifted, [nan, 65.379, 51.586, 51.586], rtol=1e-4)
+
+    def test_the_last_clay_counts(self) -> None:
+        """Clay that does not reach down to sand, and sand that has none above it."""
+        sand, clay = (10e3, 0, 0, 0), (5e3, 8e3, 0, 0)
+        layers = [Layer(z, *(clay if z % 2 else sand)) for z in range(4)]
+        found = allowable(SKIRT, layers, np.array([0.5, 1.5, 2.5, 3.5]))
+        np.testing.assert_allclose(
+            found[LIFT] / 1e3, [nan, 15 + 8 * 0.5 * 0.689655, 15, nan], rtol=1e-5
+        )
+        self.assertEqual(allowable(SKIRT, layers[:1], np.array([1.0])), {})
+
+
+class Anchor(unittest.TestCase):
+    """At 14.1 m: s_u = 23.15 kPa, and 2 14.1 + 0.75 14.1^2 = 177.3075 kN/m over the
+    depth, of which half is the adhesion."""
+
+    def test_plug(self) -> None:
+        """9 23.15 + 88.654 4 / 4.93 = 208.35 + 71.93 kPa."""
+        found = allowable(ANCHOR, growing(), np.array([DEEP]))
+        self.assertAlmostEqual(found[REVERSE_BEARING][0] / 280.28e3, 1, delta=1e-3)
+
+    def test_required_suction(self) -> None:
+        """The tip has pi 4.965 0.035 = 0.545929 m2 and 6 14.1 + 7.5 23.15 kPa, 141.0
+        kN; the walls 88.654 pi 4.93 = 1373.1 and 88.654 pi 5 = 1392.6 kN. Of these
+        2906.6 kN the weight bears 700, and the suction the rest on 19.089 m2."""
+        forces = Clay(ANCHOR, growing()).forces(DEEP, "strip")
+        kilonewtons = np.array(forces) / 1e3
+        np.testing.assert_allclose(kilonewtons, [141.0, 1373.1, 1392.6], rtol=1e-3)
+        total = np.array([forces.total, 600e3])
+        suction = installation.suction_without_flow(total, 700e3, 19.089)
+        np.testing.assert_allclose(suction, [115.6e3, 0], rtol=1e-3)
+
+    def test_rest(self) -> None:
+        """Between the depths where the resistance is less than the weight and more."""
+        depth = np.array([0.0, 2, 4, 6])
+        force = np.array([1e5, 3e5, 5e5, 1e6])
+        for weight, rest in ((4e5, 3), (5e5, 4), (1e4, 0), (7.5e5, 5)):
+            found = installation.rest_without_flow(depth, force, weight)
+            self.assertAlmostEqual(found, rest)
+        self.assertTrue(np.isnan(installation.rest_without_flow(depth, force, inf)))
+
+
+if __name__ == "__main__":
+    unittest.main()
