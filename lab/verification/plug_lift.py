@@ -14,19 +14,20 @@ with su at the depth h of the tip, su_mean above it, the adhesion factor a and t
 diameter D inside. The wall counts with its full strength on the inside, and the outside
 of a rough wall is in Nc.
 
-**Weight does not matter.** The power of the weight on velocities without change of volume
-is that of the pressure of a fluid of the same weight on the surface, which is zero where
-the surface is level, inside and outside. Strength does not depend on the mean stress, nor
-does adhesion on the normal one.
+**Weight does not matter.** The power of the weight on velocities without change of
+volume is that of the pressure of a fluid of the same weight on the surface, which is
+zero where the surface is level, inside and outside. Strength does not depend on the
+mean stress, nor does adhesion on the normal one.
 
-**Suction by the flow of water** has the same limit. Water with any pressure p that is -s
-on the plug and zero outside pulls at the clay with -grad p. Where the volume does not
-change and nothing crosses the wall, the power of this on v is that of -p on the normal
-velocity of the surface, which is that of s on the plug. A program that computes the flow
-thus has to find the same load, if tension neither breaks the clay nor opens a gap.
+**Suction by the flow of water** has the same limit. Water with any pressure p that is
+-s on the plug and zero outside pulls at the clay with -grad p. Where the volume does
+not change and nothing crosses the wall, the power of this on v is that of -p on the
+normal velocity of the surface, which is that of s on the plug. A program that computes
+the flow thus has to find the same load, if tension neither breaks the clay nor opens a
+gap.
 
-Meshes are graded towards the tip and have n / 4, n / 2 and n cells inside, at the surface
-and at the wall. The order of the differences is between one and two.
+Meshes are graded towards the tip and have n / 4, n / 2 and n cells inside, at the
+surface and at the wall. The order of the differences is between one and two.
 """
 import argparse
 from dataclasses import dataclass
