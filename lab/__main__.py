@@ -18,6 +18,10 @@ GROUPS: Groups = {
             f"{REFERENCES}.tip_capacity",
             "compute what the tip of a wall bears between unequal surcharges",
         ),
+        "plug-lift": (
+            f"{REFERENCES}.plug_lift",
+            "compute the suction that lifts the plug of a caisson in clay",
+        ),
         "cavity-expansion": (
             f"{REFERENCES}.cavity_expansion",
             "compare an expanding cavity with its exact pressure",
