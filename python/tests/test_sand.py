@@ -7,7 +7,6 @@ import tempfile
 import tomllib
 import unittest
 from pathlib import Path
-from unittest import mock
 
 import numpy as np
 
@@ -215,7 +214,6 @@ class FromACone(unittest.TestCase):
                 self.assertTrue(low < best < high, entry)
 
 
-@mock.patch.object(suggest, "knows_infeasible", return_value=True)
 class UnderSuction(unittest.TestCase):
     """With --weight."""
 
@@ -224,7 +222,7 @@ class UnderSuction(unittest.TestCase):
         layers = [word for text in texts for word in ("--layer", text)]
         return scene_in("--weight", "100kN", "--water-depth", "20", *layers)
 
-    def test_all_clay(self, _: mock.Mock) -> None:
+    def test_all_clay(self) -> None:
         """No water flows through it, so that it needs no permeability."""
         found = self.scene("0: su = 2 kPa + 1.5 kPa*z", "2: su = 5 kPa")
         self.assertEqual(found["Suction control"].split()[0], "required")
@@ -233,7 +231,7 @@ class UnderSuction(unittest.TestCase):
         for name in ("Level", "Permeability", "Drained outer side"):
             self.assertNotIn(name, found)
 
-    def test_clay_and_sand(self, _: mock.Mock) -> None:
+    def test_clay_and_sand(self) -> None:
         """Also sand that only lies below the skirt is drained from its far side."""
         for texts in (
             ("0: dense", "1: su = 60 kPa", "2: dense"),
@@ -247,7 +245,7 @@ class UnderSuction(unittest.TestCase):
         self.assertEqual(found["Level"].split()[0], "seepage")
         self.assertNotIn("Drained outer side", found)
 
-    def test_permeability(self, _: mock.Mock) -> None:
+    def test_permeability(self) -> None:
         """That of clay is assumed, also where that of sand is given."""
         soil = layers_in("--layer", "0: dense, k = 1e-3", "--layer", "1: su = 6 kPa")
         found = suggest.with_permeability(soil)

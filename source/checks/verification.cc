@@ -32,10 +32,12 @@ namespace CaissonMPM
       std::string mode, name;
       CheckForm   form      = CheckForm::exact;
       bool        of_points = false;
-      std::string region;         // an expression, or empty
-      std::string exact, upper;   // expressions; upper: of between only
-      double      begin     = 0.; // of the records
-      double      end       = std::numeric_limits<double>::infinity();
+      std::string region;       // an expression, or empty
+      std::string exact, upper; // expressions; upper: of between only
+      double      begin = 0.;   // of the records
+      double      end   = std::numeric_limits<double>::infinity();
+      std::string until;          // a series, or empty
+      double      reached   = 0.; // its value where the records end
       double      tolerance = 0.;
     };
 
@@ -105,11 +107,17 @@ namespace CaissonMPM
               (word == "from" ? check.begin : check.end) =
                 parse_number(value, place, "time");
             }
+          else if (!check.of_points && word == "until")
+            {
+              in >> check.until >> value;
+              check_known(check.until, series, place, "series");
+              check.reached = parse_number(value, place, "value");
+            }
           else
             throw BadInput(place + "\"" + word +
                            "\" is not understood; only \"where REGION\" may "
-                           "follow a quantity, and only \"from T\" and \"to "
-                           "T\" a series.");
+                           "follow a quantity, and only \"from T\", \"to "
+                           "T\" and \"until SERIES VALUE\" a series.");
         }
       if (check.begin > check.end)
         throw BadInput(place + "from " + to_text(check.begin) + " to " +
@@ -212,6 +220,27 @@ namespace CaissonMPM
       return samples;
     }
 
+    /** End a series between the records where another one, @p limit, first
+     * reaches its value. */
+    void
+    cut(const Check &check, const std::vector<double> &limit, Series &series)
+    {
+      std::size_t end = 1;
+      while (end < limit.size() && limit[end] < check.reached)
+        ++end;
+      if (end >= limit.size())
+        report_nothing(check,
+                       "record with " + check.until + " = " +
+                         to_text(check.reached));
+      const double share =
+        (check.reached - limit[end - 1]) / (limit[end] - limit[end - 1]);
+      for (std::vector<double> *const v : {&series.time, &series.value})
+        {
+          v->resize(end + 1);
+          v->back() = (*v)[end - 1] + share * (v->back() - (*v)[end - 1]);
+        }
+    }
+
     SeriesSamples
     sample_records(const Check &check, const Records &records)
     {
@@ -220,6 +249,10 @@ namespace CaissonMPM
       const Expression  upper(check.upper, place);
       SeriesSamples     samples;
       samples.computed = records.series(check.name, check.begin, check.end);
+      if (!check.until.empty())
+        cut(check,
+            records.series(check.until, check.begin, check.end).value,
+            samples.computed);
       for (const double time : samples.computed.time)
         {
           samples.exact.push_back(exact(Point<2>(), time));
@@ -327,8 +360,9 @@ namespace CaissonMPM
       "the best fit c + exp(-g t)*(a*cos(w*t) + b*sin(w*t)), as drift series : "
       "tolerance (the largest change since the start over the largest value), "
       "or, for the last record, as below series : bound, above series : bound "
-      "or between series : lower : upper; from T and to T may follow the "
-      "series. Errors are relative except where the exact value is 0. " +
+      "or between series : lower : upper; from T, to T and until SERIES VALUE "
+      "(where this series first reaches the value) may follow the series. "
+      "Errors are relative except where the exact value is 0. " +
         point_quantities_text() +
         " The exact solution and the region are expressions in the initial "
         "coordinates r and z, the time t, and pi. Units: SI.",

@@ -62,8 +62,7 @@ namespace CaissonMPM
         ": the suction moves the body, and must be given. Set Water/Suction "
         "control = table or flow, or Rigid body/Motion = prescribed, for which "
         "the suction is a result.");
-    if (control == SuctionSettings::Control::flow && !motion.follows_loads() &&
-        motion.usual_velocity() != 0.)
+    if (control == SuctionSettings::Control::flow && !motion.follows_loads())
       throw BadInput(
         "Water/Suction control is flow, but Rigid body/Motion is " +
         motion.name() +

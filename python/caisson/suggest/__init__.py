@@ -247,7 +247,6 @@ def flow_of(
         "water_depth": options.water_depth,
         "flows": not all(clays),
         "has_clay": any(clays),
-        "ends_early": knows_infeasible(),
         "layers": soil,
     }
 
@@ -420,13 +419,6 @@ def entries_of_layers() -> dict[str, str]:
         else:
             remark += line.strip("#")
     return found
-
-
-@functools.lru_cache
-def knows_infeasible() -> bool:
-    """Return whether the program can end a run where suction becomes infeasible.
-    Raises RunError."""
-    return "End where infeasible" in query(["--print-parameters"])
 
 
 def remarks_on(options: argparse.Namespace) -> list[str]:
