@@ -82,7 +82,8 @@ def way_of(run: Results, rows: np.ndarray) -> Way:
     columns = {name: history[name][rows] for name in COLUMNS if name in history}
     depth = history[DEPTH][rows]
     if SUCTION in history:
-        columns[GRADIENT] = curves.gradient_share(history)[rows]
+        if "critical_gradient" in history:  # not in clay
+            columns[GRADIENT] = curves.gradient_share(history)[rows]
         if length := run.scene.get("skirt_length_m"):
             columns[ROOM] = float(length) - depth - columns[HEAVE]
     return Way(depth, columns)
@@ -93,12 +94,13 @@ def way_down(run: Results) -> Way:
     return way_of(run, curves.way_down(run.history[DEPTH])[1:])
 
 
-def at_depths(run: Results) -> Table:
-    """Return the numbers of the way down at each half meter and at the end, with the
-    bounds of those that have an error bar: columns [n]; empty without a way down."""
+def at_depths(run: Results, at: np.ndarray | None = None) -> Table:
+    """Return the numbers of the way down at depths (m), or at each half meter and at
+    the end, with the bounds of those that have an error bar: columns [n]; empty without
+    a way down."""
     if DEPTH not in run.history or len((way := way_down(run)).depth) < 2:
         return {}
-    at = depths_of(way.depth)
+    at = depths_of(way.depth) if at is None else at
     means = {name: way.mean(name, at) for name in way.columns}
     return {DEPTH: at, **means, **error_bounds.at_depths(run, at, means)}
 
@@ -136,7 +138,9 @@ def margins_of(run: Results, way: Way) -> dict[str, Any]:
         most, depth = way.largest(ratio)
         return {"least": 1 - most, DEPTH: depth}
 
-    found: dict[str, Any] = {"piping": margin(way.columns[GRADIENT])}
+    found: dict[str, Any] = {}
+    if GRADIENT in way.columns:
+        found["piping"] = margin(way.columns[GRADIENT])
     if (boils := way.columns.get(BOILING)) is not None:
         share = np.divide(required, boils, out=np.ones(len(boils)), where=boils > 0)
         found["boiling"] = margin(share)
@@ -288,24 +292,3 @@ def largest_pull(history: Table) -> dict[str, Any]:
 def capacity_in_words(pull: dict[str, Any]) -> str:
     """Return whether the largest pull is the capacity."""
     return "the capacity" if pull["is_capacity"] else NO_CAPACITY
-
-
-def lines_of(run: Results) -> list[str]:
-    """Return the largest force, the largest pull and the penetration by weight in
-    words."""
-    found, shown = results_of(run), run.shown
-    lines = []
-
-    def words(force: float, depth: float) -> str:
-        return f"{shown.words(force / 1e3, 'kN', '.4g')} at {shown.depth(depth)}"
-
-    if force := found.get("largest_force"):
-        (name, value), *_ = force.items()
-        water = ", with water," if name == curves.WITH_WATER else ""
-        lines.append(f"largest force{water} {words(value, force[DEPTH])}")
-    if pull := found.get("largest_pull"):
-        line = f"largest pull {words(pull['pull_N'], pull[DEPTH])}"
-        lines.append(f"{line}: {pull.get('mechanism') or capacity_in_words(pull)}")
-    if (rest := found.get("rest_penetration_m")) is not None:
-        lines.append(f"rests by weight at {shown.depth(rest)}")
-    return lines

@@ -193,11 +193,9 @@ class Report(WithPage):
         self.assertEqual(row["allowable (kPa)"], "20")
         self.assertEqual(row["governed by"], "pump")
         self.assertEqual(row["required / allowable"], "1.25")
-        self.assertEqual(row["margin to piping (%)"], "55.6")
         self.assertEqual(row["room below the lid (m)"], "0.8")
         page = report.write(self.path).read_text(encoding="utf-8")
-        self.assertIn("1.50, exceeded", page)
-        self.assertIn("at 4.50 m: 30.0 of 20.0 kPa (pump)", page)
+        self.assertIn("Feasible to 3.5 m: there the required suction reaches the", page)
         limit = self.installation().limits[installation.COMPUTED]
         self.assertAlmostEqual(limit[6], 56.25, delta=0.1)
 
@@ -211,7 +209,9 @@ class Report(WithPage):
         self.assertEqual(self.command("--rate", "2", "."), 0)
         page = (self.path / report.NAME).read_text(encoding="utf-8")
         self.assertIn("198 m³/h", page)
-        self.assertIn("a penetration of 2 m/h, of which seepage 36 m³/h", page)
+        self.assertIn(
+            "a penetration of 2 m/h, against 30.0 kPa, of which seepage 36", page
+        )
         page = report.write(self.path).read_text(encoding="utf-8")
         self.assertIn("a penetration of 1 m/h (ASSUMED)", page)
         with contextlib.redirect_stderr(io.StringIO()) as said:
@@ -498,7 +498,7 @@ class Report(WithPage):
         (self.path / "cone.csv").write_text("depth_m,qc_kPa\n0,0\n0.3,700\n")
         figures = content.figures_of(Results(self.path), self.installation())
         labels = [[c["label"] for c in figure["curves"]] for figure in figures]
-        self.assertIn("total, DNV, jacked", labels[1])
+        self.assertFalse([name for name in labels[1] if "DNV" in name])
         self.assertFalse([name for name in labels[0] if "by cone" in name])
         self.assertEqual(len(labels[0]), 9)
 

@@ -106,17 +106,19 @@ def options_for_error(
 
 
 def draw(directory: Path, error_bar: Path | None) -> None:
-    """Say what came out, draw the pictures and write the report; the results do not
+    """Draw the pictures, write the report and say whether it works; the results do not
     need them. error_bar: of the run, None for that beside the scene."""
-    from caisson import error_bounds, evaluation, plot, report
+    from caisson import error_bounds, plot, report, verdict
     from caisson.results import Results
 
     error_bounds.adopt(directory, error_bar)
-    for line in evaluation.lines_of(Results(directory)):
-        print(f"run: {line}")
+    run = Results(directory)
+    verdict.keep(run)
     for picture in plot.draw(directory):
         print(f"plot: {picture}")
     print(f"report: {report.write(directory)}")
+    for line in verdict.lines_of(run):
+        print(line)
 
 
 @contextlib.contextmanager

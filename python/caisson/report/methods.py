@@ -374,15 +374,16 @@ def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
     return []
 
 
-def methods_of(run: Results) -> dict[str, Any]:
+def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
     """Return the tables of the design methods at each meter, (methods, why they say
-    nothing), and sentences on them; nothing for a run without a way down."""
+    nothing), and sentences on them; nothing for a run without a way down. end: the
+    depth where suction ends (m)."""
     history = run.history
     if penetration(history) is None or not design.goes_down(history):
         return NOTHING
     rows_down = curves.way_down(history["penetration_m"])[1:]
     site = theory.site_of(run)
-    at = depths_of(history["penetration_m"][rows_down], 1.0)
+    at = curves.down_to(end, depths_of(history["penetration_m"][rows_down], 1.0))
     answers = theory.answers_of(site, at)
     with_suction, total = needs_suction(run), design.FORCES[-1]
     computed = None

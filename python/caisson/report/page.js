@@ -83,6 +83,8 @@
   // the same end.
   function limits(curves) {
     let low = 0, high = 0, top = 0, bottom = 0, own = 0;
+    for (const curve of curves.filter((curve) => curve.far))
+      for (const y of curve.y) bottom = Math.max(bottom, y);
     for (const curve of curves.filter((curve) => !curve.far))
       for (const list of [curve.x, curve.to || []])
         list.forEach((x, i) => {
@@ -120,6 +122,10 @@
         borderColor: color("--rule"),
         color: color("--ink"),
         mouseActiveRadius: 400,
+        // deeper than suction reaches
+        markings: figure.end
+          ? [{ yaxis: { from: figure.end, to: box.bottom }, color: color("--panel") }]
+          : [],
       },
       xaxes: [{
         position: "top", axisLabel: figure.axis, font: font, autoScale: "none",

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from caisson.template import template
-from caisson import plot
+from caisson import plot, verdict
 from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
@@ -29,7 +29,7 @@ PICTURES = {
     "forces": "Forces",
 }
 CHARTS = ("suction", "walls", "forces")  # pictures of lines, not of fields
-AS_IT_IS = ("Self-weight penetration", "Water boils at", "Computed / method")
+AS_IT_IS = ("Self-weight penetration", "Computed / method")
 LAST_ROWS = "The run failed: do not use the last rows."
 
 
@@ -104,6 +104,9 @@ def status_of(run: Results) -> str:
         return f"{said}This page reloads itself every {REFRESH} seconds."
     if failure := run.summary.get("failure"):
         return f"Failed: {failure}"
+    if (end := verdict.verdict_of(run).end) is not None:
+        last = run.shown.place(run.history["penetration_m"].max())
+        return f"Computed to {last}, of which {run.shown.place(end, 1)} are feasible."
     reason = run.scene.get("end_reason")
     status = str(run.summary.get("status", "finished"))
     return f"Ended early: {reason}." if reason else f"Status: {status}."
@@ -138,6 +141,7 @@ def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any
     if not run.scene:
         return {"sketch": "", "caisson": [], "layers": {"rows": []}, "assumed": False}
     depth = float(np.max(run.history.get("penetration_m", np.zeros(1))))
+    depth = min(depth, verdict.verdict_of(run).end or depth)
     caisson, layers = scene.caisson_of(run), scene.layers_table(run)
     cells = [assumed for row in layers["rows"] for _, assumed in row]
     return {
@@ -157,16 +161,15 @@ def has_ended_early(run: Results) -> bool:
 
 
 def incomplete_of(run: Results) -> str:
-    """Return what a run that did not come to its end is good for; nothing of others."""
+    """Return what a run that did not come to its end is good for; nothing of others,
+    and where suction ends before it."""
     depth = run.history.get("penetration_m")
-    if not has_ended_early(run) or depth is None:
+    if not has_ended_early(run) or depth is None or verdict.verdict_of(run).end:
         return ""
     wanted = scene.end_of(run)
-    of_end = f" of {run.shown.depth(wanted)}" if wanted else ""
-    words = (
-        f"Stopped at {run.shown.depth(depth.max())}{of_end}: no number below holds for"
-        " the end"
-    )
+    end = run.shown.place(depth.max())
+    of_end = f" (planned {run.shown.place(wanted)})" if wanted else ""
+    words = f"Stopped at {end}{of_end}; all values refer to {end}"
     failed = not run.is_running and run.summary.get("failure")
     return f"{words}. {LAST_ROWS}" if failed else f"{words}."
 
@@ -190,37 +193,37 @@ def css_text(words: str) -> str:
 def html(run: Results, rate: Rate) -> str:
     """Return the page. Raises ResultsError or OSError."""
     is_pull = pull.is_pull(run)
+    said = verdict.verdict_of(run)
     found = None if is_pull else installation.installation_of(run, rate)
-    beside = methods.NOTHING if is_pull else methods.methods_of(run)
+    if found is not None:
+        found = verdict.feasible_part(run, found, said.end, rate)
+    beside = methods.NOTHING if is_pull else methods.methods_of(run, said.end)
     cards = [] if found is None else installation.cards_of(run, found, rate)
     data: dict[str, Any] = {
-        "figures": content.figures_of(run, found),
+        "figures": content.figures_of(run, found, said.end),
         "csv": content.csv_of(run.history),
         "name": run.directory.resolve().name,
     }
     summary = run.summary if run.scene or not run.is_running else {}
     title = str(summary.get("title") or run.directory.resolve().name)
     cards = cards + methods.card_of(beside) if cards else pull.cards_of(run)
-    warnings = warnings_of(summary)
+    warnings, incomplete = warnings_of(summary), incomplete_of(run)
     warnings["result"] += installation.piping_warning(run, found)
     return template(HERE / "page.html").render(
         title=title,
         footer=css_text(title),
         job=job_of(run, summary),
+        verdict=said,
         status=status_of(run),
         progress=progress_of(run)[0] if run.is_running else 0,
         refresh=REFRESH if run.is_running else 0,
-        incomplete=incomplete_of(run),
-        cards=so_far(cards) if run.is_running or has_ended_early(run) else cards,
+        incomplete=incomplete,
+        cards=so_far(cards) if run.is_running or incomplete else cards,
         computed=what_was_computed(run, found),
         averaged=content.averaged(run),
-        has_bar=found is not None and found.has_bar,
         rate=rate.words,
-        tables=[] if found is None else installation.tables_of(found),
-        has_suction=found is not None and found.has_suction,
-        error=content.error_remark(run),
         figures=data["figures"],
-        units=content.unit_table(run),
+        units=content.unit_table(run, said.end),
         methods=beside,
         method_tables=[t for x in beside["tables"] for t in methods.for_a_page(x)],
         pictures=pictures_of(run),
@@ -234,4 +237,22 @@ def html(run: Results, rate: Rate) -> str:
         scripts=[script(name) for name in SCRIPTS],
         own_script=(HERE / "page.js").read_text(encoding="utf-8"),
         data=json.dumps(data, allow_nan=False).replace("<", "\\u003c"),
+        **of_installation(run, found, said.end),
     )
+
+
+def of_installation(
+    run: Results, found: Installation | None, end: float | None
+) -> dict[str, Any]:
+    """Return what the page says of the installation; end: where suction ends (m)."""
+    known = {"error": content.error_remark(run), "tables": [], "quarters": {}}
+    if found is None:
+        return known | {"has_suction": False, "has_bar": False, "bar": ""}
+    planned = scene.end_of(run) or float(found.depth[-1])
+    return known | {
+        "has_suction": found.has_suction,
+        "has_bar": found.has_bar,
+        "bar": installation.bar_in_words(run, found),
+        "quarters": installation.quarters_of(run, found, end, planned),
+        "tables": installation.tables_of(found),
+    }

@@ -62,6 +62,22 @@ def cards_of(run: Results) -> list[tuple[str, ...]]:
     return [*cards, ("What fails", how, what)] if words else cards
 
 
+def sentence_of(run: Results) -> str:
+    """Return the largest pull and what fails in a sentence; nothing without a pull."""
+    most, shown = largest_pull(run), run.shown
+    if not most:
+        return ""
+    how = most.get("mechanism") or (
+        "the capacity" if most["is_capacity"] else NO_CAPACITY
+    )
+    force = shown.force(most["pull_N"] / 1e3)
+    place = shown.place(most["penetration_m"] + most["rise_m"])
+    return (
+        f"Pulled from {place}: {force} after a rise of {1e3 * most['rise_m']:.3g} mm"
+        f" ({how})."
+    )
+
+
 def pull_parts(run: Results) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:
     """Return the rise above the deepest place [n_rows] (mm), and color and values
     [n_rows] (kN) of the pull and of its parts, by their names."""

@@ -155,7 +155,7 @@ def is_assumed(run: Results, entry: str) -> bool:
 
 def entry_of(run: Results, path: str) -> str:
     """Return the value of an entry, set or default; nothing in older files."""
-    summary = run.summary
+    summary = run.summary if run.scene else {}
     known = {**summary.get("defaults", {}), **summary.get("entries", {})}
     return str(known.get(path, ""))
 
