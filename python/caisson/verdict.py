@@ -79,7 +79,7 @@ def beside_gradient(run: Results) -> str:
 def feasible_part(
     run: Results, found: Installation, end: float | None, rate: Rate = Rate()
 ) -> Installation:
-    """Return the installation down to a depth (m), with a row there; all without one."""
+    """Return the installation down to a depth (m), with a row there; else all of it."""
     if end is None:
         return found
     at = curves.down_to(end, found.depth)

@@ -13,7 +13,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 import caisson.report as report
 from caisson import error_bounds
 from caisson.results import Results
-from caisson.report import content, installation, methods, sketch
+from caisson.report import content, installation, layers, methods, sketch
 from caisson.report import page as page_module
 
 
@@ -251,8 +251,9 @@ class Cards(WithPage):
             drawn = sketch.of_run(Results(self.path), 4.5, None)
             points = re.findall(r'<polygon class="steel" points="([^"]*)"', drawn)
             self.assertEqual([len(x.split()) for x in points], [corners] * 2)
-        words = sketch.about_layer(SCENE["layers"][0], 1, 120)
-        self.assertEqual(words, "layer 1, φ 32°")
+        run = Results(self.path)
+        words = sketch.about_layer(run, layers.layers_of(run.scene)[0], 130)
+        self.assertEqual(words, "layer 1, φ = 32°")
 
     def test_force_without_an_error_bar(self) -> None:
         """Three digits, and the command for the error of the mesh in the title."""

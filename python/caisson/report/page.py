@@ -13,7 +13,8 @@ from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results
-from caisson.report import content, installation, methods, pull, scene, sketch
+from caisson.report import content, installation, layers, methods, pull, scene
+from caisson.report import sketch
 from caisson.report.installation import Installation, Rate
 
 HERE = Path(__file__).parent
@@ -122,7 +123,7 @@ def job_of(run: Results, summary: dict[str, Any]) -> list[tuple[str, str]]:
         ("Scene", str(summary["scene_file"])),
         ("Computed", written or "not known"),
         ("Program", f"caisson_mpm {version}, deal.II {library}"),
-    ] + ([("Use", use)] if (use := scene.use_of(run)) else [])
+    ] + ([("Use", use)] if (use := layers.use_of(run)) else [])
 
 
 def warnings_of(summary: dict[str, Any]) -> dict[str, list[str]]:
@@ -139,15 +140,18 @@ def warnings_of(summary: dict[str, Any]) -> dict[str, list[str]]:
 def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any]:
     """Return sketch and tables of caisson and soil."""
     if not run.scene:
-        return {"sketch": "", "caisson": [], "layers": {"rows": []}, "assumed": False}
+        nothing: dict[str, Any] = {"heads": [], "rows": []}
+        empty = {"sketch": "", "caisson": [], "assumed": False}
+        return empty | {"soil": nothing, "layers": nothing}
     depth = float(np.max(run.history.get("penetration_m", np.zeros(1))))
     depth = min(depth, verdict.verdict_of(run).end or depth)
-    caisson, layers = scene.caisson_of(run), scene.layers_table(run)
-    cells = [assumed for row in layers["rows"] for _, assumed in row]
+    caisson, all_numbers = scene.caisson_of(run), layers.layers_table(run)
+    cells = [assumed for row in all_numbers["rows"] for _, assumed in row]
     return {
         "sketch": sketch.of_run(run, depth, found.rest if found else None),
         "caisson": caisson,
-        "layers": layers,
+        "soil": layers.soil_table(run),
+        "layers": all_numbers,
         "assumed": any([*cells, *(item.assumed for item in caisson)]),
     }
 
