@@ -60,7 +60,7 @@ def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | Non
         ended = run.scene and run.summary.get("infeasible")
         return (float(ended["penetration_m"]), str(ended["reason"])) if ended else None
     name = found.governing(end[1])
-    return end[0], REASONS.get(name, name)
+    return float(f"{end[0]:.3g}"), REASONS.get(name, name)
 
 
 def beside_gradient(run: Results) -> str:

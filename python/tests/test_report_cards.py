@@ -140,13 +140,14 @@ class Cards(WithPage):
     def test_pictures_on_a_dark_page(self) -> None:
         """Charts are turned dark, and fields keep their colors."""
         leave_run(self.path, SUMMARY)
-        for name in ("stress", "forces"):
+        for name in ("stress", "walls", "forces"):
             (self.path / f"{name}.png").write_bytes(b"")
         images = report.write(self.path).read_text(encoding="utf-8")
         self.assertIn(
-            '<img class="chart" src="data:image/png;base64," alt="Forces"', images
+            '<img class="chart" src="data:image/png;base64," alt="Stresses', images
         )
         self.assertIn('<img src="data:image/png;base64," alt="Vertical eff', images)
+        self.assertNotIn('alt="Forces"', images)  # the interactive curves have them
 
     def test_suction_beyond_which_a_method_ends(self) -> None:
         """The last rows have no answer; a hole above them is only empty."""

@@ -239,17 +239,33 @@ def nice_above(value: float) -> float:
     return next(s * power for s in steps if s * power >= value * (1 - 1e-9))
 
 
-def panels(n: int, window: Window, bars: int) -> tuple[Figure, np.ndarray, list[Axes]]:
+def panels(
+    n: int, window: Window, bars: int, note: float
+) -> tuple[Figure, np.ndarray, list[Axes]]:
     """Return a figure of n panels beside each other with the shape of the window, as
-    wide as a page or narrower, and the places of color bars below them."""
-    width = min((PAGE - 0.6) / n, 3.6)
+    wide as a page or narrower, and the places of color bars below them. note: the
+    height of a text below these (inches)."""
+    left, gap, above, foot = 0.55, 0.2, 0.45, note + 1.25  # inches
+    width = min((PAGE - left - 0.1 - (n - 1) * gap) / n, 3.6)
     height = width * (window[2] - window[1]) / (2 * window[0])
     height = min(max(height, 1.2), 5.0)
-    size = (width * n + 0.6, height + 2.3)
-    figure = Figure(figsize=size, layout="constrained")
-    upper, lower = figure.subfigures(2, 1, height_ratios=[height + 1.2, 0.85])
-    axes = upper.subplots(1, n, squeeze=False, sharex=True, sharey=True)
-    return figure, axes, list(lower.subplots(1, bars, squeeze=False)[0])
+    across, high = left + n * (width + gap) - gap + 0.1, foot + height + above
+    figure = Figure(figsize=(across, high))
+
+    def place(x: float, y: float, w: float, h: float, **more: Any) -> Axes:
+        rectangle = (x / across, y / high, w / across, h / high)
+        return figure.add_axes(rectangle, **more)
+
+    axes: list[Axes] = []
+    for i in range(n):
+        shared = {"sharex": axes[0], "sharey": axes[0]} if axes else {}
+        axes.append(place(left + i * (width + gap), foot, width, height, **shared))
+        axes[i].tick_params(labelleft=i == 0)
+    side = (across - left) / bars
+    places = [
+        place(left / 2 + i * side, note + 0.67, side - 0.3, 0.13) for i in range(bars)
+    ]
+    return figure, np.array([axes]), places
 
 
 def shown_values(
@@ -279,11 +295,11 @@ def ratio_of(label: str, frames: Sequence[Frame]) -> Field:
 
 
 def figure_of(
-    frames: Sequence[Frame], window: Window, fields: Sequence[Field]
+    frames: Sequence[Frame], window: Window, fields: Sequence[Field], note: float = 0.0
 ) -> tuple[Figure, np.ndarray]:
     """Return a figure with a panel for each frame and the color bars below: of one
     field, or of the fields of the left and the right halves."""
-    figure, axes, places = panels(len(frames), window, len(fields))
+    figure, axes, places = panels(len(frames), window, len(fields), note)
     both: tuple[Sides, ...] = ((-1,), (1,)) if len(fields) > 1 else ((-1, 1),)
     for i, (panel, frame) in enumerate(zip(axes.flat, frames)):
         painted = [
@@ -291,7 +307,6 @@ def figure_of(
             for (_, means, style), sides in zip(fields, both)
         ]
         draw_about(panel, frame, window)
-        panel.label_outer()
     for panel in axes[:, 0]:
         panel.set_ylabel("z (m)")
     for artist, (label, _, style), place in zip(painted, fields, places):
@@ -313,7 +328,7 @@ def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
     )
     sides = [
         stress,
-        ratio_of("right halves: ratio to the stress at rest (gray: none)", frames),
+        ratio_of("right halves: ratio to stress at rest (gray: none)", frames),
     ]
     return disk.save(figure_of(frames, window, sides)[0], path)
 
@@ -392,7 +407,7 @@ def draw_displacement(
         label = "plastic deviatoric strain (-)"
         fields.append((label, soil["plastic_deviatoric"], "magma_r"))
     n = 1 + len(fields) if box else 1
-    figure = Figure(figsize=(PAGE, 3.2), layout="constrained")
+    figure = Figure(figsize=(PAGE, 2.9), layout="constrained")
     axes = figure.subplots(1, n, squeeze=False)[0]
     means = frame.means.of(moved)
     highest = nice_above(np.percentile(means[inside(frame, window)], 99))

@@ -117,14 +117,14 @@ def draw(
     style = style_of(low, high)
     flows = "flow_iterations" in run.history  # not in undrained soil
     pressure = ("left halves: excess pore pressure (kPa)", pressures, style)
-    label = "right halves: effective stress over that at rest (gray: none)"
+    label = "right halves: ratio to stress at rest (gray: none)"
     sides = [pressure, fields.ratio_of(label, frames)]
-    figure, axes = fields.figure_of(frames, window, sides)
+    figure, axes = fields.figure_of(frames, window, sides, 0.4 if flows else 0.0)
     least = LEAST * max(-style["vmin"], style["vmax"]) if flows else None
     for panel, frame in zip(axes.flat, frames):
         draw_water(panel, frame, window, least)
         panel.set_title(title_of(frame, run.history))
     if flows:
-        figure.supxlabel(f"\n{caption(frames)}", fontsize=9, color="0.3")
+        figure.supxlabel(caption(frames), fontsize=9, color="0.3")
     path = run.directory / "pore_pressure.png"
     return disk.save(figure, path)

@@ -68,7 +68,7 @@ def draw(path: Path, run: Results) -> Path | None:
     if not names:
         return None
     times = shown_times(walls, run.scene.get("frame_penetrations_m") or ())
-    figure = Figure(figsize=(PAGE, 5.6), layout="constrained")
+    figure = Figure(figsize=(PAGE, 4.8), layout="constrained")
     axes = figure.subplots(2, len(names), squeeze=False, sharey=True, sharex="row")
     for row, (stress, (label, beside)) in zip(axes, STRESSES.items()):
         for panel, name in zip(row, names):

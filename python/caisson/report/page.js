@@ -226,7 +226,7 @@
   }
 
   window.addEventListener("beforeprint", () => {
-    document.querySelectorAll("details").forEach((part) => (part.open = true));
+    document.querySelectorAll("details.print").forEach((part) => (part.open = true));
   });
   const figures = data.figures.map((figure) => new Figure(figure));
   const renew = () => figures.forEach((figure) => figure.renew());

@@ -23,13 +23,11 @@ REFRESH = 30  # s, of the page of a run that has not ended
 PICTURES = {
     "stress": "Vertical effective stress",
     "pore_pressure": "Excess pore pressure and flow lines, beside effective stress",
-    "suction": "Suction, exit gradients and heave of the plug",
     "walls": "Stresses along the walls",
     "displacement": "Displacement",
     "void_ratio": "Void ratio",
-    "forces": "Forces",
 }
-CHARTS = ("suction", "walls", "forces")  # pictures of lines, not of fields
+CHARTS = ("walls",)  # pictures of lines, not of fields
 AS_IT_IS = ("Self-weight penetration", "Computed / method")
 LAST_ROWS = "The run failed: do not use the last rows."
 
@@ -61,7 +59,7 @@ def facts_of(run: Results) -> list[tuple[str, str]]:
     summary = run.summary
     points = summary.get("material_points", "not known")
     facts = [
-        ("Results", str(run.directory)),
+        ("Results", run.directory.resolve().name),
         ("Cells, material points", f"{summary['cells']}, {points}"),
         ("Steps", steps_of(run)),
         ("Limit of the step", str(summary["time_step_limit"])),
