@@ -201,7 +201,7 @@ def largest_energy_ratio(history: Table) -> float:
         used = (force < 0) & (work > work.max() / 10)
     if not used.any():
         return float("nan")
-    return float((history["kinetic_energy_J"][used] / work[used]).max())
+    return float((history["kinetic_energy_J"][used] / work[used]).max(initial=0.0))
 
 
 def gradient_share(history: Table) -> np.ndarray:

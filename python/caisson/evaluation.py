@@ -6,6 +6,7 @@ All of them follow from history.csv. They are means of curves.smoothed_at(), exc
 largest pull: that is the largest median over neighboring rows of a way up.
 """
 import functools
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -289,6 +290,6 @@ def largest_pull(history: Table) -> dict[str, Any]:
     return found
 
 
-def capacity_in_words(pull: dict[str, Any]) -> str:
+def capacity_in_words(pull: Mapping[str, Any]) -> str:
     """Return whether the largest pull is the capacity."""
     return "the capacity" if pull["is_capacity"] else NO_CAPACITY

@@ -173,35 +173,19 @@ class Cards(WithPage):
             self.assertEqual(bool(content.beyond_the_chart(found, shown)), bool(words))
 
     def test_card_of_the_methods(self) -> None:
-        """The first ratio that there is at the end, and where it is beside the band."""
+        """The first ratio that there is at the end."""
         heads = ["depth (m)", "computed"]
         heads += [f"computed / {name}" for name in "ABC"]
         rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "", "0.5 to 2", "3"]]
         found: dict[str, Any] = {"tables": [{"heads": heads, "rows": rows}]}
-        words = "above the band to 4 m, within it deeper; other methods below"
-        card = ("Computed / method", "0.5 to 2", f"of B, at 4.5 m; {words}")
+        card = ("Computed / method", "0.5 to 2", "of B at 4.5 m")
         self.assertEqual(methods.card_of(found), [card])
         heads[2] = "computed / undisturbed"
         rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "5", "", ""]]
         found = {"tables": [{"heads": heads, "rows": rows}]}
-        words = "above the band; other methods below"
-        card = ("Computed / method", "2", f"of B, at 4 m; {words}")
+        card = ("Computed / method", "2", "of B at 4 m")
         self.assertEqual(methods.card_of(found), [card])
         self.assertEqual(methods.card_of({"tables": []}), [])
-
-    def test_beside_the_band(self) -> None:
-        """Open ends, and more than one change."""
-        for ratio, place in (
-            ("at least 1.10", "above"),
-            ("at least 0.90", "within"),
-            ("at most 0.90", "below"),
-            ("at most 1.20", "within"),
-            ("0.70 to 0.90", "below"),
-        ):
-            self.assertEqual(methods.place_of(ratio), place, ratio)
-        rows = [("1 m", "2"), ("2 m", "0.9 to 2"), ("3 m", "0.9 to 2"), ("4 m", "0.5")]
-        words = "above the band to 1 m, within it to 3 m, below it deeper"
-        self.assertEqual(methods.beside_the_band(rows), words)
 
     def test_tables_of_a_page(self) -> None:
         """Cases are a range, and ratios a table of their own."""

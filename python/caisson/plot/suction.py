@@ -249,9 +249,10 @@ def draw(directory: Path, run: Results) -> list[Path]:
     figure.suptitle(run.title, fontsize=10)
     draw_suction(panels[0], run, answers)
     if seeps:
-        draw_gradients(panels[-1], run)
-    draw_heave(panels[1], run)
-    for axes, place in zip(panels, ("upper right", "upper right", "lower left")):
+        draw_gradients(panels[1], run)
+    draw_heave(panels[-1], run)
+    places = ("upper right", "lower left", "upper right")
+    for axes, place in zip(panels, places if seeps else places[::2]):
         over_depth(axes, axes.get_xlabel(), "")
         axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
         fade(axes, end_of(run))

@@ -252,7 +252,8 @@ def pull_figure(run: Results) -> dict[str, Any]:
         "title": "Pull, and what bears it, over the rise",
         "axis": "force (kN)",
         "upward": True,  # the other axis, which is in mm
-        "note": "What soil and water bear; the submerged weight is none of it.",
+        "note": "What soil and water bear, without the weight. The curve begins"
+        f" where the caisson is pulled, {rise[0]:.3g} mm above its deepest place.",
         "curves": with_points(shown),
     }
 

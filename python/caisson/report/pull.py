@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from caisson import curves
-from caisson.evaluation import NO_CAPACITY, results_of
+from caisson.evaluation import capacity_in_words, results_of
 from caisson.plot.forces import COLORS, WATER_COLOR, column_of
 from caisson.results import Results
 from caisson.design.reasons import text_of
@@ -55,8 +55,6 @@ def cards_of(run: Results) -> list[tuple[str, ...]]:
     if curves.WITH_WATER in run.history:
         name = f"Of which {WATER}"
         cards.append((name, force("water_N"), "negative where it presses up"))
-    if not most["is_capacity"]:
-        return [*cards, ("Capacity", f"more than {force('pull_N')}", NO_CAPACITY)]
     words = most.get("mechanism", "")
     how, _, what = words.partition(": ")
     return [*cards, ("What fails", how, what)] if words else cards
@@ -67,20 +65,23 @@ def sentence_of(run: Results) -> str:
     most, shown = largest_pull(run), run.shown
     if not most:
         return ""
-    how = most.get("mechanism") or (
-        "the capacity" if most["is_capacity"] else NO_CAPACITY
-    )
+    how = most.get("mechanism") or capacity_in_words(most)
     force = shown.force(most["pull_N"] / 1e3)
     place = shown.place(most["penetration_m"] + most["rise_m"])
+    weight = run.scene.get("submerged_weight_N")
+    adds = "No weight is given, and none is in it."
+    if weight:
+        adds = f"The submerged weight of {shown.force(float(weight) / 1e3)} adds to it."
     return (
         f"Pulled from {place}: {force} after a rise of {1e3 * most['rise_m']:.3g} mm"
-        f" ({how})."
+        f" ({how}). {adds} This is no design pull-out capacity."
     )
 
 
 def pull_parts(run: Results) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:
     """Return the rise above the deepest place [n_rows] (mm), and color and values
-    [n_rows] (kN) of the pull and of its parts, by their names."""
+    [n_rows] (kN) of the pull and of its parts, by their names; with an open lid from
+    where it begins to be pulled on, behind the unloading of the soil."""
     history = run.history
     total = history["total_force_N"]
     borne = history.get(curves.WITH_WATER, total)
@@ -93,5 +94,7 @@ def pull_parts(run: Results) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarra
     rise = 1e3 * (depth.max() - depth)
     if is_sealed(run):
         return rise, parts
-    up = int(np.argmax(depth))  # a way down before it is an installation
-    return rise[up:], {name: (color, x[up:]) for name, (color, x) in parts.items()}
+    begin = int(np.argmax(depth))  # a way down before it is an installation
+    pulls = np.flatnonzero(borne[begin:] < 0)
+    begin += max(int(pulls[0]) - 1, 0) if len(pulls) else 0
+    return rise[begin:], {k: (color, x[begin:]) for k, (color, x) in parts.items()}
