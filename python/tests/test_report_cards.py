@@ -54,20 +54,6 @@ class Cards(WithPage):
         self.assertIn("suction up to 30 kPa.</p>", page)
         self.assertIn("The error bar reaches to 2 m.", page)
 
-    def test_margin_to_piping(self) -> None:
-        """10 % at 4.5 m, with 0.045 or 0.18 on 0.9."""
-        leave_run(self.path, SUMMARY)
-        self.leave_bar(4.5, 0.045)
-        history = dict(Results(self.path).history)
-        history["exit_gradient_wall"] = np.zeros(len(history["time_s"]))
-        history["exit_gradient_axis"] = 0.18 * history["penetration_m"]
-        write_columns(self.path / "history.csv", history)
-        page = report.write(self.path).read_text(encoding="utf-8")
-        self.assertNotIn("bar includes 0", page)
-        self.leave_bar(4.5, 0.18)
-        page = report.write(self.path).read_text(encoding="utf-8")
-        self.assertIn("the margin to piping is 10 % at 4.50 m, and its error bar", page)
-
     def test_caisson_that_needs_no_suction(self) -> None:
         """4500 kN of resistance under 7000 kN."""
         scene = {**SCENE, "submerged_weight_N": 7e6}
@@ -130,12 +116,10 @@ class Cards(WithPage):
         page = self.page({**known, "status": "stopped"})
         self.assertIn("Stopped at 4.5 m (planned 6 m); all values refer to 4.5 m", page)
         self.assertIn("Feasible to 4.5 m, as far as the run is (planned 6 m), by", page)
-        self.assertIn("Pump so far", page)
         self.assertIn("end of the scene at 6.00 m", page)
         self.assertNotIn(page_module.LAST_ROWS, page)
         page = self.page({**known, "status": "failed", "failure": "no time step"})
         self.assertIn(page_module.LAST_ROWS, page)
-        self.assertNotIn("so far", self.page(known).split("<script")[0])
 
     def test_pictures_on_a_dark_page(self) -> None:
         """Charts are turned dark, and fields keep their colors."""
@@ -241,7 +225,7 @@ class Cards(WithPage):
         self.assertEqual(words, "layer 1, φ = 32°")
 
     def test_force_without_an_error_bar(self) -> None:
-        """Three digits, and the command for the error of the mesh in the title."""
+        """The command for the error of the mesh in the title."""
         title = "a caisson, on a mesh for an error of about 20 %"
         scene = {**SCENE, "skirt_length_m": 5.0}
         leave_run(self.path, {**SUMMARY, "title": title, "scene": scene})
@@ -251,7 +235,7 @@ class Cards(WithPage):
         history["total_force_N"] = 1.23456e6 * history["penetration_m"]
         write_columns(self.path / "history.csv", history)
         page = report.write(self.path).read_text(encoding="utf-8")
-        self.assertIn(">5560 kN <small>Error bar not known: ", page)
+        self.assertIn("Error bar not known: scripts/run", page)
         self.assertIn("--error 20% mine.prm computes it", page)
         self.assertIn("Jacked to 4.5 m: 5.56 MN, of which tip 2.25 MN, friction", page)
         self.assertNotIn("brackets the error bar", page)
@@ -273,20 +257,6 @@ class Cards(WithPage):
         for i, expected in ((20, (0, 2.2)), (50, (1, 4))):
             self.assertAlmostEqual(bar["x"][i], expected[0])
             self.assertAlmostEqual(bar["to"][i], expected[1])
-
-    def test_error_bar_of_the_force(self) -> None:
-        """Its sides in percent of the force, under the columns of the program."""
-        leave_run(self.path, SUMMARY)
-        self.assertIn("no error bar", content.error_remark(Results(self.path)))
-        depth = np.linspace(1, 2, 11)
-        bounds = {
-            "penetration_m": depth,
-            "total_force_N": 1e6 * depth,
-            "total_force_low_N": 0.93e6 * depth,
-            "total_force_high_N": 1.04e6 * depth,
-        }
-        write_columns(self.path / "history_error.csv", bounds)
-        self.assertIn("-7 % to +4 % in", content.error_remark(Results(self.path)))
 
     def test_end_above_the_depths_of_the_error_bar(self) -> None:
         """Its file has no row, and the page says that none is known."""

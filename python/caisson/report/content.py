@@ -384,26 +384,6 @@ def remarks_on_numbers(run: Results) -> list[str]:
     return found
 
 
-def error_remark(run: Results) -> str:
-    """Return what is known of the error of the curve."""
-    bounds = run.error_bounds
-    if not bounds or "total_force_low_N" not in bounds:
-        return (
-            "This scene has no error bar of its own. Those of the reference scenes are"
-            " in the manual; caisson error-bar computes its own."
-        )
-    force = np.where(bounds["total_force_N"] == 0, np.nan, bounds["total_force_N"])
-    below, above = [
-        100
-        * np.nanmean(np.abs(bounds[f"total_force_{side}_N"] - force) / np.abs(force))
-        for side in ("low", "high")
-    ]
-    return (
-        f"Error bar of the total force: -{below:.2g} % to +{above:.2g} % in the mean,"
-        " from runs with other meshes, steps and numbers of points."
-    )
-
-
 def csv_of(history: Table) -> str:
     """Return history.csv as it is, for the download."""
     names = list(history)

@@ -21,7 +21,6 @@ from caisson.evaluation import (
     at_depths,
     pump_limit,
     rest_of_run,
-    results_of,
 )
 from caisson.paths import INSTALLED
 from caisson.plot import design, suction_methods, theory
@@ -246,11 +245,6 @@ def bar_in_words(run: Results, found: Installation) -> str:
     return f"The error bar reaches to {end}."
 
 
-def three_digits(value: float, bounds: Bounds | None) -> str:
-    """Return a number of a card: without an error bar no more digits than three."""
-    return f"{value if bounds else float(f'{value:.3g}'):.0f}"
-
-
 def in_range(
     found: Installation, values: np.ndarray, bounds: Bounds | None, unit: str
 ) -> list[str]:
@@ -330,9 +324,9 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
 
 def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
     """Return (name, value, remark) of what matters beside the verdict."""
-    if not len(found.required):
-        return [force_card(run, found)]
     cards: list[tuple[str, ...]] = []
+    if not len(found.required):
+        return cards
     weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
     shown = found.shown
     if not found.has_suction:
@@ -342,7 +336,6 @@ def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, .
             remark = f"the weight exceeds the resistance by {more}: {remark}"
         value = f"more than {shown.place(found.depth[-1])}"
         cards.append(("Self-weight penetration", value, remark))
-        cards.append(force_card(run, found))
         return cards + pump_cards(run, found, rate)
     if found.rest is not None:
         remark = f"under {shown.force(weight)} in water" if weight else ""
@@ -378,53 +371,6 @@ def quarters_of(
         rows.append([place, needs, limit, known.governing(i)])
     heads = ["penetration", "required suction (kPa)", "allowable (kPa)", "governed by"]
     return {"heads": [shown.named(head) for head in heads], "rows": rows}
-
-
-def force_card(run: Results, found: Installation) -> tuple[str, ...]:
-    """Return the card of the force, with its error bar or what computes it."""
-    remark = bar_in_words(run, found)
-    if bar := bar_at(found, found.force_bounds, -1, "kN"):
-        remark = f"error bar {bar}. {remark}"
-    value = found.shown.factor("kN") * float(found.forces["total_force_N"][-1])
-    text = f"{three_digits(value, found.force_bounds)} {found.shown.name('kN')}"
-    name = "Resistance" if len(found.required) else "Force"
-    name = f"Effective {name.lower()}" if len(found.with_water) else name
-    return f"{name} at the end", text, remark
-
-
-def piping_bar(run: Results, least: float, depth: float) -> Bounds | None:
-    """Return the error bar of the least margin to piping at its depth (m), [1]."""
-    history, bounds = run.history, run.error_bounds
-    names = ("exit_gradient_wall", "exit_gradient_axis")
-    i = int(np.argmin(np.abs(history["penetration_m"] - depth)))
-    name = max(names, key=lambda key: float(history[key][i]))
-    known = bounds.get("penetration_m", np.full(1, np.inf))
-    inside = known[0] - 1e-2 <= depth <= known[-1] + HELD
-    if not inside or f"{name}_low" not in bounds:
-        return None
-    more, less = (
-        np.interp([depth], known, bounds[f"{name}_{side}"] - bounds[name])
-        / history["critical_gradient"][i]
-        for side in ("high", "low")
-    )
-    return Bounds(least - more, least - less, float(known[-1]))
-
-
-def piping_warning(run: Results, found: Installation | None) -> list[str]:
-    """Return a warning where the error bar of the margin to piping includes 0."""
-    if found is None or not found.has_suction:
-        return []
-    piping = results_of(run)["margins"].get("piping")
-    if piping is None:
-        return []
-    least, depth = float(piping["least"]), float(piping[DEPTH])
-    bar = piping_bar(run, least, depth)
-    if bar is None or least <= 0 or bar.low[0] > 0:
-        return []
-    return [
-        f"the margin to piping is {100 * least:.0f} % at {found.shown.depth(depth)},"
-        " and its error bar includes 0: the run does not show that piping stays away"
-    ]
 
 
 def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:

@@ -48,6 +48,13 @@ ENTRY_NAMES = {
     "Degrees per dilatancy index": "Bolton: degrees per I_R",
 }
 STRENGTH = "Cohesion", "Pa"
+COLUMNS = {  # of the table with a row for each layer
+    "unit weight in water": ("Submerged unit weight", "N/m3"),
+    "K0": ("K0", ""),
+    "Young's modulus": ("Youngs modulus", "Pa"),
+    "adhesion of the walls": ("Adhesion of the walls", "Pa"),
+    "permeability": ("Permeability", "m/s"),
+}
 LINEAR = 2e-3  # of a number: how far a straight line may be from it
 
 Numbers = dict[tuple[str, str], tuple[float | None, str]]
@@ -240,18 +247,18 @@ def is_given(run: Results, layer: Layer, *entries: str) -> bool:
     return not any(is_assumed(run, f"{section}/{entry}") for entry in entries)
 
 
+def cell_of(run: Results, layer: Layer, name: str, unit: str) -> tuple[str, bool]:
+    """Return a number of a layer in words, and whether it is assumed."""
+    entry = numbers_of(layer.parts[0]).get((name, unit), (None, ""))[1]
+    is_assumed_here = bool(entry) and not is_given(run, layer, entry)
+    return number_in_words(run, layer, name, unit), is_assumed_here
+
+
 def soil_table(run: Results) -> dict[str, Any]:
     """Return the table with a row for each layer: heads, and rows of (text, whether
     assumed)."""
     shown, rows = run.shown, []
     of_strength = ("Cohesion", "Friction angle", "Relative density")
-    columns = {
-        "unit weight in water": ("Submerged unit weight", "N/m3"),
-        "K0": ("K0", ""),
-        "Young's modulus": ("Youngs modulus", "Pa"),
-        "adhesion of the walls": ("Adhesion of the walls", "Pa"),
-        "permeability": ("Permeability", "m/s"),
-    }
     for layer in layers_of(run.scene):
         cells = [
             (str(layer.number), False),
@@ -259,12 +266,8 @@ def soil_table(run: Results) -> dict[str, Any]:
             (kind_of(run, layer), False),
             (strength_of(run, layer), not is_given(run, layer, *of_strength)),
         ]
-        for name, unit in columns.values():
-            entry = numbers_of(layer.parts[0]).get((name, unit), (None, ""))[1]
-            words = number_in_words(run, layer, name, unit)
-            cells.append((words, bool(entry) and not is_given(run, layer, entry)))
-        rows.append(cells)
-    heads = ["layer", shown.named("from (m)"), "soil", "strength", *columns]
+        rows.append(cells + [cell_of(run, layer, *key) for key in COLUMNS.values()])
+    heads = ["layer", shown.named("from (m)"), "soil", "strength", *COLUMNS]
     used = [i for i in range(len(heads)) if any(row[i][0] for row in rows)]
     return {
         "heads": [heads[i] for i in used],
@@ -276,15 +279,9 @@ def layers_table(run: Results) -> dict[str, Any]:
     """Return the table of all numbers of the layers, a row for each and a column for
     each layer: heads, and rows of (text, assumed)."""
     layers = layers_of(run.scene)
-    names = {key: None for x in layers for key in numbers_of(x.parts[0])}
-    rows = [
-        [("law", False), *((str(x.parts[0].get("law", "")), False) for x in layers)]
-    ]
-    for name, unit in names:
-        cells = [(readable(ENTRY_NAMES.get(name, name)), False)]
-        for layer in layers:
-            entry = numbers_of(layer.parts[0]).get((name, unit), (None, ""))[1]
-            words = number_in_words(run, layer, name, unit)
-            cells.append((words, bool(entry) and not is_given(run, layer, entry)))
-        rows.append(cells)
+    laws = [(str(layer.parts[0].get("law", "")), False) for layer in layers]
+    rows = [[("law", False), *laws]]
+    for key in {key: None for x in layers for key in numbers_of(x.parts[0])}:
+        name = readable(ENTRY_NAMES.get(key[0], key[0]))
+        rows.append([(name, False), *(cell_of(run, layer, *key) for layer in layers)])
     return {"heads": ["layer", *(str(x.number) for x in layers)], "rows": rows}

@@ -30,7 +30,6 @@ PICTURES = {
     "void_ratio": "Void ratio",
 }
 CHARTS = ("walls",)  # pictures of lines, not of fields
-AS_IT_IS = ("Self-weight penetration", "Computed / method")
 LAST_ROWS = "The run failed: do not use the last rows."
 
 
@@ -212,17 +211,6 @@ def incomplete_of(run: Results) -> str:
     return f"{words}. {LAST_ROWS}" if failed else f"{words}."
 
 
-def so_far(cards: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
-    """Return the cards of a run that has not come to its end."""
-    return [
-        (
-            name if name in AS_IT_IS else f"{name.removesuffix(' at the end')} so far",
-            *rest,
-        )
-        for name, *rest in cards
-    ]
-
-
 def css_text(words: str) -> str:
     """Return a text for a string of a style sheet."""
     return "".join(c if c.isalnum() else f"\\{ord(c):x} " for c in words)
@@ -244,9 +232,7 @@ def html(run: Results, rate: Rate) -> str:
     }
     summary = run.summary if run.scene or not run.is_running else {}
     title = str(summary.get("title") or run.directory.resolve().name)
-    cards = cards + methods.card_of(beside) if cards else pull.cards_of(run)
-    warnings, incomplete = warnings_of(summary), incomplete_of(run)
-    warnings["result"] += installation.piping_warning(run, found)
+    cards = pull.cards_of(run) if is_pull else cards + methods.card_of(beside)
     return template(HERE / "page.html").render(
         title=title,
         footer=css_text(title),
@@ -255,8 +241,8 @@ def html(run: Results, rate: Rate) -> str:
         status=status_of(run),
         progress=progress_of(run)[0] if run.is_running else 0,
         refresh=REFRESH if run.is_running else 0,
-        incomplete=incomplete,
-        cards=so_far(cards) if run.is_running or incomplete else cards,
+        incomplete=incomplete_of(run),
+        cards=cards,
         computed=what_was_computed(run, found),
         averaged=content.averaged(run),
         rate=rate.words,
@@ -267,7 +253,7 @@ def html(run: Results, rate: Rate) -> str:
         pictures=pictures_of(run),
         charts=CHARTS,
         remarks=content.remarks_on_numbers(run),
-        warnings=warnings,
+        warnings=warnings_of(summary),
         entries=scene.entries_of(run) if summary else {},
         defaults=scene.defaults_of(run) if summary else {},
         facts=facts_of(run),
@@ -283,11 +269,10 @@ def of_installation(
     run: Results, found: Installation | None, end: float | None
 ) -> dict[str, Any]:
     """Return what the page says of the installation; end: where suction ends (m)."""
-    known = {"error": content.error_remark(run), "tables": [], "quarters": {}}
     if found is None:
-        return known | {"has_suction": False, "has_bar": False, "bar": ""}
+        return {"tables": [], "quarters": {}, "bar": ""}
     planned = scene.end_of(run) or float(found.depth[-1])
-    return known | {
+    return {
         "has_suction": found.has_suction,
         "has_bar": found.has_bar,
         "bar": installation.bar_in_words(run, found),
