@@ -5,26 +5,21 @@ import contextlib
 import fcntl
 import html
 import io
-import os
 import re
 import subprocess
 import tempfile
-import time
 import unittest
 from pathlib import Path
 from typing import Any
-from unittest import mock
 
 import numpy as np
 from synthetic import write_run
 
 import caisson.report as report
-from caisson.commands import run as launch
 from caisson.results import Results, ResultsError
 from caisson.design import reasons
 from caisson.design.seepage import senders_randolph
 from caisson.report import content, installation, methods
-from caisson.report import page as page_module
 
 BROWSER = report.find_browser()
 SCENE: dict[str, Any] = {
@@ -304,33 +299,6 @@ class Report(WithPage):
         self.assertIn("Force of jacking", page)
         self.assertIn("was ended before it was finished: 25 %", self.page(summary))
 
-    def test_remaining_time(self) -> None:
-        """200 steps of 0.01 s for each unit of the square root of the depth, from 0.5
-        to 4.5 m; half is done at 2.5 m."""
-        progress = {"fraction_done": 0.5}
-        summary = {**SUMMARY, "status": "running", "progress": progress}
-        leave_run(self.path, summary)
-        history = dict(Results(self.path).history)
-        half = history["penetration_m"] <= 2.5
-        history = {name: values[half] for name, values in history.items()}
-        depth = history["penetration_m"]
-        history["time_s"] = depth - depth[0]
-        history["step"] = 200 * (np.sqrt(depth) - np.sqrt(0.5))
-        write_run(self.path, history, summary)
-        (self.path / ".lock").touch()
-        (self.path / "grid_0.vtu").touch()
-        frame = '<VTKFile><DataSet timestep="0" file="grid_0.vtu"/></VTKFile>'
-        (self.path / "grid.pvd").write_text(frame, encoding="utf-8")
-        run = Results(self.path)
-        begin = (self.path / "grid_0.vtu").stat().st_mtime
-        end = begin + 0.01 * float(history["step"][-1])
-        os.utime(self.path / "history.csv", (end, end))
-        expected = 0.01 * 200 * (np.sqrt(4.5) - np.sqrt(2.5)) * 1.125
-        left = page_module.remaining_of(run, 0.5)
-        self.assertAlmostEqual(left or 0, expected, delta=0.02)
-        os.utime(self.path / ".lock", (begin + 5, begin + 5))  # after a restart
-        self.assertIsNone(page_module.remaining_of(run, 0.5))
-
     def test_run_that_failed(self) -> None:
         """Its run.json has no results; the page has the reason."""
         unknown = ("material_points", "peak_memory_bytes", "energies")
@@ -540,23 +508,6 @@ class Report(WithPage):
         self.assertFalse([name for name in labels[1] if "DNV" in name])
         self.assertFalse([name for name in labels[0] if "by cone" in name])
         self.assertEqual(len(labels[0]), 9)
-
-    def test_run_that_goes_on(self) -> None:
-        """Its page reloads itself, also where an old run.json is left."""
-        self.assertIn('http-equiv="refresh"', self.page())
-        with (self.path / ".lock").open("w", encoding="utf-8") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            self.assertIn('http-equiv="refresh"', self.page(SUMMARY))
-        self.assertNotIn('http-equiv="refresh"', self.page(SUMMARY))
-
-    def test_report_of_a_run_in_progress_is_renewed(self) -> None:
-        """`caisson run` writes it while the program runs."""
-        leave_run(self.path, {**SUMMARY, "status": "running"})
-        page, end = self.path / report.NAME, time.monotonic() + 120
-        with mock.patch.object(launch, "RENEWAL", 0.1), launch.reporting(self.path):
-            while not page.is_file() and time.monotonic() < end:
-                time.sleep(0.1)
-        self.assertIn("sand &lt;b&gt;", page.read_text(encoding="utf-8"))
 
     def test_no_run(self) -> None:
         with self.assertRaisesRegex(ResultsError, "no history.csv"):

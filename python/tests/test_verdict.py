@@ -10,8 +10,8 @@ from synthetic import write_columns
 from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
-from caisson import verdict
-from caisson.report import content, installation
+from caisson.plot import forces
+from caisson.report import content, installation, verdict
 from caisson.results import Results
 
 PUMP = {"Water/Largest suction": "20e3", "Time/End penetration": "4.5"}
@@ -119,6 +119,9 @@ class Verdicts(WithPage):
         self.assertEqual(known.pop("verdict"), text)
         self.assertEqual(known, SUMMARY)
         self.assertEqual(Results(self.path).summary["verdict"], text)
+        verdict.keep(self.run_of(entries=PUMP))
+        self.assertEqual(Results(self.path).summary["feasible_to_m"], 3.5)
+        self.assertEqual(forces.end_of(Results(self.path)), 3.5)
 
 
 if __name__ == "__main__":

@@ -16,10 +16,10 @@ from program import (
     summary,
 )
 
-from caisson import error_bounds, evaluation, verdict
+from caisson import error_bounds, evaluation
 from caisson.plot import design
 from caisson.design.reasons import text_of
-from caisson.report import installation
+from caisson.report import installation, verdict
 from caisson.report import page as page_module
 
 

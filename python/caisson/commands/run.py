@@ -107,7 +107,8 @@ def options_for_error(
 def draw(directory: Path, error_bar: Path | None) -> None:
     """Draw the pictures, write the report and say whether it works; the results do not
     need them. error_bar: of the run, None for that beside the scene."""
-    from caisson import error_bounds, plot, report, verdict
+    from caisson import error_bounds, plot, report
+    from caisson.report import verdict
     from caisson.results import Results
 
     error_bounds.adopt(directory, error_bar)

@@ -151,10 +151,9 @@ def set_limits(axes: Axes, depth: np.ndarray, end: float | None) -> None:
 
 
 def end_of(run: Results) -> float | None:
-    """Return the depth where suction ends (m), None where it does not."""
-    from caisson.verdict import verdict_of
-
-    return verdict_of(run).end
+    """Return the depth where suction ends (m), as the verdict in run.json has it, None
+    where it does not."""
+    return run.summary.get("feasible_to_m") if run.scene else None
 
 
 def label_axes(axes: Axes, name: str, body: str) -> None:

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 
 from caisson.template import template
-from caisson import plot, verdict
+from caisson import plot
 from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results, Table
 from caisson.report import content, installation, layers, methods, pull, scene
-from caisson.report import sketch
+from caisson.report import sketch, verdict
 from caisson.report.installation import Installation, Rate
 
 HERE = Path(__file__).parent

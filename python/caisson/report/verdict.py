@@ -8,7 +8,7 @@ nobody has: it stands in no card and no maximum.
 """
 import functools
 import json
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from caisson.report.installation import Installation, Rate
 from caisson.report.scene import end_of, entry_of, plug_area
 from caisson.results import Results
 
-KEY = "verdict"  # in run.json
+KEY, END = "verdict", "feasible_to_m"  # in run.json
 REASONS = {
     COMPUTED: "piping",
     PIPING: "piping by Houlsby & Byrne",
@@ -194,9 +194,14 @@ def lines_of(run: Results) -> list[str]:
 
 
 def keep(run: Results) -> str:
-    """Write the verdict of a run into its run.json; return it."""
-    text, path = verdict_of(run).text, run.directory / "run.json"
-    if text and path.is_file():
-        known = json.loads(disk.read_text(path)) | {KEY: text}
-        disk.write(path, json.dumps(known, indent=2, ensure_ascii=False) + "\n")
-    return text
+    """Write the verdict of a run that has ended into its run.json, with the depth where
+    suction ends; return it."""
+    found, path = verdict_of(run), run.directory / "run.json"
+    if run.is_running or not found.text:
+        return found.text
+    known: dict[str, Any] = json.loads(disk.read_text(path))
+    more = {KEY: found.text} | ({END: found.end} if found.end is not None else {})
+    new = {k: v for k, v in known.items() if k not in (KEY, END)} | more
+    if new != known:
+        disk.write(path, json.dumps(new, indent=2, ensure_ascii=False) + "\n")
+    return found.text
