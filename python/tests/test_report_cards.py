@@ -252,7 +252,11 @@ class Cards(WithPage):
             "required_suction_high_Pa": low + 3e3,
         }
         write_columns(self.path / "history_error.csv", bounds)
-        found = content.suction_curves(Results(self.path), self.installation())
+        run, numbers = Results(self.path), self.installation()
+        found = content.suction_curves(run, numbers, 1.5)  # where suction ends
+        bars = [curve for curve in found if curve["label"] == "required, error bar"]
+        self.assertEqual(max(bars[0]["y"]), 1.5)
+        found = content.suction_curves(run, numbers)
         (bar,) = [curve for curve in found if curve["label"] == "required, error bar"]
         for i, expected in ((20, (0, 2.2)), (50, (1, 4))):
             self.assertAlmostEqual(bar["x"][i], expected[0])

@@ -76,6 +76,12 @@ def band(
     return line(label, color, low, depth, to=listed(high[thinned(depth)]))
 
 
+def down_to(end: float | None, *columns: np.ndarray) -> list[np.ndarray]:
+    """Return the rows of columns [n], the first of which is a depth, above an end."""
+    rows = columns[0] <= (math.inf if end is None else end)
+    return [column[rows] for column in columns]
+
+
 def own(
     label: str, color: str, x: np.ndarray, depth: np.ndarray, end: float | None
 ) -> list[Curve]:
@@ -117,7 +123,7 @@ def force_curves(run: Results, end: float | None = None) -> list[Curve]:
     for name, color in COLORS.items():
         bar = error_band(run.error_bounds, column_of(name).removesuffix("_N"), "N")
         if bar is not None:
-            at, low, high = bar
+            at, low, high = down_to(end, *bar)
             label = f"{name}, error bar"
             found.append(band(label, color, low / 1e3, high / 1e3, at))
     found += method_curves(run, max(depth.max(), 0))
@@ -205,7 +211,8 @@ def suction_curves(
     shown = [*method_suctions(run), *limit_curves(found)]
     bar = error_band(run.error_bounds, "required_suction", "Pa")
     if bar is not None:
-        at, low, high = [bar[0], *(np.maximum(bound, 0) / 1e3 for bound in bar[1:])]
+        at, *ends = down_to(end, *bar)
+        low, high = (np.maximum(bound, 0) / 1e3 for bound in ends)
         shown.append(band("required, error bar", "black", low, high, at))
     required = np.maximum(history["required_suction_Pa"], 0) / 1e3
     label = "required, computed"
