@@ -90,6 +90,14 @@ def way_of(run: Results, rows: np.ndarray) -> Way:
     return Way(depth, columns)
 
 
+def feasible(run: Results, way: Way) -> Way:
+    """Return a way down to where suction ends, as the verdict in run.json has it."""
+    rows = way.depth <= (run.feasible_to or np.inf)
+    if rows.sum() < 2:
+        return way
+    return Way(way.depth[rows], {k: x[rows] for k, x in way.columns.items()})
+
+
 def way_down(run: Results) -> Way:
     """Return the way down without the row where it begins."""
     return way_of(run, curves.way_down(run.history[DEPTH])[1:])
@@ -153,7 +161,8 @@ def margins_of(run: Results, way: Way) -> dict[str, Any]:
 
 
 def results_of_way_down(run: Results, way: Way) -> dict[str, Any]:
-    """Return the results of a way down."""
+    """Return the results of a way down; maxima and margins of what is feasible."""
+    deepest, way = float(way.depth[-1]), feasible(run, way)
 
     def largest(name: str) -> dict[str, float]:
         most, depth = way.largest(way.columns[name])
@@ -161,7 +170,7 @@ def results_of_way_down(run: Results, way: Way) -> dict[str, Any]:
 
     total = curves.WITH_WATER if curves.WITH_WATER in way.columns else TOTAL
     found: dict[str, Any] = {
-        DEPTH: float(way.depth[-1]),
+        DEPTH: deepest,
         "largest_force": largest(total),
     }
     if SUCTION in way.columns:

@@ -10,7 +10,7 @@ from synthetic import write_columns
 from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
-from caisson.plot import forces
+from caisson import evaluation
 from caisson.report import content, installation, verdict
 from caisson.results import Results
 
@@ -121,7 +121,9 @@ class Verdicts(WithPage):
         self.assertEqual(Results(self.path).summary["verdict"], text)
         verdict.keep(self.run_of(entries=PUMP))
         self.assertEqual(Results(self.path).summary["feasible_to_m"], 3.5)
-        self.assertEqual(forces.end_of(Results(self.path)), 3.5)
+        self.assertEqual(Results(self.path).feasible_to, 3.5)
+        most = evaluation.results_of(Results(self.path))["largest_suction"]
+        self.assertAlmostEqual(most["required_suction_Pa"], 20e3, delta=50)
 
 
 if __name__ == "__main__":

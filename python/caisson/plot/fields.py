@@ -13,7 +13,7 @@ from matplotlib.tri import Triangulation
 
 from caisson.curves import depth_at
 from caisson.plot.cells import CellMeans
-from caisson.plot.forces import end_of, penetration
+from caisson.plot.forces import penetration
 from caisson.plot.small import in_units
 from caisson.vtu import read_cells, read_points
 from caisson.results import Results, ResultsError, Table
@@ -66,7 +66,7 @@ class Frame:
         if penetration(history) is not None:
             depth = depth_at(time, history)
             self.label = f"penetration {self.shown.depth(depth)}"
-            if (end := end_of(run)) is not None and depth > end:
+            if (end := run.feasible_to) is not None and depth > end:
                 self.mark = "not feasible"
 
 

@@ -150,12 +150,6 @@ def set_limits(axes: Axes, depth: np.ndarray, end: float | None) -> None:
     fade(axes, end)
 
 
-def end_of(run: Results) -> float | None:
-    """Return the depth where suction ends (m), as the verdict in run.json has it, None
-    where it does not."""
-    return run.summary.get("feasible_to_m") if run.scene else None
-
-
 def label_axes(axes: Axes, name: str, body: str) -> None:
     """Name the force of a panel, and place its axes and its legend."""
     depth = f"penetration of the {LOWEST.get(body, 'tip')} (m)"
@@ -180,7 +174,7 @@ def draw_panel(
         draw_bands(axes, answer, names if friction_only else ("total", "tip"))
     if not friction_only:
         draw_error_bars(axes, run.error_bounds)
-    set_limits(axes, depth, end_of(run))
+    set_limits(axes, depth, run.feasible_to)
     label_axes(axes, "wall friction" if friction_only else "force", run.body)
 
 
@@ -205,7 +199,7 @@ def draw_methods(axes: Axes, run: Results, answers: list[theory.Answer]) -> None
                 linestyle=line,
                 label=f"{answer.name}, {case}",
             )
-    set_limits(axes, depth, end_of(run))
+    set_limits(axes, depth, run.feasible_to)
     label_axes(axes, "total force, and by design methods", run.body)
 
 

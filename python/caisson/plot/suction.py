@@ -11,7 +11,7 @@ from caisson.evaluation import pump_limit, rest_of_run
 from caisson.plot import suction_methods as methods
 from caisson.plot import theory
 from caisson.curves import error_band
-from caisson.plot.forces import COLORS, draw_error_bar, end_of, penetration
+from caisson.plot.forces import COLORS, draw_error_bar, penetration
 from caisson.plot.small import fade, in_units, over_depth, with_note
 from caisson.results import Results, Table
 from caisson import disk
@@ -138,13 +138,11 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
     )
     band = error_band(run.error_bounds, "required_suction", "Pa")
     draw_error_bar(axes, band, 1e-3, "black", ERROR_BAR)
-    lines = [applied]
+    lines = [applied[depth <= (run.feasible_to or np.inf)]]
     if answers.suctions:
         draw_required(axes, answers)
         draw_critical(axes, answers)
         lines += [s / 1e3 for s in answers.suctions.values() if has_line(s)]
-    end = end_of(run)
-    lines[0] = applied[depth <= (np.inf if end is None else end)]
     most = max(np.nanmax(line, initial=1e-3) for line in lines)
     axes.set_xlim(-0.02 * most, 1.08 * most)
     draw_limits(axes, run)
@@ -185,7 +183,7 @@ def draw_heave(axes: Axes, run: Results) -> None:
     axes.axvline(0, color="0.6", linewidth=0.8)
     if "seepage_flow_m3_s" in history:
         depth = history["penetration_m"]
-        last = np.flatnonzero(depth <= (end_of(run) or np.inf))[-1]
+        last = np.flatnonzero(depth <= (run.feasible_to or np.inf))[-1]
         flow = 3600 * history["seepage_flow_m3_s"][last]
         place = run.shown.depth(depth[last])
         text = f"seepage into the plug at {place}: {flow:.2g} m³/h"
@@ -255,7 +253,7 @@ def draw(directory: Path, run: Results) -> list[Path]:
     for axes, place in zip(panels, places if seeps else places[::2]):
         over_depth(axes, axes.get_xlabel(), "")
         axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
-        fade(axes, end_of(run))
+        fade(axes, run.feasible_to)
         axes.legend(fontsize=8, framealpha=0.9, loc=place)
     panels[0].set_ylabel("penetration of the skirt tip (m)")
     about = textwrap.fill(theory.about_cone(site, deepest), 200)

@@ -10,7 +10,6 @@ from caisson import curves
 from caisson.evaluation import capacity_in_words, results_of
 from caisson.plot.forces import COLORS, WATER_COLOR, column_of
 from caisson.results import Results
-from caisson.design.reasons import text_of
 from caisson.report.scene import is_sealed
 
 PULL, WATER = "pull", "water beneath lid and tip"
@@ -30,34 +29,17 @@ def largest_pull(run: Results) -> Mapping[str, Any]:
 
 
 def cards_of(run: Results) -> list[tuple[str, ...]]:
-    """Return (name, value, remark) of the largest pull; nothing without one."""
+    """Return (name, value, remark) of what bears the largest pull; nothing without."""
     most = largest_pull(run)
     if not most:
         return []
-
-    def force(name: str) -> str:
-        value = float(f"{run.shown.factor('kN') * most[name] / 1e3:.3g}")
-        return f"{text_of(value)} {run.shown.name('kN')}"
-
-    weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
-    remark = f"after a rise of {1e3 * most['rise_m']:.3g} mm"
-    if weight:
-        words = run.shown.words(weight, "kN", ".4g")
-        remark += f"; the submerged weight of {words} adds to it"
-    cards: list[tuple[str, ...]] = [
-        ("Largest pull", force("pull_N"), remark),
-        (
-            "Of which friction outside",
-            force("outer_friction_N"),
-            f"inside {force('inner_friction_N')}, tip {force('tip_N')}",
-        ),
-    ]
+    force = {k: run.shown.force(x / 1e3) for k, x in most.items() if k.endswith("_N")}
+    inside = f"inside {force['inner_friction_N']}, tip {force['tip_N']}"
+    cards = [("Of which friction outside", force["outer_friction_N"], inside)]
     if curves.WITH_WATER in run.history:
-        name = f"Of which {WATER}"
-        cards.append((name, force("water_N"), "negative where it presses up"))
-    words = most.get("mechanism", "")
-    how, _, what = words.partition(": ")
-    return [*cards, ("What fails", how, what)] if words else cards
+        remark = "negative where it presses up"
+        cards.append((f"Of which {WATER}", force["water_N"], remark))
+    return list[tuple[str, ...]](cards)
 
 
 def sentence_of(run: Results) -> str:
