@@ -310,7 +310,10 @@ def figure_of(
     for panel in axes[:, 0]:
         panel.set_ylabel("z (m)")
     for artist, (label, _, style), place in zip(painted, fields, places):
-        bar: Style = {"orientation": "horizontal", "label": label.replace(": ", ":\n")}
+        bar: Style = {
+            "orientation": "horizontal",
+            "label": label.replace(": ", ":\n", 1),
+        }
         extend = "max" if style.get("vmin") == 0 else "both"
         colors = figure.colorbar(artist, cax=place, extend=extend, **bar)
         if "norm" in style:

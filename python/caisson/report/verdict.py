@@ -158,8 +158,10 @@ def of_force(run: Results, found: Installation) -> str:
             f" with water, {shown.force(total[-1])} eff.",
         )
     text = shown.force(float(force[-1])) + effective
-    if bar := installation.bar_at(found, found.force_bounds, -1, "kN"):
-        text += f" ({bar})"
+    bounds = found.force_bounds
+    if installation.bar_at(found, bounds, -1, "kN") and bounds is not None:
+        ends = [shown.force(float(side[-1])) for side in (bounds.low, bounds.high)]
+        text += f" (error bar {' to '.join(ends)})"
     largest, most = float(force.max()), int(np.argmax(force))
     later = ""
     if largest > 1.02 * float(force[-1]):
