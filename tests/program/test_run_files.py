@@ -115,7 +115,7 @@ class Files(ProgramTest):
         end = known[0.75]["total_force_N"] / 1e3
         (said,) = verdict.lines_of(run)
         self.assertTrue(
-            said.startswith(f"Jacked to 0.75 m: {end:.3g} kN (about "), said
+            said.startswith(f"Jacked to 0.75 m: {end:.3g} kN (error bar "), said
         )
         self.check_by_hand(history(path)[1:], known)
 
