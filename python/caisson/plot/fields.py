@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import EllipseCollection, PolyCollection, TriMesh
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import EllipseCollection, PolyCollection
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
@@ -114,7 +115,7 @@ def inside(frame: Frame, window: Window) -> np.ndarray:
 
 def paint_smoothly(
     axes: Axes, frame: Frame, values: np.ndarray, style: Style, sides: Sides = (1, -1)
-) -> TriMesh:
+) -> ScalarMappable:
     """Draw a field between the means of the cells [n], on both sides of the axis; gray
     where the soil has no value."""
     polygons = frame.means.polygons
@@ -126,7 +127,10 @@ def paint_smoothly(
             linewidths=0.4,
         )
     )
-    known = np.isfinite(values)
+    known, cmap = np.isfinite(values), style["cmap"]
+    norm = style.get("norm") or Normalize(style["vmin"], style["vmax"])
+    if not known.any():
+        return ScalarMappable(norm, cmap)
     at_corners = frame.means.at_corners(values)[known]
     corners, n = polygons[known], int(known.sum())
     place = np.concatenate([corners, corners.mean(axis=1)[:, None]], axis=1)
@@ -135,7 +139,7 @@ def paint_smoothly(
     triangles = np.concatenate(fans)
     field = np.column_stack([at_corners, values[known]]).ravel()
     place = place.reshape(-1, 2)
-    painted = axes.tripcolor(
+    return axes.tripcolor(
         Triangulation(
             np.concatenate([side * place[:, 0] for side in sides]),
             np.concatenate([place[:, 1] for _ in sides]),
@@ -143,10 +147,9 @@ def paint_smoothly(
         ),
         np.tile(field, len(sides)),
         shading="gouraud",
-        cmap=style["cmap"],
-        norm=style.get("norm") or Normalize(style["vmin"], style["vmax"]),
+        cmap=cmap,
+        norm=norm,
     )
-    return painted
 
 
 def tops_of(scene: dict[str, Any]) -> list[float]:
