@@ -135,8 +135,7 @@ def paint_smoothly(
     corners, n = polygons[known], int(known.sum())
     place = np.concatenate([corners, corners.mean(axis=1)[:, None]], axis=1)
     number = 5 * np.arange(n)[:, None]  # of the first corner; the middle is the fifth
-    fans = [number + [k, (k + 1) % 4, 4] for k in range(4)]
-    triangles = np.concatenate(fans)
+    triangles = np.concatenate([number + [k, (k + 1) % 4, 4] for k in range(4)])
     field = np.column_stack([at_corners, values[known]]).ravel()
     place = place.reshape(-1, 2)
     return axes.tripcolor(
